@@ -23,7 +23,7 @@ Networks: TypeAlias = "dict[str, Layers]"
 
 
 @dataclass(frozen=True)
-class Method:
+class PPOSettings:
     """Numbers of the method. ``learning_rate`` and ``entropy`` fall to ``last`` of themselves."""
 
     hidden: int = 128
@@ -67,7 +67,7 @@ def _orthogonal(rows: int, columns: int, gain: float, rng: np.random.Generator) 
     return np.asarray(gain * (square if rows >= columns else square.T), np.float32)
 
 
-def advantages(rewards: Floats, values: Floats, ended: NDArray[np.bool_], settings: Method) -> Floats:
+def advantages(rewards: Floats, values: Floats, ended: NDArray[np.bool_], settings: PPOSettings) -> Floats:
     """By how much each step did better than expected, (steps, worlds).
 
     ``values``: what was expected, (steps + 1, worlds); nothing is expected behind a step that ``ended`` an episode.
@@ -85,7 +85,7 @@ def advantages(rewards: Floats, values: Floats, ended: NDArray[np.bool_], settin
 class Learner:
     """Networks that are improved. Raises MissingExtraError without JAX and Optax."""
 
-    def __init__(self, inputs: int, settings: Method, seed: int) -> None:
+    def __init__(self, inputs: int, settings: PPOSettings, seed: int) -> None:
         self.settings = settings
         self._rng = np.random.default_rng([seed, 1])
         self.networks = new_networks(inputs, settings.hidden, self._rng)
@@ -114,7 +114,7 @@ class Learner:
         self.networks = jax.tree_util.tree_map(np.asarray, networks)
 
 
-def _compiled(networks: Networks, settings: Method) -> tuple[Callable[..., Any], Callable[..., Any], Any]:
+def _compiled(networks: Networks, settings: PPOSettings) -> tuple[Callable[..., Any], Callable[..., Any], Any]:
     """``Learner.play`` of networks, and (networks, memory, share, batch) -> (networks, memory): one step of Adam.
 
     With the memory that it begins with.

@@ -21,12 +21,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from examples.agents import PolicyAgent, normalised
-from examples.ppo import Floats, Learner, Method, Samples, advantages
+from examples.ppo import Floats, Learner, PPOSettings, Samples, advantages
 from examples.starts import Starts
 from ninja_game.errors import NinjaGameError
 from ninja_game.learn.actions import DISCRETE_KEYS
 from ninja_game.learn.levels import LevelSource, level_source
-from ninja_game.learn.observations.objects import KIND_NAMES, NearObjects
+from ninja_game.learn.observations.objects import OBSERVED_KINDS, NearObjects
 from ninja_game.learn.observations.observation import Observation
 from ninja_game.learn.observations.part import Part
 from ninja_game.learn.observations.surroundings import LocalTiles, Rays
@@ -56,7 +56,7 @@ OBSERVATION = (
     StateVector(),
     LocalTiles(9),
     Rays(16),
-    NearObjects(6, kinds=tuple(kind for kind in KIND_NAMES if kind not in {"gold", "exit", "switch"})),
+    NearObjects(6, kinds=tuple(kind for kind in OBSERVED_KINDS if kind not in {"gold", "exit", "switch"})),
     Guide(),
 )
 """What an agent sees if nothing else is said. Exit and switch are in the state vector; gold is nothing to it."""
@@ -77,7 +77,7 @@ class Task:
     worlds: int = 1024
     searches: int = 2
     observation: tuple[Part, ...] = OBSERVATION
-    method: Method = field(default_factory=Method)
+    method: PPOSettings = field(default_factory=PPOSettings)
 
     @property
     def steps_planned(self) -> float:

@@ -42,7 +42,7 @@ from ninja_game.simulation import Body, is_box
 
 __all__ = ["OBJECT_FIELDS", "OUTCOME_NAMES", "Batch", "BatchState"]
 
-Numbers = NDArray[np.intp]
+Indices = NDArray[np.intp]
 """Indices of worlds or levels."""
 
 WorldChoice: TypeAlias = int | slice | Sequence[int] | Sequence[bool] | NDArray[np.intp] | NDArray[np.bool_] | None
@@ -56,7 +56,7 @@ OBJECT_FIELDS = {kind.name: tuple(field.name for field in fields_of(kind.fields)
 class BatchState:
     """Saved worlds of a batch: only good for batches of equal levels, body and memory. ``levels``: their levels."""
 
-    levels: Numbers
+    levels: Indices
     states: Any = field(repr=False)
     owner: tuple[Any, ...] = field(repr=False)
 
@@ -122,7 +122,7 @@ class Batch:
     def _make_views(self) -> None:
         """Make the views, which can only be read."""
         self.records: Records = self._worlds.records.view()
-        self.levels_now: Numbers = np.asarray(self._worlds.level_of).view()
+        self.levels_now: Indices = np.asarray(self._worlds.level_of).view()
         self.records.flags.writeable = self.levels_now.flags.writeable = False
         ninja = self.records["ninja"]
         self.positions = pairs(ninja["x"])
@@ -236,7 +236,7 @@ class Batch:
         return self.levels, self.body, self.memory
 
 
-def numbers_of(which: WorldChoice, count: int, what: str) -> Numbers:
+def numbers_of(which: WorldChoice, count: int, what: str) -> Indices:
     """The numbers, of ``count``, that are chosen. Raises ArgumentError for what chooses none of them."""
     everyone = np.arange(count, dtype=np.intp)
     if which is None:

@@ -58,7 +58,7 @@ class Generated:
 
 
 @dataclass(frozen=True)
-class Budget:
+class Effort:
     """How much work is done: see the constants; ``tries`` as ``difficulty`` has them."""
 
     find: int = FIND_TICKS
@@ -68,14 +68,14 @@ class Budget:
     tries: int = TRIES
 
 
-DEFAULT = Budget()
+DEFAULT = Effort()
 
 
 def generate(
     seed: int | str,
     wanted: int,
     *,
-    budget: Budget | None = None,
+    effort: Effort = DEFAULT,
     report: Callable[[str], None] = lambda _: None,
     stop: Event | None = None,
 ) -> Generated | None:
@@ -83,22 +83,21 @@ def generate(
 
     ``report`` gets a line now and then. Raises MemoryUnavailableError without Numba.
     """
-    budget = budget or DEFAULT
     stop = stop or Event()
     best: Generated | None = None
     looked_at = 0
     rng = Random(f"{seed}/{wanted}")  # noqa: S311 - not for secrets
     plans = [rng.choice(list(LAYOUTS)) for _ in range(TRIES_TO_COMPOSE)]
     for number, plan in enumerate(plans):
-        if looked_at >= budget.attempts or stop.is_set():
+        if looked_at >= effort.attempts or stop.is_set():
             break
         rng = Random(f"{seed}/{wanted}/{number}")  # noqa: S311
         scene = compose(plan, rng, wanted)
         if scene is None:
             continue
         looked_at += 1
-        report(f"attempt {looked_at} of at most {budget.attempts}: {plan}")
-        found = _certified(scene, rng, wanted, budget, stop)
+        report(f"attempt {looked_at} of at most {effort.attempts}: {plan}")
+        found = _certified(scene, rng, wanted, effort, stop)
         if found is None or stop.is_set():
             continue
         run, measured = found
@@ -117,14 +116,14 @@ def _near(measured: float, wanted: int) -> bool:
     return abs(measured - wanted) <= max(0.5, 0.15 * wanted)
 
 
-def _certified(scene: Scene, rng: Random, wanted: int, budget: Budget, stop: Event) -> tuple[Replay, float] | None:
+def _certified(scene: Scene, rng: Random, wanted: int, effort: Effort, stop: Event) -> tuple[Replay, float] | None:
     """A run through a scene whose hazards are changed until it is as hard as wanted, and how hard it is then."""
-    run = solve(Task(scene.level, work=budget.find), stop=stop)
+    run = solve(Task(scene.level, work=effort.find), stop=stop)
     if run is None:
         return None
-    measured = difficulty(scene.level, run.inputs, tries=budget.tries)
+    measured = difficulty(scene.level, run.inputs, tries=effort.tries)
     spared = False
-    for _ in range(budget.rounds):
+    for _ in range(effort.rounds):
         if _near(measured, wanted) or stop.is_set():
             break
         path = path_of(scene.level, run)
@@ -145,16 +144,16 @@ def _certified(scene: Scene, rng: Random, wanted: int, budget: Budget, stop: Eve
         except UnverifiedRunError:
             scene.hazards = before
             continue
-        then = difficulty(scene.level, changed.inputs, tries=budget.tries)
+        then = difficulty(scene.level, changed.inputs, tries=effort.tries)
         # What makes it worse than it was, the other way, is taken back.
         if abs(then - wanted) > abs(measured - wanted) and (then > measured) == (measured < wanted):
             scene.hazards = before
             continue
         run, measured = changed, then
     if spared:
-        shorter = solve(Task(scene.level, work=budget.shorten, first=run.inputs), stop=stop)
+        shorter = solve(Task(scene.level, work=effort.shorten, first=run.inputs), stop=stop)
         if shorter and shorter.end_tick < run.end_tick:
-            run, measured = shorter, difficulty(scene.level, shorter.inputs, tries=budget.tries)
+            run, measured = shorter, difficulty(scene.level, shorter.inputs, tries=effort.tries)
     return run, round(measured, 2)
 
 

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.batch.batch import Numbers
+from ninja_game.batch.batch import Indices
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.levels import LevelChoice, LevelSource
 
@@ -44,14 +44,14 @@ class LevelSequences:
         self._source = source
         self._seeds, self._episodes = np.arange(count, dtype=np.uint64), np.zeros(count, np.uint64)
 
-    def seed(self, worlds: Numbers, seeds: Sequence[int]) -> None:
+    def seed(self, worlds: Indices, seeds: Sequence[int]) -> None:
         """Begin the sequences of these seeds. Raises ArgumentError for another number of them."""
         if len(seeds) != len(worlds):
             raise ArgumentError(f"{len(seeds)} seeds for {len(worlds)} worlds; expected one for each")
         self._seeds[worlds] = [seed % 2**64 for seed in seeds]
         self._episodes[worlds] = 0
 
-    def next(self, worlds: Numbers, chosen: LevelChoice | None) -> Numbers:
+    def next(self, worlds: Indices, chosen: LevelChoice | None) -> Indices:
         """The numbers of the levels of the next episodes of these worlds, drawn or ``chosen``; either is an episode."""
         drawn = draws(self._seeds[worlds], self._episodes[worlds])
         self._episodes[worlds] += np.uint64(1)

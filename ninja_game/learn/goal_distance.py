@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ninja_game.backend.memories import open_worlds
-from ninja_game.batch.batch import Numbers
+from ninja_game.batch.batch import Indices
 from ninja_game.learn.observations.part import Ragged, Setting, clamp
 from ninja_game.search.heuristics import POINTS, Heuristics, point_at
 from ninja_game.search.switches import open_bits
@@ -59,13 +59,13 @@ class GoalDistance:
             self._made[number] = Heuristics(alone.maps, alone.records)
         return self._made[number]
 
-    def begin(self, level_of: Numbers, which: Numbers) -> None:
+    def begin(self, level_of: Indices, which: Indices) -> None:
         """Worlds have begun an episode, or were put elsewhere: forget what was."""
         self.states[which] = NO_STATE
         self.measure(level_of, which, 0, len(which))
         self.settle(level_of)
 
-    def measure(self, level_of: Numbers, which: Numbers, first: int, last: int) -> None:
+    def measure(self, level_of: Indices, which: Indices, first: int, last: int) -> None:
         """Look how far the worlds ``which[first:last]`` are now; not yet those whose switch state is another."""
         worlds = self._worlds
         self._kernel(
@@ -73,7 +73,7 @@ class GoalDistance:
             *self._switches, self.states, self._stale, self.fields, self.rows, self.ticks,
         )  # fmt: skip
 
-    def settle(self, level_of: Numbers) -> Numbers:
+    def settle(self, level_of: Indices) -> Indices:
         """Give the worlds whose switch state is another their fields, and measure them; their numbers."""
         stale = np.flatnonzero(self._stale)
         if stale.size:

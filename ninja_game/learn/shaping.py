@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.batch.batch import Numbers
+from ninja_game.batch.batch import Indices
 from ninja_game.learn.goal_distance import FARTHEST, GoalDistance
 from ninja_game.learn.rewards import DistanceShaping
 
@@ -22,11 +22,11 @@ class Shaping:
         self._terms, self._goal = list(terms), goal
         self._potential = np.zeros(len(goal.ticks))
 
-    def begin(self, which: Numbers) -> None:
+    def begin(self, which: Indices) -> None:
         """These worlds are somewhere else now: no reward for that."""
         self._potential[which] = self._measured(which)
 
-    def add(self, rewards: NDArray[np.float64], which: Numbers, terminated: NDArray[np.bool_]) -> None:
+    def add(self, rewards: NDArray[np.float64], which: Indices, terminated: NDArray[np.bool_]) -> None:
         """Add what the last step of these worlds is worth."""
         before, now = self._potential[which], self._measured(which)
         after = np.where(terminated[which], 0.0, now)
@@ -34,7 +34,7 @@ class Shaping:
             rewards[which] += term.weight * (term.discount * after - before)
         self._potential[which] = now
 
-    def _measured(self, which: Numbers) -> NDArray[np.float64]:
+    def _measured(self, which: Indices) -> NDArray[np.float64]:
         ticks, start = self._goal.ticks[which], self._goal.start[which]
         there = (start > 0.0) & (start < FARTHEST)
         potential = 1.0 - ticks / np.where(there, start, 1.0)

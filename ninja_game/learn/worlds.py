@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.backend.memories import open_worlds
-from ninja_game.batch.batch import Numbers, WorldChoice, numbers_of
+from ninja_game.batch.batch import Indices, WorldChoice, numbers_of
 from ninja_game.batch.thread_pool import cores, thread_pool
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import Keys
@@ -52,7 +52,7 @@ TOGETHER = 512
 class EnvState:
     """Saved worlds of an ``EnvWorlds``: only good for one with equal levels, body, memory and time limit."""
 
-    levels: Numbers
+    levels: Indices
     states: Any = field(repr=False)
     starts: NDArray[np.float64] = field(repr=False)
     facts: NDArray[np.int64] = field(repr=False)
@@ -121,9 +121,9 @@ class EnvWorlds:
         self.observations = self.observation.memory(count)
         self._writers = self.observation.writers(self.observations, replace(setting, goal=self.goal))
         self._advance = self._worlds.kernel(advance_worlds)
-        self._everyone: Numbers = np.arange(count, dtype=np.intp)
+        self._everyone: Indices = np.arange(count, dtype=np.intp)
         self._levels = LevelSequences(self.source, count)
-        self.levels_now: Numbers = np.asarray(self._worlds.level_of)
+        self.levels_now: Indices = np.asarray(self._worlds.level_of)
         self.rewards = np.zeros(count)
         self._facts = np.zeros((5, count), np.int64).T
         self.outcomes, self.ticks, self.gold, self.events, _ = self._facts.T
@@ -152,7 +152,7 @@ class EnvWorlds:
 
     # --- time ---
 
-    def step(self, keys: Keys, restart: Numbers | None = None) -> int:
+    def step(self, keys: Keys, restart: Indices | None = None) -> int:
         """One step of every world with its keys, uint8 (n,): sums of ``Input``; the number of ticks run.
 
         ``restart``: worlds that do not step but begin a new episode instead, without a reward.
@@ -187,19 +187,19 @@ class EnvWorlds:
             self.source.report(self.levels_now[ended], self.outcomes[ended] == OUTCOME_EXIT)
         return ticks
 
-    def _write(self, which: Numbers, first: int, last: int) -> int:
+    def _write(self, which: Indices, first: int, last: int) -> int:
         for write in self._writers:
             write(*self._places, which, first, last)
         return 0
 
-    def _observe(self, which: Numbers) -> None:
+    def _observe(self, which: Indices) -> None:
         thread_pool(self.threads).share(lambda first, last: self._write(which, first, last), len(which))
 
     def _conclude(self) -> None:
         np.equal(self._facts[:, ENDED], TERMINATED, out=self.terminated)
         np.equal(self._facts[:, ENDED], TRUNCATED, out=self.truncated)
 
-    def ended(self) -> Numbers:
+    def ended(self) -> Indices:
         """The worlds whose episode is over."""
         return np.flatnonzero(self._facts[:, ENDED])
 
@@ -215,13 +215,13 @@ class EnvWorlds:
         self._restart(numbers, levels)
         self._conclude()
 
-    def _restart(self, numbers: Numbers, levels: LevelChoice | None = None) -> None:
+    def _restart(self, numbers: Indices, levels: LevelChoice | None = None) -> None:
         self._worlds.load(numbers.tolist(), self._levels.next(numbers, levels).tolist())
         self._facts[numbers] = 0
         self._look(numbers, None)
 
-    def _look(self, numbers: Numbers, starts: NDArray[np.float64] | None) -> None:
-        """Worlds are where they did not step to: measure, no reward. ``starts``: of their episodes, None: here."""
+    def _look(self, numbers: Indices, starts: NDArray[np.float64] | None) -> None:
+        """After a restart or restore: measure again, no reward. ``starts``: of their episodes, None: here."""
         self.rewards[numbers], self._changed[numbers] = 0.0, True
         if self.goal:
             self.goal.begin(self.levels_now, numbers)
@@ -264,7 +264,7 @@ class EnvWorlds:
 
 
 def checked_seed(seed: object) -> int:
-    """A seed as Python's own number. Raises ArgumentError for what is no whole number from 0 on."""
+    """A seed as Python's own number. Raises ArgumentError unless it is a whole number from 0 on."""
     if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
         raise ArgumentError(f"the seed is {seed!r:.60}; expected a whole number from 0 on")
     return int(seed)

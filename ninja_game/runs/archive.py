@@ -105,7 +105,7 @@ class Asked:
     budget: int
 
     def context(self) -> str:
-        """A text that is another one where results may be; both memories give the same."""
+        """A key of everything besides the chunk that results depend on; plain and compiled share one."""
         level = level_digest(self.level) if self.level else ""
         return json.dumps([self.memory == "both", level, self.counting and sorted(self.counting), self.budget])
 

@@ -34,7 +34,7 @@ def replay_texts(recordings: Iterable[Recording], budget: int = RUN_BUDGET) -> I
 
 
 def recorded_again(recording: Recording, budget: int = RUN_BUDGET) -> Replay:
-    """What comes of a recording as a replay with its level inside; names, markers and ``practice`` stay. Raises so."""
+    """A recording as a replay of today with its level; names, markers and ``practice`` stay. Raises as above."""
     old, level, inputs = recording.replay, recording.level, recording.inputs
     with named_errors(recording):
         new = record_replay(

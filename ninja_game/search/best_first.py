@@ -1,215 +1,354 @@
-"""One search of one level, driven in slices of work: set up, run on, read the best run so far."""
+"""Best-first search (weighted A*) over save-states: the compiled inner loop of every search.
+
+The node with the least (ticks so far + weight x estimated ticks to go) is taken from the open list, all macros are
+played from its save-state, and every state that is not a duplicate becomes a node. What differs between goals is the
+estimate and what ends a search: the exit, the end of a leg, or a shorter run than a known one (``Goal``).
+
+The kernels share their arguments: ``start``, the level and the two worlds that are played in; ``arrays``, those of
+this search; ``goal``; ``backed_up``, the table of an earlier search; ``resolution``, how finely to look. A ``parent``
+is the index of a node, an ``action`` what leads from it to the scratch world (macros.py), ``played`` its ticks.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
-
-import numpy as np
-
-from ninja_game.backend.memories import compiled
-from ninja_game.search.engine import MORE, add_root, expand, load_node
-from ninja_game.search.heuristics import POINTS, Heuristics
-from ninja_game.search.known_run import KnownRun, play_known
-from ninja_game.search.legs import Checkpoint, FieldOf, Leg, Spend
-from ninja_game.search.macros import inputs_of
-from ninja_game.search.nodes import (
-    BackedUpHeuristic,
-    Resolution,
-    Start,
-    StateWords,
-    TableEntry,
-    back_up_values,
-    clear,
-    new_memory,
-    new_table,
-    ticks_at_once,
-    zeroed,
+from ninja_game.search.heuristics import point_at
+from ninja_game.search.known_run import KnownRun, nearest
+from ninja_game.search.macros import (
+    MOST_ROWS,
+    PRESSED,
+    PRESSED_AGAIN,
+    RELEASED,
+    action_code,
+    follow,
+    followed_code,
+    play_macro,
 )
-from ninja_game.search.states import MAX_SWITCH_STATES, NOT_MADE, WANTED, Goal
+from ninja_game.search.nodes import (
+    BUCKETS,
+    BackedUpHeuristic,
+    Counters,
+    Node,
+    Resolution,
+    SearchArrays,
+    Start,
+    copy_words,
+    drop_highest,
+    free_state,
+    keep_state,
+    load_state,
+    pop_lowest,
+    push,
+    random_below,
+)
+from ninja_game.search.states import Goal, estimate, find_entry, gold_hash, is_new, key_of, switch_state_of
+from ninja_game.search.switches import open_mask
+from ninja_game.sim.memory.declare import entry_point, fast
+from ninja_game.sim.memory.schema import Ninja
+from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
+from ninja_game.sim.states import JUMPING, OUTCOME_DEAD, OUTCOME_EXIT, OUTCOME_RUNNING
 
-NO_BACKED_UP = BackedUpHeuristic(zeroed(TableEntry, 1), Resolution())
-MOST_SWEEPS = 40
-"""Most sweeps over all links that back values up for the next search."""
+CHOICES = 10
+"""Macros to choose from: three directions by three modes of the jump key, and waiting."""
+FOLLOW_CHOICES = 3
+"""Of a known run: from the row most like the present state, from the one before, from the next one."""
+BOUND_SHARE = 0.4
+"""What share of the estimate counts when a node is compared with the best run: fields may be too high. Not tuned."""
+LEAST_GAIN = 0.5
+"""Ticks by which what is behind a span must seem to be shorter than the known run. Not tuned."""
+OTHER_ENDS = 8
+"""Ends of a leg that are kept where another switch than a wanted one was touched. Not tuned."""
+SURVIVAL = 60
+"""Ticks that the ninja must be able to live after the end of a leg. Not tuned."""
+MORE, EXHAUSTED, NO_ROOM = 0, 1, 2
+"""How a slice of a search ended."""
 
 
-class Search:
-    """Best-first searches of a level, one after the other, in memory for so many ``nodes``."""
+@entry_point
+def add_root(start: Start, arrays: SearchArrays, goal: Goal, resolution: Resolution) -> None:
+    """Make the scratch world a node from which the search begins."""
+    w = start.worlds[1]
+    counters = arrays.counters[0]
+    switch_state = max(switch_state_of(w, goal, counters, 0), 0)
+    key = key_of(w, goal, switch_state, 0, resolution)
+    slot = find_entry(arrays.table, key)
+    if arrays.table[slot].key == 0:
+        arrays.table[slot].key = key
+        arrays.table[slot].visits = 1
+        arrays.table[slot].first = w.tick
+        arrays.table[slot].last = w.tick
+        counters.entries += 1
+    index = add_node(-1, 0, w.tick, arrays)
+    root = arrays.nodes[index]
+    root.switch_state = switch_state
+    root.entry = slot
+    root.to_go = 0.0
+    keep_state(start.scratch, start.initial, root, arrays)
+    push(index, 0.0 + w.tick, arrays)
 
-    def __init__(self, start: Start, heuristics: Heuristics, *, nodes: int, along: bool = False) -> None:
-        self.start = start
-        self.heuristics = heuristics
-        self.goal = Goal(
-            gold=0,
-            leg=0,
-            mask=0,
-            wanted=0,
-            ends=1,
-            rollouts=0,
-            gold_slots=heuristics.gold_slots,
-            enemies=heuristics.enemies,
-            switch_slots=heuristics.slots,
-            masks=np.full(MAX_SWITCH_STATES, -1, np.int64),
-            places=np.zeros((MAX_SWITCH_STATES, 2)),
-            fields=np.zeros((MAX_SWITCH_STATES, 1 if along else POINTS), np.float32),
-        )
-        if not along:
-            self.goal.fields[:, 0] = NOT_MADE
-        self.resolution = Resolution()
-        self.memory = new_memory(nodes)
-        self.counters = self.memory.counters[0]
-        self.backed_up = NO_BACKED_UP
-        self._nodes = nodes
-        self._other_table: Any = None
-        self._field: FieldOf = heuristics.field
-        self._known: KnownRun | None = None
-        self._known_inputs = b""
-        self._roots: Sequence[Checkpoint] = ()
 
-    def begin(self, resolution: Resolution, *, seed: int, bound: int, backed_up: bool = False) -> None:
-        """Begin a new search from the start to the exit. ``bound``: only runs of fewer ticks count (0: any).
+@entry_point
+def load_node(start: Start, arrays: SearchArrays, index: int) -> None:
+    """Make the save-state of a node that has one the scratch world."""
+    load_state(start.scratch, start.initial, arrays.nodes[index], arrays)
 
-        ``backed_up``: by what the last search has learned; otherwise that is forgotten.
-        """
-        self.backed_up = self._learned() if backed_up else NO_BACKED_UP
-        self._roots = ()
-        self._begin([self.start.initial], resolution, seed, bound)
 
-    def begin_leg(self, leg: Leg, resolution: Resolution, *, seed: int, bound: int) -> None:
-        """Begin a new search from other moments to another goal; ``bound`` as for ``begin``."""
-        self.backed_up = NO_BACKED_UP
-        self.goal = self.goal._replace(
-            gold=leg.gold, leg=leg.until, mask=leg.mask, wanted=leg.wanted, ends=leg.ends, rollouts=leg.rollouts
-        )
-        self.goal.fields[:, 0] = NOT_MADE
-        self._field = leg.field
-        self._roots = leg.roots
-        self._begin([root.words for root in leg.roots], resolution, seed, bound)
+@entry_point
+def expand(
+    start: Start, arrays: SearchArrays, goal: Goal, known: KnownRun | None, backed_up: BackedUpHeuristic,
+    resolution: Resolution, budget: int,
+) -> int:  # fmt: skip
+    """Expand nodes until ``budget`` ticks were run, a switch state wants its field, or enough ends of a leg are found.
 
-    def begin_along(self, run: KnownRun, inputs: bytes, resolution: Resolution, *, seed: int, gold: int) -> None:
-        """Begin a search at the span of a known run, whose inputs are given, for a shorter one with so much gold."""
-        self.goal = self.goal._replace(gold=gold)
-        self.goal.masks[:] = -1
-        self._known, self._known_inputs = run, inputs
-        compiled(play_known)(self.start, run, self.goal.switch_slots, run.span[0], 0)
-        self._begin([self.start.scratch.copy()], resolution, seed, len(inputs))
-
-    def _begin(self, roots: Sequence[StateWords], resolution: Resolution, seed: int, bound: int) -> None:
-        clear(self.memory)
-        random = np.random.default_rng([seed, 6 if self._known is None else 8])
-        shifts = random.random(2) * resolution.cell
-        least = 0.5 if self._known is None else 0.0
-        speed_shifts = resolution.speed * least + random.random(2) * resolution.speed * (1.0 - least)
-        self.resolution = resolution._replace(
-            shift_x=float(shifts[0]),
-            shift_y=float(shifts[1]),
-            shift_vx=float(speed_shifts[0]),
-            shift_vy=float(speed_shifts[1]),
-        )
-        self.counters.best_ticks = bound
-        self.counters.random = int(random.integers(1, 1 << 62))
-        for words in roots:
-            self.start.scratch[:] = words
-            compiled(add_root)(self.start, self.memory, self.goal, self.resolution)
-        self._fill_fields()
-
-    def _learned(self) -> BackedUpHeuristic:
-        """The table of the search just made, with its values; the next search gets the other table."""
-        table = self.memory.table
-        compiled(back_up_values)(table, self.memory.links, int(self.counters.links), MOST_SWEEPS)
-        other = new_table(self._nodes) if self._other_table is None else self._other_table
-        other[:] = 0
-        self.memory = self.memory._replace(table=other)
-        self._other_table = table
-        return BackedUpHeuristic(table, self.resolution)
-
-    def run(self, budget: int) -> int:
-        """Search on for about ``budget`` ticks; MORE, EXHAUSTED or NO_ROOM."""
-        end = self.ticks + min(budget, ticks_at_once(self.start))
-        while self.ticks < end:
-            ended = compiled(expand)(
-                self.start, self.memory, self.goal, self._known, self.backed_up, self.resolution, end - self.ticks
-            )
-            if self.counters.fields_wanted:
-                self._fill_fields()
-            elif ended != MORE or self._enough_ends:
-                return int(ended)
-        return MORE
-
-    def run_leg(self, budget: int, spend: Spend, *, part: int, least: int = 0) -> None:
-        """Run a leg's search for at most this many ticks, in parts; ``spend`` gets the ticks of each, and may end it.
-
-        From the first end or run to the exit on it goes on only as long again, or up to ``least`` ticks.
-        """
-        stop = budget
-        while self.ticks < stop:
-            before = self.ticks
-            self.run(min(part, stop - before))
-            if spend(self.ticks - before) or self.ticks == before or self._enough_ends:
-                return
-            if self.counters.ends > self.counters.other_ends or self.counters.best_node >= 0:
-                stop = min(stop, max(2 * self.ticks, least)) if stop == budget else stop
-
-    @property
-    def _enough_ends(self) -> bool:
-        return bool(self.counters.ends - self.counters.other_ends >= self.goal.ends)
-
-    def _fill_fields(self) -> None:
-        """Make the distance fields that the search wants."""
-        goal = self.goal
-        for index in np.flatnonzero(goal.fields[:, 0] == WANTED):
-            x, y = goal.places[index]
-            goal.fields[index] = self._field(int(goal.masks[index]), float(x), float(y))
-        self.counters.fields_wanted = 0
-
-    def ends(self, *, by_velocity: bool = False) -> list[Checkpoint]:
-        """The checkpoints at which the leg has ended so far. ``by_velocity``: the velocity sets them apart, too."""
-        found = []
-        for index in self.memory.ends[: int(self.counters.ends)].tolist():
-            compiled(load_node)(self.start, self.memory, index)
-            root, inputs = self._path(index)
-            found.append(self.checkpoint(self._roots[root], inputs, by_velocity=by_velocity))
-        return found
-
-    def checkpoint(self, before: Checkpoint | None, inputs: bytes, *, by_velocity: bool = False) -> Checkpoint:
-        """The scratch world as a checkpoint."""
-        world, heuristics = self.start.worlds[1], self.heuristics
-        ninja = world["ninja"]
-        variety = heuristics.routines(world)
-        if by_velocity:
-            moved = (float(ninja["x"] - ninja["prev_x"]) / 1.5, float(ninja["y"] - ninja["prev_y"]) / 1.5)
-            variety += bytes(128 + max(-100, min(100, round(part))) for part in moved)
-        taken, mask = heuristics.taken(world), heuristics.opened(self.start.worlds, 1)
-        place = (float(ninja["x"]), float(ninja["y"]))
-        return Checkpoint(self.start.scratch.copy(), int(world["tick"]), taken, mask, place, variety, before, inputs)
-
-    def _path(self, index: int) -> tuple[int, bytes]:
-        """From which root a node comes, and the inputs from there, one byte per tick."""
-        nodes: Any = self.memory.nodes
-        parents, actions = nodes["parent"], nodes["action"]
-        parts = []
-        while parents[index] >= 0:
-            parts.append(inputs_of(int(actions[index]), self._known_inputs))
-            index = int(parents[index])
-        return index, b"".join(reversed(parts))
-
-    @property
-    def ticks(self) -> int:
-        """Ticks simulated since ``begin``."""
-        return int(self.counters.ticks)
-
-    @property
-    def worlds(self) -> int:
-        """Save-states expanded since ``begin``."""
-        return int(self.counters.expanded)
-
-    def best(self) -> bytes | None:
-        """The shortest run to the exit that this search has found, of a leg from the start of the level; None if none.
-
-        Of a search along a known run: from the span on.
-        """
-        index = int(self.counters.best_node)
+    ``known``: the run along which to search; None: a search for the exit or of a leg, compiled without what runs along
+    one. Returns MORE, EXHAUSTED (nothing is left) or NO_ROOM (for nodes).
+    """
+    here = start.worlds[0]
+    w = start.worlds[1]
+    counters = arrays.counters[0]
+    stop = counters.ticks + budget
+    while counters.ticks < stop and counters.fields_wanted == 0 and counters.ends - counters.other_ends < goal.ends:
+        full = counters.nodes + 16 > len(arrays.nodes) or counters.links + 16 > len(arrays.links)
+        if full or counters.entries * 4 > len(arrays.table) * 3:
+            return NO_ROOM
+        index = pop_lowest(arrays)
         if index < 0:
-            return None
-        root, inputs = self._path(index)
-        return self._roots[root].run() + inputs if self._roots else inputs
+            return EXHAUSTED
+        if not take_state(arrays.nodes[index], start, arrays, resolution):
+            continue
+        counters.expanded += 1
+        held = here.ninja.jump_held
+        row = -1
+        if known is not None:
+            row, _ = nearest(known, here, goal.masks[arrays.nodes[index].switch_state])
+        for choice in range(CHOICES + FOLLOW_CHOICES if row >= 0 else CHOICES):
+            if choice < CHOICES:
+                direction, mode, limit = macro_of(here.ninja, choice, counters, resolution)
+                if limit == 0:
+                    continue
+                copy_words(start.scratch, start.node)
+                played = play_macro(start.levels[0], w, direction, mode, limit)
+                action = action_code(direction, mode, held, played)
+            else:
+                first = row + (choice - CHOICES + 1) % FOLLOW_CHOICES - 1
+                if not 0 <= first < MOST_ROWS:
+                    continue
+                copy_words(start.scratch, start.node)
+                played = 0
+                if known is not None:
+                    played = follow(start.levels[0], w, known.keys, first, 3 + random_below(counters, 24))
+                action = followed_code(first, played)
+            counters.ticks += played
+            if w.outcome == OUTCOME_RUNNING and played > 0:
+                if known is not None:
+                    keep_along(index, action, start, arrays, goal, known, resolution)
+                elif w.tick < LIFETIME + GOLD_BONUS * w.gold:
+                    keep_child(index, action, played, start, arrays, goal, backed_up, resolution)
+            elif w.outcome == OUTCOME_EXIT and w.gold >= goal.gold:
+                keep_run(index, action, played, w.tick, arrays, known)
+    return MORE
+
+
+@fast
+def take_state(node: Node, start: Start, arrays: SearchArrays, resolution: Resolution) -> bool:
+    """Load a node's save-state and give its chunks back. False, and nothing loaded, if the node is pointless by now.
+
+    A bound that fell since, or an earlier arrival at the same key, makes it so.
+    """
+    if node.chunk < 0:
+        return False
+    stale = arrays.table[node.entry].first < node.tick and resolution.visits < 2
+    best = arrays.counters[0].best_ticks
+    late = best > 0 and node.tick + 1 >= best
+    wanted = not (stale or late)
+    if wanted:
+        load_state(start.node, start.initial, node, arrays)
+    free_state(node.chunk, arrays)
+    node.chunk = -1
+    return wanted
+
+
+@fast
+def macro_of(ninja: Ninja, choice: int, counters: Counters, resolution: Resolution) -> tuple[int, int, int]:
+    """Direction, mode and most ticks of a choice; 0 ticks if it makes no difference to this ninja."""
+    wall = ninja.in_air and ninja.near_wall
+    limit = resolution.macro
+    if resolution.jitter > 0:
+        limit += random_below(counters, resolution.jitter + 1)
+    direction = choice % 3 - 1
+    mode = choice // 3
+    if mode == PRESSED:
+        useful = ninja.state == JUMPING if ninja.jump_held else not ninja.in_air or wall
+    elif mode == PRESSED_AGAIN:
+        useful = ninja.jump_held and (wall or not ninja.in_air)
+    elif mode > PRESSED_AGAIN:
+        # Waiting: only at rest, and longer than a macro, or it would not be news.
+        slow = abs(ninja.x - ninja.prev_x) + abs(ninja.y - ninja.prev_y) < 0.5
+        useful = slow and not ninja.in_air and resolution.visits >= 2
+        direction = 0
+        mode = RELEASED
+        limit = resolution.patience
+    else:
+        useful = True
+    return direction, mode, limit if useful else 0
+
+
+@fast
+def keep_run(parent: int, action: int, played: int, tick: int, arrays: SearchArrays, known: KnownRun | None) -> None:
+    """Note that a node leads to the exit; keep the run if it is the shortest."""
+    counters = arrays.counters[0]
+    if known is None:
+        note_link(arrays, arrays.nodes[parent].entry, -1, played)
+    if counters.best_ticks == 0 or tick < counters.best_ticks:
+        counters.best_ticks = tick
+        counters.best_node = add_node(parent, action, tick, arrays)
+
+
+@fast
+def keep_along(
+    parent: int, action: int, start: Start, arrays: SearchArrays, goal: Goal, known: KnownRun, resolution: Resolution
+) -> None:
+    """Make a node of the scratch world if it is not a duplicate and may lead to a shorter run than the known one.
+
+    Its ticks to go are those that the known run still has from its row that is most like the scratch world.
+    """
+    w = start.worlds[1]
+    _, to_go = nearest(known, w, open_mask(w, goal.switch_slots))
+    run_ticks = w.tick + to_go
+    delay = known.max_delay if w.tick < known.span[1] else -LEAST_GAIN
+    if run_ticks > arrays.counters[0].best_ticks + delay:
+        return
+    switch_state = switch_state_of(w, goal, arrays.counters[0], arrays.nodes[parent].switch_state)
+    if switch_state < 0:
+        return
+    key = key_of(w, goal, switch_state, 0, resolution)
+    slot = find_entry(arrays.table, key)
+    if is_new(arrays.table[slot], w.tick, resolution):
+        index = keep_node(parent, action, slot, key, to_go, switch_state, start, arrays)
+        # Two buckets a tick; the known run's own states wait in the middle one.
+        push(index, 0.5 * BUCKETS + 2.0 * (run_ticks - len(known.keys)), arrays)
+
+
+@fast
+def keep_child(
+    parent: int, action: int, played: int, start: Start, arrays: SearchArrays, goal: Goal,
+    backed_up: BackedUpHeuristic, resolution: Resolution,
+) -> None:  # fmt: skip
+    """The same on the way to the exit or to the end of a leg.
+
+    Its ticks to go are those of the switch state's distance field, or of the backed-up heuristic of an earlier search.
+    """
+    w = start.worlds[1]
+    counters = arrays.counters[0]
+    source = arrays.nodes[parent]
+    switch_state = switch_state_of(w, goal, counters, source.switch_state)
+    if switch_state < 0:
+        return
+    tick = w.tick
+    best = counters.best_ticks
+    to_go = estimate(goal, switch_state, point_at(w.ninja.x, w.ninja.y), source.to_go)
+    if best > 0 and tick + to_go * BOUND_SHARE >= best:
+        return
+    mask = goal.masks[switch_state]
+    at_end = goal.leg > 0 and (w.gold >= goal.leg or mask != goal.mask)
+    gold = gold_hash(w, goal) if at_end else 0
+    other_end = at_end and goal.wanted != 0 and not mask & goal.wanted
+    if other_end and counters.other_ends >= OTHER_ENDS:
+        return
+    key = key_of(w, goal, switch_state, gold, resolution)
+    slot = find_entry(arrays.table, key)
+    entry = arrays.table[slot]
+    if entry.key != 0:
+        note_link(arrays, source.entry, slot, played)
+        if not is_new(entry, tick, resolution):
+            return
+    if len(backed_up.table) > 1:
+        known = backed_up.table[find_entry(backed_up.table, key_of(w, goal, switch_state, gold, backed_up.resolution))]
+        if known.key != 0 and known.value < 1.0e8:
+            to_go = 0.0 + known.value
+        else:
+            to_go = source.to_go - played + resolution.off_table * played
+        if best > 0 and tick + to_go > best + resolution.slack:
+            return
+    if entry.key == 0:
+        note_link(arrays, source.entry, slot, played)
+    index = keep_node(parent, action, slot, key, to_go, switch_state, start, arrays)
+    child = arrays.nodes[index]
+    if not at_end:
+        push(index, tick + resolution.weight * to_go, arrays)
+    elif child.chunk >= 0 and (goal.rollouts == 0 or survives(child, start, arrays, goal.rollouts)):
+        arrays.ends[counters.ends] = index
+        counters.ends += 1
+        counters.other_ends += other_end
+
+
+@fast
+def keep_node(
+    parent: int, action: int, slot: int, key: int, to_go: float, switch_state: int, start: Start, arrays: SearchArrays
+) -> int:
+    """Make the scratch world a node, with a save-state if there is room, and note it under its key; its index.
+
+    ``slot``: the place of the key in the table.
+    """
+    counters = arrays.counters[0]
+    tick = start.worlds[1].tick
+    entry = arrays.table[slot]
+    if entry.key == 0:
+        counters.entries += 1
+        entry.key = key
+        entry.first = tick
+    entry.visits += 1
+    entry.first = min(entry.first, tick)
+    entry.last = max(entry.last, tick)
+    index = add_node(parent, action, tick, arrays)
+    node = arrays.nodes[index]
+    node.entry = slot
+    node.to_go = to_go
+    node.switch_state = switch_state
+    while not keep_state(start.scratch, start.initial, node, arrays) and counters.waiting > 0:
+        drop_highest(arrays)
+    return index
+
+
+@fast
+def add_node(parent: int, action: int, tick: int, arrays: SearchArrays) -> int:
+    """A new node without a save-state; its index."""
+    counters = arrays.counters[0]
+    index = counters.nodes
+    counters.nodes += 1
+    node = arrays.nodes[index]
+    node.parent = parent
+    node.tick = tick
+    node.action = action
+    node.chunk = -1
+    return int(index)
+
+
+@fast
+def note_link(arrays: SearchArrays, source: int, target: int, ticks: int) -> None:
+    """Remember that a macro leads from one table entry to another."""
+    counters = arrays.counters[0]
+    link = arrays.links[counters.links]
+    counters.links += 1
+    link.source = source
+    link.target = target
+    link.ticks = ticks
+
+
+@fast
+def survives(node: Node, start: Start, arrays: SearchArrays, rollouts: int) -> bool:
+    """Whether a ninja with random keys, from a node's save-state on, ever lands or lives for a while.
+
+    The scratch world is used.
+    """
+    w = start.worlds[1]
+    counters = arrays.counters[0]
+    for _ in range(rollouts):
+        load_state(start.scratch, start.initial, node, arrays)
+        until = w.tick + SURVIVAL
+        while w.outcome != OUTCOME_DEAD:
+            if w.tick >= until or not w.ninja.in_air:
+                return True
+            direction = random_below(counters, 3) - 1
+            mode = RELEASED if random_below(counters, 3) else PRESSED
+            counters.ticks += play_macro(start.levels[0], w, direction, mode, 4 + random_below(counters, 30))
+    return False

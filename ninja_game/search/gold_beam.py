@@ -1,7 +1,7 @@
 """Shorter runs with gold from a known one: a beam search of legs, in orders that measured legs suggest.
 
 The checkpoints of the known run at which it collects or switches something are the first *frontiers*. A pass begins at
-one of them and goes on level by level (a level: so many pieces collected and switches touched): it takes the few
+one of them and goes on depth by depth (a depth: so many pieces collected and switches touched): it takes the few
 frontiers with the least ticks so far and to go, and searches from all their checkpoints to the next piece. Frontiers
 stay from pass to pass.
 """
@@ -14,9 +14,9 @@ from itertools import pairwise
 import numpy as np
 
 from ninja_game.backend.memories import compiled
-from ninja_game.search.best_first import Search
-from ninja_game.search.legs import NEVER, ROLLOUTS, Checkpoint, Frontier, Leg, LegFields, Spend, pieces_of
+from ninja_game.search.legs import MORE_THAN_ANY, ROLLOUTS, Checkpoint, Frontier, Leg, LegFields, Spend, pieces_of
 from ninja_game.search.nodes import Resolution, Start
+from ninja_game.search.searching import Search
 from ninja_game.search.tour import PieceTicks, short_tour
 from ninja_game.sim.inputs import KEYS_DOWN, pressed
 from ninja_game.sim.memory.declare import entry_point
@@ -40,15 +40,15 @@ BEAM_ENDS = 80
 EFFORTS = (1, 4)
 """How many times a leg's ticks a frontier gets; the second only if the first found nothing: far pieces need more."""
 BREADTHS = (3, 6, 3, 6, 10)
-"""Frontiers that are searched on from at each level, pass by pass."""
+"""Frontiers that are searched on from at each depth, pass by pass."""
 SPARE = 2
 """Frontiers that may take the place of others whose legs found nothing."""
 FRONTIERS_KEPT = 10
-"""Frontiers kept at each level from pass to pass."""
+"""Frontiers kept at each depth from pass to pass."""
 NOISE = 0.4
 """By which part the ticks between pieces are changed at random, for other orders."""
 HOPE = 1.1
-"""What share more a run from a level on may seem to take than the best run before a pass is given up."""
+"""A pass ends where the estimated ticks exceed those of the best run by this share."""
 
 
 @entry_point
@@ -71,8 +71,8 @@ class GoldBeam:
         self.seed = seed
         self.passes = 0
         self.legs = 0
-        self.levels: dict[int, dict[tuple[int, int], Frontier]] = {}
-        self.ticks = NEVER
+        self.depths: dict[int, dict[tuple[int, int], Frontier]] = {}
+        self.ticks = MORE_THAN_ANY
         self.wanted = 0
         self._fields = LegFields(self.heuristics)
         self.piece_ticks = PieceTicks(self._fields)
@@ -105,17 +105,17 @@ class GoldBeam:
                 self.piece_ticks.learn(checkpoint.before, checkpoint)
             self._add(checkpoint, self.order)
 
-    def search_levels(self, spend: Spend) -> bytes | None:
-        """Search on from one of the levels to the exit; a shorter run, None if there is none."""
+    def search_depths(self, spend: Spend) -> bytes | None:
+        """Search on from one of the depths to the exit; a shorter run, None if there is none."""
         resolution = BEAM_LEGS[self.passes % len(BEAM_LEGS)]
         self.piece_ticks.change(self.random, NOISE * (self.passes % 3) / 2)
-        first = 0 if self.passes % 3 == 0 else int(self.random.integers(max(self.levels)))
+        first = 0 if self.passes % 3 == 0 else int(self.random.integers(max(self.depths)))
         breadth = BREADTHS[self.passes % len(BREADTHS)]
         self.passes += 1
-        level = first
-        while level <= max(self.levels):
-            frontiers = sorted(self.levels.get(level, {}).values(), key=self._value)
-            self.levels[level] = {(frontier.taken, frontier.mask): frontier for frontier in frontiers[:FRONTIERS_KEPT]}
+        depth = first
+        while depth <= max(self.depths):
+            frontiers = sorted(self.depths.get(depth, {}).values(), key=self._value)
+            self.depths[depth] = {(frontier.taken, frontier.mask): frontier for frontier in frontiers[:FRONTIERS_KEPT]}
             led_on = 0
             for frontier in frontiers[: breadth + SPARE]:
                 if led_on == breadth or (frontier is not frontiers[0] and self._value(frontier) > self.ticks * HOPE):
@@ -130,7 +130,7 @@ class GoldBeam:
                     if ends:
                         led_on += 1
                         break
-            level += 1
+            depth += 1
         return None
 
     def _leg(self, frontier: Frontier, resolution: Resolution, effort: int, spend: Spend) -> tuple[bytes | None, int]:
@@ -145,7 +145,7 @@ class GoldBeam:
                 roots,
                 frontier.count + 1,
                 frontier.mask,
-                NEVER,
+                MORE_THAN_ANY,
                 BEAM_ENDS,
                 ROLLOUTS,
                 partial(self._fields.to_piece, target),
@@ -165,7 +165,7 @@ class GoldBeam:
 
     def _add(self, checkpoint: Checkpoint, tour: list[int]) -> None:
         key = (checkpoint.taken, checkpoint.mask)
-        frontiers = self.levels.setdefault(checkpoint.taken.bit_count() + checkpoint.mask.bit_count(), {})
+        frontiers = self.depths.setdefault(checkpoint.taken.bit_count() + checkpoint.mask.bit_count(), {})
         if key not in frontiers:
             frontiers[key] = Frontier(*key, tour=[piece for piece in tour if not checkpoint.taken >> piece & 1])
         frontiers[key].add(checkpoint, BEAM_WIDTH)

@@ -12,7 +12,7 @@ import numpy as np
 from ninja_game.search.heuristics import Field, Heuristics, point_at
 from ninja_game.search.nodes import StateWords
 
-NEVER = 1 << 30
+MORE_THAN_ANY = 1 << 30
 """More gold than there is: what a leg wants at the exit that is to end elsewhere. And more ticks than a run has."""
 FAR = 20_000.0
 """Ticks that an unreachable piece counts in a tour."""

@@ -147,7 +147,7 @@ class Start(NamedTuple):
     scratch: StateWords
 
 
-class SearchMemory(NamedTuple):
+class SearchArrays(NamedTuple):
     """The arrays of one search: nodes and what links them, the pool of save-states, the open list, a leg's ends."""
 
     nodes: Sequence[Node]
@@ -201,9 +201,9 @@ def new_table(nodes: int) -> Any:
     return zeroed(TableEntry, 1 << (2 * nodes - 1).bit_length())
 
 
-def new_memory(nodes: int) -> SearchMemory:
+def new_arrays(nodes: int) -> SearchArrays:
     """The arrays of a search of at most so many nodes, with as many chunks. To be cleared before each search."""
-    return SearchMemory(
+    return SearchArrays(
         nodes=zeroed(Node, nodes), table=new_table(nodes), links=zeroed(Link, 6 * nodes),
         chunk_next=np.empty(nodes, np.int32), chunk_index=np.empty(nodes * CHUNK, np.int32),
         chunk_value=np.empty(nodes * CHUNK, np.int64), buckets=np.empty(BUCKETS, np.int32),
@@ -211,15 +211,15 @@ def new_memory(nodes: int) -> SearchMemory:
     )  # fmt: skip
 
 
-def clear(memory: Any) -> None:
+def clear(arrays: Any) -> None:
     """Forget all nodes, entries, links and save-states. The table is that of the nodes, or an empty one."""
-    memory.table[memory.nodes["entry"][: int(memory.counters[0].nodes)]] = 0
-    memory.chunk_next[:] = np.arange(1, len(memory.chunk_next) + 1, dtype=np.int32)
-    memory.chunk_next[-1] = -1
-    memory.buckets[:] = -1
-    memory.counters[:] = 0
-    memory.counters[0].lowest = BUCKETS
-    memory.counters[0].best_node = -1
+    arrays.table[arrays.nodes["entry"][: int(arrays.counters[0].nodes)]] = 0
+    arrays.chunk_next[:] = np.arange(1, len(arrays.chunk_next) + 1, dtype=np.int32)
+    arrays.chunk_next[-1] = -1
+    arrays.buckets[:] = -1
+    arrays.counters[:] = 0
+    arrays.counters[0].lowest = BUCKETS
+    arrays.counters[0].best_node = -1
 
 
 @entry_point
@@ -254,9 +254,9 @@ def copy_words(target: StateWords, source: StateWords) -> None:
 
 
 @fast
-def keep_state(words: StateWords, initial: StateWords, node: Node, memory: SearchMemory) -> bool:
+def keep_state(words: StateWords, initial: StateWords, node: Node, arrays: SearchArrays) -> bool:
     """Store the first word and those that differ from the start; False, and nothing stored, if the pool is empty."""
-    counters = memory.counters[0]
+    counters = arrays.counters[0]
     first = -1
     chunk = -1
     count = 0
@@ -266,39 +266,39 @@ def keep_state(words: StateWords, initial: StateWords, node: Node, memory: Searc
                 free = counters.free_chunk
                 if free < 0:
                     if first >= 0:
-                        memory.chunk_next[chunk] = -1
-                        free_state(first, memory)
+                        arrays.chunk_next[chunk] = -1
+                        free_state(first, arrays)
                     return False
-                counters.free_chunk = memory.chunk_next[free]
+                counters.free_chunk = arrays.chunk_next[free]
                 if first < 0:
                     first = free
                 else:
-                    memory.chunk_next[chunk] = free
+                    arrays.chunk_next[chunk] = free
                 chunk = free
             place = chunk * CHUNK + count % CHUNK
-            memory.chunk_index[place] = k
-            memory.chunk_value[place] = words[k]
+            arrays.chunk_index[place] = k
+            arrays.chunk_value[place] = words[k]
             count += 1
     if first >= 0:
-        memory.chunk_next[chunk] = -1
+        arrays.chunk_next[chunk] = -1
     node.chunk = first
     node.words = count
     return True
 
 
 @fast
-def free_state(first: int, memory: SearchMemory) -> None:
+def free_state(first: int, arrays: SearchArrays) -> None:
     """Give a chain of chunks back."""
-    counters = memory.counters[0]
+    counters = arrays.counters[0]
     last = first
-    while memory.chunk_next[last] >= 0:
-        last = memory.chunk_next[last]
-    memory.chunk_next[last] = counters.free_chunk
+    while arrays.chunk_next[last] >= 0:
+        last = arrays.chunk_next[last]
+    arrays.chunk_next[last] = counters.free_chunk
     counters.free_chunk = first
 
 
 @fast
-def load_state(words: StateWords, initial: StateWords, node: Node, memory: SearchMemory) -> None:
+def load_state(words: StateWords, initial: StateWords, node: Node, arrays: SearchArrays) -> None:
     """Make the world of a node: the start with the node's words."""
     for k in range(len(initial)):
         words[k] = initial[k]
@@ -307,56 +307,56 @@ def load_state(words: StateWords, initial: StateWords, node: Node, memory: Searc
     while left > 0:
         place = chunk * CHUNK
         for k in range(place, place + min(left, CHUNK)):
-            words[memory.chunk_index[k]] = memory.chunk_value[k]
+            words[arrays.chunk_index[k]] = arrays.chunk_value[k]
         left -= CHUNK
-        chunk = memory.chunk_next[chunk]
+        chunk = arrays.chunk_next[chunk]
 
 
 @fast
-def push(index: int, priority: float, memory: SearchMemory) -> None:
+def push(index: int, priority: float, arrays: SearchArrays) -> None:
     """Put a node into its bucket."""
-    counters = memory.counters[0]
+    counters = arrays.counters[0]
     bucket = int(priority)
     bucket = 0 if bucket < 0 else min(bucket, BUCKETS - 1)
-    memory.nodes[index].priority = bucket
-    memory.nodes[index].next = memory.buckets[bucket]
-    memory.buckets[bucket] = index
+    arrays.nodes[index].priority = bucket
+    arrays.nodes[index].next = arrays.buckets[bucket]
+    arrays.buckets[bucket] = index
     counters.waiting += 1
     counters.lowest = min(counters.lowest, bucket)
     counters.highest = max(counters.highest, bucket)
 
 
 @fast
-def pop_lowest(memory: SearchMemory) -> int:
+def pop_lowest(arrays: SearchArrays) -> int:
     """Take the most promising node; -1 if there is none."""
-    counters = memory.counters[0]
+    counters = arrays.counters[0]
     bucket = counters.lowest
-    while bucket < BUCKETS and memory.buckets[bucket] < 0:
+    while bucket < BUCKETS and arrays.buckets[bucket] < 0:
         bucket += 1
     counters.lowest = bucket
-    return take_first(bucket, memory) if bucket < BUCKETS else -1
+    return take_first(bucket, arrays) if bucket < BUCKETS else -1
 
 
 @fast
-def drop_highest(memory: SearchMemory) -> None:
+def drop_highest(arrays: SearchArrays) -> None:
     """Give up the least promising node, for the sake of its memory."""
-    counters = memory.counters[0]
+    counters = arrays.counters[0]
     bucket = counters.highest
-    while bucket >= 0 and memory.buckets[bucket] < 0:
+    while bucket >= 0 and arrays.buckets[bucket] < 0:
         bucket -= 1
     counters.highest = bucket
     if bucket < 0:
         return
-    node = memory.nodes[take_first(bucket, memory)]
+    node = arrays.nodes[take_first(bucket, arrays)]
     if node.chunk >= 0:
-        free_state(node.chunk, memory)
+        free_state(node.chunk, arrays)
         node.chunk = -1
 
 
 @fast
-def take_first(bucket: int, memory: SearchMemory) -> int:
+def take_first(bucket: int, arrays: SearchArrays) -> int:
     """Take the first node out of a bucket that has one."""
-    index = memory.buckets[bucket]
-    memory.buckets[bucket] = memory.nodes[index].next
-    memory.counters[0].waiting -= 1
+    index = arrays.buckets[bucket]
+    arrays.buckets[bucket] = arrays.nodes[index].next
+    arrays.counters[0].waiting -= 1
     return int(index)

@@ -13,10 +13,21 @@ from functools import partial
 
 import numpy as np
 
-from ninja_game.search.best_first import Search
 from ninja_game.search.heuristics import UNREACHED, Heuristics, point_at
-from ninja_game.search.legs import FAR, NEVER, ROLLOUTS, Checkpoint, FieldOf, Frontier, Leg, LegFields, Spend, pieces_of
+from ninja_game.search.legs import (
+    FAR,
+    MORE_THAN_ANY,
+    ROLLOUTS,
+    Checkpoint,
+    FieldOf,
+    Frontier,
+    Leg,
+    LegFields,
+    Spend,
+    pieces_of,
+)
 from ninja_game.search.nodes import Resolution
+from ninja_game.search.searching import Search
 from ninja_game.search.tour import short_tour
 
 ROUTE_LEGS = (
@@ -91,7 +102,7 @@ class Route:
         self._stalled_ticks += self.search.ticks
         frontier.spent += self.search.ticks
         self._stalled_steps += 1
-        if leg.gold < NEVER:
+        if leg.gold < MORE_THAN_ANY:
             return self.search.best()
         ends = self.search.ends()
         if target >= 0 and not any(end.taken >> target & 1 for end in ends):
@@ -154,14 +165,22 @@ class Route:
                 roots,
                 frontier.count + 1,
                 frontier.mask,
-                NEVER,
+                MORE_THAN_ANY,
                 ROUTE_ENDS,
                 rollouts,
                 partial(self._fields.to_piece, target),
             )
         if self._may_leave(frontier):
             return Leg(roots, 0, frontier.mask, self.gold, 1, 0, self.heuristics.field)
-        return Leg(roots, NEVER, frontier.mask, NEVER, ROUTE_ENDS, rollouts, *self._way_to_a_switch(frontier))
+        return Leg(
+            roots,
+            MORE_THAN_ANY,
+            frontier.mask,
+            MORE_THAN_ANY,
+            ROUTE_ENDS,
+            rollouts,
+            *self._way_to_a_switch(frontier),
+        )
 
     def _way_to_a_switch(self, frontier: Frontier) -> tuple[FieldOf, int]:
         """The fields of the first door in the way; at later tries, in turn, those of the other doors' switches.

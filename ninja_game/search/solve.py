@@ -14,13 +14,13 @@ from threading import Event
 
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.text import Replay
-from ninja_game.search.best_first import Search
+from ninja_game.search.best_first import MORE
 from ninja_game.search.certificate import with_plain_triggers
-from ninja_game.search.engine import MORE
 from ninja_game.search.gold_beam import GoldBeam
 from ninja_game.search.heuristics import Heuristics
 from ninja_game.search.nodes import Resolution, open_start
 from ninja_game.search.route import LEG_NODES, Route
+from ninja_game.search.searching import Search
 from ninja_game.search.spans import RunShortener
 from ninja_game.search.task import (
     FOUND_BOUND,
@@ -33,7 +33,7 @@ from ninja_game.search.task import (
     SLICE,
     Progress,
     Report,
-    SearchState,
+    SharedProgress,
     Task,
     WorkPlan,
     find_order,
@@ -45,7 +45,7 @@ __all__ = ["Progress", "Task", "compile_solver", "solve"]
 class _Job:
     """One thread's work."""
 
-    def __init__(self, state: SearchState, number: int) -> None:
+    def __init__(self, state: SharedProgress, number: int) -> None:
         task = state.task
         self.state = state
         self.number = number
@@ -138,7 +138,7 @@ class _Job:
             return self._spend(played, played * SEARCH_COST)
 
         while self.work < until and not spend(0):
-            found = self._gold_beam.search_levels(spend)
+            found = self._gold_beam.search_depths(spend)
             if found:
                 self.state.submit(found)
         best, plan = self.state.runs[0], self.plan
@@ -213,7 +213,7 @@ def compile_solver() -> None:
     Raises MemoryUnavailableError without Numba.
     """
     for gold in (0, -1):
-        _Job(SearchState(Task(parse_level_string(_SMALL), gold=gold, work=30_000), None), 0).compile()
+        _Job(SharedProgress(Task(parse_level_string(_SMALL), gold=gold, work=30_000), None), 0).compile()
 
 
 def solve(
@@ -231,7 +231,7 @@ def solve(
     MemoryUnavailableError without Numba, UnverifiedRunError for a first run that does not reach the exit.
     """
     compile_solver()
-    state = SearchState(task, report, on_better=on_better, cancelled=stop or Event())
+    state = SharedProgress(task, report, on_better=on_better, cancelled=stop or Event())
     if task.first:
         state.submit(with_plain_triggers(task.level, task.first, body=task.body, gold=task.gold_wanted))
     try:
@@ -241,7 +241,7 @@ def solve(
     return state.best
 
 
-def _work(state: SearchState) -> None:
+def _work(state: SharedProgress) -> None:
     """Have all jobs run until the end."""
     jobs = [_Job(state, number) for number in range(state.task.jobs)]
     if len(jobs) == 1:

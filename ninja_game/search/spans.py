@@ -9,13 +9,13 @@ from typing import NamedTuple
 import numpy as np
 
 from ninja_game.backend.memories import compiled
-from ninja_game.search.best_first import Search
-from ninja_game.search.engine import EXHAUSTED, MORE
+from ninja_game.search.best_first import EXHAUSTED, MORE
 from ninja_game.search.heuristics import Heuristics
 from ninja_game.search.known_run import KnownRun, known_run, play_known
 from ninja_game.search.legs import Spend
 from ninja_game.search.local_search import LocalSearch
 from ninja_game.search.nodes import Resolution, Start
+from ninja_game.search.searching import Search
 from ninja_game.search.task import COOLING, SEARCH_COST, SHORT_LOCAL_TICKS, SLICE
 from ninja_game.sim.inputs import with_press_bits
 

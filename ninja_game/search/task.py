@@ -70,7 +70,7 @@ class Task:
 
 
 @dataclass
-class SearchState:
+class SharedProgress:
     """What the jobs share: the best runs, the count of work, and the end."""
 
     task: Task

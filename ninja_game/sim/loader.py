@@ -90,7 +90,7 @@ def populate(
     ids = len(kinds)
     w.id_count = ids
     w.slots_used = ids + 1
-    rest(w.ninja, 0.0, 0.0)
+    place_ninja(w.ninja, 0.0, 0.0)
     for index in range(ids):
         kind = kinds[index]
         o = w.objects[index + 1]
@@ -105,7 +105,7 @@ def populate(
             if counts[index] == 2:
                 o.x = p[0]
                 o.y = p[1]
-            rest(w.ninja, o.x, o.y)
+            place_ninja(w.ninja, o.x, o.y)
             if counts[index] == 2:
                 w.ninja.cell = cell_at(o.x, o.y)
         elif counts[index] == VALUE_COUNTS[kind]:
@@ -116,7 +116,7 @@ def populate(
 
 
 @fast
-def rest(n: Ninja, x: float, y: float) -> None:
+def place_ninja(n: Ninja, x: float, y: float) -> None:
     """A new ninja, standing still (ninja.md §2)."""
     n.x = x
     n.y = y

@@ -26,7 +26,7 @@ def place_of(w: World, slot: int) -> tuple[float, float]:
 
 @fast
 def is_switched(w: World, slot: int) -> int:
-    """1 for a door that is not as it began, else 0: the status of an automatic one that has closed again tells less."""
+    """1 for a door whose state is not that of the start, else 0. ``status_of`` says less: it also changes by itself."""
     o = w.objects[slot]
     return o.switched if o.kind == kinds.DOOR else 0
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError, FormatError
-from ninja_game.search.formula.language import Formula, Numbers, parse_number, parse_truth
+from ninja_game.search.formula.language import Formula, Values, parse_number, parse_truth
 from ninja_game.search.formula.names import FACTS, FLAGS, NAMES, id_of
 from ninja_game.sim.kinds import DOOR, KIND_NAMES
 from ninja_game.sim.rules import EXIT_RADIUS, RADIUS
@@ -35,7 +35,7 @@ class Watch:
     text: str
     formula: Formula
 
-    def values(self, timeline: Timeline) -> Numbers:
+    def values(self, timeline: Timeline) -> Values:
         """Its value after each simulated tick, float64 (simulated_until,); a truth is 1 or 0, what has no value is NaN.
 
         Objects that are not recorded yet are recorded from now on. Raises ArgumentError for an unknown one.
@@ -62,14 +62,14 @@ def parse_watch(text: str) -> Watch:
             raise error from None
 
 
-def exit_distance(timeline: Timeline, span: slice = slice(None)) -> Numbers:
+def exit_distance(timeline: Timeline, span: slice = slice(None)) -> Values:
     """How far the ninja is from the disc of the nearest exit after each tick, px; 0 or less: it touches it.
 
     ``span``: of these ticks only.
     """
     x, y = timeline.column("x")[span], timeline.column("y")[span]
     far = [np.hypot(x - exit_x, y - exit_y) for exit_x, exit_y in timeline.exits] or [np.full(len(x), np.inf)]
-    nearest: Numbers = np.min(far, axis=0) - (EXIT_RADIUS + RADIUS)
+    nearest: Values = np.min(far, axis=0) - (EXIT_RADIUS + RADIUS)
     return nearest
 
 
@@ -77,11 +77,11 @@ def timeline_view(timeline: Timeline) -> dict[str, Callable[..., NDArray[np.floa
     """What the names of a formula mean after each simulated tick of a timeline."""
     column = timeline.column
 
-    def velocity(axis: str) -> Numbers:
-        moved: Numbers = column(axis) - column(f"prev_{axis}")
+    def velocity(axis: str) -> Values:
+        moved: Values = column(axis) - column(f"prev_{axis}")
         return moved
 
-    def of_object(name: str) -> Callable[..., Numbers]:
+    def of_object(name: str) -> Callable[..., Values]:
         return lambda number: _object_column(timeline, id_of(number), name)
 
     return {
@@ -99,14 +99,14 @@ def timeline_view(timeline: Timeline) -> dict[str, Callable[..., NDArray[np.floa
     }  # fmt: skip
 
 
-def _object_column(timeline: Timeline, id_: float, name: str) -> Numbers:
+def _object_column(timeline: Timeline, id_: float, name: str) -> Values:
     timeline.at_start(id_)
     if id_ not in timeline.watched:
         raise _UnwatchedError(int(id_))
     return timeline.object_column(int(id_), name).astype(np.float64)
 
 
-def _flag(timeline: Timeline, id_: float, what: str) -> Numbers:
+def _flag(timeline: Timeline, id_: float, what: str) -> Values:
     """Whether an object is taken, or opened: its status is not the one that it has at the start."""
     kind, _, _, status = timeline.at_start(id_)
     if kind not in FLAGS[what]:

@@ -154,7 +154,7 @@ def test_the_digest_follows_every_rule_and_constant_that_a_kernel_reaches(monkey
 def test_machine_code_is_another_if_a_named_tuple_has_its_fields_in_another_order(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    from ninja_game.search.engine import expand
+    from ninja_game.search.best_first import expand
     from ninja_game.search.nodes import Resolution
     from ninja_game.sim.memory.code_digest import code_digest
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from examples.agents import forward
-from examples.ppo import Learner, Method, Samples, advantages, new_networks
+from examples.ppo import Learner, PPOSettings, Samples, advantages, new_networks
 
 
 def test_advantages_are_discounted_sums_of_what_was_better_than_expected() -> None:
@@ -15,7 +15,7 @@ def test_advantages_are_discounted_sums_of_what_was_better_than_expected() -> No
     values = rng.random((7, 2)).astype(np.float32)
     ended = np.zeros((6, 2), np.bool_)
     ended[3, 1] = True
-    method = Method(discount=0.9, trace=0.8)
+    method = PPOSettings(discount=0.9, trace=0.8)
     found = advantages(rewards, values, ended, method)
     for world in range(2):
         for step in range(6):
@@ -40,7 +40,7 @@ def test_new_networks_expect_nothing_and_prefer_nothing() -> None:
 @pytest.mark.slow
 def test_the_policy_learns_which_action_pays_by_what_it_sees() -> None:
     pytest.importorskip("jax")
-    learner = Learner(2, Method(hidden=16, batch=256, learning_rate=0.01), seed=1)
+    learner = Learner(2, PPOSettings(hidden=16, batch=256, learning_rate=0.01), seed=1)
     rng = np.random.default_rng(2)
     for _ in range(40):
         seen = rng.choice([-1.0, 1.0], (512, 2)).astype(np.float32)

@@ -13,7 +13,7 @@ import pytest
 from click.testing import CliRunner
 
 from examples.agents import PolicyAgent, load_policy
-from examples.ppo import Method
+from examples.ppo import PPOSettings
 from examples.starts import SPACING, Starts, runs_through
 from examples.train import ROUND, Progress, Task, main, train
 from ninja_game.backend.memories import compiled_available
@@ -31,7 +31,12 @@ LEVELS = ["00-0-first-steps", "00-1-mind-the-gap"]
 def short(seed: int) -> Task:
     """A task of two rounds."""
     return Task(
-        level_source(LEVELS), steps=2 * ROUND * 16, seed=seed, worlds=16, searches=0, method=Method(hidden=8, batch=64)
+        level_source(LEVELS),
+        steps=2 * ROUND * 16,
+        seed=seed,
+        worlds=16,
+        searches=0,
+        method=PPOSettings(hidden=8, batch=64),
     )
 
 

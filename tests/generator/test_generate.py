@@ -17,7 +17,7 @@ if not compiled_available():
 
 from ninja_game.batch.difficulty import difficulty
 from ninja_game.formats.load import load_levels, load_replays
-from ninja_game.generator.generate import Budget, Generated, generate
+from ninja_game.generator.generate import Effort, Generated, generate
 from ninja_game.levels.warnings import level_warnings
 from ninja_game.runs.run import run_level
 from tests.support.golden_generated import SEEDS, SMALL, generated_digest, read_generated
@@ -25,7 +25,7 @@ from tests.support.golden_generated import SEEDS, SMALL, generated_digest, read_
 
 def made(seed: int, wanted: int) -> Generated:
     """The level of a seed with a small budget."""
-    level = generate(seed, wanted, budget=SMALL)
+    level = generate(seed, wanted, effort=SMALL)
     assert level is not None
     return level
 
@@ -105,7 +105,7 @@ def test_bad_input_is_told(words: list[str], told: str, tmp_path: Path, monkeypa
 
 
 def test_a_seed_without_a_level_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("ninja_game.generator.generate.DEFAULT", Budget(attempts=0))
+    monkeypatch.setattr("ninja_game.generator.generate.DEFAULT", Effort(attempts=0))
     result = command("--seed", "4")
     assert result.exit_code == 1
     assert "try another" in result.stdout

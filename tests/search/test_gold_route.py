@@ -17,14 +17,14 @@ if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
 from ninja_game.search import gold_beam
-from ninja_game.search.best_first import Search
+from ninja_game.search.best_first import OTHER_ENDS
 from ninja_game.search.certificate import verified_run
-from ninja_game.search.engine import OTHER_ENDS
 from ninja_game.search.gold_beam import GoldBeam
 from ninja_game.search.heuristics import Heuristics
-from ninja_game.search.legs import NEVER, Checkpoint, Frontier, Leg
+from ninja_game.search.legs import MORE_THAN_ANY, Checkpoint, Frontier, Leg
 from ninja_game.search.nodes import Resolution, open_start
 from ninja_game.search.route import Route
+from ninja_game.search.searching import Search
 from ninja_game.search.solve import Progress, Task, solve
 
 COLUMN = 23
@@ -144,7 +144,7 @@ def test_a_leg_to_a_certain_switch_does_not_end_at_another_on_the_way() -> None:
 
     def ends(wanted: int) -> list[int]:
         field = partial(heuristics.field_to, (500.0, 566.0))
-        leg = Leg([root], NEVER, 0, NEVER, 4, 0, field, wanted)
+        leg = Leg([root], MORE_THAN_ANY, 0, MORE_THAN_ANY, 4, 0, field, wanted)
         search.begin_leg(leg, Resolution(), seed=1, bound=0)
         search.run_leg(300_000, lambda _: False, part=1_000)
         return [end.mask & far for end in search.ends()]
@@ -196,7 +196,7 @@ def beam_of(first: Replay) -> GoldBeam:
 
 def test_a_run_with_gold_in_a_bad_order_gets_much_shorter(first: Replay) -> None:
     beam = beam_of(first)
-    runs = [beam.search_levels(lambda _: False) for _ in range(4)]
+    runs = [beam.search_depths(lambda _: False) for _ in range(4)]
     best = min(filter(None, runs), key=len)
     assert len(best) == beam.ticks
     assert verified_run(LINES, best, gold=all_gold(LINES)).end_tick < 0.85 * first.end_tick
@@ -205,8 +205,8 @@ def test_a_run_with_gold_in_a_bad_order_gets_much_shorter(first: Replay) -> None
 def test_a_beam_keeps_checkpoints_of_different_velocities(first: Replay) -> None:
     """No enemy is there: only the velocities differ."""
     beam = beam_of(first)
-    beam.search_levels(lambda _: False)
-    frontiers = [frontier for frontiers in beam.levels.values() for frontier in frontiers.values()]
+    beam.search_depths(lambda _: False)
+    frontiers = [frontier for frontiers in beam.depths.values() for frontier in frontiers.values()]
     assert max(len({checkpoint.variety for checkpoint in frontier.checkpoints}) for frontier in frontiers) > 5
 
 
@@ -216,7 +216,7 @@ def test_a_leg_that_finds_nothing_gets_more_work(first: Replay, monkeypatch: pyt
     monkeypatch.setattr(gold_beam, "EFFORTS", (1, 150_000))
     monkeypatch.setattr(gold_beam, "EXIT_FACTOR", 1_500_000)
     beam = beam_of(first)
-    assert any(beam.search_levels(lambda _: False) for _ in range(4))
+    assert any(beam.search_depths(lambda _: False) for _ in range(4))
 
 
 def test_shortening_a_run_with_gold_keeps_the_gold_and_is_the_same_every_time() -> None:

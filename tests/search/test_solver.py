@@ -17,10 +17,10 @@ from ninja_game.sim.level import Level
 if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
-from ninja_game.search.best_first import Search
 from ninja_game.search.certificate import UnverifiedRunError, named_run, rows_of, smoothed, verified_run
 from ninja_game.search.heuristics import Heuristics
 from ninja_game.search.nodes import open_start
+from ninja_game.search.searching import Search
 from ninja_game.search.solve import Progress, Task, solve
 from ninja_game.search.task import FIND, find_order
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED

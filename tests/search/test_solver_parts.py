@@ -13,7 +13,6 @@ from ninja_game.sim.level import Level
 if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
-from ninja_game.search.best_first import Search
 from ninja_game.search.heuristics import POINTS, UNREACHED, Heuristics, point_at
 from ninja_game.search.local_search import (
     LocalCounters,
@@ -35,11 +34,12 @@ from ninja_game.search.nodes import (
     clear,
     keep_state,
     load_state,
-    new_memory,
+    new_arrays,
     open_start,
     ticks_at_once,
     zeroed,
 )
+from ninja_game.search.searching import Search
 from ninja_game.search.states import key_of, switch_state_of
 from ninja_game.search.switches import open_mask
 from ninja_game.search.tour import short_tour
@@ -172,7 +172,7 @@ def test_random_mutations_leave_what_lies_before_and_make_keys_only() -> None:
 
 
 def test_a_state_that_finds_no_room_leaves_the_pool_as_it_was() -> None:
-    memory = new_memory(3)
+    memory = new_arrays(3)
     clear(memory)
     initial, words = np.zeros((2, 4 * CHUNK), np.int64)
     words[: 2 * CHUNK] = 1

@@ -5,19 +5,19 @@ from __future__ import annotations
 from hashlib import sha256
 from pathlib import Path
 
-from ninja_game.generator.generate import Budget, generate
+from ninja_game.generator.generate import Effort, generate
 
 TABLE = Path(__file__).parent.parent / "golden" / "generated.tsv"
 SEEDS = ((1, 2), (2, 5), (3, 9))
 """Seed and difficulty of the levels."""
 
-SMALL = Budget(find=1_500_000, shorten=300_000, attempts=6, rounds=8, tries=64)
+SMALL = Effort(find=1_500_000, shorten=300_000, attempts=6, rounds=8, tries=64)
 """Enough work to certify most levels, little enough for tests."""
 
 
 def generated_digest(seed: int, wanted: int) -> str:
     """The digest of the text of a level from a small budget."""
-    made = generate(seed, wanted, budget=SMALL)
+    made = generate(seed, wanted, effort=SMALL)
     return sha256(made.text.encode()).hexdigest() if made else "none"
 
 

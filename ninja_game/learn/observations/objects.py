@@ -31,7 +31,7 @@ from ninja_game.sim.states import (
     TRAP,
 )
 
-MOST_ROUTINES = 3.0
+HIGHEST_ROUTINE = 3.0
 """The highest number of a drone's or a turret's routine."""
 
 
@@ -48,7 +48,7 @@ def is_there(w: World, o: Object) -> bool:
 
 
 @fast
-def place_of(o: Object) -> tuple[float, float]:
+def contact_place_of(o: Object) -> tuple[float, float]:
     """Where an object is, px: of a launcher its rocket in flight, of a door its switch (automatic: its middle)."""
     if o.kind == kinds.LAUNCHER and o.routine != LAUNCHER_FLIGHT:
         return o.base_x, o.base_y
@@ -88,7 +88,7 @@ def face_of(o: Object) -> tuple[float, float]:
 
 
 @fast
-def moment_of(o: Object) -> float:
+def activity_of(o: Object) -> float:
     """What it is doing, one number.
 
     Exit: 1 open. Door: 1 closed. Thwump: 1 falls, -1 rises. Guard: 1 runs. Bounce block: 1 moves. Rocket: 1 flies,
@@ -108,15 +108,15 @@ def moment_of(o: Object) -> float:
     if kind == kinds.LAUNCHER:
         return 1.0 if o.routine == LAUNCHER_FLIGHT else 0.0 if o.routine == LAUNCHER_IDLE else 0.5
     if kind == kinds.DRONE or kind == kinds.TURRET:
-        return float(o.routine) / MOST_ROUTINES if o.updating else 0.0
+        return float(o.routine) / HIGHEST_ROUTINE if o.updating else 0.0
     return 0.0
 
 
 OBSERVED = tuple(kind for kind in KINDS if kind.number not in {NINJA, INERT})
-KIND_NAMES = tuple(kind.name for kind in OBSERVED)
-OBJECT_COLUMNS = (*KIND_NAMES, "dx", "dy", "vx", "vy", "face_x", "face_y", "moment")
+OBSERVED_KINDS = tuple(kind.name for kind in OBSERVED)
+OBJECT_COLUMNS = (*OBSERVED_KINDS, "dx", "dy", "vx", "vy", "face_x", "face_y", "moment")
 """Of each object: its kind, a flag each; the way from the ninja, px; its velocity, px/tick."""
-DX = len(KIND_NAMES)
+DX = len(OBSERVED_KINDS)
 MOST_OBJECTS = 64
 
 
@@ -125,19 +125,19 @@ class NearObjects(Part):
     """The ``count`` objects nearest to the ninja, nearest first, float32 (count, 20): ``OBJECT_COLUMNS``, else 0.
 
     What is gone is not seen: gold taken, mines exploded, the switch of an open exit. ``kinds``: which kinds are looked
-    at, by name (of ``KIND_NAMES``); all of them without.
+    at, by name (of ``OBSERVED_KINDS``); all of them without.
     """
 
     name: ClassVar[str] = "objects"
 
     count: int = 8
-    kinds: tuple[str, ...] = KIND_NAMES
+    kinds: tuple[str, ...] = OBSERVED_KINDS
 
     def __post_init__(self) -> None:
         if self.count not in range(1, MOST_OBJECTS + 1):
             raise ArgumentError(f"the count of near objects is {self.count!r}; expected 1 to {MOST_OBJECTS}")
-        if not self.kinds or not set(self.kinds) <= set(KIND_NAMES):
-            raise ArgumentError(f"the kinds of near objects are {self.kinds!r:.60}; expected some of {KIND_NAMES}")
+        if not self.kinds or not set(self.kinds) <= set(OBSERVED_KINDS):
+            raise ArgumentError(f"the kinds of near objects are {self.kinds!r:.60}; expected some of {OBSERVED_KINDS}")
 
     @property
     def box(self) -> Box:
@@ -188,7 +188,7 @@ def observe_objects(
         for object_ in range(starts[level], starts[level + 1]):
             o = w.objects[int(slots[object_])]
             if is_there(w, o):
-                x, y = place_of(o)
+                x, y = contact_place_of(o)
                 distance = (x - n.x) * (x - n.x) + (y - n.y) * (y - n.y)
                 if found < count or distance < distances[base + count - 1]:
                     found = min(found + 1, count)
@@ -206,7 +206,7 @@ def observe_objects(
             object_ = int(nearest[base + rank])
             o = w.objects[int(slots[object_])]
             at = offset + rank * width
-            x, y = place_of(o)
+            x, y = contact_place_of(o)
             vx, vy = velocity_of(o)
             face_x, face_y = face_of(o)
             out[index, at + int(columns[object_])] = 1.0
@@ -216,10 +216,10 @@ def observe_objects(
             out[index, at + DX + 3] = clamp(vy * factors[DX + 3], lows[DX + 3], highs[DX + 3])
             out[index, at + DX + 4] = clamp(face_x, -1.0, 1.0)
             out[index, at + DX + 5] = clamp(face_y, -1.0, 1.0)
-            out[index, at + DX + 6] = moment_of(o)
+            out[index, at + DX + 6] = activity_of(o)
 
 
-PLANES = ("solid", *KIND_NAMES, "ninja")
+PLANES = ("solid", *OBSERVED_KINDS, "ninja")
 """How much of a cell is solid; where objects of each kind are; where the ninja is."""
 HIGHEST = 255
 CLOSED_EXIT = 128
@@ -282,7 +282,7 @@ def observe_planes(
         for number in range(starts[level], starts[level + 1]):
             o = w.objects[int(slots[number])]
             if is_there(w, o):
-                x, y = place_of(o)
+                x, y = contact_place_of(o)
                 cell = interior_cell(x, y)
                 if cell >= 0:
                     is_closed = o.kind == EXIT and not o.is_open

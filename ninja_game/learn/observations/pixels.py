@@ -12,7 +12,7 @@ from gymnasium.spaces import Box
 from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
-from ninja_game.learn.observations.objects import OBSERVED, is_there, moment_of, place_of
+from ninja_game.learn.observations.objects import OBSERVED, activity_of, contact_place_of, is_there
 from ninja_game.learn.observations.part import Part, Ragged, Setting, clamp
 from ninja_game.learn.observations.surroundings import solidity
 from ninja_game.sim import kinds
@@ -64,7 +64,7 @@ def draw_object(
 ) -> None:
     """Paint an object that is there: what one touches of it, a closed door's line, a beam, a crosshair."""
     if o.kind == kinds.DOOR:
-        if o.edge_1 and moment_of(o) == 1.0:
+        if o.edge_1 and activity_of(o) == 1.0:
             cell = o.edge_1 // 4
             side = o.edge_1 % 4
             x = CENTRE_X[cell] + HALF * UNIT_X[side]
@@ -74,7 +74,7 @@ def draw_object(
             half_y = HALF if upright else DOOR_HALF
             paint(out, index, offset, frame, x, y, half_x, half_y, False, shade, whole)
         return
-    x, y = place_of(o)
+    x, y = contact_place_of(o)
     if o.kind == kinds.EXIT and not o.is_open:
         shade = 0.5 * shade
     paint(out, index, offset, frame, x, y, size, size, not box, shade, whole)

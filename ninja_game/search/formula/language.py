@@ -18,10 +18,10 @@ from numpy.typing import NDArray
 
 from ninja_game.errors import FormatError
 
-Numbers = NDArray[np.float64]
+Values = NDArray[np.float64]
 """One number a world; 1 and 0 are true and false."""
 
-View = Mapping[str, Callable[..., Numbers]]
+View = Mapping[str, Callable[..., Values]]
 """What the names of a formula mean in some worlds: functions of their arguments, which are numbers."""
 
 UNTRUE = -1000.0

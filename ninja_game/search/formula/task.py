@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ninja_game.batch.batch import Batch
 from ninja_game.errors import ArgumentError
-from ninja_game.search.formula.language import Formula, FormulaError, Numbers, parse_number, parse_truth
+from ninja_game.search.formula.language import Formula, FormulaError, Values, parse_number, parse_truth
 from ninja_game.search.formula.names import FACTS, SPAN_NAMES, difference_from, view_of
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
 from ninja_game.sim.level import Level
@@ -112,10 +112,10 @@ class Trials:
     ``ends``: x, y (px), vx, vy (px/tick) at the goal.
     """
 
-    scores: Numbers
+    scores: Values
     ticks: NDArray[np.int64]
-    margins: Numbers
-    ends: Numbers
+    margins: Values
+    ends: Values
 
     @property
     def order(self) -> NDArray[np.intp]:
@@ -142,7 +142,7 @@ class SpanWorlds:
         own = int(self._try(np.tile(task.base[:, np.newaxis], (1, count))).ticks[0]) if task.rest and task.goal else 0
         self.rest = np.frombuffer(task.inputs[task.first + own if own else task.last :], np.uint8) & KEYS_DOWN
 
-    def measured(self) -> tuple[NDArray[np.bool_], Numbers, Numbers]:
+    def measured(self) -> tuple[NDArray[np.bool_], Values, Values]:
         """Of all worlds now: whether they are at the goal, their margin, their score."""
         with np.errstate(all="ignore"):
             at_goal = np.broadcast_to(self.goal.value(self.view) > 0, (self.batch.count,))

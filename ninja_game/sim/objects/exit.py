@@ -33,15 +33,15 @@ def create_exit(w: World, o: Exit, p: Sequence[float]) -> None:
 @fast
 def touch_switch(w: World, o: Switch) -> None:
     """Open the exit and enter it into the grid. The switch stays in its list for ever, inert (objects.md §2.2)."""
-    door = w.objects[o.partner]
-    if door.is_open:
+    exit_ = w.objects[o.partner]
+    if exit_.is_open:
         return
     n = w.ninja
     dx = o.x - n.x
     dy = o.y - n.y
     if sqrt(dx * dx + dy * dy) < SWITCH_RADIUS + RADIUS:
-        door.is_open = 1
-        grid_insert(w, door)
+        exit_.is_open = 1
+        grid_insert(w, exit_)
         emit(w, EXIT_OPENED, o.partner, o.x, o.y, 0.0, 0.0)
 
 

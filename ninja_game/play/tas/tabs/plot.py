@@ -13,7 +13,7 @@ from ninja_game.play.replay.paths import COLOURS
 from ninja_game.play.ui.theme import Area, Palette, Theme
 
 if TYPE_CHECKING:
-    from ninja_game.search.formula.language import Numbers
+    from ninja_game.search.formula.language import Values
 
 SHORTEST = 10.0
 """Ticks that are shown at least."""
@@ -85,7 +85,7 @@ def colour_of(number: int, palette: Palette) -> pygame.Color:
 
 
 def draw_lane(
-    surface: pygame.Surface, theme: Theme, area: Area, window: TickRange, values: Numbers, colour: pygame.Color
+    surface: pygame.Surface, theme: Theme, area: Area, window: TickRange, values: Values, colour: pygame.Color
 ) -> None:  # fmt: skip
     """A value over ticks, float64 (ticks,), in the window; NaN leaves a gap. Its bounds stand at the left."""
     canvas, palette = theme.canvas, theme.palette
@@ -119,14 +119,14 @@ def draw_lane(
         theme.text(surface, f"{value:.4g}", x - 3, at, size=8, colour=colour, align="right")
 
 
-def _thinned(ticks: Numbers, values: Numbers, columns: int) -> tuple[Numbers, Numbers]:
+def _thinned(ticks: Values, values: Values, columns: int) -> tuple[Values, Values]:
     """The least and the greatest value in each column of px."""
     starts = np.unique(np.linspace(0, len(values), columns, endpoint=False).astype(np.intp))
     pairs = np.column_stack([np.fmin.reduceat(values, starts), np.fmax.reduceat(values, starts)])
     return np.repeat(ticks[starts], 2), pairs.ravel()
 
 
-def _draw_line(surface: pygame.Surface, colour: pygame.Color, points: Numbers, width: int) -> None:
+def _draw_line(surface: pygame.Surface, colour: pygame.Color, points: Values, width: int) -> None:
     """A line through points, float64 (n, 2), px; NaN leaves a gap."""
     known = np.isfinite(points[:, 1])
     for piece in np.split(points, np.flatnonzero(np.diff(known)) + 1):

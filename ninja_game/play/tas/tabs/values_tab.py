@@ -21,7 +21,7 @@ from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.play.workspace.part import Commands
 from ninja_game.runs.compare import SPLIT_EVENTS
-from ninja_game.search.formula.language import Numbers
+from ninja_game.search.formula.language import Values
 from ninja_game.sim.kinds import DOOR, EXIT, GOLD, KIND_NAMES, KIND_OF, MINE
 from ninja_game.tas.watch import Watch, parse_watch
 
@@ -91,7 +91,7 @@ class Watched:
     watch: Watch
     number: int
     plotted: bool = True
-    values: Numbers = field(default_factory=lambda: np.zeros(0))
+    values: Values = field(default_factory=lambda: np.zeros(0))
 
 
 def watched_values(texts: Sequence[str]) -> Iterator[Watched]:

@@ -1,0 +1,216 @@
+"""One search of one level, driven in slices of work: set up, run on, read the best run so far."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ninja_game.backend.memories import compiled
+from ninja_game.search.best_first import MORE, add_root, expand, load_node
+from ninja_game.search.heuristics import POINTS, Heuristics
+from ninja_game.search.known_run import KnownRun, play_known
+from ninja_game.search.legs import Checkpoint, FieldOf, Leg, Spend
+from ninja_game.search.macros import inputs_of
+from ninja_game.search.nodes import (
+    BackedUpHeuristic,
+    Resolution,
+    Start,
+    StateWords,
+    TableEntry,
+    back_up_values,
+    clear,
+    new_arrays,
+    new_table,
+    ticks_at_once,
+    zeroed,
+)
+from ninja_game.search.states import MAX_SWITCH_STATES, NOT_MADE, WANTED, Goal
+
+NO_BACKED_UP = BackedUpHeuristic(zeroed(TableEntry, 1), Resolution())
+MOST_SWEEPS = 40
+"""Most sweeps over all links that back values up for the next search."""
+
+
+class Search:
+    """Best-first searches of a level, one after the other, in memory for so many ``nodes``."""
+
+    def __init__(self, start: Start, heuristics: Heuristics, *, nodes: int, along: bool = False) -> None:
+        self.start = start
+        self.heuristics = heuristics
+        self.goal = Goal(
+            gold=0,
+            leg=0,
+            mask=0,
+            wanted=0,
+            ends=1,
+            rollouts=0,
+            gold_slots=heuristics.gold_slots,
+            enemies=heuristics.enemies,
+            switch_slots=heuristics.slots,
+            masks=np.full(MAX_SWITCH_STATES, -1, np.int64),
+            places=np.zeros((MAX_SWITCH_STATES, 2)),
+            fields=np.zeros((MAX_SWITCH_STATES, 1 if along else POINTS), np.float32),
+        )
+        if not along:
+            self.goal.fields[:, 0] = NOT_MADE
+        self.resolution = Resolution()
+        self.arrays = new_arrays(nodes)
+        self.counters = self.arrays.counters[0]
+        self.backed_up = NO_BACKED_UP
+        self._nodes = nodes
+        self._other_table: Any = None
+        self._field: FieldOf = heuristics.field
+        self._known: KnownRun | None = None
+        self._known_inputs = b""
+        self._roots: Sequence[Checkpoint] = ()
+
+    def begin(self, resolution: Resolution, *, seed: int, bound: int, backed_up: bool = False) -> None:
+        """Begin a new search from the start to the exit. ``bound``: only runs of fewer ticks count (0: any).
+
+        ``backed_up``: by what the last search has learned; otherwise that is forgotten.
+        """
+        self.backed_up = self._learned() if backed_up else NO_BACKED_UP
+        self._roots = ()
+        self._begin([self.start.initial], resolution, seed, bound)
+
+    def begin_leg(self, leg: Leg, resolution: Resolution, *, seed: int, bound: int) -> None:
+        """Begin a new search from other moments to another goal; ``bound`` as for ``begin``."""
+        self.backed_up = NO_BACKED_UP
+        self.goal = self.goal._replace(
+            gold=leg.gold, leg=leg.until, mask=leg.mask, wanted=leg.wanted, ends=leg.ends, rollouts=leg.rollouts
+        )
+        self.goal.fields[:, 0] = NOT_MADE
+        self._field = leg.field
+        self._roots = leg.roots
+        self._begin([root.words for root in leg.roots], resolution, seed, bound)
+
+    def begin_along(self, run: KnownRun, inputs: bytes, resolution: Resolution, *, seed: int, gold: int) -> None:
+        """Begin a search at the span of a known run, whose inputs are given, for a shorter one with so much gold."""
+        self.goal = self.goal._replace(gold=gold)
+        self.goal.masks[:] = -1
+        self._known, self._known_inputs = run, inputs
+        compiled(play_known)(self.start, run, self.goal.switch_slots, run.span[0], 0)
+        self._begin([self.start.scratch.copy()], resolution, seed, len(inputs))
+
+    def _begin(self, roots: Sequence[StateWords], resolution: Resolution, seed: int, bound: int) -> None:
+        clear(self.arrays)
+        random = np.random.default_rng([seed, 6 if self._known is None else 8])
+        shifts = random.random(2) * resolution.cell
+        least = 0.5 if self._known is None else 0.0
+        speed_shifts = resolution.speed * least + random.random(2) * resolution.speed * (1.0 - least)
+        self.resolution = resolution._replace(
+            shift_x=float(shifts[0]),
+            shift_y=float(shifts[1]),
+            shift_vx=float(speed_shifts[0]),
+            shift_vy=float(speed_shifts[1]),
+        )
+        self.counters.best_ticks = bound
+        self.counters.random = int(random.integers(1, 1 << 62))
+        for words in roots:
+            self.start.scratch[:] = words
+            compiled(add_root)(self.start, self.arrays, self.goal, self.resolution)
+        self._fill_fields()
+
+    def _learned(self) -> BackedUpHeuristic:
+        """The table of the search just made, with its values; the next search gets the other table."""
+        table = self.arrays.table
+        compiled(back_up_values)(table, self.arrays.links, int(self.counters.links), MOST_SWEEPS)
+        other = new_table(self._nodes) if self._other_table is None else self._other_table
+        other[:] = 0
+        self.arrays = self.arrays._replace(table=other)
+        self._other_table = table
+        return BackedUpHeuristic(table, self.resolution)
+
+    def run(self, budget: int) -> int:
+        """Search on for about ``budget`` ticks; MORE, EXHAUSTED or NO_ROOM."""
+        end = self.ticks + min(budget, ticks_at_once(self.start))
+        while self.ticks < end:
+            ended = compiled(expand)(
+                self.start, self.arrays, self.goal, self._known, self.backed_up, self.resolution, end - self.ticks
+            )
+            if self.counters.fields_wanted:
+                self._fill_fields()
+            elif ended != MORE or self._enough_ends:
+                return int(ended)
+        return MORE
+
+    def run_leg(self, budget: int, spend: Spend, *, part: int, least: int = 0) -> None:
+        """Run a leg's search for at most this many ticks, in parts; ``spend`` gets the ticks of each, and may end it.
+
+        From the first end or run to the exit on it goes on only as long again, or up to ``least`` ticks.
+        """
+        stop = budget
+        while self.ticks < stop:
+            before = self.ticks
+            self.run(min(part, stop - before))
+            if spend(self.ticks - before) or self.ticks == before or self._enough_ends:
+                return
+            if self.counters.ends > self.counters.other_ends or self.counters.best_node >= 0:
+                stop = min(stop, max(2 * self.ticks, least)) if stop == budget else stop
+
+    @property
+    def _enough_ends(self) -> bool:
+        return bool(self.counters.ends - self.counters.other_ends >= self.goal.ends)
+
+    def _fill_fields(self) -> None:
+        """Make the distance fields that the search wants."""
+        goal = self.goal
+        for index in np.flatnonzero(goal.fields[:, 0] == WANTED):
+            x, y = goal.places[index]
+            goal.fields[index] = self._field(int(goal.masks[index]), float(x), float(y))
+        self.counters.fields_wanted = 0
+
+    def ends(self, *, by_velocity: bool = False) -> list[Checkpoint]:
+        """The checkpoints at which the leg has ended so far. ``by_velocity``: the velocity sets them apart, too."""
+        found = []
+        for index in self.arrays.ends[: int(self.counters.ends)].tolist():
+            compiled(load_node)(self.start, self.arrays, index)
+            root, inputs = self._path(index)
+            found.append(self.checkpoint(self._roots[root], inputs, by_velocity=by_velocity))
+        return found
+
+    def checkpoint(self, before: Checkpoint | None, inputs: bytes, *, by_velocity: bool = False) -> Checkpoint:
+        """The scratch world as a checkpoint."""
+        world, heuristics = self.start.worlds[1], self.heuristics
+        ninja = world["ninja"]
+        variety = heuristics.routines(world)
+        if by_velocity:
+            moved = (float(ninja["x"] - ninja["prev_x"]) / 1.5, float(ninja["y"] - ninja["prev_y"]) / 1.5)
+            variety += bytes(128 + max(-100, min(100, round(part))) for part in moved)
+        taken, mask = heuristics.taken(world), heuristics.opened(self.start.worlds, 1)
+        place = (float(ninja["x"]), float(ninja["y"]))
+        return Checkpoint(self.start.scratch.copy(), int(world["tick"]), taken, mask, place, variety, before, inputs)
+
+    def _path(self, index: int) -> tuple[int, bytes]:
+        """From which root a node comes, and the inputs from there, one byte per tick."""
+        nodes: Any = self.arrays.nodes
+        parents, actions = nodes["parent"], nodes["action"]
+        parts = []
+        while parents[index] >= 0:
+            parts.append(inputs_of(int(actions[index]), self._known_inputs))
+            index = int(parents[index])
+        return index, b"".join(reversed(parts))
+
+    @property
+    def ticks(self) -> int:
+        """Ticks simulated since ``begin``."""
+        return int(self.counters.ticks)
+
+    @property
+    def worlds(self) -> int:
+        """Save-states expanded since ``begin``."""
+        return int(self.counters.expanded)
+
+    def best(self) -> bytes | None:
+        """The shortest run to the exit that this search has found; None if none.
+
+        - a search to the exit, or of a leg: from the start of the level
+        - a search along a known run: from the start of the span
+        """
+        index = int(self.counters.best_node)
+        if index < 0:
+            return None
+        root, inputs = self._path(index)
+        return self._roots[root].run() + inputs if self._roots else inputs
