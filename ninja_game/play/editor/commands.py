@@ -10,7 +10,7 @@ from ninja_game.editor.brush import SNAPS
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import SUFFIX, RecoveredDraft, Source, draft_of, new_source, open_source, recovered
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
-from ninja_game.editor.records import points
+from ninja_game.editor.specs import points
 from ninja_game.editor.stamp import everything
 from ninja_game.editor.tools import TOOLS
 from ninja_game.errors import LevelError, NinjaGameError
@@ -96,11 +96,11 @@ class EditorCommands(DocumentCommands):
             "help": lambda: self.app.push(help_page(self.app)), "menu": self.menu,
             "test": self.test, "test_here": lambda: self.test(here=True), "certify": self.certify,
             "save": self.save, "save_as": self.save_as, "open": self.open, "new": self.new, "about": self.about,
-            "undo": tools.undo, "redo": lambda: tools.undo(again=True),
+            "undo": tools.undo, "redo": tools.redo,
             "copy": tools.copy, "cut": tools.cut, "paste": tools.paste,
             "choose_all": self.choose_all, "delete": tools.delete,
             "next_tool": lambda: self.run(TOOLS[(TOOLS.index(tools.tool) + 1) % len(TOOLS)]),
-            "swap": lambda: tools.pick_up(tools.tile if tools.objects else tools.record),
+            "swap": lambda: tools.pick_up(tools.tile if tools.objects else tools.spec),
             "mirror": lambda: tools.turn(MIRROR), "flip": lambda: tools.turn(FLIP),
             "turn": lambda: tools.turn(CLOCKWISE), "symmetry": self.next_symmetry, "grid": view.next_grid,
             "lines": lambda: setattr(view, "lines", not view.lines),

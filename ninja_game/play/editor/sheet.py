@@ -12,7 +12,7 @@ import pygame
 
 from ninja_game.editor.certify import Route
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.records import BODY, SWITCH, has_switch, points
+from ninja_game.editor.specs import BODY, SWITCH, has_switch, points
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.object_pictures import ObjectPictures, ObjectSprites
 from ninja_game.play.ui.canvas import Canvas, Colour, Point
@@ -31,7 +31,7 @@ _FRONT = {kinds.GOLD: 1, kinds.MINE: 1, kinds.NINJA: 3} | {kind.number: 2 for ki
 _MANY = 60
 """More rectangles than this are drawn again as one."""
 
-_COVERED = 4
+COVERED_ALPHA = 4
 """Eighths as solid: an object that a tile hides is seen through it."""
 
 
@@ -89,11 +89,11 @@ class LevelSheet:
 
     def _change_objects(self, draft: Draft) -> None:
         before = self._looks
-        found = before | self.pictures.sprites_of(record for record in draft.objects if record not in before)
-        self._looks = {record: found[record] for record in draft.objects}
-        self._order = [found[record] for record in sorted(self._looks, key=lambda each: _FRONT.get(each.kind, 0))]
+        found = before | self.pictures.sprites_of(spec for spec in draft.objects if spec not in before)
+        self._looks = {spec: found[spec] for spec in draft.objects}
+        self._order = [found[spec] for spec in sorted(self._looks, key=lambda each: _FRONT.get(each.kind, 0))]
         self._rects = [each.rect for each in self._order]
-        self._dirty += [found[record].rect for record in before.keys() ^ self._looks.keys()]
+        self._dirty += [found[spec].rect for spec in before.keys() ^ self._looks.keys()]
 
     def show_marks(self, marks: dict[Hashable, LevelMark]) -> None:
         """Show these marks. A mark with the key of an earlier one is the same."""
@@ -134,7 +134,7 @@ class LevelSheet:
             surface.blit(self._tiles.surface, area, area, pygame.BLEND_PREMULTIPLIED)
             for number in near:
                 if any(self.draft.tile(cell) == 1 for cell in self._order[number].cells):
-                    self._order[number].draw(target, alpha=_COVERED)
+                    self._order[number].draw(target, alpha=COVERED_ALPHA)
         if self._grid is not None:
             surface.blit(self._grid, area, area)
         for mark in self.marks.values():
@@ -148,17 +148,17 @@ def joined(rects: Iterable[pygame.Rect]) -> list[pygame.Rect]:
     waiting = [rect.copy() for rect in rects if rect.width]
     if len(waiting) > _MANY:
         return [waiting[0].unionall(waiting[1:])]
-    joined: list[pygame.Rect] = []
+    found: list[pygame.Rect] = []
     while waiting:
         rect = waiting.pop()
-        touching = rect.collidelistall(joined)
+        touching = rect.collidelistall(found)
         if touching:
             for number in reversed(touching):
-                rect.union_ip(joined.pop(number))
+                rect.union_ip(found.pop(number))
             waiting.append(rect)
         else:
-            joined.append(rect)
-    return joined
+            found.append(rect)
+    return found
 
 
 MIDDLE = (396.0, 300.0)
@@ -258,12 +258,12 @@ def level_marks(
 
     for a, b in axes:
         add(("axis", a, b), partial(line_mark, canvas, palette.accent, a, b))
-    for record in draft.objects if lines else ():
-        if has_switch(record):
-            found = points(record)
+    for spec in draft.objects if lines else ():
+        if has_switch(spec):
+            found = points(spec)
             if len(found) == 2 and all(is_near(*point) for point in found.values()):
                 line = partial(line_mark, canvas, palette.switch, found[SWITCH], found[BODY], 0.8)
-                add(("switch", record), line)
+                add(("switch", spec), line)
     for route, colour in routes:
         if len(route) > 1:
             add(("route", id(route), str(colour)), partial(route_mark, canvas, colour, route))
