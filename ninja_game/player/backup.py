@@ -32,8 +32,9 @@ from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.progress import KILLERS, is_place
+from ninja_game.player.progress import is_place
 from ninja_game.player.records import Records, level_score
+from ninja_game.player.statistics import KILLERS
 from ninja_game.player.store import Store
 from ninja_game.player.store.schema import SCHEMA, TABLES, VERSION, OtherVersionError
 from ninja_game.runs.verify import verify_recording

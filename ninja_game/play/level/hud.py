@@ -11,8 +11,8 @@ from ninja_game.play.level.play import DEATH_PAUSE, LevelPlay, Phase
 from ninja_game.play.ui.canvas import HEIGHT
 from ninja_game.play.ui.theme import Palette, Theme, mixed
 from ninja_game.play.ui.widgets import draw_medal
-from ninja_game.player.progress import SELF
 from ninja_game.player.records import seconds_text
+from ninja_game.player.statistics import SELF
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.rules import LIFETIME
 

@@ -11,7 +11,6 @@ from ninja_game.play.replay.playback import Playback
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.player.attempt import Attempt, Moment
 from ninja_game.player.level_context import LevelContext
-from ninja_game.player.progress import SELF, killer_of
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.rules import LIFETIME, TICK_MS
 
@@ -81,10 +80,10 @@ _PHASE_OF_OUTCOME = {"running": Phase.PLAY, "dead": Phase.DEAD, "exit": Phase.PA
 class LevelPlay:
     """One level of a context, tried again and again.
 
-    ``view`` shows every tick. ``after_end``: ticks since the exit contact or death; ``killer``: what killed, one of
-    ``statistics.KILLERS``. ``keys``: those of the last tick. ``notices``: what a pass has brought. ``aim``: the next
-    par, while it waits at the start. ``changed``: more
-    than a tick has happened, so that everything has to be drawn again.
+    ``view`` shows every tick. ``after_end``: ticks since the exit contact or death; ``killer``: what
+    killed, one of ``statistics.KILLERS``. ``keys``: those of the last tick.
+    ``notices``: what a pass has brought. ``aim``: the next par, while it waits at the start. ``changed``: more than a
+    tick has happened, so that everything has to be drawn again.
     """
 
     def __init__(self, app: App, context: LevelContext) -> None:
@@ -246,7 +245,7 @@ class LevelPlay:
                 self.shown_lifetime = float(self.attempt.lifetime)
                 self.notices = self.context.passed(self.attempt)
             else:
-                self.killer = SELF if self.attempt.own_hand else killer_of(self.attempt.simulation.world)
+                self.killer = self.attempt.killer
                 self.context.died(self.attempt)
         elif self.phase in {Phase.DEAD, Phase.PASSED}:
             self.after_end += 1

@@ -25,8 +25,8 @@ from ninja_game.play.ui.text_entry import TextEntry
 from ninja_game.play.ui.theme import Area, Theme, counted, unreadable
 from ninja_game.play.ui.widgets import Button, Choice, Widget
 from ninja_game.player.catalogue import Entry
+from ninja_game.player.marks import Mark
 from ninja_game.player.playthrough import LevelRun
-from ninja_game.player.progress import Mark
 from ninja_game.player.records import SavedReplay, seconds_text
 
 ROW = 54

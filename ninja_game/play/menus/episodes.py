@@ -17,8 +17,9 @@ from ninja_game.play.ui.list_view import BAR, ListView
 from ninja_game.play.ui.theme import Area, Theme, counted, unreadable
 from ninja_game.play.ui.widgets import MEDALS, Choice, Widget, draw_all_gold, draw_medal
 from ninja_game.player.catalogue import Episode, EpisodeSet
+from ninja_game.player.marks import Mark, has_all_gold, tally, worst_medal
 from ninja_game.player.playthrough import EpisodeRun, LevelRun
-from ninja_game.player.progress import CHEATED, LOCKED, Mark, has_all_gold, tally, worst_medal
+from ninja_game.player.progress import CHEATED, LOCKED
 from ninja_game.player.records import seconds_text
 
 LEFT, TOP, WIDE, MOST_HIGH = 44, 116, 318, 286

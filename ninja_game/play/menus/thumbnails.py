@@ -12,7 +12,7 @@ from ninja_game.play.ui.theme import Theme
 from ninja_game.play.ui.widgets import MEDALS, draw_all_gold, draw_medal
 from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.progress import Mark, has_all_gold, medal_of, next_par
+from ninja_game.player.marks import Mark, has_all_gold, medal_of, next_par
 from ninja_game.player.records import seconds_text
 
 BUDGET = 0.006
