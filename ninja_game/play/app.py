@@ -20,6 +20,7 @@ from ninja_game.play.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.play.ui.theme import PALETTES, Area, Theme, palette_named
 from ninja_game.play.window import TITLE, Window, save_picture
 from ninja_game.player.player_data import PlayerData
+from ninja_game.player.progress import FASTEST_TICK_GAIN
 from ninja_game.player.settings import Settings
 from ninja_game.sim.rules import TICK_MS
 
@@ -199,7 +200,7 @@ class App:
     @property
     def tick_ms(self) -> int:
         """Length of a tick in real ms."""
-        return TICK_MS - min(10, max(0, self.overclock))
+        return TICK_MS - min(FASTEST_TICK_GAIN, max(0, self.overclock))
 
     def change_settings(self, **values: object) -> None:
         """Take, save and show other settings; a notice says where they could not be saved."""

@@ -23,7 +23,7 @@ from ninja_game.editor.tools import EditorTools
 from ninja_game.play.editor.object_pictures import ObjectPictures
 from ninja_game.play.input.keys import key_label_of
 from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.theme import PALETTES, Area, Theme
+from ninja_game.play.ui.theme import PALETTES, Area, Theme, inside
 from ninja_game.play.ui.widgets import Widget
 from ninja_game.play.view.sprites.drawing import DrawTarget, SpriteBook
 from ninja_game.play.view.sprites.tile_sheet import tile_picture
@@ -61,9 +61,7 @@ class PaletteView(Widget):
         return found
 
     def _at(self, x: float, y: float) -> int | ObjectType | None:
-        return next(
-            (what for what, (left, top, w, h) in self.places() if left <= x < left + w and top <= y < top + h), None
-        )
+        return next((what for what, area in self.places() if inside(area, x, y)), None)
 
     def click(self, x: float, y: float) -> bool:
         what = self._at(x, y)

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 
 import pygame
 
+from ninja_game.files.user_folder import LEVELS
 from ninja_game.play.app import App, Screen
 from ninja_game.play.input.bindings import ACTIONS, InputEvent
 from ninja_game.play.input.gamepad import pad_label
@@ -339,7 +340,7 @@ class SettingsScreen(MenuScreen):
                        lambda value: setattr(self.app, "overclock", round(value)),
                        hint="Shorter ticks, until the game ends; scores count as usual")
             )  # fmt: skip
-        text = f"Your levels: {self.player.folder / 'levels'}"
+        text = f"Your levels: {self.player.folder / LEVELS}"
         return [*widgets, Label((LEFT, TOP + STEP * 10 + 16, 500, 12), text, size=9.5, faint=True)]
 
     # --- picture ---

@@ -22,7 +22,7 @@ from ninja_game.play.replay.playback import Playback, ReplayBar
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.overlays import Overlays
 from ninja_game.player.level_context import GhostRun
-from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.sim.rules import TICK_MS, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
@@ -185,7 +185,7 @@ class ReplayScreen(Screen):
             self.still_ms -= real_ms
             self.clock.reset()
             return
-        tick_ms = max(1, round(25 / SPEEDS[self.speed]))
+        tick_ms = max(1, round(TICK_MS / SPEEDS[self.speed]))
         runs = 1 + len(self.ghosts)
         due = min(self.clock.ticks_due(real_ms, tick_ms), max(1, self._left // runs))
         for _ in range(due):

@@ -14,6 +14,13 @@ from ninja_game.play.ui.lettering import Lettering
 Area = tuple[float, float, float, float]
 """x, y, width, height, logical px."""
 
+
+def inside(area: Area, x: float, y: float) -> bool:
+    """Whether a point lies in an area."""
+    left, top, w, h = area
+    return left <= x < left + w and top <= y < top + h
+
+
 NARROWEST = 0.2
 """Width of the narrowest letter with its space, as a share of the size: longer texts need not be measured."""
 

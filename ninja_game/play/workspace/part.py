@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 import pygame
 
-from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.theme import Area, Theme, inside
 from ninja_game.play.ui.widgets import Widget
 
 Commands = Mapping[str, Callable[[], object]]
@@ -59,8 +59,7 @@ class Part:
 
     def contains(self, x: float, y: float) -> bool:
         """Whether a point lies in it."""
-        left, top, w, h = self.area
-        return left <= x < left + w and top <= y < top + h
+        return inside(self.area, x, y)
 
     def draw(
         self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool

@@ -6,7 +6,7 @@ from functools import partial
 
 import pygame
 
-from ninja_game.play.menus.panels import Menu
+from ninja_game.play.menus.panels import Menu, nothing
 from ninja_game.play.tas.editor import TasEditor, TasPart
 from ninja_game.play.tas.roll.commands import RollCommands
 from ninja_game.play.tas.roll.facts import compared, different_rows, in_words, keys_in_words, row_facts
@@ -74,7 +74,7 @@ class Roll(TasPart):
             for each in COLUMNS
             if each.meaning
         ]
-        self.editor.app.push(Menu(self.editor.app, "Columns", [*rows, ("Done", lambda: None, "")]))
+        self.editor.app.push(Menu(self.editor.app, "Columns", [*rows, ("Done", nothing, "")]))
 
     # --- a part of the window ---
 
