@@ -11,7 +11,6 @@ from pathlib import Path
 
 from ninja_game.document import RecoveryFile, check_free, digest_of, digest_of_file, recovered_from
 from ninja_game.editor.ascii_text import ascii_text, updated_text
-from ninja_game.editor.background import NewestJob
 from ninja_game.editor.draft import Draft
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.locking import forget
@@ -21,6 +20,7 @@ from ninja_game.files.writing import write_atomically
 from ninja_game.formats.links.fragment import is_link
 from ninja_game.formats.load import load_levels, texts_of
 from ninja_game.formats.named_level import NamedLevel, parse_levels
+from ninja_game.runtime import NewestJob
 from ninja_game.sim.level import Level
 
 SUFFIX = ".txt"

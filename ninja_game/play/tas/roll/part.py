@@ -18,6 +18,11 @@ from ninja_game.tas.input_track import InputTrack
 MARGIN = 4
 """The rows scroll with a cursor that moves in the first or the last of so many parts of the roll."""
 
+WHEEL_ROWS = 4
+SCROLL_MS = 25
+"""Beyond the edge a row comes after so many ms for each row that the pointer is beyond it, but for four at most."""
+DOUBLE_MS = 400
+
 
 class Roll(TasPart):
     """One row per tick. ``top``: the first tick that is seen; ``hidden``: the names of columns that are not."""
@@ -114,12 +119,6 @@ class Roll(TasPart):
 
     def commands(self) -> Commands:
         return self.edits.commands()
-
-
-WHEEL_ROWS = 4
-SCROLL_MS = 25
-"""Beyond the edge a row comes after so many ms for each row that the pointer is beyond it, but for four at most."""
-DOUBLE_MS = 400
 
 
 class RollMouse:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pygame
 
-from ninja_game.editor.background import NewestJob
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.input_runs import Marker
@@ -12,6 +11,7 @@ from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.tas.tabs.tab import SMALL, UNPLACED, Rows, Tab
 from ninja_game.play.ui.theme import Area, Theme, counted
 from ninja_game.play.ui.widgets import Choice
+from ninja_game.runtime import NewestJob
 from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.leads import LeadTable, lead_table
 
