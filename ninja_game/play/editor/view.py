@@ -217,9 +217,7 @@ class EditorView(Part):
             tools.symmetry, tools.selection, tools.marquee, tools.placing_switch, tools.draft,
         )  # fmt: skip
 
-    def draw(
-        self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool
-    ) -> list[pygame.Rect]:  # fmt: skip
+    def draw(self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool) -> list[pygame.Rect]:
         if self._laid_out != self._layout_key():
             self._lay_out()
             whole = True

@@ -67,7 +67,7 @@ class LevelPlay:
         self.clock = RunClock()
         self.attempt = Attempt(
             context.level, body=context.body, lifetime=context.lifetime, practice_mode=context.practice_mode
-        )  # fmt: skip
+        )
         self.tools = PracticeTools(self.attempt)
         self.view = LevelView(app, self.attempt.simulation, seed=self.rng.randrange(1 << 30))
         self.all_gold = sum(record.kind == GOLD for record in context.level.objects)

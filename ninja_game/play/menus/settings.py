@@ -21,9 +21,7 @@ from ninja_game.play.ui.widgets import TEXT, Button, Choice, Label, Slider, Widg
 from ninja_game.player.progress import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
 
 IN_REPLAYS_ONLY = frozenset({"faster", "slower", "frame_back", "frame_forward", "edit"})
-IN_LEVELS_ONLY = frozenset(
-    {"suicide", "replay", "skip", "quick_save", "quick_load", "rewind", "slow", "step"}
-)  # fmt: skip
+IN_LEVELS_ONLY = frozenset({"suicide", "replay", "skip", "quick_save", "quick_load", "rewind", "slow", "step"})
 """Actions that never mean something on the same screen."""
 
 

@@ -156,7 +156,7 @@ class RunCommands(DocumentCommands):
         rows: list[Row] = [
             (_name_of(found), partial(self._offer, found), _when(found))
             for found in islice(recovered(self.app.player.folder), 8)
-        ]  # fmt: skip
+        ]
         if rows:
             self.app.push(Menu(self.app, "Not saved last time", [*rows, ("Back", nothing, "")]))
         else:

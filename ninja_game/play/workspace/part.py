@@ -61,9 +61,7 @@ class Part:
         """Whether a point lies in it."""
         return inside(self.area, x, y)
 
-    def draw(
-        self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool
-    ) -> list[pygame.Rect]:  # fmt: skip
+    def draw(self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool) -> list[pygame.Rect]:
         """Draw it if anything has changed; the px that did."""
         key = self.render_key()
         if not whole and key == self._drawn:

@@ -129,9 +129,7 @@ class SpanWorlds:
     def __init__(self, task: SpanTask, count: int, *, memory: str = "auto", threads: int | None = None) -> None:
         self.task = task
         self.batch = Batch(task.level, count, body=task.body, memory=memory, threads=threads)
-        self.view = {
-            **view_of(self.batch), "difference": difference_from(task.level, task.inputs, self.batch)
-        }  # fmt: skip
+        self.view = {**view_of(self.batch), "difference": difference_from(task.level, task.inputs, self.batch)}
         self.goal, self.measure = task.formulas()
         before = np.frombuffer(task.inputs[: task.first], np.uint8)
         single = Batch(task.level, 1, body=task.body, memory=memory)

@@ -47,8 +47,7 @@ class LeadTab(Tab):
         self._job: NewestJob[Job, tuple[Pair, LeadTable | str]] = NewestJob(compared)
         self._choice = Choice(UNPLACED, "", self._options(), self._against, self._put,
                               hint="The run that this one is compared to")  # fmt: skip
-        self.list = Rows(self._draw_row, self._go, keeps=False,
-                         hint="A click puts the cursor there")  # fmt: skip
+        self.list = Rows(self._draw_row, self._go, keeps=False, hint="A click puts the cursor there")
         self.widgets = [self._choice, self.list]
 
     def arrange(self, x: float, y: float, w: float, h: float) -> None:
