@@ -15,20 +15,7 @@ from wave import open as wave_file
 import numpy as np
 
 from tools import ROOT
-from tools.synthesis import (
-    RATE,
-    Wave,
-    at_level,
-    echo,
-    fade,
-    glide,
-    later,
-    noise,
-    sum_of,
-    swell,
-    times,
-    tone,
-)
+from tools.synthesis import RATE, Wave, at_level, echo, fade, glide, later, noise, sum_of, swell, times, tone
 
 FOLDER = ROOT / "assets" / "sounds"
 

@@ -10,16 +10,7 @@ from hypothesis import given, settings, strategies as st
 from ninja_game.document import History
 from ninja_game.editor.draft import Draft, Tiles
 from ninja_game.editor.motion import CLOCKWISE, FLIP, HALF_TURN, MIRROR, SYMMETRIES, Motion
-from ninja_game.editor.specs import (
-    PROPERTIES,
-    carried,
-    object_type_name,
-    points,
-    properties,
-    settled,
-    with_word,
-    word,
-)
+from ninja_game.editor.specs import PROPERTIES, carried, object_type_name, points, properties, settled, with_word, word
 from ninja_game.editor.stamp import (
     Selection,
     Stamp,

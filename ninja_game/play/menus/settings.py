@@ -56,11 +56,7 @@ class Conflict(Panel):
     def rows(self) -> list[tuple[str, Callable[[], object], str]]:
         """To leave it comes first, so that a hasty key does no harm."""
         label = ACTIONS[self.action].label
-        return [
-            ("Cancel", self.back, ""),
-            (f"Only {label}", self._take, ""),
-            ("Use it for both", self._share, ""),
-        ]
+        return [("Cancel", self.back, ""), (f"Only {label}", self._take, ""), ("Use it for both", self._share, "")]
 
     def _take(self) -> None:
         """The others lose it."""

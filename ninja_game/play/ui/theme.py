@@ -210,9 +210,7 @@ def palette_named(name: str) -> Palette:
 ROLES = tuple(entry.name for entry in fields(Palette) if entry.name not in {"name", "danger_by_shape"})
 """All colour roles."""
 
-NINJA_COLOURS = (
-    "", "#d9127f", "#7d7700", "#1a6488", "#765484", "#6a2424", "#f7f7f7", "#c79400", "#787887", "#bfbfc6",
-)  # fmt: skip
+NINJA_COLOURS = ("", "#d9127f", "#7d7700", "#1a6488", "#765484", "#6a2424", "#f7f7f7", "#c79400", "#787887", "#bfbfc6")
 """The ninja's colours: the palette's own, then one per completed column (game.md §8)."""
 
 
