@@ -141,7 +141,7 @@ def test_checked_kernels_refuse_an_index_out_of_range_and_are_kept_apart(tmp_pat
 
 @needs_numba
 def test_the_digest_follows_every_rule_and_constant_that_a_kernel_reaches(monkeypatch: pytest.MonkeyPatch) -> None:
-    from ninja_game.sim.memory.compiler import code_digest
+    from ninja_game.sim.memory.code_digest import code_digest
 
     before = code_digest(step_world, "")
     assert code_digest(step_world, "") == before
@@ -156,7 +156,7 @@ def test_machine_code_is_another_if_a_named_tuple_has_its_fields_in_another_orde
 ) -> None:
     from ninja_game.search.engine import expand
     from ninja_game.search.nodes import Resolution
-    from ninja_game.sim.memory.compiler import code_digest
+    from ninja_game.sim.memory.code_digest import code_digest
 
     before = code_digest(expand, "")
     monkeypatch.setattr(Resolution, "_fields", Resolution._fields[::-1])
@@ -197,7 +197,7 @@ def test_without_numba_auto_is_plain_and_compiled_says_what_to_install(monkeypat
 
 @needs_numba
 def test_machine_code_is_another_if_a_literal_of_a_rule_is_edited() -> None:
-    from ninja_game.sim.memory.compiler import code_digest
+    from ninja_game.sim.memory.code_digest import code_digest
 
     def rule(x: float) -> float:
         return x * 2.5
