@@ -23,6 +23,9 @@ PAGE_TICK_COST = 2_000
 TURN_WORK = 15_000
 """Work between two pictures, where a window or a page shows a run: some 5 to 10 ms on the plain memory."""
 
+PLAIN_WORK = 3_000_000
+"""Work that the plain memory does in one to two seconds, as long as it takes to load compiled kernels."""
+
 NO_LIMIT = 2**63
 """The budget of what the player played here."""
 

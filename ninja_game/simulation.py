@@ -113,15 +113,15 @@ class Simulation:
     """A world in which a level is played, one tick (1/40 s) at a time.
 
     ``level``: what to play. ``body``: "circle" (the classic rules, radius 10 px) or "box" (an AABB of 20 x 20 px).
-    ``memory``: "plain" (starts at once, can be looked into), "compiled" (Numba; fast for many ticks) or "auto". The two
-    give the same bits. Raises LevelError for a level that cannot be played, ArgumentError for another body or memory,
-    MemoryUnavailableError for "compiled" without Numba.
+    ``memory``: "plain" (starts at once, can be looked into), "compiled" (Numba; fast for many ticks) or "auto", which
+    is compiled where nothing is to be compiled first. The two give the same bits. Raises LevelError for a level that
+    cannot be played, ArgumentError for another body or memory, MemoryUnavailableError for "compiled" without Numba.
     """
 
     def __init__(self, level: Level, *, body: Body = "circle", memory: str = "plain") -> None:
         self.level = level
         self.body = body
-        self._worlds = open_worlds(memory, level, box=is_box(body))
+        self._worlds = open_worlds(memory, level, box=is_box(body), at_once=True)
         self._inputs = bytearray()
         self._kills: list[tuple[int, int, float, float]] = []
 

@@ -22,6 +22,9 @@ settings.load_profile("ninja-game")
 # A shell lets what it starts in the background ignore Ctrl-C; the programs that tests start must hear it.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
+# A process that compiles beside a test belongs only to those that are about it.
+os.environ["NINJA_GAME_BACKGROUND_COMPILER"] = "0"
+
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 

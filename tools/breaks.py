@@ -12,8 +12,8 @@ it before you write a test.
 
     python3 tools/dev.py change-rules [NAME ...]
 
-tries the breaks of the rules that `rule_changes` lists, without ../shared, on the plain memory; docs/testing.md says
-which are left and why.
+tries the breaks of the rules that `rule_changes.tsv` lists, without ../shared, on the plain memory; docs/testing.md
+says which are left and why.
 """
 
 from __future__ import annotations
@@ -41,7 +41,6 @@ from typing import Any, NamedTuple
 from coverage import Coverage, CoverageData
 
 from tools import ROOT
-from tools.rule_changes import CHANGES
 
 LEFT_OUT = ("ninja_game/sim/", "ninja_game/web/shim/", "ninja_game/web/page/")
 LOG = ROOT / "build" / "breaks.jsonl"
@@ -60,7 +59,7 @@ RULE_TESTS = [
     *(f"tests/sim/test_{name}.py" for name in ("golden", "check_values", "edges")),
     *(f"tests/sim/test_{name}.py" for name in ("objects_harmless", "objects_deadly", "properties")),
 ]
-"""What the listed breaks of the rules are tried on."""
+"""What the breaks of rule_changes.tsv are tried on."""
 ALLOWED = 5
 """How many of them may survive."""
 
@@ -167,7 +166,9 @@ class Executed:
             folder.mkdir(parents=True, exist_ok=True)
             print("running all tests, to see what they execute", flush=True)
             run_tests(tree, ["-p", "tools.executed", "-n", str(jobs), *ALL], seconds=None, EXECUTED=str(folder))
-            Coverage(folder / "lines").combine([str(folder)])
+            together = Coverage(folder / "lines")
+            together.combine([str(folder)])
+            together.save()
         self.seconds: dict[str, float] = json.loads((folder / "seconds.json").read_text("utf-8"))
         self.lines = cache(CoverageData(str(folder / "lines")).contexts_by_lineno)
 
@@ -207,7 +208,10 @@ class Executed:
 def rule_breaks() -> dict[str, Break]:
     """The listed breaks of the rules by name; ends the program for one whose text does not stand there exactly once."""
     found = {}
-    for name, file, old, new in CHANGES:
+    for line in (ROOT / "tools" / "rule_changes.tsv").read_text("utf-8").splitlines():
+        if line.startswith("#"):
+            continue
+        name, file, old, new = (part.replace("\\n", "\n") for part in line.split("\t"))
         source = (ROOT / "ninja_game" / "sim" / file).read_bytes()
         if source.count(old.encode()) != 1:
             sys.exit(f"{name}: {old!r} stands {source.count(old.encode())} times in ninja_game/sim/{file}")
@@ -267,7 +271,7 @@ def main() -> int:
     parser.add_argument("--count", type=int, default=100, help="how many breaks to draw (100)")
     parser.add_argument("--seed", type=int, default=1, help="which ones (1)")
     parser.add_argument("--part", default="", help="only of this folder of ninja_game; also sim")
-    parser.add_argument("--rules", nargs="*", metavar="NAME", help="instead these of rule_changes, or all of them")
+    parser.add_argument("--rules", nargs="*", metavar="NAME", help="instead these of rule_changes.tsv, or all")
     parser.add_argument("--jobs", type=int, default=1, help="how many at a time (1)")
     parser.add_argument("--log", type=Path, default=LOG, help="where the results are (build/breaks.jsonl)")
     options = parser.parse_args()

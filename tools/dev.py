@@ -5,7 +5,8 @@ usage: python3 tools/dev.py COMMAND ...
 
   play             the game, in a window; words after it go to `ninja-game play`
   run              any `ninja-game` command: `run info levels/00-0-first-steps.txt`
-  test             `lint`, then all tests; with words of your own (a file, `-k NAME`) pytest alone, with them
+  test             `lint`, then the tests; `test --all`: those too that are slow and rarely fail; with words of your own
+                   (a file, `-k NAME`) pytest alone, with them
   lint             style, format, types, import contract; `lint --fix` mends what a program can mend
   benchmark        measure how fast the world is on this machine; `benchmark --help` lists options
   golden           write the golden files of the tests again, after a change of the rules that is meant
@@ -49,6 +50,9 @@ PROGRAMS = {"benchmark": ("benchmarks",), "golden": ("tools.golden",), "change-r
 DRAWINGS = ("draw.how_it_works", "draw.screens", "draw.settings_page")
 PICTURE_TESTS = ("tests/play/test_recorded_screens.py", "tests/play/test_pictures.py", "tests/play/test_sound.py")
 LINT = (("ruff", "check"), ("ruff", "format", "--check"), ("mypy",), ("lint-imports",))
+FIX = (("ruff", "check", "--fix"), ("ruff", "format"), *LINT[2:])
+GOOD = "lint: all good"
+CORES = str(min(4, os.cpu_count() or 1))
 
 
 def program(name: str) -> str:
@@ -123,24 +127,10 @@ def pip_install(names: Sequence[str]) -> bool:
     return run("python", "-m", "pip", "install", "--quiet", "-c", str(constraints), "--editable", project, *tools) == 0
 
 
-def test(rest: Sequence[str]) -> int:
-    """`lint`, then the tests on up to four cores; or pytest alone, with ``rest``."""
-    if rest:
-        return run("python", "-m", "pytest", *rest)
-    unclean = lint(LINT)
-    failed = run("python", "-m", "pytest", "-n", str(min(4, os.cpu_count() or 1)), "--dist", "worksteal")
-    return lint_failed(unclean) or failed
-
-
-def lint(steps: Sequence[Sequence[str]]) -> list[str]:
-    """Style, format, types and the import contract: those that fail."""
-    return [" ".join(words) for words in steps if run(*words)]
-
-
-def lint_failed(failed: Sequence[str]) -> int:
-    """Say it below everything else."""
-    print(f"lint: {', '.join(failed)} failed" if failed else "lint: all good", flush=True)
-    return 1 if failed else 0
+def lint(steps: Sequence[Sequence[str]]) -> str:
+    """Style, format, types and the import contract: what is to be said of them below everything else."""
+    failed = [" ".join(words) for words in steps if run(*words)]
+    return f"lint: {', '.join(failed)} failed" if failed else GOOD
 
 
 def tool(name: str, *rest: str) -> int:
@@ -170,15 +160,17 @@ def main(words: Sequence[str]) -> int:
     if name in {"test", "lint", "accept-pictures", "docs", *PROGRAMS} or (name == "tool" and rest):
         install(DEVELOPMENT)
     match name, *rest:
+        case ("test",) | ("test", "--all") | ("lint",) | ("lint", "--fix"):
+            told = lint(FIX if "--fix" in rest else LINT)
+            chosen = [] if rest else ["-m", "not slow"]
+            failed = name == "test" and run("python", "-m", "pytest", "-n", CORES, "--dist", "worksteal", *chosen)
+            print(told, flush=True)
+            return int(failed or told != GOOD)
         case "test", *rest:
-            return test(rest)
-        case "lint", "--fix":
-            return lint_failed(lint((("ruff", "check", "--fix"), ("ruff", "format"), *LINT[2:])))
-        case ("lint",):
-            return lint_failed(lint(LINT))
+            return run("python", "-m", "pytest", *rest)
         case "accept-pictures", *_:
             os.environ["ACCEPT_PICTURES"] = "1"
-            return test(["-q", *PICTURE_TESTS])
+            return run("python", "-m", "pytest", "-q", *PICTURE_TESTS)
         case "docs", *_:
             return max(run("python", "-m", f"tools.{drawing}") for drawing in DRAWINGS)
         case "tool", script, *rest:

@@ -3,12 +3,18 @@
 A kernel's file is named after a digest of all the code and constants that went into it (``code_digest``), wherever it
 lies: an edit of any rule is another file. Numba's own cache looks at the file of the entry point alone, and falls back
 to folders beside the sources, so it is not used.
+
+Two processes that need the same kernel at the same time compile it once: the second one waits and reads the file.
 """
 
 from __future__ import annotations
 
+import os
 import pickle
-from collections.abc import Callable
+import sys
+import time
+from collections.abc import Callable, Iterable
+from contextlib import suppress
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
@@ -17,10 +23,15 @@ from uuid import uuid4
 
 from ninja_game.backend.numba_import import say_once
 from ninja_game.errors import FileError
+from ninja_game.files.locking import LOCK_SUFFIX, hold
 from ninja_game.files.user_folder import chosen_folder
+from ninja_game.sim.memory.code_digest import OPTIONS, code_digest
 
 KEPT_FILES = 200
 """How many compiled kernels stay in the cache folder: the newest, some ten versions of all."""
+
+PATIENCE = 120
+"""Seconds to wait for a process that compiles the same kernel; then this one compiles it too."""
 
 COMPILES_AGAIN = "; it works, but compiles again in the next process"
 
@@ -28,8 +39,24 @@ before_compiling: list[Callable[[], None]] = []
 """What is called once, before the first kernel that has to be compiled: it takes a while."""
 
 
-def attach_cache(dispatcher: Any, digest: str) -> None:
-    """Let a kernel's machine code be read from the cache folder, and written there.
+@cache
+def kernel_name(entry: Callable[..., Any], checked: bool) -> str:
+    """How the names of an entry point's files begin; Numba is not imported for it."""
+    from importlib.metadata import version
+
+    versions = [version(package) for package in ("numba", "numpy")]
+    digest = code_digest(entry, f"{sys.version} {versions} {OPTIONS} checked={checked}")
+    return f"{entry.__name__}-{digest[:32]}"
+
+
+def are_kept(entries: Iterable[Callable[..., Any]], checked: bool) -> bool:
+    """Whether the cache folder has machine code of all these entry points."""
+    kept = {path.stem.rpartition("-")[0] for path in cache_folder().glob("*.code")}
+    return kept >= {kernel_name(entry, checked) for entry in entries}
+
+
+def attach_cache(dispatcher: Any, entry: Callable[..., Any], checked: bool) -> None:
+    """Let the machine code of an entry point's twin be read from the cache folder, and written there.
 
     A Numba without the private parts that this needs works without a cache, which is said once.
     """
@@ -39,7 +66,7 @@ def attach_cache(dispatcher: Any, digest: str) -> None:
     if missing := [name for owner, name in (*needed, (serialize, "dumps")) if not hasattr(owner, name)]:
         say_once(f"compiled code cannot be kept, since this Numba has no {missing[0]}{COMPILES_AGAIN}")
         return
-    dispatcher._cache = KernelCache(cache_folder(), f"{dispatcher.py_func.__name__}-{digest[:32]}")  # noqa: SLF001
+    dispatcher._cache = KernelCache(cache_folder(), kernel_name(entry, checked))  # noqa: SLF001
 
 
 @cache
@@ -81,30 +108,52 @@ class KernelCache:
         self.folder = folder
         self.name = name
         self.cache_path = str(folder)
+        self._held: dict[Path, int] = {}
 
     def _file(self, signature: Any, codegen: Any) -> Path:
         about = sha256(f"{signature} {codegen.magic_tuple()}".encode()).hexdigest()
         return self.folder / f"{self.name}-{about[:16]}.code"
 
     def load_overload(self, signature: Any, context: Any) -> Any:
-        """The kernel for these types, None if it is not there or damaged."""
-        from numba.core.compiler import CompileResult
-
-        rebuild: Any = CompileResult._rebuild  # noqa: SLF001 - as Numba's own caches do
+        """The kernel for these types; None if it is not there or damaged, and no other process is making it."""
         context.refresh()
         path = self._file(signature, context.codegen())
-        try:
-            data = path.read_bytes()
-            if sha256(data[32:]).digest() == data[:32]:
-                return rebuild(context, *pickle.loads(data[32:]))  # noqa: S301 - our own file
-        except Exception:  # noqa: BLE001, S110 - whatever a damaged file leads to: it is compiled and written again
-            pass
-        while before_compiling:
-            before_compiling.pop()()
-        return None
+        found = _read(path, context)
+        if found is None:
+            while before_compiling:
+                before_compiling.pop()()
+            self._wait(path)
+            found = _read(path, context)
+            if found is not None:
+                self._release(path)
+        return found
+
+    def _wait(self, path: Path) -> None:
+        """Keep other processes from making a file; where one is making it, wait until it has, or has died."""
+        end = time.monotonic() + PATIENCE
+        with suppress(OSError):
+            self.folder.mkdir(parents=True, exist_ok=True)
+            while (handle := hold(path.with_suffix(LOCK_SUFFIX))) is None and time.monotonic() < end:
+                time.sleep(0.05)
+            if handle is not None:
+                self._held[path] = handle
+
+    def _release(self, path: Path) -> None:
+        """Let others have a file, whether it was made or not."""
+        if path in self._held:
+            os.close(self._held.pop(path))
+            with suppress(OSError):
+                path.with_suffix(LOCK_SUFFIX).unlink(missing_ok=True)
 
     def save_overload(self, signature: Any, result: Any) -> None:
         """Write a kernel, whole or not at all."""
+        path = self._file(signature, result.codegen)
+        try:
+            self._write(path, result)
+        finally:
+            self._release(path)
+
+    def _write(self, path: Path, result: Any) -> None:
         from numba.core.serialize import dumps
 
         pack: Any = dumps
@@ -113,7 +162,6 @@ class KernelCache:
         except Exception as error:  # noqa: BLE001 - whatever another version of Numba does here: it works without
             say_once(f"compiled code cannot be kept ({type(error).__name__}: {error}){COMPILES_AGAIN}")
             return
-        path = self._file(signature, result.codegen)
         part = path.with_suffix(f".{uuid4().hex[:16]}")
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
@@ -126,3 +174,17 @@ class KernelCache:
                 part.unlink(missing_ok=True)
             except OSError:
                 return
+
+
+def _read(path: Path, context: Any) -> Any:
+    """The kernel in a file; None where there is none, or a damaged one."""
+    from numba.core.compiler import CompileResult
+
+    rebuild: Any = CompileResult._rebuild  # noqa: SLF001 - as Numba's own caches do
+    try:
+        data = path.read_bytes()
+        if sha256(data[32:]).digest() == data[:32]:
+            return rebuild(context, *pickle.loads(data[32:]))  # noqa: S301 - our own file
+    except Exception:  # noqa: BLE001 - whatever a damaged file leads to: it is compiled and written again
+        return None
+    return None

@@ -1,6 +1,9 @@
 """Which memory to use, and compiled kernels, each made once per process.
 
 Before the first compiled world of a process is loaded, a known run must come out on it as it must (``known_run``).
+
+"auto" is the compiled memory. Where its kernels are not in the cache yet, one run begins on the plain memory, and goes
+on (``go_on``) on the compiled one once a process in the background has compiled them: the bits are the same.
 """
 
 from __future__ import annotations
@@ -13,13 +16,13 @@ from threading import Lock
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ninja_game.backend.known_run import check_known_run
-from ninja_game.budget import NO_LIMIT, PAGE_TICK_COST, tick_cost
+from ninja_game.budget import NO_LIMIT, PAGE_TICK_COST, PLAIN_WORK, tick_cost
 from ninja_game.errors import ArgumentError, LevelError, NinjaGameError
 from ninja_game.files.user_folder import how_to_install
 from ninja_game.runtime import in_page_or_not
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import MemoryName, Worlds
-from ninja_game.sim.memory.kernels import load_world
+from ninja_game.sim.memory.kernels import kill_ninja, load_world, observe_object, run_world, step_world, trace_world
 from ninja_game.sim.memory.plain import PlainWorlds
 
 if TYPE_CHECKING:
@@ -35,6 +38,15 @@ _FAILURES: list[str] = []
 _MOST_TICK_COST = in_page_or_not(PAGE_TICK_COST, NO_LIMIT)
 _ALL_CHECKED = os.environ.get("NINJA_GAME_CHECKED") == "1"
 
+JUDGED = "auto-checked"
+"""As "auto", but "checked" when it is compiled: the memory of a run that is judged and begins on the plain one."""
+
+_OF_ONE_RUN = {
+    False: (load_world, run_world, step_world, observe_object, trace_world, kill_ninja),
+    True: (load_world, run_world),
+}
+"""The kernels that a run, or a judged one, may need: it goes on in the compiled memory when all are there."""
+
 
 class MemoryUnavailableError(NinjaGameError):
     """The compiled memory was asked for, but Numba is not installed, or its compiler is switched off."""
@@ -46,11 +58,11 @@ def compiled_available() -> bool:
 
 
 def choose_memory(memory: str) -> MemoryName:
-    """Turn "plain", "compiled", "checked" or "auto" (compiled where it is available) into one of the first two.
+    """Turn "plain", "compiled", "checked", "auto" or JUDGED (compiled where available) into one of the first two.
 
     Raises MemoryUnavailableError for "compiled" without Numba, ArgumentError for another word.
     """
-    if memory == "auto":
+    if memory in ("auto", JUDGED):
         return "compiled" if compiled_available() else "plain"
     if memory in ("compiled", "checked"):
         if not compiled_available():
@@ -62,25 +74,75 @@ def choose_memory(memory: str) -> MemoryName:
     raise ArgumentError(f"memory is {memory!r}; expected 'plain', 'compiled' or 'auto'")
 
 
-def open_worlds(memory: str, levels: Level | Sequence[Level], count: int = 1, *, box: bool) -> Worlds:
+def open_worlds(
+    memory: str, levels: Level | Sequence[Level], count: int = 1, *, box: bool, at_once: bool = False
+) -> Worlds:
     """``count`` new worlds in one level or several, in the memory of that name (as ``choose_memory`` takes it).
 
+    ``at_once``: wait for no compiler; where "auto" would, they are plain.
     "checked" is the compiled memory where each index is checked: one out of range is an IndexError.
     Raises LevelError for a level that cannot be played or is too large for a page, what ``choose_memory`` and
     ``compiled`` raise.
     """
     several = [levels] if isinstance(levels, Level | str) else levels
-    cost = max(map(tick_cost, several), default=0)
-    if cost > _MOST_TICK_COST:
+    if _MOST_TICK_COST < NO_LIMIT and (cost := max(map(tick_cost, several), default=0)) > _MOST_TICK_COST:
         found, expected = f"work of {cost:,} a tick", f"at most {_MOST_TICK_COST:,}"
         raise LevelError("too many objects for a page", found=found, expected=expected, hint="play it on a desktop")
     # The first time this imports Numba, which must come before NumPy.
-    if _usable_memory(memory) == "plain":
+    if (at_once and begins_plain(memory)) or _usable_memory(memory) == "plain":
         return PlainWorlds(several, count, box=box)
-    make = partial(compiled, checked=True) if memory == "checked" else compiled
     from ninja_game.sim.memory.compiled import CompiledWorlds
 
-    return CompiledWorlds(make, several, count, box=box)
+    return CompiledWorlds(_twins_for(memory), several, count, box=box)
+
+
+def _twins_for(memory: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """What gives compiled worlds of a memory their kernels."""
+    return partial(compiled, checked=True) if memory in ("checked", JUDGED) else compiled
+
+
+def begins_plain(memory: str = "auto") -> bool:
+    """Whether a run in this memory begins on the plain one, since its kernels are still to be compiled.
+
+    Then a process in the background compiles them.
+    """
+    if memory not in ("auto", JUDGED) or not compiled_available():
+        return False
+    from ninja_game.backend import background_compiler
+
+    if not background_compiler.allowed():
+        return False
+    if _are_there(memory):
+        return False
+    background_compiler.start()
+    return True
+
+
+def _are_there(memory: str) -> bool:
+    """Whether the kernels for a run in this memory have been made, or are in the cache."""
+    from ninja_game.backend.kernel_cache import are_kept
+
+    checked = _ALL_CHECKED or memory == JUDGED
+    missing = [entry for entry in _OF_ONE_RUN[checked] if (entry, checked) not in _KERNELS]
+    return not missing or are_kept(missing, checked)
+
+
+def go_on(worlds: Worlds, memory: str, ticks: int) -> Worlds:
+    """Worlds that were opened ``at_once``, or, for so many ticks that it is worth it, copies in the compiled memory.
+
+    To be asked between two ticks. While its kernels are being compiled they are the same worlds; where nobody compiles
+    any more, this does. Raises KnownRunError as ``compiled``.
+    """
+    small = ticks * max(map(tick_cost, worlds.levels)) <= PLAIN_WORK
+    if small or worlds.name == "compiled" or choose_memory(memory) == "plain":
+        return worlds
+    from ninja_game.backend import background_compiler
+
+    if (not _are_there(memory) and background_compiler.is_at_work()) or _usable_memory(memory) == "plain":
+        return worlds
+    from ninja_game.sim.memory.compiled import compiled_copy
+
+    return compiled_copy(_twins_for(memory), worlds)
 
 
 def _usable_memory(memory: str, *, checked: bool = False) -> MemoryName:
@@ -88,9 +150,9 @@ def _usable_memory(memory: str, *, checked: bool = False) -> MemoryName:
     if choose_memory(memory) == "plain":
         return "plain"
     try:
-        compiled(load_world, checked=checked or memory == "checked")
+        compiled(load_world, checked=checked or memory in ("checked", JUDGED))
     except MemoryUnavailableError as error:
-        if memory != "auto":
+        if memory not in ("auto", JUDGED):
             raise
         from ninja_game.backend.numba_import import say_once
 
@@ -100,10 +162,13 @@ def _usable_memory(memory: str, *, checked: bool = False) -> MemoryName:
 
 
 def proven_memory(memory: str) -> str:
-    """The memory in which runs are judged, "plain" or "checked", once the known run has come out on it in this process.
+    """The memory in which runs are judged, once the known run has come out on it: "plain", "checked" or JUDGED.
 
     Raises KnownRunError where it does not, and what ``choose_memory`` raises.
     """
+    if memory == "auto" and begins_plain(JUDGED):
+        _prove_plain()
+        return JUDGED
     if _usable_memory(memory, checked=True) == "plain":
         _prove_plain()
         return "plain"

@@ -30,6 +30,7 @@ GROUPS = {
         "lab": "Drag, paint and watch: ten figures about how the world works.",
         "player": "Export all data of a player to one file, or import such a file.",
         "film": "Write a film of a recording: a GIF, a WebM, or a folder of pictures.",
+        "compile": "Compile the rules for this machine now, so that no other command waits for it.",
         "link": "Make a link that carries a level, a pack or replays.",
     },
     "levels": {
@@ -68,7 +69,7 @@ MODULES = {
 
 COMPILING = (
     "verify", "board", "trace", "splits", "compare", "solve", "improve", "search", "tas",
-    "check", "levels", "generate", "demonstrations",
+    "check", "levels", "generate", "demonstrations", "compile",
 )  # fmt: skip
 """Those that may have to compile the rules first."""
 
@@ -244,8 +245,9 @@ def main() -> NoReturn:
 
 
 def _announce_compiling() -> None:
-    """Announce that the rules are compiled first, since that takes a while."""
+    """Announce that rules are compiled first, since that takes a while; and have all others compiled meanwhile."""
+    from ninja_game.backend.background_compiler import start
     from ninja_game.backend.kernel_cache import before_compiling
 
     text = "ninja-game: compiling the rules for this machine, the first time only; it takes a minute or two"
-    before_compiling[:] = [lambda: click.echo(text, err=True)]
+    before_compiling[:] = [lambda: click.echo(text, err=True), start]

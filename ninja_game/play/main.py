@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pygame
 
+from ninja_game.backend.memories import begins_plain
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.links.fragment import is_link, read_link
@@ -19,6 +20,7 @@ from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App, Screen, build_app
 from ninja_game.play.window import save_picture
 from ninja_game.player.playthrough import FileRun
+from ninja_game.runtime import run_in_background
 from ninja_game.sim.level import Level
 from ninja_game.simulation import Body, Simulation
 
@@ -66,6 +68,8 @@ def run_app(
         app = build_app(size=size, tas_editor=open_tas_editor)
         try:
             app.push(first(app))
+            # Who certifies or searches later does not wait for the compiler then.
+            run_in_background(begins_plain, lambda _: None)
             app.run(frames)
             if screenshot:
                 _save(app, Path(screenshot))

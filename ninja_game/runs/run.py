@@ -16,8 +16,8 @@ from collections.abc import Generator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
-from ninja_game.backend.memories import open_worlds
-from ninja_game.budget import RUN_BUDGET, affordable_ticks, over_budget
+from ninja_game.backend.memories import go_on, open_worlds
+from ninja_game.budget import PLAIN_WORK, RUN_BUDGET, affordable_ticks, over_budget
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.replay.headers import Waypoint
@@ -137,12 +137,13 @@ def run_in_slices(
 ) -> Generator[None, None, RunResult]:
     """As ``run_level``, but a generator: it pauses after each ``slice_work`` of work, and its value is the result."""
     check_inputs(inputs)
-    world = open_worlds(memory, level, box=is_box(body))
+    world = open_worlds(memory, level, box=is_box(body), at_once=True)
     most = min(len(inputs), affordable_ticks(level, budget))
-    slice_ticks = affordable_ticks(level, slice_work)
+    slice_ticks = affordable_ticks(level, slice_work if world.name == memory else min(slice_work, PLAIN_WORK))
     records: list[RunRecord] = []
     in_time = True
     while world.tick() < most and not world.outcome():
+        world = go_on(world, memory, most - world.tick())
         # Up to the tick at which the lifetime would run out without more gold; nothing else can be too late.
         deadline = LIFETIME + GOLD_BONUS * world.gold()
         in_time = in_time and world.tick() < deadline

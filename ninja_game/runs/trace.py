@@ -15,8 +15,8 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.backend.memories import open_worlds
-from ninja_game.budget import NO_LIMIT, RUN_BUDGET, affordable_ticks, over_budget
+from ninja_game.backend.memories import go_on, open_worlds
+from ninja_game.budget import NO_LIMIT, PLAIN_WORK, RUN_BUDGET, affordable_ticks, over_budget
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.recording_reader import named_errors
@@ -127,15 +127,18 @@ def _trace(
 ) -> RunTrace:
     """The trace of all inputs, or of those up to ``after`` ticks behind the first exit contact or death."""
     check_inputs(inputs)
-    world = open_worlds(memory, level, box=is_box(body))
+    world = open_worlds(memory, level, box=is_box(body), at_once=True)
     kinds = [world.observe(id_ + 1)[0] for id_ in range(world.number("id_count"))] if with_objects else []
     ids = tuple(id_ for id_, kind in enumerate(kinds) if KIND_OF[kind].traced)
     end, most, at_once = len(inputs), affordable_ticks(level, budget), BLOCK if after is not None else MAX_TICKS
+    if world.name == "plain":
+        at_once = min(at_once, affordable_ticks(level, PLAIN_WORK))
     blocks: list[TraceRecord] = []
     over = after is None
     while world.tick() < end:
         if world.tick() == most or (over and end > most):
             raise over_budget(level, end, budget)
+        world = go_on(world, memory, end - world.tick())
         block = inputs[world.tick() : min(end, most, world.tick() + at_once)]
         if (world.tick() + len(block)) * len(ids) > MAX_CELLS:
             found = f"{world.tick() + len(block)} ticks of {len(ids)} objects"

@@ -81,6 +81,13 @@ class _Job:
                 inputs = self.shortener.search_spans(inputs, plan.spans)
                 self.shortener.search_locally(inputs, plan.local)
 
+    def compile(self) -> None:
+        """Have all kernels compiled: do a little of everything."""
+        self.run()
+        best = self.state.runs[0]
+        self.shortener.compile(best)
+        self._search.begin(OTHER_ROUTES[0], seed=0, bound=len(best), backed_up=True)
+
     @property
     def _early(self) -> bool:
         """Whether it is the time in which only other routes are looked for; a run that was given has none."""
@@ -206,9 +213,7 @@ def compile_solver() -> None:
     Raises MemoryUnavailableError without Numba.
     """
     for gold in (0, -1):
-        job = _Job(SearchState(Task(parse_level_string(_SMALL), gold=gold, work=30_000), None), 0)
-        job.run()
-        job.shortener.compile(job.state.runs[0])
+        _Job(SearchState(Task(parse_level_string(_SMALL), gold=gold, work=30_000), None), 0).compile()
 
 
 def solve(

@@ -151,6 +151,7 @@ class RunShortener:
         """Have all kernels compiled, with a run of the level."""
         self._spans.know(inputs)
         self._spans.search(0, 1, draw_settings(np.random.default_rng(0)), seed=0, ticks=1, spend=lambda _: True)
+        LocalSearch(self.start, inputs, gold=self.gold, seed=0).run(1, temperature=COOLING[0])
 
     def search_spans(self, inputs: bytes, ticks: int) -> bytes:
         """Search spans of a run, and those of the shorter ones that come of it; the shortest."""

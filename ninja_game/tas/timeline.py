@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.backend.memories import open_worlds
+from ninja_game.backend.memories import go_on, open_worlds
 from ninja_game.budget import tick_cost
 from ninja_game.errors import ArgumentError
 from ninja_game.runs.save_states import SaveStates
@@ -17,7 +17,7 @@ from ninja_game.runs.trace import OBJECT_RECORD, event_names, ninja_columns, obj
 from ninja_game.sim.inputs import MAX_TICKS, fitted_inputs
 from ninja_game.sim.kinds import EXIT, KIND_OF
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.interface import TRACED_NUMBERS, TRACED_PLACES
+from ninja_game.sim.memory.interface import TRACED_NUMBERS, TRACED_PLACES, MemoryName
 from ninja_game.sim.states import OUTCOME_NAMES
 from ninja_game.simulation import Body, SaveState, is_box
 from ninja_game.tas.input_track import first_difference
@@ -70,8 +70,8 @@ class Timeline:
 
     def __init__(self, level: Level, inputs: bytes, *, body: Body = "circle", memory: str = "auto") -> None:
         self.level, self.body = level, body
-        self._worlds = open_worlds(memory, level, box=is_box(body))
-        self.memory = self._worlds.name
+        self._worlds = open_worlds(memory, level, box=is_box(body), at_once=True)
+        self.asked_memory = memory
         self._seen = [self._worlds.observe(id_ + 1) for id_ in range(self._worlds.number("id_count"))]
         self.watched: tuple[int, ...] = ()
         self._states: SaveStates[Any] = SaveStates(0, self._worlds.save(), values=tick_cost(level))
@@ -82,8 +82,13 @@ class Timeline:
         self._objects = np.zeros((0, 0), _WATCHED_RECORD)
         self._events: list[str] = []
         self.inputs = b""
-        self.simulated_until = 0
+        self.simulated_until = self._ticks_on_plain = 0
         self.set_inputs(inputs)
+
+    @property
+    def memory(self) -> MemoryName:
+        """Which memory it is now; "auto" may go over to the compiled one."""
+        return self._worlds.name
 
     def __len__(self) -> int:
         """Ticks to be simulated: those with inputs and some more."""
@@ -128,6 +133,7 @@ class Timeline:
         """Simulate up to so many ticks more; whether all is simulated now."""
         self._reserve(len(self))
         stop = min(len(self), self.simulated_until + ticks)
+        self._go_on(stop - self.simulated_until)
         first = self._states.nearest(self.simulated_until)[0]
         while self.simulated_until < stop:
             start, state = self._states.nearest(self.simulated_until)
@@ -139,6 +145,15 @@ class Timeline:
             if self._states.wants(end):
                 self._states.keep(end, self._worlds.save())
         return self.complete
+
+    def _go_on(self, ticks: int) -> None:
+        """Before so many ticks: be in the compiled memory, once it is worth it and its kernels are there."""
+        self._ticks_on_plain += ticks
+        worlds = go_on(self._worlds, self.asked_memory, self._ticks_on_plain)
+        if worlds is not self._worlds:
+            self._worlds = worlds
+            worlds.load([0], [0])
+            self._states = SaveStates(0, worlds.save(), values=tick_cost(self.level))
 
     def ensure(self, tick: int) -> None:
         """Have all ticks up to this one simulated."""

@@ -16,6 +16,7 @@ from ninja_game.backend.memories import MemoryUnavailableError, choose_memory
 from ninja_game.errors import ArgumentError, FileError
 from ninja_game.sim.memory.kernels import step_world
 from ninja_game.sim.ninja import tick
+from tests.support.slow import the_rest_is_slow
 
 needs_numba = pytest.mark.skipif(not memories.compiled_available(), reason="Numba is not installed")
 
@@ -55,7 +56,7 @@ def test_compiled_code_is_kept_until_a_constant_changes(tmp_path: Path) -> None:
 
 
 @needs_numba
-@pytest.mark.parametrize("damage", ["empty", "truncated", "changed", "garbage"])
+@pytest.mark.parametrize("damage", the_rest_is_slow(["changed", "empty", "truncated", "garbage"], 1))
 def test_damaged_code_is_compiled_anew_without_a_word(damage: str, tmp_path: Path) -> None:
     run(tmp_path)
     (file,) = tmp_path.iterdir()
@@ -140,7 +141,7 @@ def test_checked_kernels_refuse_an_index_out_of_range_and_are_kept_apart(tmp_pat
 
 @needs_numba
 def test_the_digest_follows_every_rule_and_constant_that_a_kernel_reaches(monkeypatch: pytest.MonkeyPatch) -> None:
-    from ninja_game.sim.memory.compiler import code_digest
+    from ninja_game.sim.memory.code_digest import code_digest
 
     before = code_digest(step_world, "")
     assert code_digest(step_world, "") == before
@@ -155,7 +156,7 @@ def test_machine_code_is_another_if_a_named_tuple_has_its_fields_in_another_orde
 ) -> None:
     from ninja_game.search.engine import expand
     from ninja_game.search.nodes import Resolution
-    from ninja_game.sim.memory.compiler import code_digest
+    from ninja_game.sim.memory.code_digest import code_digest
 
     before = code_digest(expand, "")
     monkeypatch.setattr(Resolution, "_fields", Resolution._fields[::-1])
@@ -196,7 +197,7 @@ def test_without_numba_auto_is_plain_and_compiled_says_what_to_install(monkeypat
 
 @needs_numba
 def test_machine_code_is_another_if_a_literal_of_a_rule_is_edited() -> None:
-    from ninja_game.sim.memory.compiler import code_digest
+    from ninja_game.sim.memory.code_digest import code_digest
 
     def rule(x: float) -> float:
         return x * 2.5

@@ -65,6 +65,7 @@ def test_observations_rewards_and_the_distance_to_the_goal(memory: str) -> None:
         envs.step([2, 2, number % 6])
 
 
+@pytest.mark.slow
 @needs_numba
 def test_the_solver_finds_what_it_finds_anyway(monkeypatch: pytest.MonkeyPatch) -> None:
     from ninja_game.search import solve as solving

@@ -19,6 +19,7 @@ from ninja_game.backend import kernel_cache
 from ninja_game.backend.memories import compiled_available
 from ninja_game.backend.numba_import import HONOURED
 from tests.support.samples import SPIKED, WALK, replay_of_walk, running, write_records
+from tests.support.slow import the_rest_is_slow
 
 PROGRAM = Path(sys.executable).with_name("ninja-game")
 MODULES = (
@@ -104,7 +105,7 @@ def require(memory: str) -> None:
         pytest.skip("the program, or Numba, is not installed")
 
 
-@pytest.mark.parametrize("text", YAML.values(), ids=YAML)
+@pytest.mark.parametrize("text", the_rest_is_slow(YAML, 2))
 def test_a_file_of_settings_in_the_current_folder_has_no_power(text: str, runs: Path, tmp_path: Path) -> None:
     require("compiled")
     (tmp_path / ".numba_config.yaml").write_text(text)
@@ -112,7 +113,7 @@ def test_a_file_of_settings_in_the_current_folder_has_no_power(text: str, runs: 
     assert [path.name for path in tmp_path.iterdir()] == [".numba_config.yaml"]
 
 
-@pytest.mark.parametrize("settings", NUMBA.values(), ids=NUMBA)
+@pytest.mark.parametrize("settings", the_rest_is_slow(NUMBA, 3))
 def test_variables_that_compilers_and_libraries_read_have_no_power(
     settings: dict[str, str], runs: Path, tmp_path: Path
 ) -> None:
@@ -122,7 +123,7 @@ def test_variables_that_compilers_and_libraries_read_have_no_power(
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("settings", PLAIN.values(), ids=PLAIN)
+@pytest.mark.parametrize("settings", the_rest_is_slow(PLAIN, 3))
 def test_variables_of_python_and_of_the_language_have_no_power(
     settings: dict[str, str], runs: Path, tmp_path: Path
 ) -> None:

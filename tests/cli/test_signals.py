@@ -13,6 +13,7 @@ import pytest
 from ninja_game.backend.memories import compiled_available
 from ninja_game.signals import GRACE, signals_deferred
 from tests.support.samples import WALK, WALK_END, running, write_records
+from tests.support.slow import the_rest_is_slow
 from tests.support.stopping import COMMANDS, ended, make_work
 
 if sys.platform == "win32":
@@ -25,7 +26,7 @@ def work(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return make_work(tmp_path_factory.mktemp("work"))
 
 
-@pytest.mark.parametrize("name", COMMANDS)
+@pytest.mark.parametrize("name", the_rest_is_slow([*COMMANDS], 4))
 def test_sigterm_ends_a_command_with_all_its_processes(name: str, work: Path) -> None:
     if not compiled_available() and "memory plain" not in COMMANDS[name]:
         pytest.skip("Numba is not installed")
@@ -109,6 +110,7 @@ MOMENTS = {
 """A command, and one of how many calls of functions is a moment."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", MOMENTS)
 @pytest.mark.parametrize("number", ["SIGTERM", "SIGINT"])
 def test_a_signal_at_any_moment_ends_the_program_with_a_line_at_most(number: str, name: str, work: Path) -> None:

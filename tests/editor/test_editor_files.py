@@ -86,6 +86,7 @@ def through_the_model(level: Level) -> Level:
     return parse_levels(ascii_text(history.draft))[0].level
 
 
+@pytest.mark.slow
 def test_reference_levels_and_scenes_come_back_to_the_bit() -> None:
     for data in [*(row.data for row in levels()), *(row.data for row in scenes())]:
         level = parse_level_string(data)

@@ -37,6 +37,7 @@ def test_new_networks_expect_nothing_and_prefer_nothing() -> None:
     assert [weights.shape for weights, _ in networks["value"]] == [(10, 16), (16, 16), (16, 1)]
 
 
+@pytest.mark.slow
 def test_the_policy_learns_which_action_pays_by_what_it_sees() -> None:
     pytest.importorskip("jax")
     learner = Learner(2, Method(hidden=16, batch=256, learning_rate=0.01), seed=1)

@@ -41,6 +41,7 @@ def arrays(agent: PolicyAgent) -> bytes:
     return b"".join(array.tobytes() for array in (*parts, agent.mean, agent.scale))
 
 
+@pytest.mark.slow
 def test_the_same_seed_makes_the_same_agent() -> None:
     reports: list[Progress] = []
     better: list[PolicyAgent] = []
@@ -105,6 +106,7 @@ def test_the_program_keeps_the_agent_and_says_how_good_it_is(tmp_path: Path) -> 
     assert (result.exit_code, "exists; name another file" in result.stderr) == (2, True)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="signals are another thing there")
 def test_a_training_that_is_stopped_leaves_the_best_agent(tmp_path: Path) -> None:
     output = tmp_path / "agent.npz"

@@ -173,6 +173,7 @@ def reference_texts() -> list[str]:
     return [row.data for row in levels()] + [row.data for row in scenes()] + crowded
 
 
+@pytest.mark.slow
 def test_reference_levels_come_back_to_the_bit() -> None:
     for text in reference_texts():
         level = parse_level_string(text)

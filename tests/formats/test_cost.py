@@ -101,6 +101,7 @@ For each the most seconds of the processor, and the peak of the memory so far, M
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="the limits of a process are those of Linux")
 def test_a_megabyte_takes_seconds_of_the_processor_and_a_limited_memory(tmp_path: Path) -> None:
     folder = tmp_path / "worst"

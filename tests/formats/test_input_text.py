@@ -173,6 +173,7 @@ def test_loose_replays_read_back_equal(inputs: bytes, box: bool) -> None:
         assert parse_replay(write_replay(replay)) == replay
 
 
+@pytest.mark.slow
 def test_every_reference_recording_comes_back_from_a_text_with_its_frames_and_length() -> None:
     count = 0
     for row in reference.recordings():

@@ -45,6 +45,7 @@ def test_the_certificate_passes_the_level_and_gives_its_difficulty(seed: int, wa
     assert level_warnings(level.level) == []
 
 
+@pytest.mark.slow
 def test_what_is_asked_for_changes_how_hard_it_is() -> None:
     easy = mean(made(seed, 1).difficulty for seed in range(3))
     hard = mean(made(seed, 8).difficulty for seed in range(3))

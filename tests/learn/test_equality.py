@@ -62,6 +62,7 @@ def same_world(single: tuple[Any, ...], vector: tuple[Any, ...], number: int, na
     )
 
 
+@pytest.mark.slow
 @settings(max_examples=8)
 @given(
     levels=st.lists(playable_levels, min_size=1, max_size=3),

@@ -138,6 +138,7 @@ def test_a_curriculum_needs_to_know_how_hard_its_levels_are() -> None:
         Curriculum("train")  # type: ignore[arg-type]
 
 
+@pytest.mark.slow
 def test_generated_levels_are_those_of_their_seeds() -> None:
     pytest.importorskip("numba")
     source = level_source("generated:1:3-4")

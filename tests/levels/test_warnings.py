@@ -327,6 +327,14 @@ def test_a_locked_door_with_its_switch_on_the_far_side_is_a_wall() -> None:
     assert "locked door at 5,23 (object 2): the ninja cannot reach its switch at 8,22" in found
 
 
+def test_a_trap_door_on_the_side_of_a_locked_one_keeps_it_open() -> None:
+    corridor = ("0" * 10 + "1" * 12 + "0") * 10 + "0" * 483
+    behind = corridor + "|5^60,566!11^290,566,270,566!9^290,540,0,0,10,23,1,0,0"
+    assert any("cannot reach" in str(finding) for finding in level_findings(parse_level_string(behind)))
+    shared = parse_level_string(behind + "!9^150,566,0,1,10,23,0,0,0")
+    assert not any("cannot reach" in str(finding) for finding in level_findings(shared))
+
+
 def test_two_locked_doors_with_their_switches_behind_each_other_never_open() -> None:
     lines = ["locked door 5,23 left switch 10,22", "locked door 9,23 left switch 6,22"]
     rows = dict.fromkeys(range(1, 22), "....#...#") | {22: "....#&..#&", 23: "@.....x....X"}

@@ -27,8 +27,7 @@ from ninja_game.sim import states
 from ninja_game.sim.events import DIED, EVENT_NAMES
 from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER
 from ninja_game.simulation import Simulation
-from tools.make_sounds import RECIPES, samples
-from tools.synthesis import RATE
+from tools.make_sounds import RATE, RECIPES, samples
 
 FLAT = parse_level_string("0" * 713 + "|5^100,566!0^140,566!11^400,564,500,564")
 

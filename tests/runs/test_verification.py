@@ -319,6 +319,7 @@ def test_ctrl_c_in_a_terminal_is_nothing_to_a_worker_that_starts() -> None:
     pool.close()
 
 
+@pytest.mark.slow
 def test_a_job_that_kills_every_process_is_named(tmp_path: Path) -> None:
     pool = Local(2, processes=True)
     results = dict(in_order(pool, die, range(6)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from functools import cache
 
 import pytest
@@ -71,8 +72,9 @@ specs = st.builds(ObjectSpec, st.integers(-2, 15), st.lists(numbers, max_size=10
 tiles = st.lists(st.integers(-5, 50), min_size=TILES, max_size=TILES).map(tuple)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
-@settings(max_examples=200)
+@settings(max_examples=int(os.environ.get("EXAMPLES", "200")))
 @given(tiles, st.lists(specs, max_size=12), st.binary(min_size=40, max_size=40), st.booleans())
 def test_no_hostile_level_leads_out_of_bounds(
     ids: tuple[int, ...], records: list[ObjectSpec], keys: bytes, box: bool

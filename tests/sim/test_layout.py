@@ -82,6 +82,7 @@ def test_a_median_level_fits_in_64_kib() -> None:
     assert used_bytes(65 + 2) <= 64 * 1024
 
 
+@pytest.mark.slow
 @needs_numba
 def test_no_index_is_ever_out_of_range() -> None:
     checked = Compiler(import_numba(), checked=True)
@@ -107,6 +108,7 @@ def test_entry_points_are_registered_rules_with_names_of_their_own() -> None:
         entry_point(step_world)
 
 
+@pytest.mark.slow
 @needs_numba
 def test_a_rule_is_compiled_once_whatever_constants_its_callers_write() -> None:
     compiler = Compiler(import_numba())

@@ -7,23 +7,27 @@ import pytest
 from tests.support import reference
 from tests.support.comparing import digest_difference, run_difference, trace_of
 from tests.support.memories import BOTH
+from tests.support.slow import COMPILED_OR_SLOW
 
 PARTS = 8
 """Each table is tested in parts, so that two processes share the work."""
 
-pytestmark = [pytest.mark.parametrize("memory", BOTH), pytest.mark.parametrize("part", range(PARTS))]
+pytestmark = pytest.mark.parametrize("part", range(PARTS))
 
 
+@pytest.mark.parametrize("memory", BOTH)
 def test_recordings_are_exact_in_outcome_tick_gold_positions_and_states(part: int, memory: str) -> None:
     reference.require_reference()
     report([run_difference(row, memory) for row in reference.recordings()[part::PARTS]])
 
 
+@pytest.mark.parametrize("memory", COMPILED_OR_SLOW)
 def test_random_runs_are_exact_in_outcome_tick_gold_positions_and_states(part: int, memory: str) -> None:
     reference.require_reference()
     report([run_difference(row, memory) for row in reference.random_runs()[part::PARTS]])
 
 
+@pytest.mark.parametrize("memory", COMPILED_OR_SLOW)
 def test_the_aftermath_is_exact_in_every_object(part: int, memory: str) -> None:
     reference.require_reference()
     tables = {"recordings": reference.recordings(), "random_runs": reference.random_runs()}
@@ -36,6 +40,7 @@ def test_the_aftermath_is_exact_in_every_object(part: int, memory: str) -> None:
     report(found)
 
 
+@pytest.mark.parametrize("memory", COMPILED_OR_SLOW)
 def test_crowded_levels_are_exact_in_every_object(part: int, memory: str) -> None:
     reference.require_reference()
     found = []

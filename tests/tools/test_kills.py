@@ -10,6 +10,7 @@ import pytest
 from tools.soak.kills import Drawing, kill_test
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("what, kills, least", [("records", 10, 1), ("tas", 30, 100), ("editor", 2, 1)])
 def test_killed_processes_lose_nothing(
     what: str, kills: int, least: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

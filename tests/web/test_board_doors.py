@@ -281,6 +281,7 @@ def certificate() -> tuple[Path, bytes, str]:
     raise AssertionError
 
 
+@pytest.mark.slow
 def test_one_key_changed_in_one_tick_is_told(tmp_path: Path) -> None:
     shown = published_levels(data_folder("levels"))
     path, _, text = certificate()

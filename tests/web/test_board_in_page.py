@@ -7,6 +7,8 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.web.board.pages import BoardPages
@@ -20,6 +22,7 @@ from tests.support.visitor import Visitor
 from tests.support.web_page import served
 
 
+@pytest.mark.slow
 def test_rows_are_watched_together_and_levels_are_played(site: Path, chromium: Any, tmp_path: Path) -> None:
     out = shutil.copytree(site, tmp_path / "site")
     levels, runs = tmp_path / "levels.txt", tmp_path / "runs"

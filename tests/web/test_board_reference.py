@@ -6,6 +6,8 @@ import time
 from collections import Counter
 from pathlib import Path
 
+import pytest
+
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.recording import parse_replays
@@ -32,6 +34,7 @@ def write_pack(folder: Path) -> Path:
     return folder
 
 
+@pytest.mark.slow
 def test_all_recordings_are_a_board_within_a_minute(tmp_path: Path) -> None:
     require_reference()
     (tmp_path / "runs").mkdir()

@@ -159,6 +159,7 @@ def test_the_local_server_names_the_kinds_of_files_and_lists_nothing(server: Thr
         server.server_close()
 
 
+@pytest.mark.slow
 def test_the_commands_of_the_document_run(pyodide: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     page = (Path(__file__).parents[2] / "docs" / "browser.md").read_text("utf-8")
     lines = re.findall(r"^    ninja-game ((?:site|player) .*?)\s+#", page, re.MULTILINE)

@@ -96,6 +96,7 @@ def all_pages(site: Path) -> list[str]:
     return [path.relative_to(site).as_posix() for path in sorted(site.glob("board/**/*.html"))]
 
 
+@pytest.mark.slow
 def test_no_script_of_a_name_runs(site: Path, open_page: Callable[..., Any]) -> None:
     page = open_page("board/index.html")
     names = all_pages(site)
@@ -136,6 +137,7 @@ def test_no_page_is_wider_than_the_window(site: Path, size: dict[str, int], open
         assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), name
 
 
+@pytest.mark.slow
 def test_gallery_is_searched_and_sorted_by_keyboard(open_page: Callable[..., Any]) -> None:
     page = open_page("gallery/index.html", viewport=PHONE)
     levels = page.locator(".card:visible")

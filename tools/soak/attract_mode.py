@@ -40,33 +40,6 @@ def memory() -> float:
         return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (2**20 if sys.platform == "darwin" else 2**10)
 
 
-def soak(minutes: float, *, real_time: bool = False, report: bool = False) -> tuple[float, int, int]:
-    """Run attract mode for so long; growth of memory after warming up (MiB), pictures drawn, replays begun."""
-    with tempfile.TemporaryDirectory() as home:
-        app = build_app(Path(home), size=(792, 600))
-        menu = MainMenu(app)
-        app.push(menu)
-        frames = round(minutes * 60 * RATE)
-        warm = 0.0
-        for frame in range(frames):
-            started = time.perf_counter()
-            app.frame((frame + 1) * 1000 // RATE - frame * 1000 // RATE)
-            if real_time:
-                time.sleep(max(0.0, 1 / RATE - (time.perf_counter() - started)))
-            if frame == frames // 10:
-                gc.collect()
-                warm = memory()
-            if report and (frame + 1) % (60 * RATE) == 0:
-                minute = (frame + 1) // (60 * RATE)
-                print(f"minute {minute}: {memory():.1f} MiB, {menu.attract.shown} replays", flush=True)
-        gc.collect()
-        growth = memory() - warm
-        shown = menu.attract.shown
-        app.stack.clear()
-        app.player.close()
-    return growth, frames, shown
-
-
 def main() -> int:
     """Exit code 1 if the memory has grown by more than is allowed."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", maxsplit=1)[0])
@@ -74,8 +47,27 @@ def main() -> int:
     parser.add_argument("--real-time", action="store_true")
     parser.add_argument("--allowed", type=float, default=4.0, metavar="MiB")
     options = parser.parse_args()
-    growth, frames, shown = soak(options.minutes, real_time=options.real_time, report=True)
-    print(f"{frames} pictures, {shown} replays, {growth:+.2f} MiB after warming up")
+    frames = round(options.minutes * 60 * RATE)
+    with tempfile.TemporaryDirectory() as home:
+        app = build_app(Path(home), size=(792, 600))
+        menu = MainMenu(app)
+        app.push(menu)
+        for frame in range(frames):
+            started = time.perf_counter()
+            app.frame((frame + 1) * 1000 // RATE - frame * 1000 // RATE)
+            if options.real_time:
+                time.sleep(max(0.0, 1 / RATE - (time.perf_counter() - started)))
+            if frame == frames // 10:
+                gc.collect()
+                warm = memory()
+            if (frame + 1) % (60 * RATE) == 0:
+                minute = (frame + 1) // (60 * RATE)
+                print(f"minute {minute}: {memory():.1f} MiB, {menu.attract.shown} replays", flush=True)
+        gc.collect()
+        growth = memory() - warm
+        app.stack.clear()
+        app.player.close()
+    print(f"{frames} pictures, {menu.attract.shown} replays, {growth:+.2f} MiB after warming up")
     return 1 if growth > options.allowed else 0
 
 

@@ -32,7 +32,7 @@ from ninja_game.sim.memory.kernels import (
     step_world,
     trace_world,
 )
-from ninja_game.sim.memory.layout import TILE_MAP, Records, bytes_of, new_worlds, plain_copy
+from ninja_game.sim.memory.layout import TILE_MAP, Records, bytes_of, new_worlds, plain_copy, write_plain
 from ninja_game.sim.memory.schema import MAX_EVENTS, Event, Ninja, World
 
 Compile = Callable[[Callable[..., Any]], Callable[..., Any]]
@@ -75,7 +75,7 @@ class CompiledWorlds(Worlds):
     name: MemoryName = "compiled"
 
     def __init__(self, compiled: Compile, levels: Iterable[Level], count: int = 1, *, box: bool) -> None:
-        self.levels, self.count, self._box = tuple(levels), count, box
+        self.levels, self.count, self.box = tuple(levels), count, box
         self._compiled = compiled
         self._step, self._observe = compiled(step_world), compiled(observe_object)
         tables = [record_table(level) for level in self.levels]
@@ -97,7 +97,7 @@ class CompiledWorlds(Worlds):
 
     def __reduce__(self) -> tuple[Any, ...]:
         state = self.states.copy(), self.level_of.copy(), self._events.copy(), self._event_count.copy()
-        return partial(CompiledWorlds, self._compiled, box=self._box), (self.levels, self.count), state
+        return partial(CompiledWorlds, self._compiled, box=self.box), (self.levels, self.count), state
 
     def __setstate__(self, state: tuple[Any, ...]) -> None:
         self.states[:], self.level_of[:], self._events[:], self._event_count[:] = state
@@ -192,3 +192,12 @@ class CompiledWorlds(Worlds):
     def run_rows(self, inputs: Any, first: int, last: int, *, stop: bool) -> int:
         ticks: int = self._compiled(run_worlds)(self.maps, self.level_of, self.worlds, inputs, first, last, int(stop))
         return ticks
+
+
+def compiled_copy(compiled: Compile, worlds: Worlds) -> CompiledWorlds:
+    """Copies of plain worlds, which go on alike: states, levels and events."""
+    copies = CompiledWorlds(compiled, worlds.levels, worlds.count, box=worlds.box)
+    copies.load(range(worlds.count), worlds.level_of)
+    for index in range(worlds.count):
+        write_plain(worlds.world(index), copies.worlds, index)
+    return copies

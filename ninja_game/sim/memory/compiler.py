@@ -10,19 +10,19 @@ and most of the cache.
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable, Iterator
-from hashlib import sha256
-from types import CodeType, FunctionType, ModuleType
+from collections.abc import Callable, Iterable
+from types import FunctionType
 from typing import Any, TypeVar
 
 import numpy as np
 
+from ninja_game.sim.memory.code_digest import OPTIONS
 from ninja_game.sim.memory.declare import ENTRY_POINTS, REGISTERED
 
 R = TypeVar("R")
 
-AttachCache = Callable[[Any, str], None]
-"""Gives a compiled entry point, before its first call, its place in a cache; with the digest of all its code."""
+AttachCache = Callable[[Any, Callable[..., Any], bool], None]
+"""Gives the compiled twin of an entry point, before its first call, a place in a cache; with whether it is checked."""
 
 
 class Compiler:
@@ -35,12 +35,12 @@ class Compiler:
 
     def __init__(self, numba: Any, *, checked: bool = False, attach_cache: AttachCache | None = None) -> None:
         jit: Any = numba.njit
-        options: dict[str, Any] = {"nogil": True, "error_model": "python", "boundscheck": checked}
+        self._checked = checked
+        options: dict[str, Any] = {**OPTIONS, "boundscheck": checked}
         self._inner = jit(no_cpython_wrapper=True, no_cfunc_wrapper=True, **options)
         self._outer = jit(**options)
         self._types: Any = numba.types
         self._attach_cache = attach_cache
-        self._compiler = f"{sys.version} {numba.__version__} {np.__version__} {options}"
         self._twins: dict[Callable[..., Any], Any] = {}
         self._namespaces: dict[str, dict[str, Any]] = {}
 
@@ -61,7 +61,7 @@ class Compiler:
             entry = rule in ENTRY_POINTS
             self._twins[rule] = compiled = self._outer(twin) if entry else self._one_for_all_integers(self._inner(twin))
             if entry and self._attach_cache:
-                self._attach_cache(compiled, code_digest(rule, self._compiler))
+                self._attach_cache(compiled, rule, self._checked)
             if len(namespace) == 1:
                 self._fill(namespace, vars(sys.modules[rule.__module__]))
         return self._twins[rule]
@@ -97,50 +97,3 @@ def _is_table(values: Iterable[Any]) -> bool:
     """Tell whether this is a module-level sequence of numbers, which a rule may index."""
     kinds = {type(value) for value in values}
     return bool(kinds) and kinds <= {int, float}
-
-
-def code_digest(entry: Callable[..., Any], compiler: str) -> str:
-    """A digest of all that goes into the machine code of an entry point.
-
-    That is ``compiler`` (what compiles it, with its options), the code of the function and of all registered functions
-    that it reaches, the fields of the named tuples that they take, and the values of the constants that they name,
-    wherever those are defined.
-    """
-    digest = sha256(compiler.encode())
-    waiting: list[Any] = [entry]
-    known = {entry}
-    while waiting:
-        rule = waiting.pop()
-        digest.update(f"{rule.__module__}.{rule.__qualname__} {rule.__defaults__}\n".encode())
-        names: set[str] = set()
-        for code in _codes(rule.__code__):
-            constants = [value for value in code.co_consts if not isinstance(value, CodeType)]
-            digest.update(code.co_code + f"{code.co_names} {constants}\n".encode())
-            names.update(code.co_names)
-        for annotation in rule.__annotations__.values():
-            if fields := getattr(rule.__globals__.get(annotation), "_fields", ()):
-                digest.update(f"{annotation}: {fields}\n".encode())
-        for name in sorted(names & rule.__globals__.keys()):
-            value = rule.__globals__[name]
-            if _is_plain(value):
-                digest.update(f"{name} = {value!r}\n".encode())
-            elif isinstance(value, ModuleType):
-                there = {key: vars(value)[key] for key in sorted(names & vars(value).keys())}
-                digest.update(f"{name}: {[(key, there[key]) for key in there if _is_plain(there[key])]}\n".encode())
-            elif isinstance(value, FunctionType) and value in REGISTERED and value not in known:
-                known.add(value)
-                waiting.append(value)
-    return digest.hexdigest()
-
-
-def _is_plain(value: Any) -> bool:
-    """Whether a global is a constant that a rule may name."""
-    return isinstance(value, (bool, int, float, str, tuple, list))
-
-
-def _codes(code: CodeType) -> Iterator[CodeType]:
-    """A function's code and that of the functions inside it."""
-    yield code
-    for value in code.co_consts:
-        if isinstance(value, CodeType):
-            yield from _codes(value)

@@ -60,6 +60,8 @@ class Worlds(ABC):
     name: MemoryName
     levels: Sequence[Level]
     count: int
+    box: bool
+    """Whether the ninjas are boxes."""
     slots: int
     """Slots for objects in each world: what the level with the most objects needs."""
     level_of: Any

@@ -89,7 +89,7 @@ OBJECTS_START = WORLD.fields["objects"][1]  # type: ignore[index]
 
 _set_ninja, _set_event, _set_object = (setter_of(fields_of(cls)) for cls in (Ninja, Event, Object))
 _SCALARS = [field.name for field in fields_of(World) if isinstance(field.type, str) and not field.length]
-_get_ninja = getter_of(fields_of(Ninja))
+_get_ninja, _get_event = getter_of(fields_of(Ninja)), getter_of(fields_of(Event))
 _KIND_FIELDS = {kind.number: [field.name for field in fields_of(kind.fields)] for kind in KINDS}
 _GET_KIND = {kind.number: getter_of(fields_of(kind.fields)) for kind in KINDS}
 
@@ -143,12 +143,14 @@ def plain_copy(worlds: Records, index: int) -> World:
 
 
 def write_plain(w: World, worlds: Records, index: int) -> None:
-    """Write plain objects, but events, into one record of an array: of each object the fields that its kind has."""
+    """Write plain objects into one record of an array: of each object the fields that its kind has."""
     record = worlds[index]
     for name in _SCALARS:
         record[name] = getattr(w, name)
     record["ninja"] = _get_ninja(w.ninja)
     record["heads"], record["edges"] = w.heads, w.edges
+    for number in range(w.event_count):
+        record["events"][number] = _get_event(w.events[number])
     objects = record["objects"]
     room = (worlds.strides[0] - OBJECTS_START) // OBJECT.itemsize
     objects[1:room] = np.zeros((), OBJECT)

@@ -80,7 +80,7 @@ class PlainWorlds(Worlds):
     name: MemoryName = "plain"
 
     def __init__(self, levels: Iterable[Level], count: int = 1, *, box: bool) -> None:
-        self.levels, self.count, self._box = tuple(levels), count, box
+        self.levels, self.count, self.box = tuple(levels), count, box
         self._shown: Any = None
         loaded = [load_plain(level, box) for level in self.levels]
         self.maps = [tiles for tiles, _ in loaded]
@@ -92,7 +92,7 @@ class PlainWorlds(Worlds):
     def __reduce__(self) -> tuple[Any, ...]:
         events = [[_get_event(event) for event in self.events(index)] for index in range(self.count)]
         state = self.save_many(range(self.count)), self.level_of.tolist(), events
-        return partial(PlainWorlds, box=self._box), (self.levels, self.count), state
+        return partial(PlainWorlds, box=self.box), (self.levels, self.count), state
 
     def __setstate__(self, state: tuple[Any, ...]) -> None:
         states, levels, events = state
@@ -104,7 +104,7 @@ class PlainWorlds(Worlds):
 
     @cached_property
     def fresh(self) -> list[World]:
-        return [load_plain(level, self._box)[1] for level in self.levels]
+        return [load_plain(level, self.box)[1] for level in self.levels]
 
     @cached_property
     def _fresh_states(self) -> list[PlainState]:
@@ -190,7 +190,7 @@ class PlainWorlds(Worlds):
         """A world of another level is made again."""
         for state, index, number in zip(states, which, levels, strict=True):
             if self.level_of[index] != number:
-                self.worlds[index] = load_plain(self.levels[number], self._box)[1]
+                self.worlds[index] = load_plain(self.levels[number], self.box)[1]
                 self.level_of[index] = number
             restore_plain(self.worlds[index], state)
             self._show(index)

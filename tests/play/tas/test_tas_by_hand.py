@@ -7,6 +7,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from ninja_game.backend.memories import compiled_available
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.demo import parse_demo, write_demo
@@ -95,6 +97,7 @@ class Runner(Player):
         return track
 
 
+@pytest.mark.slow
 def test_a_speedrun_is_made_shorter_by_hand(tmp_path: Path, root: Path) -> None:
     level, mine, theirs = two_runs()
     file = written(tmp_path / "mine.txt", "a person", level, mine)

@@ -178,13 +178,16 @@ class LevelPicture:
 
     def __init__(self, editor: TasEditor) -> None:
         self.editor = editor
-        session = editor.session
-        self.run = CachedWorldSimulation(session.about.level, body=session.about.body, memory=session.timeline.memory)
+        self.run = self._new_run()
         self._context = OffscreenContext((1, 1), editor.app.settings)
         self._view: LevelView | None = None
         self.surface = pygame.Surface((1, 1))
         self.camera = Camera()
         self._seen: tuple[object, ...] = ()
+
+    def _new_run(self) -> CachedWorldSimulation:
+        session = self.editor.session
+        return CachedWorldSimulation(session.about.level, body=session.about.body, memory=session.timeline.memory)
 
     @property
     def canvas(self) -> Canvas:
@@ -254,6 +257,8 @@ class LevelPicture:
 
     def _go(self, moment: int, inputs: bytes) -> None:
         """Be at the moment after this many ticks, as if nothing had been seen before."""
+        if self.run.memory != self.editor.session.timeline.memory:
+            self.run = self._new_run()
         self.run.restore(self.editor.session.timeline.save_state(moment))
         while self.run.tick < moment:
             self.run.step_keys(inputs[self.run.tick])

@@ -67,7 +67,7 @@ class SpanResults:
     def __init__(self, editor: TasEditor, task: SpanTask, method: str, every: int) -> None:
         self.editor = editor
         self.task = task
-        memory = editor.session.timeline.memory
+        memory = editor.session.timeline.asked_memory
         self.search = SpanSearch(task, method, max(1, cores() - 1), every=every, memory=memory)
         # The begins of runs that results fit to, and the first tick that follows a result in each: the run that is
         # searched and those that results were put into.

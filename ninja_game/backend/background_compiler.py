@@ -1,0 +1,76 @@
+"""A process in the background compiles all kernels of all commands once, so that nobody waits for them.
+
+It is `ninja-game compile`, at low priority and in a session of its own: it outlives whoever started it, and one of them
+works at a time.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from contextlib import suppress
+
+from ninja_game.backend.kernel_cache import cache_folder
+from ninja_game.errors import FileError
+from ninja_game.files.locking import hold
+
+VARIABLE = "NINJA_GAME_BACKGROUND_COMPILER"
+"""Environment variable: where it is 0 there is no such process, and who needs a kernel waits for it."""
+
+BEHIND = 15
+"""How far its priority is lowered (``os.nice``)."""
+
+_STARTED: list[subprocess.Popen[bytes]] = []
+"""The process that this one has started."""
+
+
+def allowed() -> bool:
+    """Whether such a process may be started."""
+    return os.environ.get(VARIABLE) != "0"
+
+
+def start() -> None:
+    """Start it, the first time only; where that is impossible, kernels are compiled by whoever needs them."""
+    if _STARTED or not allowed():
+        return
+    environment = {**os.environ, "PYTHONSAFEPATH": "1", VARIABLE: "0"}
+    quiet = subprocess.DEVNULL
+    with suppress(OSError, FileError):
+        folder = cache_folder()
+        folder.mkdir(parents=True, exist_ok=True)
+        command = [sys.executable, "-m", "ninja_game", "compile", "--background"]
+        _STARTED.append(
+            subprocess.Popen(  # noqa: S603 - this program itself
+                command, stdin=quiet, stdout=quiet, stderr=quiet, cwd=folder, env=environment, start_new_session=True,
+                creationflags=getattr(subprocess, "BELOW_NORMAL_PRIORITY_CLASS", 0),
+            )
+        )  # fmt: skip
+
+
+def is_at_work() -> bool:
+    """Whether it, or one that another process started, compiles now."""
+    if _STARTED and _STARTED[0].poll() is None:
+        return True
+    with suppress(OSError, FileError):
+        handle = hold_work()
+        if handle is None:
+            return True
+        os.close(handle)
+    return False
+
+
+def hold_work() -> int | None:
+    """A handle that keeps others from compiling everything as long as it is open; None where another one does.
+
+    Raises OSError where no file can be written, FileError as ``cache_folder``.
+    """
+    folder = cache_folder()
+    folder.mkdir(parents=True, exist_ok=True)
+    return hold(folder / "all.lock")
+
+
+def step_back() -> None:
+    """Give this process a low priority, where the system has such a thing."""
+    if sys.platform != "win32":
+        os.nice(BEHIND)
