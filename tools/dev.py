@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The door for a bare Python: installs what a command needs into `.venv` and runs it there.
+"""Begins with a bare Python: installs what a command needs into `.venv` and runs it there.
 
 usage: python3 tools/dev.py COMMAND ...
 

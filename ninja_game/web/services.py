@@ -25,7 +25,7 @@ from ninja_game.player.settings import RULES
 
 
 class PageServices:
-    """The page's door to a running game. ``address``: the page's own, for links."""
+    """What the page asks of a running game. ``address``: the page's own, for links."""
 
     def __init__(self, app: App, address: str) -> None:
         self.app = app
