@@ -86,7 +86,7 @@ class PageServices:
             return path.read_bytes()
 
     def take_in(self, data: bytes) -> str:
-        """Take such a zip in; what came of it. The page is to be loaded again then. Raises NinjaGameError."""
+        """Take such a zip in; the result, in lines. The page is to be loaded again then. Raises NinjaGameError."""
         from ninja_game.player.backup import read_backup
 
         try:
