@@ -142,6 +142,5 @@ def test_a_press_that_opens_a_dialog_holds_nothing(at: TasDriver) -> None:
     at.event(pygame.MOUSEBUTTONDOWN, x, heads[1], button=1)
     assert isinstance(at.top(), Menu)
     at.event(pygame.MOUSEBUTTONUP, x, heads[1], button=1)
-    at.press("escape")
-    at.choose("Branches")
+    at.choose_in_menu("Branches")
     assert (at.editor.tab, at.editor.cursor) == ("Branches", cursor)
