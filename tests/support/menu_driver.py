@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import TypeVar
 from unittest.mock import patch
 
 import pygame
@@ -23,6 +24,7 @@ from ninja_game.player.player_data import PlayerData
 from tests.support.waiting import LONGEST
 
 FRAME_MS = 25
+S = TypeVar("S", bound=Screen)
 
 
 class ScriptedKeys(Bindings):
@@ -53,6 +55,12 @@ class MenuDriver:
     def top(self) -> Screen:
         """The screen on top."""
         return self.app.top
+
+    def shown(self, kind: type[S]) -> S:
+        """The screen on top, which is of this kind."""
+        top = self.app.top
+        assert isinstance(top, kind), top
+        return top
 
     def frames(self, count: int = 1, ms: int = FRAME_MS) -> None:
         """Let pictures pass."""
@@ -99,9 +107,7 @@ class MenuDriver:
 
     def fill(self, text: str, button: str = "Save") -> None:
         """Put a text into the first field of the form on top, and click a button."""
-        form = self.top()
-        assert isinstance(form, FormPanel)
-        form.texts[0] = text
+        self.shown(FormPanel).texts[0] = text
         self.choose(button)
 
     def wait(self, condition: Callable[[], object], what: str = "", *, seconds: float = LONGEST) -> None:

@@ -129,8 +129,7 @@ def test_a_closed_window_keeps_what_is_not_saved_and_it_is_offered(at: TasDriver
     again.app.stack.clear()
     again = TasDriver(tmp_path / "player", tmp_path / "run.replay.txt")
     again.choose("Recover")
-    screen = again.top()
-    assert isinstance(screen, TasScreen)
+    screen = again.shown(TasScreen)
     assert (screen.editor.track, len(screen.session.branches)) == (wanted, 1)
     assert screen.session.file.path == tmp_path / "run.replay.txt"
     again.chord("z", CTRL)
@@ -170,8 +169,7 @@ def test_what_was_not_saved_of_another_run_is_told_and_opens_from_the_menu(at: T
     again.choose_in_menu("Not saved last time...")
     again.choose("run.replay.txt")
     again.choose("Recover")
-    screen = again.top()
-    assert isinstance(screen, TasScreen)
+    screen = again.shown(TasScreen)
     assert screen.editor.track == wanted
     again.close()
 
@@ -189,8 +187,7 @@ def test_help_page_and_viewer_come_from_the_menu(at: TasDriver) -> None:
     at.frames(2)
     at.press("escape")
     at.choose_in_menu("Watch")
-    viewer = at.top()
-    assert isinstance(viewer, ReplayScreen)
+    viewer = at.shown(ReplayScreen)
     assert viewer.run.inputs == at.editor.track.inputs
     at.press("t")
     assert at.top() is viewer

@@ -126,8 +126,7 @@ def test_runs_of_one_file_of_n_are_told_apart(at: TasDriver, tmp_path: Path) -> 
     at.screen.level.others.open(load_replays(file))
     assert [other.name for other in at.editor.others] == ["many.txt", "many.txt 1", "many.txt 2"]
     at.chord("o", pygame.KMOD_LCTRL)
-    screen = at.top()
-    assert isinstance(screen, OtherRunScreen)
+    screen = at.shown(OtherRunScreen)
     rows = [row for row in screen.rows if row.text.startswith("many.txt")]
     assert [(row.text, row.who) for row in rows] == [
         ("many.txt 1   test", ""), ("many.txt 2   test", ""), ("many.txt   test", "")
