@@ -170,7 +170,10 @@ class Executed:
             together.combine([str(folder)])
             together.save()
         self.seconds: dict[str, float] = json.loads((folder / "seconds.json").read_text("utf-8"))
-        self.lines = cache(CoverageData(str(folder / "lines")).contexts_by_lineno)
+        # What is not read before it is asked is erased.
+        data = CoverageData(str(folder / "lines"))
+        data.read()
+        self.lines = cache(data.contexts_by_lineno)
 
     def tests_of(self, broken: Break) -> list[str]:
         """The tests to try a break on, fastest first, as many as fit into BUDGET; or test files near it."""
