@@ -17,15 +17,7 @@ from ninja_game.play.level.hud import hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, Phase
 from ninja_game.play.level.screen import LevelScreen, PausePanel
 from ninja_game.player.playthrough import EpisodeRun, FileRun
-from tests.support.scripted import (
-    ScriptedControls,
-    frames,
-    level_run,
-    open_level,
-    phase_of,
-    play_to_the_end,
-    press,
-)
+from tests.support.scripted import ScriptedControls, frames, level_run, open_level, phase_of, play_to_the_end, press
 
 LONG = "0" * 713 + "|5^100,566!11^400,564,300,564"
 

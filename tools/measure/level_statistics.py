@@ -37,7 +37,7 @@ from tools.measure.level_figures import (
     shared_share,
     solid_cells,
     variants,
-)  # fmt: skip
+)
 
 HEADING = "## The figures"
 """Of the page docs/level-set.md, below which the tables stand."""
