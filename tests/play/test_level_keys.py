@@ -91,13 +91,16 @@ def test_escape_before_the_first_move_does_not_end_the_game(app: App, recording:
 
 def test_changed_level_file_is_read_again_on_retry(app: App, recording: Recording, tmp_path: Path) -> None:
     file = tmp_path / "mine.txt"
-    file.write_text(LONG)
-    screen = LevelScreen(app, FileRun(app.player, load_levels(str(file))))
+    both = f"$one#a#b#{LONG}#\n$two#a#b#{LONG}!0^9,9#\n"
+    file.write_text(both)
+    run = FileRun(app.player, load_levels(str(file)))
+    run.advance()
+    screen = LevelScreen(app, run)
     app.push(screen)
-    file.write_text(LONG.replace("400,564", "500,564"))
+    file.write_text(both.replace("400,564", "500,564"))
     press("retry")
     frames(app)
-    assert screen.attempt.simulation.level == screen.context.level == load_levels(str(file))[0].level
+    assert screen.attempt.simulation.level == screen.context.level == load_levels(str(file))[1].level
     assert "changed" in app.notice
     file.write_text("broken")
     press("retry")
