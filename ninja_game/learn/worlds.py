@@ -264,7 +264,7 @@ class EnvWorlds:
 
 
 def checked_seed(seed: object) -> int:
-    """A seed as Python's own number. Raises ArgumentError unless it is a whole number from 0 on."""
+    """A seed as Python's own number. Raises ArgumentError for anything but a whole number from 0 on."""
     if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
         raise ArgumentError(f"the seed is {seed!r:.60}; expected a whole number from 0 on")
     return int(seed)

@@ -173,13 +173,7 @@ class Route:
         if self._may_leave(frontier):
             return Leg(roots, 0, frontier.mask, self.gold, 1, 0, self.heuristics.field)
         return Leg(
-            roots,
-            MORE_THAN_ANY,
-            frontier.mask,
-            MORE_THAN_ANY,
-            ROUTE_ENDS,
-            rollouts,
-            *self._way_to_a_switch(frontier),
+            roots, MORE_THAN_ANY, frontier.mask, MORE_THAN_ANY, ROUTE_ENDS, rollouts, *self._way_to_a_switch(frontier)
         )
 
     def _way_to_a_switch(self, frontier: Frontier) -> tuple[FieldOf, int]:

@@ -105,7 +105,7 @@ def test_bad_input_is_told(words: list[str], told: str, tmp_path: Path, monkeypa
 
 
 def test_a_seed_without_a_level_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("ninja_game.generator.generate.DEFAULT", Effort(attempts=0))
+    monkeypatch.setattr(generate, "__kwdefaults__", {**(generate.__kwdefaults__ or {}), "effort": Effort(attempts=0)})
     result = command("--seed", "4")
     assert result.exit_code == 1
     assert "try another" in result.stdout

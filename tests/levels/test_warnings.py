@@ -32,16 +32,8 @@ def warnings_of(*lines: str, rows: dict[int, str] | None = None, keep: bool = Tr
 CASES: dict[str, tuple[list[str], dict[int, str], str]] = {
     "outside the grid": (["gold 900,100px"], {}, "gold at 900,100px (object 2): it is outside the grid"),
     "not a number": (["mine 100,nanpx"], {}, "mine at 100,nanpx (object 2): one of its values is not a number"),
-    "wrong count": (
-        ["raw 12 100"],
-        {},
-        "mine (object 2): it has 1 values where its kind needs 2: it does nothing",
-    ),
-    "unknown type": (
-        ['raw "77^1,2"'],
-        {},
-        "1 records create nothing (unknown type), the first is '77^1,2'",
-    ),
+    "wrong count": (["raw 12 100"], {}, "mine (object 2): it has 1 values where its kind needs 2: it does nothing"),
+    "unknown type": (['raw "77^1,2"'], {}, "1 records create nothing (unknown type), the first is '77^1,2'"),
     "ninja with a wrong count": (
         ["raw 5 100"],
         {},

@@ -232,7 +232,7 @@ def test_a_frame_of_a_full_level_is_quick(tmp_path: Path) -> None:
     try:
         maker.open("Editor")
         objects = tuple(
-            placed(OBJECT_TYPES[2 + k * 7 % 15].record, 30 + 37 * k % 730, 30 + 53 * k % 540, "quarter")
+            placed(OBJECT_TYPES[2 + k * 7 % 15].spec, 30 + 37 * k % 730, 30 + 53 * k % 540, "quarter")
             for k in range(500)
         )
         draft = put(ROOM, Stamp({}, objects))
@@ -269,6 +269,5 @@ def test_a_certificate_is_shown_and_gets_stale(room: Maker) -> None:
     assert certifier.is_stale(room.draft.level)
     room.chord("z", pygame.KMOD_LCTRL)
     assert not certifier.is_stale(room.draft.level)
-    room.press("escape")
-    room.choose("Keep the solver's run")
+    room.choose_in_menu("Keep the solver's run")
     assert room.player.records.replays()

@@ -16,7 +16,7 @@ from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import NAMED, Cells, EpisodeGrid
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.thumbnails import time_and_par
-from ninja_game.player.progress import Mark
+from ninja_game.player.marks import Mark
 from tests.support.draw_log import DrawLog
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK
@@ -51,8 +51,7 @@ def test_pack_in_the_folder_can_be_chosen_and_played(driver: MenuDriver) -> None
     driver.frames(3)
     assert "'Left'" in shown(driver)
     driver.press("down", "return")
-    level = driver.top()
-    assert isinstance(level, LevelScreen)
+    level = driver.shown(LevelScreen)
     assert "bronze: 7.500 s" in shown(driver), "what to aim at stands beside the level's name"
     level.begin()
     driver.frames(1)
