@@ -36,11 +36,7 @@ from ninja_game.learn.evaluation import evaluate
     help="Probability that an action is played once more in place of the next one.",
 )  # fmt: skip
 @click.option(
-    "--wait",
-    type=click.IntRange(0, 100),
-    default=7,
-    show_default=True,
-    help="Most steps of waiting at the start.",
+    "--wait", type=click.IntRange(0, 100), default=7, show_default=True, help="Most steps of waiting at the start."
 )
 @click.option(
     "--time-limit",

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 import shlex
+import subprocess
+import sys
 from graphlib import TopologicalSorter
 from pathlib import Path
 
@@ -16,6 +18,7 @@ from ninja_game.cli.main import COMMANDS, cli
 from tools import dev
 
 ROOT = Path(__file__).resolve().parent.parent
+FOLDERS = ("ninja_game", "tests", "tools", "benchmarks", "examples")
 FIRST_WORDS = {"level", "replay"}
 """What follows "ninja-game" in the first line of our files."""
 
@@ -76,3 +79,20 @@ def test_no_files_import_one_another_in_a_circle() -> None:
         graph = grimp.build_graph(package, cache_dir=None)
         # Raises CycleError, which names the files; imports within functions and for types count too.
         TopologicalSorter({name: graph.find_modules_directly_imported_by(name) for name in graph.modules}).prepare()
+
+
+def test_the_formatter_is_skipped_only_where_that_saves_lines(tmp_path: Path) -> None:
+    skip, before = "  # fmt: skip", {}
+    for file in (file for folder in FOLDERS for file in sorted((ROOT / folder).rglob("*.py"))):
+        lines = file.read_text("utf-8").splitlines()
+        for number in (number for number, line in enumerate(lines) if line.endswith(skip)):
+            name = f"{file.relative_to(ROOT)} line {number + 1}".replace("/", ".")
+            changed = [*lines[:number], lines[number].removesuffix(skip), *lines[number + 1 :]]
+            (tmp_path / f"{name}.py").write_text("\n".join(changed), "utf-8")
+            before[name] = len(lines)
+    config = ROOT / "pyproject.toml"
+    subprocess.run([sys.executable, "-m", "ruff", "format", "-q", "--config", config, tmp_path], check=True)
+    assert before
+    assert not [
+        name for name, count in before.items() if (tmp_path / f"{name}.py").read_text("utf-8").count("\n") <= count
+    ]

@@ -166,9 +166,14 @@ class Executed:
             folder.mkdir(parents=True, exist_ok=True)
             print("running all tests, to see what they execute", flush=True)
             run_tests(tree, ["-p", "tools.executed", "-n", str(jobs), *ALL], seconds=None, EXECUTED=str(folder))
-            Coverage(folder / "lines").combine([str(folder)])
+            together = Coverage(folder / "lines")
+            together.combine([str(folder)])
+            together.save()
         self.seconds: dict[str, float] = json.loads((folder / "seconds.json").read_text("utf-8"))
-        self.lines = cache(CoverageData(str(folder / "lines")).contexts_by_lineno)
+        # What is not read before it is asked is erased.
+        data = CoverageData(str(folder / "lines"))
+        data.read()
+        self.lines = cache(data.contexts_by_lineno)
 
     def tests_of(self, broken: Break) -> list[str]:
         """The tests to try a break on, fastest first, as many as fit into BUDGET; or test files near it."""

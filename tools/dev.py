@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The door for a bare Python: installs what a command needs into `.venv` and runs it there.
+"""Begins with a bare Python: installs what a command needs into `.venv` and runs it there.
 
 usage: python3 tools/dev.py COMMAND ...
 
@@ -46,11 +46,7 @@ MADE = (".pytest_cache", ".mypy_cache", ".ruff_cache", ".import_linter_cache", "
 DEVELOPMENT = ("cluster", "dev", "fast", "film", "learn", "minari", "plots", "train")
 USES = {"play": (), "film": ("film",), "verify": ("cluster", "fast"), "demonstrations": ("fast", "learn", "minari")}
 """The extras that commands of the game use; those that are not here may use Numba."""
-PROGRAMS = {
-    "benchmark": ("benchmarks",),
-    "golden": ("tools.golden",),
-    "change-rules": ("tools.breaks", "--rules"),
-}
+PROGRAMS = {"benchmark": ("benchmarks",), "golden": ("tools.golden",), "change-rules": ("tools.breaks", "--rules")}
 DRAWINGS = ("draw.how_it_works", "draw.screens", "draw.settings_page")
 PICTURE_TESTS = ("tests/play/test_recorded_screens.py", "tests/play/test_pictures.py", "tests/play/test_sound.py")
 LINT = (("ruff", "check"), ("ruff", "format", "--check"), ("mypy",), ("lint-imports",))

@@ -29,7 +29,7 @@ from ninja_game.cli import solver_options as options
 @click.pass_context
 def generate(
     ctx: click.Context, /, seed: int | None, difficulty: int, output: Path | None, replay: Path | None
-) -> None:  # fmt: skip
+) -> None:
     """Make a new level, certified by the solver.
 
     Seed, difficulty and version of ninja-game make the level, on every machine the same. Every level has been passed

@@ -101,7 +101,7 @@ class _Lines:
                     self.after[last].append(line)
 
     def _change_picture(self) -> None:
-        parts = [visible_parts(record) for record in self.draft.objects]
+        parts = [visible_parts(spec) for spec in self.draft.objects]
         for (number, line), chars in zip(self.rows, picture_rows(self.draft.level, parts), strict=True):
             match = _ROW.fullmatch(line)
             # A blank is as empty as a dot: what a person left blank stays so.
@@ -121,8 +121,8 @@ class _Lines:
             (number, entry.record) for number, entries in read.items() for entry in entries if isinstance(entry, Listed)
         ]
         wanted = self.draft.objects[self._count_drawn(len(owners)) :]
-        keys = [repr(record) for _, record in owners]
-        matcher = SequenceMatcher(None, keys, [repr(record) for record in wanted], autojunk=False)
+        keys = [repr(spec) for _, spec in owners]
+        matcher = SequenceMatcher(None, keys, [repr(spec) for spec in wanted], autojunk=False)
         content: dict[int, list[ObjectSpec]] = {number: [] for number, _ in owners}
         touched: set[int] = set()
         for _, i1, i2, j1, j2 in (code for code in matcher.get_opcodes() if code[0] == "equal"):
@@ -161,7 +161,7 @@ class _Lines:
     def _count_drawn(self, listed: int) -> int:
         """How many of the first objects the picture alone makes: as many as before, where that is possible."""
         objects = self.draft.objects
-        most = drawn_only(self.draft.level, [visible_parts(record) for record in objects])
+        most = drawn_only(self.draft.level, [visible_parts(spec) for spec in objects])
         old = self.opened.objects
         before = len(old) - listed
         if not listed or old == objects:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from ninja_game.editor.draft import Cell, cell_of
 from ninja_game.editor.motion import TILE_IDS, Motion
-from ninja_game.editor.records import SWITCH, carried, has_switch, object_type_name, points, settled, with_word, word
+from ninja_game.editor.specs import SWITCH, carried, has_switch, object_type_name, points, settled, with_word, word
 from ninja_game.formats.ascii.legend import TILE_CHARS
 from ninja_game.formats.ascii.object_forms import natural_offset
 from ninja_game.formats.ascii.object_lines import Listed, read_object_line
@@ -63,7 +63,7 @@ class ObjectType(NamedTuple):
     line: str
 
     @property
-    def record(self) -> ObjectSpec:
+    def spec(self) -> ObjectSpec:
         """An object of it, at the first cell."""
         listed = read_object_line(self.line)[0]
         assert isinstance(listed, Listed)  # noqa: S101 - the table below holds objects only
@@ -97,9 +97,14 @@ OBJECT_TYPES = tuple(
 OBJECT_TYPE_NAMES = tuple(object_type.name for object_type in OBJECT_TYPES)
 
 
-def object_type_of(record: ObjectSpec) -> str:
-    """The type in the palette that a record belongs to."""
-    name = object_type_name(record)
+def object_of_type(name: str) -> ObjectSpec:
+    """An object of the type with this name, at the first cell."""
+    return OBJECT_TYPES[OBJECT_TYPE_NAMES.index(name)].spec
+
+
+def object_type_of(spec: ObjectSpec) -> str:
+    """The type in the palette that a spec belongs to."""
+    name = object_type_name(spec)
     return {"one-way platform": "one-way"}.get(name, name)
 
 
@@ -111,42 +116,42 @@ def snapped(x: float, y: float, snap: str) -> tuple[float, float]:
     return step * round(x / step), step * round(y / step)
 
 
-def placed(record: ObjectSpec, x: float, y: float, snap: str) -> ObjectSpec:
+def placed(spec: ObjectSpec, x: float, y: float, snap: str) -> ObjectSpec:
     """The brush's object put at a point; doors on the side of the cell that is nearest, its switch where it would be.
 
     Drones sit in the middle of their cell, guards on its floor, whatever the snap.
     """
     px, py = snapped(x, y, snap)
-    if record.kind == kinds.DOOR:
-        return _placed_door(record, x, y, (px, py))
-    if record.kind == kinds.DRONE:
+    if spec.kind == kinds.DOOR:
+        return _placed_door(spec, x, y, (px, py))
+    if spec.kind == kinds.DRONE:
         px, py = snapped(x, y, "cell")
-    elif record.kind == kinds.FLOOR_GUARD:
+    elif spec.kind == kinds.FLOOR_GUARD:
         py = 24.0 * cell_of(px, y)[1] + 18.0
     elif snap == "cell":
-        direction = word(record, "direction") if record.kind == kinds.LAUNCH_PAD else ""
-        dx, dy = natural_offset(object_type_of(record), direction)
+        direction = word(spec, "direction") if spec.kind == kinds.LAUNCH_PAD else ""
+        dx, dy = natural_offset(object_type_of(spec), direction)
         px, py = px + dx, py + dy
-    values = (px, py, px, py) if record.kind == kinds.EXIT else (px, py, *record.values[2:])
-    return record._replace(values=values)
+    values = (px, py, px, py) if spec.kind == kinds.EXIT else (px, py, *spec.values[2:])
+    return spec._replace(values=values)
 
 
-def _placed_door(record: ObjectSpec, x: float, y: float, switch: tuple[float, float]) -> ObjectSpec:
+def _placed_door(spec: ObjectSpec, x: float, y: float, switch: tuple[float, float]) -> ObjectSpec:
     column, row = cell_of(x, y)
     right, down = x - 24.0 * column - 12.0, y - 24.0 * row - 12.0
     if (right, down) != (0.0, 0.0):
         wide = abs(right) >= abs(down)
         side = ("right" if right > 0 else "left") if wide else ("bottom" if down > 0 else "top")
-        record = with_word(record, "side", side)
-    values = (*switch, *record.values[2:4], float(column), float(row), *record.values[6:])
-    return settled(record._replace(values=values))
+        spec = with_word(spec, "side", side)
+    values = (*switch, *spec.values[2:4], float(column), float(row), *spec.values[6:])
+    return settled(spec._replace(values=values))
 
 
-def with_switch(record: ObjectSpec, x: float, y: float, snap: str) -> ObjectSpec:
+def with_switch(spec: ObjectSpec, x: float, y: float, snap: str) -> ObjectSpec:
     """An exit or a door with its switch at a point."""
     px, py = snapped(x, y, snap)
-    old = points(record)[SWITCH] if has_switch(record) else (px, py)
-    return carried(record, Motion(dx=px - old[0], dy=py - old[1]), (SWITCH,))
+    old = points(spec)[SWITCH] if has_switch(spec) else (px, py)
+    return carried(spec, Motion(dx=px - old[0], dy=py - old[1]), (SWITCH,))
 
 
 def cells_between(a: Cell, b: Cell) -> list[Cell]:

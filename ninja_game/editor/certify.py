@@ -9,10 +9,10 @@ from time import monotonic
 from typing import TYPE_CHECKING
 
 from ninja_game.backend.memories import compiled_available
-from ninja_game.editor.background import NewestJob
 from ninja_game.errors import BudgetError, LevelError
 from ninja_game.files.user_folder import how_to_install
 from ninja_game.runs.run import run_level
+from ninja_game.runtime import NewestJob
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.simulation import Body

@@ -11,15 +11,16 @@ from pathlib import Path
 
 from ninja_game.document import RecoveryFile, check_free, digest_of, digest_of_file, recovered_from
 from ninja_game.editor.ascii_text import ascii_text, updated_text
-from ninja_game.editor.background import NewestJob
 from ninja_game.editor.draft import Draft
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.locking import forget
 from ninja_game.files.reading import read_bytes, read_utf8
+from ninja_game.files.user_folder import EDITING
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.links.fragment import is_link
 from ninja_game.formats.load import load_levels, texts_of
 from ninja_game.formats.named_level import NamedLevel, parse_levels
+from ninja_game.runtime import NewestJob
 from ninja_game.sim.level import Level
 
 SUFFIX = ".txt"
@@ -97,8 +98,7 @@ def draft_of_text(text: str, about: Draft) -> Draft:
     return replace(read, name=read.name or about.name, author=read.author or about.author)
 
 
-FOLDER, AUTOSAVE_SUFFIX = "editing", ".json"
-"""In the player's folder."""
+AUTOSAVE_SUFFIX = ".json"
 
 SPACING = 0.4
 """Seconds from one autosave to the next, at least."""
@@ -108,7 +108,7 @@ class Autosave(RecoveryFile):
     """Keeps the newest draft of one document, in a thread of its own."""
 
     def __init__(self, folder: Path, file: Path | None = None) -> None:
-        super().__init__(folder / FOLDER, AUTOSAVE_SUFFIX, file)
+        super().__init__(folder / EDITING, AUTOSAVE_SUFFIX, file)
         self._job: NewestJob[tuple[Draft, Source] | None, None] = NewestJob(self._work)
         self._kept: Draft | None = None
         self._asked_at = 0.0
@@ -161,7 +161,7 @@ class RecoveredDraft:
 
 def recovered(folder: Path) -> Iterator[RecoveredDraft]:
     """What editors that have died were editing, the newest first; those of running editors are left out."""
-    return recovered_from(folder / FOLDER, AUTOSAVE_SUFFIX, _read)
+    return recovered_from(folder / EDITING, AUTOSAVE_SUFFIX, _read)
 
 
 def _read(file: Path) -> RecoveredDraft:

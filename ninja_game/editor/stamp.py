@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from ninja_game.editor.draft import Cell, Draft, Tiles, is_inside
 from ninja_game.editor.motion import Motion
-from ninja_game.editor.records import carried, points
+from ninja_game.editor.specs import carried, points
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec
 
@@ -16,7 +16,7 @@ CellArea = tuple[int, int, int, int]
 """First column, first row, columns, rows."""
 
 ObjectPart = tuple[int, int]
-"""Number of a record in its draft, and which part of it."""
+"""Number of an object in its draft, and which part of it."""
 
 
 class Stamp(NamedTuple):
@@ -28,7 +28,7 @@ class Stamp(NamedTuple):
     def carried(self, motion: Motion) -> Stamp:
         """All of it after a motion."""
         tiles = {motion.cell(cell): motion.tile(tile) for cell, tile in self.tiles.items()}
-        return Stamp(tiles, tuple(carried(record, motion) for record in self.objects))
+        return Stamp(tiles, tuple(carried(spec, motion) for spec in self.objects))
 
 
 @dataclass(frozen=True)
@@ -42,8 +42,8 @@ class Selection:
         return self.area is not None or bool(self.parts)
 
     @property
-    def records(self) -> set[int]:
-        """Numbers of the records of which anything is chosen."""
+    def numbers(self) -> set[int]:
+        """Numbers of the objects of which anything is chosen."""
         return {number for number, _ in self.parts}
 
 
@@ -74,21 +74,21 @@ def put(draft: Draft, stamp: Stamp, symmetry: Iterable[Motion] = ()) -> Draft:
         image = stamp.carried(motion)
         # A cell that is its own image keeps what was drawn there.
         tiles |= {cell: tile for cell, tile in image.tiles.items() if number == 0 or cell not in stamp.tiles}
-        for record in image.objects:
-            if number and record.kind in (NINJA, EXIT):
+        for spec in image.objects:
+            if number and spec.kind in (NINJA, EXIT):
                 continue
-            objects = _with_ninja(objects, record) if record.kind == NINJA else _with(objects, record)
+            objects = _with_ninja(objects, spec) if spec.kind == NINJA else _with(objects, spec)
     return draft.with_tiles(tiles).with_objects(objects)
 
 
-def _with(objects: tuple[ObjectSpec, ...], record: ObjectSpec) -> tuple[ObjectSpec, ...]:
-    return objects if record in objects else (*objects, record)
+def _with(objects: tuple[ObjectSpec, ...], spec: ObjectSpec) -> tuple[ObjectSpec, ...]:
+    return objects if spec in objects else (*objects, spec)
 
 
-def _with_ninja(objects: tuple[ObjectSpec, ...], record: ObjectSpec) -> tuple[ObjectSpec, ...]:
+def _with_ninja(objects: tuple[ObjectSpec, ...], spec: ObjectSpec) -> tuple[ObjectSpec, ...]:
     """The ninja that plays, the last one, is put elsewhere; the first one of a level comes before everything."""
     last = max((number for number, other in enumerate(objects) if other.kind == NINJA), default=-1)
-    return (*objects[: max(last, 0)], record, *objects[last + 1 :])
+    return (*objects[: max(last, 0)], spec, *objects[last + 1 :])
 
 
 def filled(draft: Draft, cell: Cell) -> list[Cell]:
@@ -112,8 +112,8 @@ def chosen_in(draft: Draft, area: CellArea) -> Selection:
     column, row, columns, rows = area
     inside = {
         (number, part)
-        for number, record in enumerate(draft.objects)
-        for part, (x, y) in points(record).items()
+        for number, spec in enumerate(draft.objects)
+        for part, (x, y) in points(spec).items()
         if 24 * column <= x < 24 * (column + columns) and 24 * row <= y < 24 * (row + rows)
     }
     return Selection(area, frozenset(inside))
@@ -121,20 +121,20 @@ def chosen_in(draft: Draft, area: CellArea) -> Selection:
 
 def everything(draft: Draft) -> Selection:
     """All tiles and objects, wherever they are."""
-    parts = {(number, part) for number, record in enumerate(draft.objects) for part in points(record)}
+    parts = {(number, part) for number, spec in enumerate(draft.objects) for part in points(spec)}
     return Selection(WHOLE, frozenset(parts))
 
 
 def copied(draft: Draft, selection: Selection) -> Stamp:
     """What is chosen; an object with one of its parts is copied whole."""
     tiles = {cell: draft.tile(cell) for cell in cells_of(selection.area) if is_inside(cell)} if selection.area else {}
-    return Stamp(tiles, tuple(draft.objects[number] for number in sorted(selection.records)))
+    return Stamp(tiles, tuple(draft.objects[number] for number in sorted(selection.numbers)))
 
 
 def removed(draft: Draft, selection: Selection) -> Draft:
     """The draft without what is chosen."""
     tiles = dict.fromkeys(cells_of(selection.area), 0) if selection.area else {}
-    kept = tuple(record for number, record in enumerate(draft.objects) if number not in selection.records)
+    kept = tuple(spec for number, spec in enumerate(draft.objects) if number not in selection.numbers)
     return draft.with_tiles(tiles).with_objects(kept)
 
 
@@ -159,7 +159,7 @@ def moved(draft: Draft, selection: Selection, motion: Motion) -> tuple[Draft, Se
 def pasted(draft: Draft, stamp: Stamp) -> tuple[Draft, Selection]:
     """The draft with a stamp on it, and the selection of what came: objects are added, but a ninja moves."""
     after = put(draft, stamp)
-    new = {number for number, record in enumerate(after.objects) if record in stamp.objects}
+    new = {number for number, spec in enumerate(after.objects) if spec in stamp.objects}
     parts = {(number, part) for number in new for part in points(after.objects[number])}
     cells = list(stamp.tiles)
     area = area_between(min(cells), max(cells)) if cells else None
@@ -186,8 +186,8 @@ def nearest(draft: Draft, x: float, y: float, reach: float) -> ObjectPart | None
     """The part of an object nearest to a point and within ``reach`` px of it; of equals the newest."""
     found: ObjectPart | None = None
     best = reach * reach
-    for number, record in enumerate(draft.objects):
-        for part, (px, py) in points(record).items():
+    for number, spec in enumerate(draft.objects):
+        for part, (px, py) in points(spec).items():
             distance = (px - x) ** 2 + (py - y) ** 2
             if distance <= best:
                 found, best = (number, part), distance

@@ -8,9 +8,9 @@ from __future__ import annotations
 from ninja_game.document import History
 from ninja_game.editor.brush import (
     OBJECT_TYPE_NAMES,
-    OBJECT_TYPES,
     SNAPS,
     cells_between,
+    object_of_type,
     object_type_of,
     placed,
     snapped,
@@ -18,7 +18,7 @@ from ninja_game.editor.brush import (
 )
 from ninja_game.editor.draft import Cell, Draft, cell_of
 from ninja_game.editor.motion import SYMMETRIES, Motion
-from ninja_game.editor.records import has_switch, points
+from ninja_game.editor.specs import has_switch, points
 from ninja_game.editor.stamp import (
     ObjectPart,
     Selection,
@@ -40,8 +40,8 @@ from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import WORLD_HEIGHT, WORLD_WIDTH
 
 TOOLS = ("brush", "rectangle", "fill", "select", "pick")
-DRAGGED = 12.0
-"""A press that moves farther than this is a drag; what is nearer is chosen, px."""
+DRAGGED = PICK_REACH = 12.0
+"""A press that moves farther than this is a drag; an object that is nearer is picked, px."""
 REACH = 17.32
 """px within which an object is deleted (√300: game.md §6)."""
 
@@ -49,7 +49,7 @@ REACH = 17.32
 class EditorTools:
     """A draft with its history, the pointer, the tool in hand and what it draws, what is selected and copied.
 
-    ``tile`` and ``record``: what the brush draws, ``objects`` which of them. ``snap``, ``symmetry``: by name.
+    ``tile`` and ``spec``: what the brush draws, ``objects`` which of them. ``snap``, ``symmetry``: by name.
     ``tool``: one of TOOLS; ``marquee``: the corners of the frame that is being drawn around what to select.
     """
 
@@ -57,7 +57,7 @@ class EditorTools:
         self.history = History(draft)
         self.objects = False
         self.tile = 1
-        self.record: ObjectSpec = OBJECT_TYPES[2].record
+        self.spec: ObjectSpec = object_of_type("gold")
         self.snap = "cell"
         self.symmetry = "off"
         self.pointer = (396.0, 300.0)
@@ -87,7 +87,7 @@ class EditorTools:
     @property
     def draws_one(self) -> bool:
         """Whether every tool puts one object at a time: a ninja, or what has a switch to be placed after it."""
-        return self.objects and (self.record.kind == NINJA or has_switch(self.record))
+        return self.objects and (self.spec.kind == NINJA or has_switch(self.spec))
 
     @property
     def dragging(self) -> bool:
@@ -139,7 +139,7 @@ class EditorTools:
         if self.tool == "fill" and not self.objects and not erase:
             self._change(Stamp(dict.fromkeys(filled(self.draft, self.cell), self.tile)))
             return
-        many = not self.objects or self.record.kind in (GOLD, MINE)
+        many = not self.objects or self.spec.kind in (GOLD, MINE)
         boxed = self.tool == "rectangle" and not self.draws_one
         drawn = "rectangle" if boxed else "draw" if many else "drop"
         self._doing = "erase" if erase else drawn
@@ -147,7 +147,7 @@ class EditorTools:
 
     def release(self) -> None:
         if self._doing == "drop" and has_switch(self._dropped()):
-            self._switchless = placed(self.record, *self._pressed_at, self.snap)
+            self._switchless = placed(self.spec, *self._pressed_at, self.snap)
             self._doing = ""
             far = max(abs(a - b) for a, b in zip(self.pointer, self._pressed_at, strict=True)) > DRAGGED
             if far:
@@ -176,7 +176,7 @@ class EditorTools:
 
     def pick(self) -> None:
         """Draw with what is under the pointer."""
-        found = nearest(self.draft, *self.pointer, DRAGGED)
+        found = nearest(self.draft, *self.pointer, PICK_REACH)
         if found:
             self.pick_up(self.draft.objects[found[0]])
         else:
@@ -188,7 +188,7 @@ class EditorTools:
         if isinstance(what, int):
             self.tile, self.objects = what, False
         elif object_type_of(what) in OBJECT_TYPE_NAMES:
-            self.record, self.objects = what, True
+            self.spec, self.objects = what, True
         if self.tool in ("select", "pick"):
             self.tool = "brush"
 
@@ -205,7 +205,7 @@ class EditorTools:
         elif erasing:
             self.delete_nearest()
         else:
-            self._change(Stamp({}, (placed(self.record, *self.pointer, self.snap),)))
+            self._change(Stamp({}, (placed(self.spec, *self.pointer, self.snap),)))
 
     def _draw_rectangle(self) -> None:
         area = area_between(cell_of(*self._pressed_at), self.cell)
@@ -217,24 +217,24 @@ class EditorTools:
         columns, rows = int(abs(bx - ax) // step), int(abs(by - ay) // step)
         x, y = min(ax, bx), min(ay, by)
         places = [(x + step * i, y + step * j) for j in range(rows + 1) for i in range(columns + 1)]
-        objects = tuple(placed(self.record, *place, self.snap) for place in places)
+        objects = tuple(placed(self.spec, *place, self.snap) for place in places)
         self._change(Stamp({}, objects), self.history.began)
 
     def _dropped(self) -> ObjectSpec:
         """The brush's object as it would be placed now."""
-        return placed(self.record, *self.pointer, self.snap)
+        return placed(self.spec, *self.pointer, self.snap)
 
     def _drop(self) -> None:
         """One object under the pointer, until the button goes up; a switch is dragged out of its door."""
-        record = self._dropped()
-        if has_switch(record):
-            record = with_switch(placed(self.record, *self._pressed_at, self.snap), *self.pointer, self.snap)
-        self._change(Stamp({}, (record,)), self.history.began)
+        spec = self._dropped()
+        if has_switch(spec):
+            spec = with_switch(placed(self.spec, *self._pressed_at, self.snap), *self.pointer, self.snap)
+        self._change(Stamp({}, (spec,)), self.history.began)
 
     def _put_switch(self) -> None:
         if self._switchless is not None:
-            record = with_switch(self._switchless, *self.pointer, self.snap)
-            self._change(Stamp({}, (record,)), self.history.began)
+            spec = with_switch(self._switchless, *self.pointer, self.snap)
+            self._change(Stamp({}, (spec,)), self.history.began)
 
     def delete_nearest(self) -> None:
         """Delete the object nearest to the pointer, and its images in the symmetry."""
@@ -250,7 +250,7 @@ class EditorTools:
 
     def _choose(self, *, add: bool) -> None:
         """Drag what is chosen, or choose what is under the pointer, or begin to draw a frame around what to choose."""
-        found = nearest(self.draft, *self.pointer, DRAGGED)
+        found = nearest(self.draft, *self.pointer, PICK_REACH)
         if not add and (found in self.selection.parts or self._in_area()):
             self._begin_drag()
             return
@@ -282,11 +282,17 @@ class EditorTools:
         self.finish()
         self.selection = Selection(parts=parts)
 
-    def undo(self, *, again: bool = False) -> bool:
-        """Take the last edit back, or do again what was taken back; whether there was any."""
+    def undo(self) -> bool:
+        """Take the last edit back; whether there was one."""
         self.finish()
         self.selection = Selection()
-        return self.history.redo() if again else self.history.undo()
+        return self.history.undo()
+
+    def redo(self) -> bool:
+        """Do again what was taken back last; whether there was anything."""
+        self.finish()
+        self.selection = Selection()
+        return self.history.redo()
 
     # --- what is chosen ---
 
@@ -304,7 +310,7 @@ class EditorTools:
             draft, self.selection = moved(self.draft, self.selection, about)
             self.history.change(draft)
         elif self.objects:
-            self.record = Stamp({}, (self.record,)).carried(motion.about(36.0, 36.0)).objects[0]
+            self.spec = Stamp({}, (self.spec,)).carried(motion.about(36.0, 36.0)).objects[0]
         else:
             self.tile = motion.tile(self.tile)
 
@@ -334,7 +340,7 @@ class EditorTools:
         if self.clipboard is None:
             return False
         tiles = self.clipboard.tiles
-        places = [point for record in self.clipboard.objects for point in points(record).values()]
+        places = [point for spec in self.clipboard.objects for point in points(spec).values()]
         corner = (24.0 * min(c for c, _ in tiles), 24.0 * min(r for _, r in tiles)) if tiles else min(places)
         there = (24.0 * self.cell[0], 24.0 * self.cell[1]) if tiles else snapped(*self.pointer, self.snap)
         motion = Motion(dx=there[0] - corner[0], dy=there[1] - corner[1])
@@ -346,21 +352,21 @@ class EditorTools:
     @property
     def chosen(self) -> ObjectSpec | None:
         """The only object that is selected."""
-        records = self.selection.records
-        number = next(iter(records)) if len(records) == 1 and self.selection.area is None else -1
+        numbers = self.selection.numbers
+        number = next(iter(numbers)) if len(numbers) == 1 and self.selection.area is None else -1
         return self.draft.objects[number] if 0 <= number < len(self.draft.objects) else None
 
     @property
     def subject(self) -> ObjectSpec:
         """The object whose properties can be changed: the selected one, or the one that is drawn with."""
-        return self.chosen or self.record
+        return self.chosen or self.spec
 
-    def put_subject(self, record: ObjectSpec) -> None:
-        """Another record in the place of the subject."""
+    def put_subject(self, spec: ObjectSpec) -> None:
+        """Put another object in the place of the subject."""
         if self.chosen is None:
-            self.record = record
+            self.spec = spec
             return
-        number = next(iter(self.selection.records))
-        objects = (*self.draft.objects[:number], record, *self.draft.objects[number + 1 :])
+        number = next(iter(self.selection.numbers))
+        objects = (*self.draft.objects[:number], spec, *self.draft.objects[number + 1 :])
         self.history.change(self.draft.with_objects(objects))
-        self.selection = Selection(None, frozenset((number, part) for part in points(record)))
+        self.selection = Selection(None, frozenset((number, part) for part in points(spec)))

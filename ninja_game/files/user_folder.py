@@ -17,8 +17,8 @@ from ninja_game.runtime import IN_PAGE, ONLY_ON_A_DESKTOP
 HOME_VARIABLE = "NINJA_GAME_HOME"
 """Environment variable that moves the folder."""
 
-LEVELS, REPLAYS, EXPORTS = "levels", "replays", "exports"
-"""Folders in it: level files that the game offers, replays that it offers, what it writes on request."""
+LEVELS, REPLAYS, EXPORTS, EDITING = "levels", "replays", "exports", "editing"
+"""Folders in it: levels and replays that the game offers, what it writes on request, levels that are being edited."""
 
 SETTINGS, RECORDS = "settings.toml", "records.sqlite"
 """Files in it."""

@@ -126,11 +126,7 @@ def parse_replays(text: str, *, file: str = "", level: Level | None = None, chan
     if is_tas_text(text):
         return [_recording_of_lines(text, file, level)]
     raise ReplayError(
-        "no recording",
-        file,
-        1,
-        found=repr(text[:40]),
-        expected="a replay of ours or $name#author#comment#level#demo#",
+        "no recording", file, 1, found=repr(text[:40]), expected="a replay of ours or $name#author#comment#level#demo#"
     )
 
 

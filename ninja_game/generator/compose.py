@@ -30,9 +30,7 @@ class Niche(NamedTuple):
     side: str
 
 
-def place_route(
-    board: Board, tiles: dict[Cell, str], niche: Niche | None, rng: Random, *, far: float
-) -> Scene | None:  # fmt: skip
+def place_route(board: Board, tiles: dict[Cell, str], niche: Niche | None, rng: Random, *, far: float) -> Scene | None:
     """A scene with ninja, exit and doors, the way over all switches about ``far`` cells long; None if it cannot be."""
     bare = Scene(board, tiles, (0, 0))
     bare.steps = dict.fromkeys(bare.empty, 0)

@@ -117,7 +117,7 @@ def _near(measured: float, wanted: int) -> bool:
     return abs(measured - wanted) <= max(0.5, 0.15 * wanted)
 
 
-def _certified(scene: Scene, rng: Random, wanted: int, budget: Budget, stop: Event) -> tuple[Replay, float] | None:  # fmt: skip  # noqa: E501
+def _certified(scene: Scene, rng: Random, wanted: int, budget: Budget, stop: Event) -> tuple[Replay, float] | None:
     """A run through a scene whose hazards are changed until it is as hard as wanted, and how hard it is then."""
     run = solve(Task(scene.level, work=budget.find), stop=stop)
     if run is None:

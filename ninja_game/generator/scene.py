@@ -63,9 +63,7 @@ class Board:
         return found
 
 
-def _both(
-    column: int, row: int, width: int, height: int, one_sided: bool, outside: bool = False
-) -> Iterator[Cell]:  # fmt: skip
+def _both(column: int, row: int, width: int, height: int, one_sided: bool, outside: bool = False) -> Iterator[Cell]:
     for cell in ((c, r) for c in range(column, column + width) for r in range(row, row + height)):
         if outside or inside(cell):
             yield cell

@@ -23,7 +23,7 @@ from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import Actions
 from ninja_game.learn.levels import DEFAULT_LEVEL, Origin
 from ninja_game.learn.rendering import EpisodePicture, episode_text
-from ninja_game.learn.worlds import EnvState, EnvWorlds
+from ninja_game.learn.worlds import EnvState, EnvWorlds, checked_seed
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import JUMP_HELD, pressed
 from ninja_game.sim.level import Level
@@ -96,9 +96,10 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
 
         ``seed``: begin the sequence of levels of that seed. ``options``: ``{"level": …}``, this episode's level by its
         name or number; or other levels, as ``level_source`` takes them, for this and all later episodes. Raises
-        ArgumentError for other options.
+        ArgumentError for other options and seeds.
         """
         self._check_open()
+        seed = None if seed is None else checked_seed(seed)
         super().reset(seed=seed)
         new_seed = seed is not None or not self._started
         if new_seed:

@@ -24,7 +24,7 @@ from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import Actions
 from ninja_game.learn.levels import DEFAULT_LEVEL, Origin
 from ninja_game.learn.observations.observation import Observed
-from ninja_game.learn.worlds import EnvWorlds
+from ninja_game.learn.worlds import EnvWorlds, checked_seed
 
 Infos = dict[str, Any]
 
@@ -72,8 +72,8 @@ class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
     ) -> tuple[Observed, Infos]:
         """Begin new episodes. Raises ArgumentError for seeds, a mask, levels or other options that do not fit."""
         self._refuse_closed()
-        if seed is None or isinstance(seed, int):
-            super().reset(seed=seed)
+        if seed is None or isinstance(seed, int | np.integer):
+            super().reset(seed=None if seed is None else checked_seed(seed))
         options = options or {}
         if options.keys() - {"level", "reset_mask"}:
             raise ArgumentError(f"options are {sorted(options)}; expected 'level', 'reset_mask' or none")
@@ -93,13 +93,11 @@ class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
         if seed is None:
             return None if self._reset_before else self.np_random.integers(2**63, size=self.num_envs).tolist()
         if isinstance(seed, int | np.integer):
-            seeds = [int(seed) + index for index in range(self.num_envs)]
-        else:
-            seeds = list(seed) if isinstance(seed, Sequence | np.ndarray) else [seed]
-        if len(seeds) != self.num_envs or not all(isinstance(each, int | np.integer) and each >= 0 for each in seeds):
-            expected = f"{self.num_envs} whole numbers from 0 on, one for each world"
-            raise ArgumentError(f"seeds are {seed!r:.60}; expected {expected}")
-        return [int(each) for each in seeds]
+            return [int(seed) + index for index in range(self.num_envs)]
+        seeds = list(seed) if isinstance(seed, Sequence | np.ndarray) else [seed]
+        if len(seeds) != self.num_envs:
+            raise ArgumentError(f"seeds are {seed!r:.60}; expected {self.num_envs}, one for each world")
+        return [checked_seed(each) for each in seeds]
 
     def _checked_mask(self, mask: Any) -> NDArray[np.bool_]:
         if not isinstance(mask, np.ndarray) or mask.shape != (self.num_envs,) or mask.dtype != np.bool_:

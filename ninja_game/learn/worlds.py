@@ -263,6 +263,13 @@ class EnvWorlds:
         return self.levels, self.body, self.memory, self.time_limit, self.goal is not None
 
 
+def checked_seed(seed: object) -> int:
+    """A seed as Python's own number. Raises ArgumentError for anything but a whole number from 0 on."""
+    if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
+        raise ArgumentError(f"the seed is {seed!r:.60}; expected a whole number from 0 on")
+    return int(seed)
+
+
 def _made_with(settings: dict[str, Any]) -> EnvWorlds:
     """A function of its own, so that a copy has copies of the settings too: a source of levels may learn."""
     return EnvWorlds(**settings)

@@ -78,8 +78,7 @@ LEVEL_RULES = {
         "another door is on the same side: the later one may never open", "Delete one of the two."
     ),
     "closed-anyway": Rule(
-        "the tiles close this side anyway: the door changes nothing",
-        "Clear the tiles on both sides, or move the door.",
+        "the tiles close this side anyway: the door changes nothing", "Clear the tiles on both sides, or move the door."
     ),
     "duplicate": Rule("the same object is in this place already", "Delete one of the two."),
     "mine-over-gold": Rule("it is drawn over a piece of gold", "Move one of the two."),

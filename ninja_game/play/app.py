@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from random import Random
 
 import pygame
 
@@ -17,9 +16,11 @@ from ninja_game.formats.recording import Recording
 from ninja_game.play.audio.player import AudioOutput, AudioPlayer
 from ninja_game.play.input.bindings import Bindings, InputEvent
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH, Canvas
+from ninja_game.play.ui.spreadsheet import draw_spreadsheet
 from ninja_game.play.ui.theme import PALETTES, Area, Theme, palette_named
 from ninja_game.play.window import TITLE, Window, save_picture
 from ninja_game.player.player_data import PlayerData
+from ninja_game.player.progress import FASTEST_TICK_GAIN
 from ninja_game.player.settings import Settings
 from ninja_game.sim.rules import TICK_MS
 
@@ -199,7 +200,7 @@ class App:
     @property
     def tick_ms(self) -> int:
         """Length of a tick in real ms."""
-        return TICK_MS - min(10, max(0, self.overclock))
+        return TICK_MS - min(FASTEST_TICK_GAIN, max(0, self.overclock))
 
     def change_settings(self, **values: object) -> None:
         """Take, save and show other settings; a notice says where they could not be saved."""
@@ -399,12 +400,6 @@ def build_app(
     return app
 
 
-_PAPER, _LINE, _HEAD, _INK = "#ffffff", "#d0d4da", "#eef0f3", "#3a3f47"
-_ROWS, _ROW_HEIGHT, _TOP = 24, 22.0, 48.0
-_COLUMNS = (("", 40.0), ("Item", 210.0), ("Q1", 100.0), ("Q2", 100.0), ("Q3", 100.0), ("Q4", 100.0), ("Total", 142.0))
-_ITEMS = ("Paper", "Toner", "Postage", "Travel", "Training", "Licences", "Furniture", "Coffee", "Cleaning", "Repairs")
-
-
 class BossScreen(Screen):
     """The key that hides the game comes back to it; the key for leaving ends the program."""
 
@@ -424,22 +419,5 @@ class BossScreen(Screen):
         """The sheet; it never changes."""
         if not self.redraw:
             return []
-        surface.fill(_PAPER)
-        canvas, text = self.app.canvas, self.app.theme.text
-        rng = Random(2)  # noqa: S311 - figures that mean nothing
-        canvas.fill_rect(surface, _HEAD, 0, _TOP - _ROW_HEIGHT, 792, _ROW_HEIGHT)
-        text(surface, "Budget, second draft", 12, 6, size=11, colour=_INK)
-        for row in range(_ROWS + 1):
-            y = _TOP + _ROW_HEIGHT * row
-            canvas.line(surface, _LINE, (0, y), (792, y), 0.5)
-            figures = [rng.randrange(40, 3000) for _ in range(4)]
-            cells = [str(row + 1), _ITEMS[row % len(_ITEMS)], *map(str, figures), str(sum(figures))]
-            x = 0.0
-            for (head, width), cell in zip(_COLUMNS, cells, strict=True):
-                if row == 0:
-                    text(surface, head, x + 8, _TOP - 16, size=9, colour=_INK)
-                    canvas.line(surface, _LINE, (x, _TOP - _ROW_HEIGHT), (x, 600), 0.5)
-                if row < _ROWS:
-                    text(surface, cell, x + 8, y + 6, size=9, colour=_INK)
-                x += width
+        draw_spreadsheet(surface, self.theme)
         return None

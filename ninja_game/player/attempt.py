@@ -8,6 +8,7 @@ from typing import Any
 from ninja_game.budget import NO_LIMIT
 from ninja_game.formats.replay.text import Replay
 from ninja_game.player.records import level_score
+from ninja_game.player.statistics import SELF, killer_of
 from ninja_game.runs.run import record_replay
 from ninja_game.sim.inputs import MAX_DEMO_TICKS, Demo, pressed
 from ninja_game.sim.level import Level
@@ -54,6 +55,11 @@ class Attempt:
     def gold(self) -> int:
         """Pieces of gold collected."""
         return self.simulation.gold
+
+    @property
+    def killer(self) -> str:
+        """What killed the ninja, one of ``statistics.KILLERS``: asked right after the tick of its death."""
+        return SELF if self.own_hand else killer_of(self.simulation.world)
 
     def tick(self, held: int) -> None:
         """Run one tick with what is held: 1 left + 2 right + 4 jump."""

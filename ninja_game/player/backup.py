@@ -25,15 +25,16 @@ from ninja_game.errors import DAMAGED, FileError, NinjaGameError
 from ninja_game.files.reading import files_in, read_bytes
 from ninja_game.files.shown_text import MAX_SHOWN, name_key, name_problem, shown_text
 from ninja_game.files.tree import Tree
-from ninja_game.files.user_folder import EXPORTS, LEVELS, RECORDS, REPLAYS, SETTINGS, quarantine
+from ninja_game.files.user_folder import EDITING, EXPORTS, LEVELS, RECORDS, REPLAYS, SETTINGS, quarantine
 from ninja_game.files.writing import write_atomically
 from ninja_game.files.zips import open_zip, unpacked
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.progress import KILLERS, is_place
+from ninja_game.player.progress import is_place
 from ninja_game.player.records import Records, level_score
+from ninja_game.player.statistics import KILLERS
 from ninja_game.player.store import Store
 from ninja_game.player.store.schema import SCHEMA, TABLES, VERSION, OtherVersionError
 from ninja_game.runs.verify import verify_recording
@@ -45,7 +46,7 @@ MOST_FILES, MOST_BYTES = 4096, 256 * 2**20
 MOST_REPLAYS, MOST_ROWS = 5_000, 100_000
 """Of its records: replays, and rows of any other table."""
 
-FOLDERS = (LEVELS, REPLAYS, EXPORTS, EDITING := "editing")
+FOLDERS = (LEVELS, REPLAYS, EXPORTS, EDITING)
 """What a backup holds of the player's folder besides the settings and the records."""
 
 MOST_OF_DRAFT, MOST_OF_LEVEL = 2**20, 2**20

@@ -8,8 +8,8 @@ from enum import Enum
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
+from ninja_game.player.marks import next_par
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.progress import SELF, killer_of, next_par
 from ninja_game.player.saving import count_of, told
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import LIFETIME
@@ -96,8 +96,7 @@ class LevelContext:
 
     def died(self, attempt: Attempt) -> None:
         """Called once per death: counts it."""
-        killer = SELF if attempt.own_hand else killer_of(attempt.simulation.world)
-        told(self.data, count_of(self.data, self.entry, attempt, killer=killer))
+        told(self.data, count_of(self.data, self.entry, attempt, killer=attempt.killer))
 
     def gave_up(self, attempt: Attempt) -> None:
         """Called when an attempt is left or started again, whether it has ended or not: counts one that has not."""

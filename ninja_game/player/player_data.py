@@ -9,9 +9,11 @@ from ninja_game.errors import FileError
 from ninja_game.files.user_folder import LEVELS, RECORDS, REPLAYS, SETTINGS, make_user_folder, user_folder
 from ninja_game.files.writing import remove_leftovers
 from ninja_game.player.catalogue import Catalogue, Episode
-from ninja_game.player.progress import UNLOCKED, Marks, Progress, Statistics, complete_columns
+from ninja_game.player.marks import Marks
+from ninja_game.player.progress import UNLOCKED, Progress, complete_columns
 from ninja_game.player.records import Records
 from ninja_game.player.settings import Settings, read_settings, write_changes
+from ninja_game.player.statistics import Statistics
 from ninja_game.player.store import Store
 
 

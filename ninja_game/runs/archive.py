@@ -111,12 +111,7 @@ class Asked:
 
 
 def _verify_all(
-    chunks: Iterable[Chunk],
-    asked: Asked,
-    jobs: int | None,
-    processes: bool | None,
-    cluster: str,
-    resume: Path | None,
+    chunks: Iterable[Chunk], asked: Asked, jobs: int | None, processes: bool | None, cluster: str, resume: Path | None
 ) -> Iterator[Result]:
     """The results as the recordings alone give them."""
     if processes is None:
@@ -181,10 +176,7 @@ def _verify_as_text(asked: Asked, job: Job) -> str:
 
 
 def _isolate_failing(
-    pool: Workers,
-    function: Callable[[Any], Any],
-    jobs: Iterator[Job],
-    read: Callable[[Any, Job], list[list[Result]]],
+    pool: Workers, function: Callable[[Any], Any], jobs: Iterator[Job], read: Callable[[Any, Job], list[list[Result]]]
 ) -> Done:
     """All jobs with their results; one that kills its workers is done again chunk by chunk, to find the one chunk.
 

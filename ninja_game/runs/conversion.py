@@ -103,7 +103,7 @@ def _records(text: str, file: str, level: Level | None) -> Iterator[LevelRecord]
 
 
 def left_out(form: str, found: Sequence[NamedLevel | Recording], texts: Sequence[str]) -> list[str]:
-    """What ``form`` ("ascii", "string", "file" or "replay") does not hold of what was found in texts, in words."""
+    """What a form, as ``convert --to`` names them, does not hold of what was found in texts, in words."""
     lost = []
     if form in ("ascii", "string") and any(map(holds_recordings, texts)):
         lost.append("the recordings (--to replay or --to file keeps them)")

@@ -17,7 +17,7 @@ from ninja_game.formats.pack.pars import Pars, parse_pars
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.levels.findings import PackFinding, in_pack
 from ninja_game.levels.warnings import level_findings
-from ninja_game.runs.verify import Verdict, verify_recording
+from ninja_game.runs.verify import Verdict, verify_recording, with_demands
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.level import Level
 
@@ -42,15 +42,11 @@ class Certificate:
     @property
     def problems(self) -> list[str]:
         """Why it certifies nothing; empty where it does."""
-        verdict = self.verdict
-        if verdict.level_digest != level_digest(self.level):
+        digest = level_digest(self.level)
+        verdict = with_demands(self.verdict, {digest: self.place}, only_these=True, strict=True)
+        if verdict.level_digest != digest:
             return ["it is a run of another level, or the level was changed after it"]
-        problems = list(map(str, verdict.problems))
-        if verdict.outcome != "exit" and not problems:
-            problems.append(f"it does not reach the exit: {verdict.outcome}")
-        allowed = verdict.body == "circle" and verdict.possible_by_keyboard and verdict.in_time
-        if not allowed or verdict.practice:
-            problems.append("a player could not do this: body, keys, lifetime or practice (see `verify --strict`)")
+        problems = [str(problem) for problem in verdict.problems]
         gold = sum(record.kind == GOLD for record in self.level.objects)
         if self.kind == "gold" and verdict.gold < gold:
             problems.append(f"it takes {verdict.gold} of {gold} pieces of gold")

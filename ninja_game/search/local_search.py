@@ -120,12 +120,7 @@ def mutate(keys: Keys, length: int, tick: int, source: RandomState) -> tuple[int
         overwrite(keys, length, tick, tick + span, JUMP_HELD, JUMP_HELD * random_below(source, 2))
     else:
         overwrite(
-            keys,
-            length,
-            tick,
-            tick + span,
-            KEYS_DOWN,
-            random_below(source, 3) + JUMP_HELD * random_below(source, 2),
+            keys, length, tick, tick + span, KEYS_DOWN, random_below(source, 3) + JUMP_HELD * random_below(source, 2)
         )
     return tick, 0
 

@@ -57,7 +57,7 @@ class Node:
 
     parent: i4  #: index of the node it came from, -1: the root
     tick: i4  #: ticks run
-    action: i4  #: see macro_actions.py
+    action: i4  #: see macros.py
     chunk: i4  #: first chunk of its save-state, -1: none (any more)
     words: i4  #: words in it
     next: i4  #: next node of its bucket, -1: last

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 
@@ -55,8 +55,8 @@ class OpenedRun:
 
     recording: Recording
     track: InputTrack
-    file: RunFile
-    branches: Branches
+    file: RunFile = RunFile()
+    branches: Branches = field(default_factory=Branches)
     moved: bool = False
 
 
@@ -77,11 +77,10 @@ def open_run(path: Path, *, record: int | None = None, level: Level | None = Non
     on = on_level(recording, level)
     track = track_of(on)
     if on is not recording:
-        return OpenedRun(on, track, RunFile(), Branches(), moved=True)
-    if is_link(path) or recording.form == "file" or is_bundled(path):
-        return OpenedRun(recording, track, RunFile(), Branches())
-    if not _written_by_us(data := read_bytes(path)):
-        return OpenedRun(recording, track, RunFile(), Branches())
+        return OpenedRun(on, track, moved=True)
+    elsewhere = is_link(path) or recording.form == "file" or is_bundled(path)
+    if elsewhere or not _written_by_us(data := read_bytes(path)):
+        return OpenedRun(recording, track)
     file = RunFile(path, digest_of(data), digest_of_file(branches_path(path)), track)
     return OpenedRun(recording, track, file, read_branches(path))
 
@@ -102,7 +101,7 @@ def open_recording(recording: Recording) -> OpenedRun:
             opened = open_run(path, record=recording.record, level=recording.level)
             if track_of(recording) == opened.track and same_level(recording, opened.recording):
                 return opened
-    return OpenedRun(recording, track_of(recording), RunFile(), Branches())
+    return OpenedRun(recording, track_of(recording))
 
 
 def runs_of_level(path: Path, about: Recording) -> list[Recording]:

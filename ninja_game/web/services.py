@@ -25,7 +25,7 @@ from ninja_game.player.settings import RULES
 
 
 class PageServices:
-    """The page's door to a running game. ``address``: the page's own, for links."""
+    """What the page asks of a running game. ``address``: the page's own, for links."""
 
     def __init__(self, app: App, address: str) -> None:
         self.app = app
@@ -86,7 +86,7 @@ class PageServices:
             return path.read_bytes()
 
     def take_in(self, data: bytes) -> str:
-        """Take such a zip in; the result of it, or why not. The page is to be loaded again then."""
+        """Take such a zip in; the result, in lines. The page is to be loaded again then. Raises NinjaGameError."""
         from ninja_game.player.backup import read_backup
 
         try:

@@ -137,6 +137,16 @@ def test_stop_leaves_ended_worlds_alone(memory: str) -> None:
 
 
 @pytest.mark.parametrize("memory", MEMORIES)
+def test_a_world_of_a_smaller_level_shows_nothing_of_the_larger_one(memory: str) -> None:
+    small = "0" * 713 + "|5^100,566"
+    large = small + "".join(f"!0^{x},300" for x in range(100, 700, 20))
+    batch = Batch([parse_level(large), parse_level(small)], 1, memory=memory)
+    assert batch.objects["x"][0].any()
+    batch.reset(0, levels=1)
+    assert not batch.objects["x"][0, int(batch.used[0]) :].any()
+
+
+@pytest.mark.parametrize("memory", MEMORIES)
 def test_single_worlds_are_reset_saved_copied_and_restored(memory: str) -> None:
     batch = Batch(LEVELS, 6, memory=memory)
     fresh = [batch.digest(index) for index in range(6)]

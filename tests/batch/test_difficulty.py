@@ -45,3 +45,5 @@ def test_a_try_that_lost_the_run_counts_a_quarter_of_one_that_died() -> None:
         outcomes=np.array([0, 2, 0, 0, 1]), positions=np.array([[0, 0], [0, 0], [80, 0], [60, 0], [80, 0]])
     )
     assert _failing(batch, slice(1, None)) == (1 + 0.25) / 4  # type: ignore[arg-type]
+    batch.outcomes[1:] = 2
+    assert _failing(batch, slice(1, None)) == 1 - 0.5 / 4, "of tries that all die one might have lived"  # type: ignore[arg-type]

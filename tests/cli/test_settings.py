@@ -73,7 +73,7 @@ PLAIN = {
     "time zone": {"TZ": "Pacific/Apia", "SOURCE_DATE_EPOCH": "1"},
     "terminal": {"TERM": "junk", "COLUMNS": "1", "FORCE_COLOR": "1", "NO_COLOR": ""},
     "NumPy is not asked": {"NPY_DISABLE_CPU_FEATURES": "SSE2", "NUMBA_OPT": "junk"},
-}  # fmt: skip
+}
 
 
 @pytest.fixture(scope="module")

@@ -14,20 +14,11 @@ import pytest
 from ninja_game.document import History, OccupiedError, digest_of_file
 from ninja_game.editor.ascii_text import ascii_text, reads_as, updated_text
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.files import (
-    FOLDER,
-    Autosave,
-    draft_of,
-    draft_of_text,
-    new_source,
-    open_source,
-    recovered,
-    save,
-)
+from ninja_game.editor.files import Autosave, draft_of, draft_of_text, new_source, open_source, recovered, save
 from ninja_game.editor.motion import Motion
 from ninja_game.editor.stamp import Selection, Stamp, everything, moved, put, removed
 from ninja_game.errors import LevelError, NinjaGameError
-from ninja_game.files.user_folder import bundled_levels, free_path
+from ninja_game.files.user_folder import EDITING, bundled_levels, free_path
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
 from ninja_game.formats.named_level import parse_levels
@@ -216,7 +207,7 @@ def test_an_autosave_is_found_only_after_its_editor_has_died(tmp_path: Path) -> 
     draft = source.draft.with_tiles({(9, 9): 1})
     autosave = Autosave(tmp_path)
     autosave.poll(source.draft, source)
-    assert not (tmp_path / FOLDER).exists()
+    assert not (tmp_path / EDITING).exists()
     autosave.poll(draft, source)
     autosave._job.finish()
     assert not autosave.problem
@@ -230,14 +221,14 @@ def test_an_autosave_is_found_only_after_its_editor_has_died(tmp_path: Path) -> 
     with pytest.raises(OccupiedError):
         save(later.source, later.draft, path)
     found[0].forget()
-    assert not list((tmp_path / FOLDER).iterdir())
+    assert not list((tmp_path / EDITING).iterdir())
 
 
 def kept(folder: Path, path: Path | str, digest: str, name: str = "a") -> None:
     """An autosave that names a path, whoever wrote it."""
-    (folder / FOLDER).mkdir(exist_ok=True)
+    (folder / EDITING).mkdir(exist_ok=True)
     level = ascii_text(new_source().draft.with_tiles({(9, 9): 1}))
-    (folder / FOLDER / f"{name}.json").write_text(json.dumps({"path": str(path), "digest": digest, "level": level}))
+    (folder / EDITING / f"{name}.json").write_text(json.dumps({"path": str(path), "digest": digest, "level": level}))
 
 
 def test_an_autosave_knows_no_file_but_a_level_that_is_there(tmp_path: Path) -> None:
@@ -291,19 +282,19 @@ def test_an_autosave_goes_when_the_draft_is_saved_or_left(tmp_path: Path, monkey
     autosave = Autosave(tmp_path)
     autosave.poll(draft, source)
     autosave._job.finish()
-    assert list((tmp_path / FOLDER).glob("*.json"))
+    assert list((tmp_path / EDITING).glob("*.json"))
     autosave.poll(draft, save(source, draft, tmp_path / "a.txt"))
     autosave._job.finish()
-    assert not list((tmp_path / FOLDER).glob("*.json"))
+    assert not list((tmp_path / EDITING).glob("*.json"))
     autosave.poll(draft.with_tiles({(1, 1): 1}), source)
     autosave.close()
-    assert not list((tmp_path / FOLDER).iterdir())
+    assert not list((tmp_path / EDITING).iterdir())
 
 
 def test_a_damaged_autosave_and_a_folder_that_cannot_be_written_stop_nothing(tmp_path: Path) -> None:
-    (tmp_path / FOLDER).mkdir()
+    (tmp_path / EDITING).mkdir()
     for number, text in enumerate(("", "{}", "[1]", "[" * 100_000, '{"path": 3, "level": "x", "digest": ""}')):
-        (tmp_path / FOLDER / f"{number}.json").write_text(text)
+        (tmp_path / EDITING / f"{number}.json").write_text(text)
     assert not list(recovered(tmp_path))
     blocked = tmp_path / "file"
     blocked.write_text("")
@@ -333,7 +324,7 @@ def test_after_kill_9_at_most_two_seconds_are_lost(tmp_path: Path, root: Path) -
     command = [sys.executable, "-c", KILLED, str(tmp_path)]
     with subprocess.Popen(command, stdout=subprocess.PIPE, cwd=root, text=True) as child:
         assert child.stdout
-        while not list((tmp_path / FOLDER).glob("*.json")):
+        while not list((tmp_path / EDITING).glob("*.json")):
             assert child.poll() is None
             child.stdout.readline()
         time.sleep(1.0)

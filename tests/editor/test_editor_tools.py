@@ -4,15 +4,24 @@ from __future__ import annotations
 
 import pytest
 
-from ninja_game.editor.brush import FAMILIES, OBJECT_TYPES, object_type_of, placed, snapped, tile_key, tile_name
+from ninja_game.editor.brush import (
+    FAMILIES,
+    OBJECT_TYPES,
+    object_of_type,
+    object_type_of,
+    placed,
+    snapped,
+    tile_key,
+    tile_name,
+)
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.motion import CLOCKWISE, MIRROR
-from ninja_game.editor.records import points, word
+from ninja_game.editor.specs import points, word
 from ninja_game.editor.stamp import Selection, chosen_in
 from ninja_game.editor.tools import EditorTools
 from ninja_game.formats.ascii.writer import best_form
 from ninja_game.sim import kinds
-from ninja_game.sim.level import Level, ObjectSpec
+from ninja_game.sim.level import Level
 
 
 @pytest.fixture(name="tools")
@@ -20,10 +29,6 @@ def empty_tools() -> EditorTools:
     made = EditorTools(Draft(Level()))
     made.snap = "half"
     return made
-
-
-def object_type(name: str) -> ObjectSpec:
-    return next(each.record for each in OBJECT_TYPES if each.name == name)
 
 
 def drag(tools: EditorTools, *places: tuple[float, float], **how: bool) -> None:
@@ -40,7 +45,7 @@ def pending(tools: EditorTools) -> bool:
 
 
 def forms(tools: EditorTools) -> list[str]:
-    return [" ".join(best_form(record)).strip() for record in tools.draft.objects]
+    return [" ".join(best_form(spec)).strip() for spec in tools.draft.objects]
 
 
 def test_a_dragged_brush_draws_every_cell_on_its_way_and_one_undo_takes_it_back(tools: EditorTools) -> None:
@@ -51,7 +56,7 @@ def test_a_dragged_brush_draws_every_cell_on_its_way_and_one_undo_takes_it_back(
     tools.undo()
     tools.undo()
     assert tools.draft == Draft(Level())
-    tools.undo(again=True)
+    tools.redo()
     assert tools.draft.tile((2, 1)) == 1
 
 
@@ -59,7 +64,7 @@ def test_a_rectangle_shrinks_while_it_is_drawn(tools: EditorTools) -> None:
     tools.tool = "rectangle"
     drag(tools, (36, 36), (300, 300), (84, 60))
     assert sum(tools.draft.level.tiles) == 3 * 2
-    tools.pick_up(object_type("gold"))
+    tools.pick_up(object_of_type("gold"))
     drag(tools, (120, 120), (180, 150))
     assert len(tools.draft.objects) == 6 * 3
     tools.undo()
@@ -76,7 +81,7 @@ def test_fill_takes_one_press(tools: EditorTools) -> None:
 @pytest.mark.parametrize("name", ["locked door", "trap door", "exit"])
 def test_what_has_a_switch_takes_two_presses_or_one_drag(tools: EditorTools, name: str, tool: str) -> None:
     tools.tool = tool
-    tools.pick_up(object_type(name))
+    tools.pick_up(object_of_type(name))
     drag(tools, (238, 300))
     assert pending(tools)
     tools.move(400, 200)
@@ -99,7 +104,7 @@ def test_doors_go_to_the_nearest_side_and_the_rest_where_it_sits_in_a_cell(tools
     tools.snap = "cell"
     for name, at in (("automatic door", (262, 252)), ("launch pad", (300, 300)), ("floor guard", (350, 350)),
                      ("zap drone", (391, 402)), ("gold", (431, 431))):  # fmt: skip
-        tools.pick_up(object_type(name))
+        tools.pick_up(object_of_type(name))
         drag(tools, at)
     assert forms(tools) == [
         "automatic door 10,10 right", "launch pad 12,12 up", "floor guard 14,14",
@@ -111,19 +116,19 @@ def test_doors_go_to_the_nearest_side_and_the_rest_where_it_sits_in_a_cell(tools
 
 
 def test_there_is_one_ninja_and_a_second_press_moves_it(tools: EditorTools) -> None:
-    tools.pick_up(object_type("gold"))
+    tools.pick_up(object_of_type("gold"))
     drag(tools, (100, 100))
-    tools.pick_up(object_type("ninja"))
+    tools.pick_up(object_of_type("ninja"))
     drag(tools, (100, 200))
     drag(tools, (204, 204))
-    assert [record.kind for record in tools.draft.objects] == [kinds.NINJA, kinds.GOLD]
+    assert [spec.kind for spec in tools.draft.objects] == [kinds.NINJA, kinds.GOLD]
     assert tools.draft.objects[0].values == (204.0, 204.0)
 
 
 def test_what_is_selected_moves_turns_copies_and_goes(tools: EditorTools) -> None:
     tools.pick_up(2)
     drag(tools, (60, 60))
-    tools.pick_up(object_type("thwump"))
+    tools.pick_up(object_of_type("thwump"))
     drag(tools, (84, 60))
     tools.tool = "select"
     drag(tools, (50, 50), (100, 70))
@@ -156,7 +161,7 @@ def test_four_turns_are_none(area: tuple[int, int, int, int] | None, name: str) 
     tools = EditorTools(Draft(Level()).with_tiles({(5, 5): 7}))
     for snap, x, y in (("cell", 132, 132), ("half", 150, 140), ("quarter", 162, 135)):
         tools.snap = snap
-        tools.pick_up(object_type(name))
+        tools.pick_up(object_of_type(name))
         drag(tools, (x, y), (x + 20, y))
         tools.finish()
         tools.selection = Selection(area, chosen_in(tools.draft, (1, 1, 31, 23)).parts)
@@ -169,7 +174,7 @@ def test_four_turns_are_none(area: tuple[int, int, int, int] | None, name: str) 
 
 
 def test_shift_adds_to_a_selection_and_takes_away_again(tools: EditorTools) -> None:
-    tools.pick_up(object_type("mine"))
+    tools.pick_up(object_of_type("mine"))
     for x in (100, 200, 300):
         drag(tools, (x, 100))
     tools.tool = "select"
@@ -184,27 +189,27 @@ def test_shift_adds_to_a_selection_and_takes_away_again(tools: EditorTools) -> N
 
 
 def test_properties_belong_to_what_is_selected_or_to_the_brush(tools: EditorTools) -> None:
-    tools.pick_up(object_type("one-way"))
+    tools.pick_up(object_of_type("one-way"))
     tools.put_subject(placed(tools.subject, 36, 36, "cell")._replace(values=(36.0, 36.0, 2.0)))
-    assert word(tools.record, "direction") == "left"
+    assert word(tools.spec, "direction") == "left"
     drag(tools, (300, 300))
     tools.tool = "select"
     drag(tools, (300, 300))
     assert tools.chosen is not None
     tools.put_subject(tools.chosen._replace(values=(300.0, 300.0, 1.0)))
     assert word(tools.draft.objects[0], "direction") == "down"
-    assert word(tools.record, "direction") == "left"
+    assert word(tools.spec, "direction") == "left"
 
 
 def test_pick_takes_objects_before_tiles(tools: EditorTools) -> None:
     tools.pick_up(7)
     drag(tools, (300, 300))
-    tools.pick_up(object_type("mine"))
+    tools.pick_up(object_of_type("mine"))
     drag(tools, (300, 300))
     tools.tool = "pick"
     tools.pick_up(1)
     drag(tools, (303, 300), pick=True)
-    assert object_type_of(tools.record) == "mine"
+    assert object_type_of(tools.spec) == "mine"
     tools.delete()
     assert forms(tools) == []
     drag(tools, (303, 300), pick=True)
@@ -213,7 +218,7 @@ def test_pick_takes_objects_before_tiles(tools: EditorTools) -> None:
 
 def test_a_symmetric_stroke_is_erased_symmetrically(tools: EditorTools) -> None:
     tools.symmetry = "both"
-    tools.pick_up(object_type("gold"))
+    tools.pick_up(object_of_type("gold"))
     drag(tools, (100, 100))
     assert len(tools.draft.objects) == 4
     drag(tools, (100, 100), erase=True)
@@ -229,10 +234,10 @@ def test_a_symmetric_stroke_is_erased_symmetrically(tools: EditorTools) -> None:
     assert len(forms(tools)) + sum(map(bool, tools.draft.level.tiles)) == 4
 
 
-def test_every_sort_can_be_placed_and_every_tile_has_a_name_and_a_key(tools: EditorTools) -> None:
+def test_every_type_can_be_placed_and_every_tile_has_a_name_and_a_key(tools: EditorTools) -> None:
     for number, each in enumerate(OBJECT_TYPES):
-        assert object_type_of(each.record) == each.name
-        tools.pick_up(each.record)
+        assert object_type_of(each.spec) == each.name
+        tools.pick_up(each.spec)
         drag(tools, (60 + 36 * number, 300))
         tools.finish()
     assert len(tools.draft.objects) == len(OBJECT_TYPES)

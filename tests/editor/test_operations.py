@@ -10,16 +10,7 @@ from hypothesis import given, settings, strategies as st
 from ninja_game.document import History
 from ninja_game.editor.draft import Draft, Tiles
 from ninja_game.editor.motion import CLOCKWISE, FLIP, HALF_TURN, MIRROR, SYMMETRIES, Motion
-from ninja_game.editor.records import (
-    PROPERTIES,
-    carried,
-    object_type_name,
-    points,
-    properties,
-    settled,
-    with_word,
-    word,
-)
+from ninja_game.editor.specs import PROPERTIES, carried, object_type_name, points, properties, settled, with_word, word
 from ninja_game.editor.stamp import (
     Selection,
     Stamp,
@@ -51,13 +42,13 @@ LINES = (
 )  # fmt: skip
 
 
-def record(line: str) -> ObjectSpec:
+def spec(line: str) -> ObjectSpec:
     listed = read_object_line(line)[0]
     assert isinstance(listed, Listed)
     return listed.record
 
 
-RECORDS = [record(line) for line in LINES]
+SPECS = [spec(line) for line in LINES]
 
 # --- undo and redo ---
 
@@ -65,7 +56,7 @@ cells = st.tuples(st.integers(0, COLUMNS + 1), st.integers(0, ROWS + 1))
 areas = st.builds(lambda a, w, h: (*a, w, h), cells, st.integers(1, 5), st.integers(1, 5))
 steps = st.one_of(
     st.tuples(st.just("tiles"), st.dictionaries(cells, st.integers(0, 33), max_size=6)),
-    st.tuples(st.just("object"), st.sampled_from(RECORDS), st.integers(0, 400)),
+    st.tuples(st.just("object"), st.sampled_from(SPECS), st.integers(0, 400)),
     st.tuples(st.just("fill"), cells, st.integers(0, 33)),
     st.tuples(st.just("move"), areas, st.sampled_from(EIGHT), st.integers(-48, 48)),
     st.tuples(st.just("cut"), areas),
@@ -103,7 +94,7 @@ def step(history: History[Draft], what: tuple[object, ...]) -> None:
 @settings(max_examples=25)
 @given(st.lists(steps, min_size=200, max_size=200))
 def test_any_200_operations_undone_give_the_first_draft_and_redone_the_last(some: list[tuple[object, ...]]) -> None:
-    first = Draft(Level(objects=tuple(RECORDS)), "first")
+    first = Draft(Level(objects=tuple(SPECS)), "first")
     history = History(first)
     for one in some:
         step(history, one)
@@ -140,13 +131,13 @@ def test_a_stroke_is_undone_as_one_and_an_abandoned_one_leaves_nothing() -> None
 
 
 def test_drafts_share_what_an_edit_leaves_alone() -> None:
-    before = Draft(Level(objects=tuple(RECORDS)))
+    before = Draft(Level(objects=tuple(SPECS)))
     without = removed(before, Selection(parts=frozenset({(3, 0)})))
-    assert without.objects == (*RECORDS[:3], *RECORDS[4:])
+    assert without.objects == (*SPECS[:3], *SPECS[4:])
     assert without.level.tiles is before.level.tiles
     assert before.with_tiles({(3, 3): 1}).objects is before.objects
     history = History(before)
-    history.change(Draft(Level(objects=tuple(RECORDS))))
+    history.change(Draft(Level(objects=tuple(SPECS))))
     assert not history.can_undo, "nothing has changed"
 
 
@@ -193,7 +184,7 @@ def edges_of(draft: Draft) -> dict[tuple[tuple[int, int], int], int]:
     }
 
 
-@pytest.mark.parametrize("one", RECORDS, ids=LINES)
+@pytest.mark.parametrize("one", SPECS, ids=LINES)
 @pytest.mark.parametrize("motion", EIGHT)
 def test_an_object_is_itself_again_after_a_motion_and_its_inverse(one: ObjectSpec, motion: Motion) -> None:
     about = motion.about(396, 300)
@@ -210,7 +201,7 @@ def test_an_object_is_itself_again_after_a_motion_and_its_inverse(one: ObjectSpe
 @pytest.mark.parametrize("motion", EIGHT)
 def test_a_turned_door_closes_the_turned_edges(motion: Motion) -> None:
     about = motion.about(300, 300)
-    for one in (record("locked door 9,11 left switch 3,9"), record("trap door 10,12 bottom switch 3,9")):
+    for one in (spec("locked door 9,11 left switch 3,9"), spec("trap door 10,12 bottom switch 3,9")):
         assert {about.cell(cell) for cell in door_cells(one)} == set(door_cells(carried(one, about)))
 
 
@@ -223,7 +214,7 @@ def door_cells(door: ObjectSpec) -> list[tuple[int, int]]:
 
 
 def test_reversed_drones_go_the_other_way_round_and_turned_ones_do_not() -> None:
-    drone = record("zap drone 5,7 surface-cw right")
+    drone = spec("zap drone 5,7 surface-cw right")
     assert word(carried(drone, MIRROR.about(396, 300)), "movement") == "surface-ccw"
     assert word(carried(drone, MIRROR.about(396, 300)), "direction") == "left"
     assert word(carried(drone, CLOCKWISE.about(396, 300)), "movement") == "surface-cw"
@@ -245,21 +236,21 @@ def test_a_malformed_record_stays_what_it_is_but_for_its_place() -> None:
 
 
 def test_a_symmetric_stroke_is_drawn_in_all_its_images() -> None:
-    stamp = Stamp({(3, 4): 2, (16, 12): 5}, (record("thwump 4,4 left"), record("ninja 2,2")))
+    stamp = Stamp({(3, 4): 2, (16, 12): 5}, (spec("thwump 4,4 left"), spec("ninja 2,2")))
     draft = put(Draft(Level()), stamp, SYMMETRIES["both"])
     assert [draft.tile(cell) for cell in ((3, 4), (29, 4), (3, 20), (29, 20))] == [2, 3, 5, 4]
     assert draft.tile((16, 12)) == 5
     assert [word(one, "direction") for one in draft.objects if one.kind != NINJA] == ["left", "right", "left", "right"]
-    assert [one for one in draft.objects if one.kind == NINJA] == [record("ninja 2,2")]
-    way_out = record("exit 4,4 switch 6,6")
+    assert [one for one in draft.objects if one.kind == NINJA] == [spec("ninja 2,2")]
+    way_out = spec("exit 4,4 switch 6,6")
     assert put(Draft(Level()), Stamp({}, (way_out,)), SYMMETRIES["both"]).objects == (way_out,)
 
 
 def test_the_ninja_comes_first_and_moves_when_it_is_put_again() -> None:
-    draft = put(Draft(Level(objects=tuple(RECORDS[1:4]))), Stamp({}, (RECORDS[0],)))
-    assert draft.objects[0] == RECORDS[0]
-    again = put(draft, Stamp({}, (record("ninja 9,9"),)))
-    assert again.objects == (record("ninja 9,9"), *RECORDS[1:4])
+    draft = put(Draft(Level(objects=tuple(SPECS[1:4]))), Stamp({}, (SPECS[0],)))
+    assert draft.objects[0] == SPECS[0]
+    again = put(draft, Stamp({}, (spec("ninja 9,9"),)))
+    assert again.objects == (spec("ninja 9,9"), *SPECS[1:4])
 
 
 def test_fill_takes_what_is_joined_and_alike() -> None:
@@ -271,22 +262,22 @@ def test_fill_takes_what_is_joined_and_alike() -> None:
 
 
 def test_a_selection_takes_tiles_objects_and_single_parts() -> None:
-    draft = Draft(Level(objects=tuple(RECORDS))).with_tiles({(3, 19): 4})
+    draft = Draft(Level(objects=tuple(SPECS))).with_tiles({(3, 19): 4})
     chosen = chosen_in(draft, (3, 19, 2, 1))
-    door = RECORDS.index(record("locked door 9,21 left switch 3,19"))
+    door = SPECS.index(spec("locked door 9,21 left switch 3,19"))
     assert chosen.parts == {(door, 1)}
     after, selection = moved(draft, chosen, Motion(dx=48.0))
     assert after.tile((5, 19)) == 4
     assert after.tile((3, 19)) == 0
-    assert after.objects[door] == record("locked door 9,21 left switch 5,19")
+    assert after.objects[door] == spec("locked door 9,21 left switch 5,19")
     assert selection.area == (5, 19, 2, 1)
     assert nearest(after, 133.0, 470.0, 17.0) == (door, 1)
     assert nearest(after, 133.0, 40.0, 17.0) is None
-    assert len(removed(after, selection).objects) == len(RECORDS) - 1
+    assert len(removed(after, selection).objects) == len(SPECS) - 1
 
 
 def test_the_whole_level_flipped_twice_is_the_same_level() -> None:
-    draft = put(Draft(Level(objects=tuple(RECORDS))), Stamp({(3, 19): 4, (30, 2): 22}))
+    draft = put(Draft(Level(objects=tuple(SPECS))), Stamp({(3, 19): 4, (30, 2): 22}))
     for motion in (FLIP, MIRROR, HALF_TURN):
         about = motion.about(396, 300)
         once, chosen = moved(draft, everything(draft), about)
@@ -296,13 +287,13 @@ def test_the_whole_level_flipped_twice_is_the_same_level() -> None:
 
 def test_properties_say_what_the_records_words_say() -> None:
     for kind, some in PROPERTIES.items():
-        for one in (each for each in RECORDS if each.kind == kind):
+        for one in (each for each in SPECS if each.kind == kind):
             for name, (_, words) in some.items():
                 for text in words:
                     changed = with_word(one, name, text)
                     assert word(changed, name) == text
-                    world = Simulation(Level(objects=(RECORDS[0], changed))).world
+                    world = Simulation(Level(objects=(SPECS[0], changed))).world
                     assert world.objects[2].kind == kind
-    door = with_word(record("locked door 9,21 left switch 3,19"), "type", "automatic door")
-    assert settled(door) == record("automatic door 9,21 left")
+    door = with_word(spec("locked door 9,21 left switch 3,19"), "type", "automatic door")
+    assert settled(door) == spec("automatic door 9,21 left")
     assert door.kind == DOOR

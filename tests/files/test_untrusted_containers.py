@@ -9,7 +9,7 @@ from zipfile import ZIP_LZMA, ZipFile
 
 import pytest
 
-from ninja_game.files.reading import MOST_PARTS, parse_toml
+from ninja_game.files.toml import MOST_PARTS, parse_toml
 from ninja_game.files.zips import open_zip, unpacked
 
 KEYS = ["a.", '"a" . ', "'a'.", '"\\"" .\t', "a-1."]

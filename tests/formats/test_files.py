@@ -98,7 +98,7 @@ def test_text_in_any_usual_encoding(tmp_path: Path, encoding: str) -> None:
         (b"ninja-game level 1\nhello", "some"),
         (b"ninja-game replay 3\nhello", "not a header line"),
     ],
-)  # fmt: skip
+)
 def test_what_is_no_level_is_refused_with_the_files_name(tmp_path: Path, data: bytes, message: str) -> None:
     path = tmp_path / "some.txt"
     path.write_bytes(data)
@@ -225,7 +225,7 @@ def test_megabytes_of_nothing_take_no_time(name: str) -> None:
         (Replay(b"", 0, "dead", level_path="\0"), "is not here"),
         (Replay(b"", 0, "dead", level_path="x" * 300), "is not here"),
     ],
-)  # fmt: skip
+)
 def test_a_replay_without_its_level_says_so(tmp_path: Path, replay: Replay, message: str) -> None:
     saved(tmp_path, f"$a###{OTHER}#\n$b###{TEXT}#", "two.txt")
     path = saved(tmp_path, write_replay(replay))

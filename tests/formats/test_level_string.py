@@ -9,12 +9,7 @@ import pytest
 from hypothesis import given
 
 from ninja_game.errors import LevelError
-from ninja_game.formats.n14.level_string import (
-    level_digest,
-    parse_level_string,
-    tidy_level_string,
-    write_level_string,
-)
+from ninja_game.formats.n14.level_string import level_digest, parse_level_string, tidy_level_string, write_level_string
 from ninja_game.sim.kinds import DRONE, GOLD, NINJA
 from ninja_game.sim.level import TILES, Level, ObjectSpec
 from tests.support.strategies import odd_levels, proper_levels

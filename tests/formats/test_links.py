@@ -162,7 +162,7 @@ def packed(data: bytes, *, checked: bool = True) -> str:
         ("#replay=" + "&replay=".join([f"1.{packed(b'0' * (MOST_BYTES // 2 + 1))}"] * 2), "unpacks to too much"),
         ("#level=1." + "A" * MOST_CHARACTERS, "too long"),
     ],
-)  # fmt: skip
+)
 def test_broken_links_say_so(link: str, message: str) -> None:
     with pytest.raises(FormatError, match=message):
         load_levels(link)

@@ -40,7 +40,7 @@ from tests.support.strategies import decimal_texts
         ("08", 8.0),
         ("0.5", 0.5),
     ],
-)  # fmt: skip
+)
 def test_decimals_are_summed_digit_by_digit(text: str, value: float) -> None:
     assert parse_number(text) == value
 

@@ -145,7 +145,7 @@ def test_pack_without_index_says_so(tmp_path: Path) -> None:
         ("name = 'x'\n[[episode]]\nnumber = 0\nlevels = ['a','a','a','a','a','a']", r"toml:2: the levels of episode"),
         ("name = 'x'\n[[episode]]\nnumber = 0\ntitle = 'y'", r"p\.toml:2: an unknown entry; found 'title'"),
     ],
-)  # fmt: skip
+)
 def test_wrong_index_is_an_error_with_its_line(text: str, message: str) -> None:
     with pytest.raises(PackError, match=message):
         parse_index(text, file="p.toml")

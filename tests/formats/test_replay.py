@@ -138,7 +138,7 @@ def test_a_byte_that_is_no_input_is_refused() -> None:
         ("final-tick: 9", "final-tick: 1000000", "a.txt:6: the replay is too long"),
         ("level: ../levels/hill.txt\n", "", "a.txt:9: a replay without level"),
     ],
-)  # fmt: skip
+)
 def test_mistakes_are_named_with_their_place_and_how_to_mend_them(old: str, new: str, message: str) -> None:
     assert old in TEXT
     with pytest.raises(ReplayError) as caught:

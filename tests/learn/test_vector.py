@@ -154,6 +154,8 @@ def test_calls_out_of_order_are_refused() -> None:
         {"seed": [1, 2]},
         {"seed": [1, 2, None]},
         {"seed": [1, 2, -3]},
+        {"seed": -1},
+        {"seed": True},
         {"seed": 1.5},
         {"seed": "abc"},
         {"options": {"levels": 0}},

@@ -32,16 +32,8 @@ def warnings_of(*lines: str, rows: dict[int, str] | None = None, keep: bool = Tr
 CASES: dict[str, tuple[list[str], dict[int, str], str]] = {
     "outside the grid": (["gold 900,100px"], {}, "gold at 900,100px (object 2): it is outside the grid"),
     "not a number": (["mine 100,nanpx"], {}, "mine at 100,nanpx (object 2): one of its values is not a number"),
-    "wrong count": (
-        ["raw 12 100"],
-        {},
-        "mine (object 2): it has 1 values where its kind needs 2: it does nothing",
-    ),
-    "unknown type": (
-        ['raw "77^1,2"'],
-        {},
-        "1 records create nothing (unknown type), the first is '77^1,2'",
-    ),
+    "wrong count": (["raw 12 100"], {}, "mine (object 2): it has 1 values where its kind needs 2: it does nothing"),
+    "unknown type": (['raw "77^1,2"'], {}, "1 records create nothing (unknown type), the first is '77^1,2'"),
     "ninja with a wrong count": (
         ["raw 5 100"],
         {},
@@ -333,6 +325,14 @@ def test_a_locked_door_with_its_switch_on_the_far_side_is_a_wall() -> None:
     found = warnings_of("locked door 5,23 left switch 8,22", rows={**WALL, 22: "....#..&", 23: "@.....x.X"})
     assert "exit at 9,23 (object 1): the ninja cannot reach it" in found
     assert "locked door at 5,23 (object 2): the ninja cannot reach its switch at 8,22" in found
+
+
+def test_a_trap_door_on_the_side_of_a_locked_one_keeps_it_open() -> None:
+    corridor = ("0" * 10 + "1" * 12 + "0") * 10 + "0" * 483
+    behind = corridor + "|5^60,566!11^290,566,270,566!9^290,540,0,0,10,23,1,0,0"
+    assert any("cannot reach" in str(finding) for finding in level_findings(parse_level_string(behind)))
+    shared = parse_level_string(behind + "!9^150,566,0,1,10,23,0,0,0")
+    assert not any("cannot reach" in str(finding) for finding in level_findings(shared))
 
 
 def test_two_locked_doors_with_their_switches_behind_each_other_never_open() -> None:

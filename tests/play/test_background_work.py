@@ -10,7 +10,6 @@ from threading import Event
 import pytest
 
 from ninja_game import runtime
-from ninja_game.editor.background import NewestJob
 from ninja_game.editor.certify import Certifier
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.load import load_replays
@@ -20,6 +19,7 @@ from ninja_game.play.replay import film
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.tas import opening
 from ninja_game.play.tas.tabs import lead_tab
+from ninja_game.runtime import NewestJob
 from ninja_game.search.formula import background
 from ninja_game.search.formula.background import SpanSearch
 from ninja_game.search.formula.task import SpanTask

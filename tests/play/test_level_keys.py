@@ -17,15 +17,7 @@ from ninja_game.play.level.hud import hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, Phase
 from ninja_game.play.level.screen import LevelScreen, PausePanel
 from ninja_game.player.playthrough import EpisodeRun, FileRun
-from tests.support.scripted import (
-    ScriptedControls,
-    frames,
-    level_run,
-    open_level,
-    phase_of,
-    play_to_the_end,
-    press,
-)
+from tests.support.scripted import ScriptedControls, frames, level_run, open_level, phase_of, play_to_the_end, press
 
 LONG = "0" * 713 + "|5^100,566!11^400,564,300,564"
 
@@ -111,13 +103,16 @@ def test_changed_level_file_is_read_again_on_retry(
 ) -> None:
     app, _ = stage
     file = tmp_path / "mine.txt"
-    file.write_text(LONG)
-    screen = LevelScreen(app, FileRun(app.player, load_levels(str(file))))
+    both = f"$one#a#b#{LONG}#\n$two#a#b#{LONG}!0^9,9#\n"
+    file.write_text(both)
+    run = FileRun(app.player, load_levels(str(file)))
+    run.advance()
+    screen = LevelScreen(app, run)
     app.push(screen)
-    file.write_text(LONG.replace("400,564", "500,564"))
+    file.write_text(both.replace("400,564", "500,564"))
     press("retry")
     frames(app)
-    assert screen.attempt.simulation.level == screen.context.level == load_levels(str(file))[0].level
+    assert screen.attempt.simulation.level == screen.context.level == load_levels(str(file))[1].level
     assert "changed" in app.notice
     file.write_text("broken")
     press("retry")

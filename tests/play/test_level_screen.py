@@ -13,15 +13,7 @@ from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.playthrough import FileRun
 from ninja_game.sim.rules import LIFETIME
-from tests.support.scripted import (
-    ScriptedControls,
-    frames,
-    open_level,
-    phase_of,
-    play_to_the_end,
-    press,
-    release,
-)
+from tests.support.scripted import ScriptedControls, frames, open_level, phase_of, play_to_the_end, press, release
 
 
 def test_a_script_of_the_recording_passes_the_level(stage: tuple[App, ScriptedControls], recording: Recording) -> None:

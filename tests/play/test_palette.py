@@ -80,9 +80,8 @@ def test_every_drawing_can_be_made(palette: Palette) -> None:
         particles.fireball(2, 1), particles.burst_star(3), particles.muzzle(1),
     )  # fmt: skip
     all_drawings = {
-        value for module in (static, moving, particles) for value in vars(module).values()
-        if isinstance(value, Drawing)
-    }  # fmt: skip
+        value for module in (static, moving, particles) for value in vars(module).values() if isinstance(value, Drawing)
+    }
     assert {key.drawing for key in examples} == all_drawings
     book = SpriteBook(2.0, palette)
     for key in examples:

@@ -92,9 +92,7 @@ def difference(a: pygame.Surface, b: pygame.Surface) -> tuple[float, float]:
     other.blit(a, (0, 0), special_flags=pygame.BLEND_RGB_SUB)
     distance.blit(other, (0, 0), special_flags=pygame.BLEND_RGB_ADD)
     blocks = pygame.transform.smoothscale(distance, (a.get_width() // 8, a.get_height() // 8))
-    worst = max(
-        max(blocks.get_at((x, y))[:3]) for y in range(blocks.get_height()) for x in range(blocks.get_width())
-    )  # fmt: skip
+    worst = max(max(blocks.get_at((x, y))[:3]) for y in range(blocks.get_height()) for x in range(blocks.get_width()))
     mean = pygame.transform.average_color(distance)
     return max(mean[:3]), float(worst)
 

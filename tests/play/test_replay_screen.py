@@ -18,7 +18,7 @@ from ninja_game.play.app import App
 from ninja_game.play.replay import playback
 from ninja_game.play.replay.film import Film, write_film
 from ninja_game.play.replay.playback import Playback
-from ninja_game.play.replay.screen import AFTERMATH, SPEEDS, ReplayScreen
+from ninja_game.play.replay.screen import SHOWN_AFTER_END, SPEEDS, ReplayScreen
 from ninja_game.play.ui.theme import Theme
 from ninja_game.runs import save_states
 from ninja_game.sim.level import Level
@@ -99,7 +99,7 @@ def test_it_starts_again_after_the_end() -> None:
         app.push(screen)
         settle(app, screen)
         screen.still_ms = 0
-        screen.seek(screen.end + AFTERMATH - 2)
+        screen.seek(screen.end + SHOWN_AFTER_END - 2)
         frames(app, 3)
         assert screen.tick == 0
 

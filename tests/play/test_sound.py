@@ -100,9 +100,11 @@ def heard(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
         "a rocket that flies": (LAUNCHER, states.LAUNCHER_FLIGHT), "a launcher that waits": (LAUNCHER, 0),
         "a drone that fires": (DRONE, states.DRONE_FIRING), "a drone that moves": (DRONE, 0),
         "a guard that chases": (FLOOR_GUARD, states.GUARD_CHASE), "a guard that waits": (FLOOR_GUARD, 0),
+        "a drone with a chaingun that fires": (DRONE, states.DRONE_FIRING),
     }  # fmt: skip
     for name, (kind, routine) in lasting.items():
-        machine = Mock(kind=kind, routine=routine, weapon=states.WEAPON_LASER)
+        weapon = states.WEAPON_CHAINGUN if "chaingun" in name else states.WEAPON_LASER
+        machine = Mock(kind=kind, routine=routine, weapon=weapon)
         found = [loop for loop, level in loop_levels(world, [machine] if _has_loop(machine) else []).items() if level]
         yield f"{name}: {', '.join(found) or 'nothing'}"
 

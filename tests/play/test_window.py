@@ -12,7 +12,7 @@ import pytest
 
 from ninja_game.errors import LevelError
 from ninja_game.play.app import App, Screen, build_app
-from ninja_game.play.level.play import RunClock
+from ninja_game.play.clock import RunClock
 from ninja_game.play.main import main
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.ui.canvas import Canvas

@@ -8,7 +8,8 @@ import pytest
 
 from ninja_game.player.level_context import Navigation
 from ninja_game.player.playthrough import EpisodeRun, LevelRun
-from ninja_game.player.progress import CHEATED, LOCKED, SELF, UNLOCKED, Progress, complete_columns, new_unlocks
+from ninja_game.player.progress import CHEATED, LOCKED, UNLOCKED, Progress, complete_columns, new_unlocks
+from ninja_game.player.statistics import SELF
 from ninja_game.player.store import Store
 from ninja_game.sim.rules import LIFETIME
 from tests.support.players import EXIT_TICK, deadly_level, entry, episode, played, player_data, short_level

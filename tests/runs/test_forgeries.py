@@ -31,7 +31,7 @@ from tests.support.forgeries import (
     WALKING,
     record,
     replay,
-)  # fmt: skip
+)
 from tests.support.reference import recordings
 from tests.support.samples import SPIKED, WALK, replay_of_walk
 

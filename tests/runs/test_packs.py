@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -13,8 +14,9 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.replay.text import write_replay
-from ninja_game.runs.packs import lint
+from ninja_game.runs.packs import certificate, lint
 from ninja_game.runs.run import record_replay
+from ninja_game.runs.verify import STRICT
 from tests.support.own_pack import PACK
 
 FIRST = "00-0-first-steps"
@@ -95,10 +97,19 @@ def test_certificates_are_run(pack: Path) -> None:
     for expected in (
         "certificates/00-0-first-steps.gold.replay.txt: it takes 1 of 5 pieces of gold",
         "certificates/00-1-mind-the-gap.exit.replay.txt: it is a run of another level, or the level was changed after",
-        "certificates/01-0-springtime.exit.replay.txt: it does not reach the exit: running",
+        "certificates/01-0-springtime.exit.replay.txt: outcome is running, --strict expects exit",
     ):
         assert any(finding.startswith(expected) for finding in found)
     assert any(finding.startswith("certificates/00-2-the-chimney.exit.replay.txt") for finding in found)
+
+
+@pytest.mark.parametrize("field", STRICT)
+def test_a_certificate_is_what_a_strict_verdict_accepts(field: str, pack: Path) -> None:
+    found = certificate(Pack(pack), f"{FIRST}.txt", "exit")
+    assert found
+    assert not found.problems
+    vars(found)["verdict"] = replace(found.verdict, **{field: "other"})  # type: ignore[arg-type]
+    assert found.problems
 
 
 def test_pars_are_made_by_a_command_and_told_when_they_are_stale(pack: Path) -> None:

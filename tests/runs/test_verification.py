@@ -41,15 +41,7 @@ from ninja_game.runs.chunks import (
 )
 from ninja_game.runs.recording_reader import Unreadable, records_of
 from ninja_game.runs.verify import Verdict, with_demands
-from ninja_game.runs.workers import (
-    JOB_SECONDS,
-    WORKER_BYTES,
-    ClusterError,
-    Local,
-    WorkerLostError,
-    in_order,
-    workers,
-)
+from ninja_game.runs.workers import JOB_SECONDS, WORKER_BYTES, ClusterError, Local, WorkerLostError, in_order, workers
 from ninja_game.sim.level import Level
 from ninja_game.sim.loader import record_table
 from tests.support.samples import (

@@ -18,7 +18,7 @@ from ninja_game.formats.load import load_replays
 from ninja_game.search.formula.language import FormulaError, parse_number, parse_truth
 from ninja_game.search.formula.methods import count_ways, search_span
 from ninja_game.search.formula.names import FACTS, NAMES, SPAN_NAMES, difference_from, view_of
-from ninja_game.search.formula.task import Found, SpanTask
+from ninja_game.search.formula.task import Found, SpanTask, SpanWorlds
 from ninja_game.sim.digest import state_digest
 from ninja_game.sim.inputs import with_press_bits
 from tests.support.memories import BOTH
@@ -35,6 +35,12 @@ def at_ten_ticks() -> Batch:
     batch = Batch(LEVEL, 3, memory="plain")
     batch.run([[0, 1, 2]] * 10)
     return batch
+
+
+def test_only_ticks_that_were_run_are_counted() -> None:
+    worlds = SpanWorlds(SpanTask(LEVEL, WAITING, 6, 60, goal="vx > 0"), 2, memory="plain")
+    worlds.try_all(np.full((54, 2), 2, np.uint8))
+    assert worlds.ticks_run == 6 + 2 * 1
 
 
 # --- Formulas ---

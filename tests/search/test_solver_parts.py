@@ -26,7 +26,20 @@ from ninja_game.search.local_search import (
     stretch,
 )
 from ninja_game.search.macros import PRESSED, PRESSED_AGAIN, RELEASED, action_code, action_inputs
-from ninja_game.search.nodes import Link, Resolution, TableEntry, back_up_values, open_start, ticks_at_once, zeroed
+from ninja_game.search.nodes import (
+    CHUNK,
+    Link,
+    Resolution,
+    TableEntry,
+    back_up_values,
+    clear,
+    keep_state,
+    load_state,
+    new_memory,
+    open_start,
+    ticks_at_once,
+    zeroed,
+)
 from ninja_game.search.states import key_of, switch_state_of
 from ninja_game.search.switches import open_mask
 from ninja_game.search.tour import short_tour
@@ -156,6 +169,19 @@ def test_random_mutations_leave_what_lies_before_and_make_keys_only() -> None:
         assert abs(shift) <= 3
         first = max(first, 0)
         assert keys[: min(first, tick)].tolist() == before[: min(first, tick)].tolist()
+
+
+def test_a_state_that_finds_no_room_leaves_the_pool_as_it_was() -> None:
+    memory = new_memory(3)
+    clear(memory)
+    initial, words = np.zeros((2, 4 * CHUNK), np.int64)
+    words[: 2 * CHUNK] = 1
+    assert keep_state(words, initial, memory.nodes[0], memory)
+    assert not keep_state(words, initial, memory.nodes[1], memory)
+    words[CHUNK:] = 0
+    assert keep_state(words, initial, memory.nodes[1], memory), "the last chunk was lost"
+    load_state(words, initial, memory.nodes[0], memory)
+    assert words.sum() == 2 * CHUNK
 
 
 def test_a_search_looks_at_the_clock_often_where_states_are_large() -> None:

@@ -55,11 +55,7 @@ BOXES = [
 
 @pytest.mark.parametrize("tile, half, start, end", BOXES)
 def test_box_ends_where_the_page_says(
-    tile: int,
-    half: float,
-    start: tuple[float, float],
-    end: tuple[float, float],
-    monkeypatch: pytest.MonkeyPatch,
+    tile: int, half: float, start: tuple[float, float], end: tuple[float, float], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("ninja_game.sim.collision.box.BOX_HALF", half)
     level, w = world_with(tile, 100, 100)

@@ -18,7 +18,7 @@ from ninja_game.levels.picture import COLOURS
 from ninja_game.play.audio.player import BY_DEATH, BY_EVENT, OTHER_DEATH
 from ninja_game.play.view.sprites.moving_sprites import PAINTERS
 from ninja_game.play.view.sprites.static_sprites import static_sprites_of
-from ninja_game.player.progress import KILLERS
+from ninja_game.player.statistics import KILLERS
 from ninja_game.sim import events, kinds
 from ninja_game.sim.death import idle_event
 from ninja_game.sim.digest import replay_digest

@@ -74,16 +74,8 @@ class DrawLog:
             (Lettering, "draw", self._text),
             (Canvas, "fill_rect", self._fill),
             (Canvas, "frame_rect", self._frame),
-            (
-                Canvas,
-                "line",
-                lambda _, __, c, a, b, w=1: f"line {self._colour(c)} {_at(*a)} to {_at(*b)} width {w:g}",
-            ),
-            (
-                Canvas,
-                "circle",
-                lambda _, __, c, at, r, w=0: f"circle {self._colour(c)} {_at(*at)} r {r:g} width {w:g}",
-            ),
+            (Canvas, "line", lambda _, __, c, a, b, w=1: f"line {self._colour(c)} {_at(*a)} to {_at(*b)} width {w:g}"),
+            (Canvas, "circle", lambda _, __, c, at, r, w=0: f"circle {self._colour(c)} {_at(*at)} r {r:g} width {w:g}"),
             (Canvas, "polygon", lambda _, __, c, at: f"polygon {self._colour(c)} {'  '.join(_at(*p) for p in at)}"),
             (DrawTarget, "sprite", lambda _, key, x, y: f"sprite {_sprite_name(key)} at {_at(x, y)}"),
             (DrawTarget, "picture", lambda _, __, x, y: f"figure at {_at(x, y)}"),

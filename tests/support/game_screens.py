@@ -81,7 +81,7 @@ def always_alike() -> list[object]:
     patches = [patch(name, lambda seed=None: Random(seed or 1)) for name in WITHOUT_CHANCE]
     return [
         instead_of_ours(), *patches, patch("ninja_game.player.records.now_text", lambda: DATE),
-        patch("ninja_game.editor.background.run_in_background", lambda work, _: work()),
+        patch("ninja_game.runtime.run_in_background", lambda work, _: work()),
         patch("ninja_game.play.editor.session.CHECK_SPACING", 0.0),
     ]  # fmt: skip
 

@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 import csv
+import io
+import os
+import pickle
+import subprocess
+import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from hashlib import sha256
 from pathlib import Path
+from tempfile import TemporaryDirectory
+from zipfile import ZipFile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +22,7 @@ from ninja_game.backend.known_run import DIGEST, known_digest
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.runs.run import record_replay
-from ninja_game.runs.trace import trace_digests, trace_level
+from ninja_game.runs.trace import first_difference, trace_digests, trace_level
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.plain import PlainWorlds
 from ninja_game.simulation import Body, Simulation
@@ -154,6 +161,31 @@ def _compared(ours: dict[str, str], golden: dict[str, str]) -> Iterator[tuple[st
         number, _, kind = who.partition("/")
         yield f"object {number} ({kind.replace('-', ' ')})", mine, expected.get(who, mine)
     yield "events", ours["events"], golden["events"]
+
+
+def first_place(run: GoldenRun, memory: str, golden: dict[str, str]) -> str:
+    """The first tick, object and field in which a run is not as at HEAD; "" where HEAD does not show the golden run.
+
+    The files hold digests only: what they are digests of, a copy of HEAD can still play.
+    """
+    play = (
+        "import pickle, sys; from ninja_game.runs.trace import trace_level; run = pickle.load(sys.stdin.buffer); "
+        "pickle.dump(trace_level(run.level, run.inputs, body=run.body, memory='plain'), sys.stdout.buffer)"
+    )
+    with TemporaryDirectory() as folder:
+        copy = subprocess.run(["git", "-C", ROOT, "archive", "--format=zip", "HEAD"], capture_output=True, check=False)
+        if copy.returncode:
+            return ""
+        ZipFile(io.BytesIO(copy.stdout)).extractall(folder)
+        done = subprocess.run(
+            [sys.executable, "-c", play], cwd=folder, env=os.environ | {"PYTHONPATH": folder},
+            input=pickle.dumps(run), capture_output=True, check=False,
+        )  # fmt: skip
+    before = None if done.returncode else pickle.loads(done.stdout)
+    if before is None or trace_digests(before).run_sha256 != golden["run"]:
+        return ""
+    now = trace_level(run.level, run.inputs, body=run.body, memory=memory)
+    return str(first_difference(now, before) or "only events differ")
 
 
 def write_golden_files() -> None:

@@ -59,9 +59,7 @@ def odd_tiles(draw: st.DrawFn) -> tuple[int, ...]:
 
 proper_levels = st.builds(Level, proper_tiles, st.lists(proper_records, max_size=8).map(tuple))
 odd_levels = st.builds(
-    Level,
-    odd_tiles(),
-    st.lists(st.one_of(proper_records, inert_records, ignored_records), max_size=8).map(tuple),
+    Level, odd_tiles(), st.lists(st.one_of(proper_records, inert_records, ignored_records), max_size=8).map(tuple)
 )
 
 # What a record of a level file can say: no separators, no white space at its ends or breaks inside.

@@ -23,11 +23,11 @@ from tests.support.samples import replay_of_walk
 from tests.support.strategies import tracks
 from tests.support.tas_edits import edit_at_random
 
-branches_of_any_sort = st.builds(Branch, st.text(max_size=5), tracks(), st.none(), st.integers(-1, 99), st.just("dead"))
+branches_of_any_kind = st.builds(Branch, st.text(max_size=5), tracks(), st.none(), st.integers(-1, 99), st.just("dead"))
 
 
 @given(
-    st.lists(st.tuples(st.sampled_from(["keep", "keep", "drop", "checkout", "rename"]), branches_of_any_sort)),
+    st.lists(st.tuples(st.sampled_from(["keep", "keep", "drop", "checkout", "rename"]), branches_of_any_kind)),
     st.data(),
 )
 def test_branches_are_a_tree_whatever_is_done(steps: list[tuple[str, Branch]], data: st.DataObject) -> None:
@@ -137,7 +137,7 @@ def test_a_kill_at_any_byte_loses_at_most_the_last_edit(session: Session, tmp_pa
         assert read_journal(file).tracks == found.tracks
 
 
-def test_damaged_journals_give_only_takes_that_there_were(session: Session, tmp_path: Path) -> None:
+def test_damaged_journals_give_only_edits_that_there_were(session: Session, tmp_path: Path) -> None:
     rng = Random(4)
     there = {session.track}
     for _ in range(25):
@@ -231,7 +231,7 @@ def test_a_place_without_files_is_told(tmp_path: Path) -> None:
 
 @settings(max_examples=30)
 @given(st.integers(0, 10**6))
-def test_undo_and_redo_bring_back_every_take(seed: int) -> None:
+def test_undo_and_redo_bring_back_every_edit(seed: int) -> None:
     from tempfile import TemporaryDirectory
 
     rng = Random(seed)

@@ -31,7 +31,7 @@ from tests.support.strategies import tracks
 LEVEL = parse_level_string(WALK)
 
 
-def saved_take(opened: OpenedRun, track: InputTrack, path: Path) -> OpenedRun:
+def saved_run(opened: OpenedRun, track: InputTrack, path: Path) -> OpenedRun:
     """Save an input track, and open it again."""
     save_run(opened.recording, track, Branches(), path, opened.file)
     return open_run(path)
@@ -49,7 +49,7 @@ def test_what_is_saved_opens_again_as_it_was(track: InputTrack, body: str) -> No
             with pytest.raises(ArgumentError, match="one tick"):
                 save_run(recording, track, Branches(), path, RunFile())
             return
-        again = saved_take(OpenedRun(recording, track, RunFile(), Branches()), track, path)
+        again = saved_run(OpenedRun(recording, track), track, path)
     assert (again.recording.name, again.recording.author, again.recording.body) == ("Töm\n", '"us"', body)
     replay = again.recording.replay
     assert replay is not None
@@ -66,7 +66,7 @@ def test_an_exit_behind_the_last_key_is_saved(tmp_path: Path) -> None:
     path.write_text(replay_of_walk(), "utf-8")
     opened = open_run(path)
     short = opened.track.replaced(WALK_END - 2, len(opened.track), [])
-    again = saved_take(opened, short, path)
+    again = saved_run(opened, short, path)
     assert again.recording.replay.outcome == "exit"
     assert again.recording.ticks > len(short)
     assert again.track.inputs == fitted_inputs(short.inputs, again.recording.ticks)
@@ -83,10 +83,10 @@ def test_keys_behind_the_end_are_kept_without_claims(tmp_path: Path) -> None:
     path = tmp_path / "walk.replay.txt"
     path.write_text(replay_of_walk(), "utf-8")
     opened = open_run(path)
-    with_claims = saved_take(opened, opened.track.replaced(40, 60, [0] * 20), path)
+    with_claims = saved_run(opened, opened.track.replaced(40, 60, [0] * 20), path)
     assert (with_claims.recording.ticks, with_claims.recording.replay.unclaimed) == (WALK_END + 1, False)
     for track in (opened.track.replaced(40, 41, [4]), opened.track.named(40, "later")):
-        unclaimed = saved_take(open_run(path), track, path)
+        unclaimed = saved_run(open_run(path), track, path)
         assert unclaimed.track == track
         assert unclaimed.recording.replay.unclaimed
 
@@ -100,7 +100,7 @@ def test_a_demo_of_n_opens_and_is_saved_as_a_new_replay(tmp_path: Path) -> None:
         open_run(source, record=7)
     opened = open_run(source, record=0)
     assert opened.file == RunFile()
-    again = saved_take(opened, opened.track, tmp_path / "new.replay.txt")
+    again = saved_run(opened, opened.track, tmp_path / "new.replay.txt")
     assert (again.track, again.recording.author) == (opened.track, "me")
     (verdict,) = verify_all([tmp_path / "new.replay.txt"], memory="plain", jobs=1, processes=False)
     assert isinstance(verdict, Verdict)
@@ -226,11 +226,11 @@ def test_a_replay_goes_on_naming_the_file_of_its_level(tmp_path: Path) -> None:
     path = tmp_path / "walk.replay.txt"
     path.write_text(replay_of_walk(level=None, level_path="level"), "utf-8")
     opened = open_run(path)
-    again = saved_take(opened, opened.track.replaced(0, 0, [0]), path)
+    again = saved_run(opened, opened.track.replaced(0, 0, [0]), path)
     replay = again.recording.replay
     assert replay is not None
     assert (replay.level_path, replay.level, replay.level_digest) == ("level", None, level_digest(LEVEL))
-    elsewhere = saved_take(opened, opened.track, tmp_path / "b.replay.txt")
+    elsewhere = saved_run(opened, opened.track, tmp_path / "b.replay.txt")
     assert elsewhere.recording.replay.level is not None
 
 
@@ -278,7 +278,7 @@ def test_mutated_replays_open_or_are_refused(tmp_path: Path) -> None:
             continue
         assert opened.track == track_of(opened.recording)
         if opened.file.path:
-            assert saved_take(opened, opened.track.replaced(0, 0, [1]), path).track.inputs[0] == 1
+            assert saved_run(opened, opened.track.replaced(0, 0, [1]), path).track.inputs[0] == 1
 
 
 def test_names_come_from_load_replays(tmp_path: Path) -> None:

@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 import ast
+import json
+from pathlib import Path
+
+import pytest
+from coverage import CoverageData
 
 from tools import ROOT, breaks
 
@@ -19,6 +24,30 @@ def test_every_random_break_is_a_program() -> None:
     for _, start, end, new in drawn:
         broken = ast.parse(source[:start] + new.encode() + source[end:])
         assert ast.dump(broken) != ast.dump(ast.parse(source))
+
+
+def test_a_break_is_tried_on_the_tests_that_execute_its_line_fastest_first(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    source = "LIMIT = 3\n\ndef f(x):\n    return (\n        x + 1)\n\ndef g(x):\n    return x < LIMIT\n"
+    file = "ninja_game/a.py"
+    (tmp_path / "ninja_game").mkdir()
+    (tmp_path / file).write_text(source)
+    monkeypatch.setattr(breaks, "ROOT", tmp_path)
+    monkeypatch.setattr(breaks, "imports", lambda: {file: set()})
+    monkeypatch.setattr(breaks, "tests_near", lambda _: ["near"])
+    data = CoverageData(str(tmp_path / "lines"))
+    for test, lines in {"slow": {4, 5}, "fast": {4, 5}, "other": {8}, "": {1, 3, 7}}.items():
+        data.set_context(test)
+        data.add_lines({file: lines})
+    data.write()
+    data.close()
+    (tmp_path / "seconds.json").write_text(json.dumps({"slow": 50.0, "fast": 11.0, "other": 1.0}))
+    executed = breaks.Executed(tmp_path, tmp_path, 1)
+    chosen = {source[b.start : b.end]: executed.tests_of(b) for b in breaks.breaks_of(file)}
+    assert chosen["x + 1"] == ["fast"]  # the other one would be too long
+    assert chosen["x < LIMIT"] == chosen["3"] == ["other"]
+    assert executed.tests_of(breaks.Break(file, source.index("def g"), source.index("def g"), "")) == ["near"]
 
 
 def test_a_break_is_tried_on_the_tests_of_its_module() -> None:

@@ -22,7 +22,7 @@ from tools.measure.level_figures import (
     quartiles,
     shared_share,
     variants,
-)  # fmt: skip
+)
 from tools.measure.level_statistics import missing
 
 OBJECTS = "5^100,566!11^160,564,130,564!0^300,100!0^300,124!12^60,60!6^60,84,5,1,0,2!9^60,60,1,0,2,2,1,0,0!2^60,60,0,-1"

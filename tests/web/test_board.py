@@ -333,10 +333,7 @@ def test_check_tells_what_a_change_does(runs: Path, levels: Path, tmp_path: Path
     put(runs, "bad.txt", replay(gold=77))
     assert check(runs, levels, "--json", str(data))[0] == 0
     code, text = check(runs, levels, "--check", str(data))
-    assert (code, text.splitlines()[0]) == (
-        0,
-        "nothing has changed: 1 run by 1 player on 1 level; rejected: 1 refused",
-    )
+    assert (code, text.splitlines()[0]) == (0, "nothing has changed: 1 run by 1 player on 1 level; rejected: 1 refused")
     put(runs, "ann.txt", replay(author="A`nn"), day=2)
     code, text = check(runs, levels, "--check", str(data))
     assert code == 0

@@ -23,7 +23,7 @@ def runs() -> list[Run]:
     return page_runs()[::EVERY]
 
 
-def test_the_sample_holds_runs_of_every_sort(runs: list[Run]) -> None:
+def test_the_sample_holds_runs_of_every_kind(runs: list[Run]) -> None:
     names = " ".join(name for name, *_ in runs)
     assert len(runs) > 20
     assert ".exit.replay.txt" in names

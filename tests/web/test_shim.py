@@ -158,10 +158,7 @@ DRAW_CALLS: dict[str, Callable[[Any, Any, Random], Any]] = {
 def point(rng: Random, *, margin: float = 45) -> tuple[float, float]:
     """A point well within the surface, in eighths of a px, as both C's floats and Python's hold exactly."""
     width, height = SIZE
-    return (
-        round(8 * rng.uniform(margin, width - margin)) / 8,
-        round(8 * rng.uniform(margin, height - margin)) / 8,
-    )
+    return (round(8 * rng.uniform(margin, width - margin)) / 8, round(8 * rng.uniform(margin, height - margin)) / 8)
 
 
 @pytest.mark.parametrize("name", sorted(DRAW_CALLS.keys() - {"polygon"}))

@@ -28,7 +28,7 @@ import pygame
 
 from ninja_game.editor.brush import OBJECT_TYPES, placed
 from ninja_game.editor.files import Source
-from ninja_game.editor.records import BODY, points
+from ninja_game.editor.specs import BODY, points
 from ninja_game.editor.stamp import WHOLE, Selection, Stamp, put
 from ninja_game.files.user_folder import bundled_levels
 from ninja_game.formats.load import load_level
@@ -57,7 +57,7 @@ def measure_editor(folder: Path, options: argparse.Namespace) -> bool:
     maker = Maker(folder, options.size)
     maker.open("Editor")
     places = ((30 + 37 * k % 730, 30 + 53 * k % 540) for k in range(options.objects + 20))
-    objects = tuple(placed(OBJECT_TYPES[2 + 7 * k % 15].record, *place, "quarter") for k, place in enumerate(places))
+    objects = tuple(placed(OBJECT_TYPES[2 + 7 * k % 15].spec, *place, "quarter") for k, place in enumerate(places))
     maker.editor.commands.edit(Source(put(ROOM, Stamp({}, objects))))
     examine(maker.editor)
     maker.frames(5)

@@ -74,7 +74,7 @@ KNOWN = {
 """Of 500 levels, and the best recorded runs on them. "Solid" is what is not empty."""
 
 DIFFICULTY = Row("difficulty", 2.71, 5.58, 9.9)
-"""Of the best recorded runs on 334 levels of the reference; ``--reference`` measures it again, in a minute."""
+"""Of the best recorded runs on 334 levels of the reference."""
 
 KINDS_OF_REFERENCE = {
     "bounce block": 41, "launch pad": 30, "gauss turret": 36, "floor guard": 28, "drone": 64, "one-way platform": 12,

@@ -18,8 +18,6 @@ from typing import Any
 
 from ninja_game.formats.ascii.legend import TILE_CHARS
 from ninja_game.formats.load import load_levels, load_replays
-from ninja_game.formats.n14.demo import parse_demo
-from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
@@ -39,7 +37,7 @@ from tools.measure.level_figures import (
     shared_share,
     solid_cells,
     variants,
-)  # fmt: skip
+)
 
 HEADING = "## The figures"
 """Of the page docs/level-set.md, below which the tables stand."""
@@ -68,19 +66,6 @@ def figures_of_set(pack: Pack) -> dict[str, dict[str, float]]:
         if pars.difficulty is not None:
             found[file]["difficulty"] = pars.difficulty
     return found
-
-
-def difficulty_of_reference() -> tuple[float, float, float]:
-    """The quartiles of the difficulty of the reference's best recorded runs."""
-    from ninja_game.batch.difficulty import difficulty
-    from tests.support.reference import recordings
-
-    best: dict[str, Any] = {}
-    for run in recordings():
-        if run.kind == "speedrun" and (run.label not in best or run.end_tick < best[run.label].end_tick):
-            best[run.label] = run
-    inputs = {label: parse_demo(run.demo).playback(run.ticks) for label, run in best.items()}
-    return quartiles([difficulty(parse_level_string(run.data), inputs[label]) for label, run in best.items()])
 
 
 def number(value: float) -> str:
@@ -178,11 +163,7 @@ def main() -> None:
     parser.add_argument("--pack", type=Path, default=ROOT / "levels")
     parser.add_argument("--doc", metavar="PAGE", type=Path, help=f"write the tables below {HEADING!r} of this page")
     parser.add_argument("--plots", metavar="FOLDER", type=Path, help="draw the plots into this folder too")
-    parser.add_argument("--reference", action="store_true", help="measure the difficulty of the reference, no more")
     arguments: Any = parser.parse_args()
-    if arguments.reference:
-        print(f"difficulty of the reference: {_three(difficulty_of_reference())}")
-        return
     pack = Pack(arguments.pack)
     if arguments.levels:
         tell_levels(arguments.levels, pack)

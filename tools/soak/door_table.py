@@ -47,14 +47,7 @@ from ninja_game.player.player_data import PlayerData
 from ninja_game.player.settings import read_settings, write_changes
 from ninja_game.player.store import Store
 from ninja_game.runs.checkpoint_log import CheckpointLog
-from ninja_game.runs.chunks import (
-    Chunk,
-    chunks_in,
-    results_as_text,
-    results_from_text,
-    self_contained,
-    verify_chunk,
-)
+from ninja_game.runs.chunks import Chunk, chunks_in, results_as_text, results_from_text, self_contained, verify_chunk
 from ninja_game.runs.recording_reader import recordings_of, records_of
 from ninja_game.runs.trace import RunTrace, first_difference, rows, trace_digests, trace_level
 from ninja_game.runs.trace_files import FiledTrace, read_csv, read_traces

@@ -39,7 +39,7 @@ class PlacedTile(NamedTuple):
 
 def merge_picture_and_list(
     picture: Picture, objects: Sequence[Placed], tiles: Sequence[PlacedTile], problems: Problems
-) -> Level:  # fmt: skip
+) -> Level:
     """The level: drawn objects that no line mentions (ninjas first, then in reading order), then the list in order.
 
     Mistakes are noted in ``problems``; the level is then of no use.

@@ -67,9 +67,7 @@ def read_place(text: str, dx: float = 0.0, dy: float = 0.0) -> tuple[float, floa
     numbers = text.removesuffix("px").split(",")
     if len(numbers) != 2 or "" in numbers:
         raise LevelError(
-            "not a place",
-            found=shown(text),
-            expected="column,row such as 5,7 (or 5.5,7), or exact px such as 60,564px",
+            "not a place", found=shown(text), expected="column,row such as 5,7 (or 5.5,7), or exact px such as 60,564px"
         )
     x, y = map(read_number, numbers)
     if px:

@@ -54,8 +54,6 @@ class Problems:
 
 def _joined(errors: Sequence[LevelError]) -> LevelError:
     first = errors[0]
-    joined = LevelTextError(
-        first.what, first.file, first.line, first.column, first.found, first.expected, first.hint
-    )  # fmt: skip
+    joined = LevelTextError(first.what, first.file, first.line, first.column, first.found, first.expected, first.hint)
     joined.further = tuple(errors[1:])
     return joined

@@ -134,10 +134,9 @@ _LINE_WIDTH = 100
 
 def same_record(a: ObjectSpec, b: ObjectSpec) -> bool:
     """Whether two records are the same in kind, text and every bit of their values."""
-    return (
-        (a.kind, a.text, len(a.values)) == (b.kind, b.text, len(b.values))
-        and all(map(same_bits, a.values, b.values))
-    )  # fmt: skip
+    return (a.kind, a.text, len(a.values)) == (b.kind, b.text, len(b.values)) and all(
+        map(same_bits, a.values, b.values)
+    )
 
 
 def write_object_lines(records: Sequence[ObjectSpec]) -> list[str]:

@@ -85,9 +85,7 @@ _CODE_OFFSET = 100
 
 _PADDING = "3"
 _FIRST_PAIR, _LAST_PAIR, _BACKSLASH = 34, 98, 92
-_CHAR_OF_PAIR = {
-    f"{value:02o}": chr(_FIRST_PAIR + value + (_FIRST_PAIR + value >= _BACKSLASH)) for value in range(64)
-}  # fmt: skip
+_CHAR_OF_PAIR = {f"{value:02o}": chr(_FIRST_PAIR + value + (_FIRST_PAIR + value >= _BACKSLASH)) for value in range(64)}
 
 _KEYS_OF_DIGIT = bytes.maketrans(b"01234567", bytes(range(8)))
 _DIGIT_OF_KEYS = bytes.maketrans(bytes(range(16)), b"0120456401204564")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -10,46 +9,25 @@ from ninja_game.editor.brush import SNAPS
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import SUFFIX, RecoveredDraft, Source, draft_of, new_source, open_source, recovered
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
-from ninja_game.editor.records import points
+from ninja_game.editor.specs import points
 from ninja_game.editor.stamp import everything
 from ninja_game.editor.tools import TOOLS
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.shown_text import file_stem
-from ninja_game.files.user_folder import free_path
+from ninja_game.files.user_folder import LEVELS, free_path
 from ninja_game.formats.ascii.writer import HEADER_KEYS
 from ninja_game.play.app import App
 from ninja_game.play.editor.controls import COMMANDS
+from ninja_game.play.editor.marks import finding_points
 from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.session import EditorSession
-from ninja_game.play.editor.sheet import finding_points
 from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.editor.view import EditorView
-from ninja_game.play.menus.browser import Browser
+from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.panels import FormPanel, Menu, nothing
-from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.play.workspace.document import Action, DocumentCommands
 from ninja_game.player.catalogue import Entry
-
-
-class LevelChoice(Browser):
-    """The browser of levels, to choose one for the editor."""
-
-    title = "Open a level"
-
-    def __init__(self, app: App, choose: Callable[[Entry], object]) -> None:
-        super().__init__(app)
-        self._choose = choose
-        self.list.hint = "Enter opens the level in the editor"
-
-    def build(self) -> Sequence[Widget]:
-        return [*list(super().build())[:3], Button((436, 470, 320, 32), "Edit", lambda: self._play(self.list.index))]
-
-    def _play(self, index: int, *, practice: bool = False) -> None:
-        if index < len(self.shown):
-            self.app.pop()
-            self._choose(self.shown[index])
-
 
 _WORDS = """\
 A first level: draw a floor with the left mouse button. Take the ninja from the objects at the right and click where \
@@ -96,11 +74,11 @@ class EditorCommands(DocumentCommands):
             "help": lambda: self.app.push(help_page(self.app)), "menu": self.menu,
             "test": self.test, "test_here": lambda: self.test(here=True), "certify": self.certify,
             "save": self.save, "save_as": self.save_as, "open": self.open, "new": self.new, "about": self.about,
-            "undo": tools.undo, "redo": lambda: tools.undo(again=True),
+            "undo": tools.undo, "redo": tools.redo,
             "copy": tools.copy, "cut": tools.cut, "paste": tools.paste,
             "choose_all": self.choose_all, "delete": tools.delete,
             "next_tool": lambda: self.run(TOOLS[(TOOLS.index(tools.tool) + 1) % len(TOOLS)]),
-            "swap": lambda: tools.pick_up(tools.tile if tools.objects else tools.record),
+            "swap": lambda: tools.pick_up(tools.tile if tools.objects else tools.spec),
             "mirror": lambda: tools.turn(MIRROR), "flip": lambda: tools.turn(FLIP),
             "turn": lambda: tools.turn(CLOCKWISE), "symmetry": self.next_symmetry, "grid": view.next_grid,
             "lines": lambda: setattr(view, "lines", not view.lines),
@@ -183,7 +161,7 @@ class EditorCommands(DocumentCommands):
 
     @property
     def _levels(self) -> Path:
-        return self.app.player.folder / "levels"
+        return self.app.player.folder / LEVELS
 
     def own_path(self) -> Path | None:
         """The level's file, or a new one among the player's levels; None for a level without file and name."""

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.editor.draft import Cell, cell_of
-from ninja_game.editor.records import BODY, points, word
+from ninja_game.editor.specs import BODY, points, word
 from ninja_game.errors import LevelError
 from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.ui.theme import Palette
@@ -42,7 +42,7 @@ def _standing(s: Sketch, p: Palette) -> None:
 
 
 class ObjectSprites(NamedTuple):
-    """The sprites of a record, the px that they cover (an empty rectangle for what is not drawn), and its cells."""
+    """The sprites of an object, the px that they cover (an empty rectangle for what is not drawn), and its cells."""
 
     sprites: list[PlacedSprite]
     rect: pygame.Rect
@@ -54,20 +54,20 @@ class ObjectSprites(NamedTuple):
             target.sprite(key if alpha == 8 else key.faded(min(alpha, key.alpha)), x, y)
 
 
-def _model(record: ObjectSpec) -> ObjectSpec:
+def _model(spec: ObjectSpec) -> ObjectSpec:
     """The object that looks the same, in the place in which it is asked for; a switch is far from its door."""
-    kind, values = record.kind, record.values
-    if not well_formed(record):
-        return record
+    kind, values = spec.kind, spec.values
+    if not well_formed(spec):
+        return spec
     if kind == kinds.EXIT:
-        return record._replace(values=(300.0, 300.0, 100.0, 100.0))
+        return spec._replace(values=(300.0, 300.0, 100.0, 100.0))
     if kind == kinds.DOOR:
         column, row = values[4] + values[7], values[5] + values[8]
         nowhere = not (0 <= column <= COLUMNS + 1 and 0 <= row <= ROWS + 1) or column == row == 0
-        if not (word(record, "side") and column.is_integer() and row.is_integer()):
-            return record
-        return record._replace(values=(100.0, 100.0, *values[2:4], *([-50.0 if nowhere else 12.0] * 2), *values[6:]))
-    return record._replace(values=(300.0, 306.0 if kind == kinds.FLOOR_GUARD else 300.0, *values[2:]))
+        if not (word(spec, "side") and column.is_integer() and row.is_integer()):
+            return spec
+        return spec._replace(values=(100.0, 100.0, *values[2:4], *([-50.0 if nowhere else 12.0] * 2), *values[6:]))
+    return spec._replace(values=(300.0, 306.0 if kind == kinds.FLOOR_GUARD else 300.0, *values[2:]))
 
 
 class _Noted(DrawTarget):
@@ -82,7 +82,7 @@ class _Noted(DrawTarget):
 
 
 class ObjectPictures:
-    """The sprites of records, for drawing at the scale and in the palette of ``target``.
+    """The sprites of objects, for drawing at the scale and in the palette of ``target``.
 
     What is kept of each model: to which of its parts a sprite belongs, the sprite, and its place from there.
     """
@@ -91,9 +91,9 @@ class ObjectPictures:
         self.target = target
         self._kept: dict[ObjectSpec, list[tuple[int, SpriteKey, float, float]]] = {}
 
-    def sprites_of(self, records: Iterable[ObjectSpec]) -> dict[ObjectSpec, ObjectSprites]:
+    def sprites_of(self, specs: Iterable[ObjectSpec]) -> dict[ObjectSpec, ObjectSprites]:
         """The sprites of each. What looks alike everywhere is asked for once, in one place."""
-        models = {record: _model(record) for record in records}
+        models = {spec: _model(spec) for spec in specs}
         if len(self._kept) > _KEPT:
             self._kept.clear()
         asked = [model for model in dict.fromkeys(models.values()) if model not in self._kept]
@@ -101,11 +101,11 @@ class ObjectPictures:
         drawn = [model for model in asked if well_formed(model) and model.kind != kinds.NINJA]
         for start in range(0, len(drawn), _TOGETHER):
             self._learn(drawn[start : start + _TOGETHER])
-        return {record: self._look(record, model) for record, model in models.items()}
+        return {spec: self._look(spec, model) for spec, model in models.items()}
 
-    def _look(self, record: ObjectSpec, model: ObjectSpec) -> ObjectSprites:
-        places = points(record)
-        if record.kind == kinds.FLOOR_GUARD and places:
+    def _look(self, spec: ObjectSpec, model: ObjectSpec) -> ObjectSprites:
+        places = points(spec)
+        if spec.kind == kinds.FLOOR_GUARD and places:
             # It sinks to the floor of its cell.
             x, y = places[BODY]
             places = {BODY: (x, 24.0 * cell_of(x, y)[1] + 18.0)}
@@ -120,26 +120,26 @@ class ObjectPictures:
                 rects.append(sprite.surface.get_rect(topleft=(px - sprite.ax, py - sprite.ay)))
         return ObjectSprites(sprites, rects[0].unionall(rects[1:]) if rects else pygame.Rect(0, 0, 0, 0), cells)
 
-    def _learn(self, records: list[ObjectSpec]) -> None:
+    def _learn(self, specs: list[ObjectSpec]) -> None:
         try:
-            world = Simulation(Level(objects=(_NINJA, *records))).world
+            world = Simulation(Level(objects=(_NINJA, *specs))).world
         except LevelError:
             return
         animation = ObjectAnimation(world)
         moving, target = set(animation.moving_slots), self.target
         noted = _Noted(target.canvas, target.palette, target.book)
-        for number, record in enumerate(records):
+        for number, spec in enumerate(specs):
             slot = number + 2
             o = world.objects[slot]
             noted.sprites = static_sprites_of(world, slot, animation, 1.0)
-            if record.kind == kinds.EXIT:
+            if spec.kind == kinds.EXIT:
                 noted.sprites += static_sprites_of(world, o.partner, animation, 1.0)
-            elif record.kind == kinds.DOOR and o.mechanism == TRAP and (place := door_place(o)):
+            elif spec.kind == kinds.DOOR and o.mechanism == TRAP and (place := door_place(o)):
                 noted.sprite(static_sprites.door(TRAP, 0).turned(place[2]).faded(_HIDDEN), place[0], place[1])
             elif slot in moving:
                 animation.moving_slots = [slot]
                 draw_moving(noted, world, animation, 1.0)
-            places = points(record)
+            places = points(spec)
             for key, x, y in noted.sprites if places else ():
                 part = min(places, key=lambda part: dist(places[part], (x, y)))
-                self._kept[record].append((part, key, x - places[part][0], y - places[part][1]))
+                self._kept[spec].append((part, key, x - places[part][0], y - places[part][1]))

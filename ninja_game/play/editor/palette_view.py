@@ -18,12 +18,12 @@ from ninja_game.editor.brush import (
     with_switch,
 )
 from ninja_game.editor.motion import TILE_IDS
-from ninja_game.editor.records import BODY, points
+from ninja_game.editor.specs import BODY, points
 from ninja_game.editor.tools import EditorTools
 from ninja_game.play.editor.object_pictures import ObjectPictures
 from ninja_game.play.input.keys import key_label_of
 from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.theme import PALETTES, Area, Theme
+from ninja_game.play.ui.theme import PALETTES, Area, Theme, inside
 from ninja_game.play.ui.widgets import Widget
 from ninja_game.play.view.sprites.drawing import DrawTarget, SpriteBook
 from ninja_game.play.view.sprites.tile_sheet import tile_picture
@@ -61,14 +61,12 @@ class PaletteView(Widget):
         return found
 
     def _at(self, x: float, y: float) -> int | ObjectType | None:
-        return next(
-            (what for what, (left, top, w, h) in self.places() if left <= x < left + w and top <= y < top + h), None
-        )
+        return next((what for what, area in self.places() if inside(area, x, y)), None)
 
     def click(self, x: float, y: float) -> bool:
         what = self._at(x, y)
         if what is not None:
-            self.tools.pick_up(what.record if isinstance(what, ObjectType) else what)
+            self.tools.pick_up(what.spec if isinstance(what, ObjectType) else what)
         return True
 
     def hover(self, x: float, y: float) -> str:
@@ -85,7 +83,7 @@ class PaletteView(Widget):
         tools = self.tools
         if tools.objects:
             names = [object_type.name for object_type in OBJECT_TYPES]
-            tools.pick_up(OBJECT_TYPES[(names.index(object_type_of(tools.record)) + by) % len(OBJECT_TYPES)].record)
+            tools.pick_up(OBJECT_TYPES[(names.index(object_type_of(tools.spec)) + by) % len(OBJECT_TYPES)].spec)
         else:
             place = TILE_ORDER.index(tools.tile) if tools.tile in TILE_ORDER else 0
             tools.pick_up(TILE_ORDER[(place + by) % len(TILE_ORDER)])
@@ -102,7 +100,7 @@ class PaletteView(Widget):
             row, column = divmod(number, 4)
             at = x + 2 + column * BLOCK, y + 36 + row * BLOCK
             theme.text(surface, family.key, *at, size=8, colour=palette.faint)
-        in_hand: int | str = object_type_of(tools.record) if tools.objects else tools.tile
+        in_hand: int | str = object_type_of(tools.spec) if tools.objects else tools.tile
         for what, area in self.places():
             chosen = (what.name if isinstance(what, ObjectType) else what) == in_hand
             canvas.fill_rect(surface, palette.background, *area)
@@ -122,8 +120,8 @@ class PaletteView(Widget):
         if not isinstance(what, ObjectType):
             return tile_icon(what, size, theme.palette.name)
         # The one in hand as it is drawn now.
-        in_hand = self.tools.objects and object_type_of(self.tools.record) == what.name
-        return object_icon(self.tools.record if in_hand else what.record, size, theme.canvas.scale, theme.palette.name)
+        in_hand = self.tools.objects and object_type_of(self.tools.spec) == what.name
+        return object_icon(self.tools.spec if in_hand else what.spec, size, theme.canvas.scale, theme.palette.name)
 
 
 @lru_cache(maxsize=200)
@@ -136,10 +134,10 @@ def tile_icon(tile: int, size: tuple[int, int], palette: str, alpha: int = 255) 
 
 
 @lru_cache(maxsize=200)
-def object_icon(record: ObjectSpec, size: tuple[int, int], scale: float, palette: str) -> pygame.Surface:
+def object_icon(spec: ObjectSpec, size: tuple[int, int], scale: float, palette: str) -> pygame.Surface:
     """An object in the middle of a small picture; of a door or an exit without its switch."""
     canvas = Canvas((round(792 * scale), round(600 * scale)))
-    far = with_switch(record, 700.0, 500.0, "half")
+    far = with_switch(spec, 700.0, 500.0, "half")
     x, y = points(far)[BODY]
     px, py = canvas.point(x, y)
     canvas.origin = size[0] // 2 - px, size[1] // 2 - py

@@ -10,7 +10,7 @@ import pygame
 
 from ninja_game.editor.brush import tile_name
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, Motion
-from ninja_game.editor.records import SWITCH, carried, has_switch, object_type_name, points, properties, with_word, word
+from ninja_game.editor.specs import SWITCH, carried, has_switch, object_type_name, points, properties, with_word, word
 from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.places import place_text, read_place
@@ -32,32 +32,32 @@ if TYPE_CHECKING:
 ROW = 23.0
 
 
-def subject(tools: EditorTools) -> tuple[object, ...]:
+def panel_key(tools: EditorTools) -> tuple[object, ...]:
     """What the panel is about: when it changes, the panel is rebuilt."""
     if tools.selection:
-        record = tools.chosen
-        kind = (record.kind, len(record.values)) if record else None
-        return tools.selection.area, tools.selection.records, kind, record and tuple(points(record))
-    return tools.objects, tools.record.kind if tools.objects else tools.tile
+        spec = tools.chosen
+        kind = (spec.kind, len(spec.values)) if spec else None
+        return tools.selection.area, tools.selection.numbers, kind, spec and tuple(points(spec))
+    return tools.objects, tools.spec.kind if tools.objects else tools.tile
 
 
 def property_widgets(tools: EditorTools, area: Area) -> Sequence[Widget]:
     x, y, w, _ = area
     rows: list[Callable[[Area], Widget]] = []
     if tools.selection and tools.chosen is None:
-        count = len(tools.selection.records)
+        count = len(tools.selection.numbers)
         cells = tools.selection.area[2] * tools.selection.area[3] if tools.selection.area else 0
         title = f"Selected: {cells} cells, {count} objects" if cells else f"Selected: {count} objects"
         turns = {"Mirror (H)": MIRROR, "Flip (J)": FLIP, "Turn (U)": CLOCKWISE}
         rows += [partial(Button, text=text, action=partial(tools.turn, turn), size=9.5) for text, turn in turns.items()]
         rows.append(partial(Button, text="Delete (Del)", action=tools.delete, size=9.5))
     elif tools.selection or tools.objects:
-        record = tools.chosen or tools.record
-        title = f"{'Selected' if tools.selection else 'Draw'}: {object_type_name(record)}"
-        rows += [_choice(tools, name) for name in properties(record)]
+        spec = tools.chosen or tools.spec
+        title = f"{'Selected' if tools.selection else 'Draw'}: {object_type_name(spec)}"
+        rows += [_choice(tools, name) for name in properties(spec)]
         if tools.selection:
-            rows += [_place(tools, part) for part in points(record)]
-        elif has_switch(record):
+            rows += [_place(tools, part) for part in points(spec)]
+        elif has_switch(spec):
             rows.append(partial(Label, text="Then click where its switch is", size=9.5, faint=True))
     else:
         title = f"Draw: {tile_name(tools.tile)}"
@@ -75,8 +75,8 @@ def _choice(tools: EditorTools, name: str) -> Callable[[Area], Widget]:
             tools.put_subject(with_word(tools.subject, name, str(text)))
 
     def get() -> str:
-        record = tools.subject
-        return word(record, name) if name in properties(record) else ""
+        spec = tools.subject
+        return word(spec, name) if name in properties(spec) else ""
 
     label = f"{name}: " if name not in ("type", "movement") else ""
     words = [(label + text, text) for text in properties(tools.subject)[name].words]
@@ -88,14 +88,14 @@ def _place(tools: EditorTools, part: int) -> Callable[[Area], Widget]:
     """Where a part is, as text: cells as ``5,7`` or px as ``60,564px``."""
 
     def put(text: str) -> None:
-        record = tools.subject
-        old = points(record).get(part)
+        spec = tools.subject
+        old = points(spec).get(part)
         try:
             x, y = read_place(text.replace(" ", ""))
         except LevelError:
             return
         if old is not None and (x, y) != old:
-            tools.put_subject(carried(record, Motion(dx=x - old[0], dy=y - old[1]), (part,)))
+            tools.put_subject(carried(spec, Motion(dx=x - old[0], dy=y - old[1]), (part,)))
 
     text = place_text(*points(tools.subject)[part])
     hint = f"Where {'its switch' if part == SWITCH else 'it'} is: column,row as in 5,7 or px as in 60,564px"
@@ -193,7 +193,7 @@ class PalettePart(EditorPart):
 
     def render_key(self) -> tuple[object, ...]:
         tools = self.session.tools
-        return tools.objects, tools.tile, tools.record
+        return tools.objects, tools.tile, tools.spec
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
         """What an entry is called is said in the status line."""
@@ -213,7 +213,7 @@ class Properties(EditorPart):
         self._subject: tuple[object, ...] = ()
 
     def refresh(self) -> None:
-        about = subject(self.session.tools)
+        about = panel_key(self.session.tools)
         if about != self._subject:
             self._subject = about
             x, y, w, h = self.area

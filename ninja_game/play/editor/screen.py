@@ -8,7 +8,7 @@ import pygame
 
 from ninja_game.editor.brush import SNAPS, snapped
 from ninja_game.editor.files import Source
-from ninja_game.editor.records import PROPERTIES, properties, with_word, word
+from ninja_game.editor.specs import PROPERTIES, properties, with_word, word
 from ninja_game.play.app import App
 from ninja_game.play.editor.commands import EditorCommands
 from ninja_game.play.editor.controls import DIRECTION_KEYS, OBJECT_TYPE_OF_KEY, TABLE, tile_of_key
@@ -131,7 +131,7 @@ class EditorScreen(WorkspaceScreen):
             return tile is not None
         object_type = OBJECT_TYPE_OF_KEY.get(key)
         if object_type and not tools.selection:
-            tools.pick_up(object_type.record)
+            tools.pick_up(object_type.spec)
         elif key in DIRECTION_KEYS:
             self._direct(DIRECTION_KEYS[key])
         elif key in ("q", "e"):
@@ -144,18 +144,18 @@ class EditorScreen(WorkspaceScreen):
 
     def _direct(self, direction: str) -> None:
         """Turn the object in hand, or the selected one; doors have sides instead."""
-        record = self.session.tools.subject
+        spec = self.session.tools.subject
         side = {"up": "top", "down": "bottom"}.get(direction, direction)
         for name, text in (("direction", direction), ("side", side)):
-            if name in properties(record):
-                self.session.tools.put_subject(with_word(record, name, text))
+            if name in properties(spec):
+                self.session.tools.put_subject(with_word(spec, name, text))
 
     def _next_word(self, name: str, by: int) -> None:
-        record = self.session.tools.subject
-        if name in properties(record):
-            words = list(PROPERTIES[record.kind][name].words)
-            place = words.index(word(record, name)) if word(record, name) in words else 0
-            self.session.tools.put_subject(with_word(record, name, words[(place + by) % len(words)]))
+        spec = self.session.tools.subject
+        if name in properties(spec):
+            words = list(PROPERTIES[spec.kind][name].words)
+            place = words.index(word(spec, name)) if word(spec, name) in words else 0
+            self.session.tools.put_subject(with_word(spec, name, words[(place + by) % len(words)]))
 
     def update(self, real_ms: int) -> None:
         """Keep the level safe, examine it, and follow what comes of that."""

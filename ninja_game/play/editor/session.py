@@ -6,8 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from time import monotonic
 
-from ninja_game.editor.background import NewestJob
-from ninja_game.editor.brush import OBJECT_TYPES, placed
+from ninja_game.editor.brush import object_of_type, placed
 from ninja_game.editor.certify import Certifier, Route, route_of
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Autosave, RecoveredDraft, Source, draft_of_text, new_source, save
@@ -22,6 +21,7 @@ from ninja_game.play.clipboard import copy_level_link, copy_text, pasted_text
 from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.play.window import save_picture
 from ninja_game.player.saving import keep_replay
+from ninja_game.runtime import NewestJob
 from ninja_game.sim.level import Level
 
 CHECK_SPACING = 0.1
@@ -155,7 +155,7 @@ class EditorSession:
         self.tools.finish()
         if not here:
             return self.draft.level
-        ninja = placed(OBJECT_TYPES[0].record, *self.tools.pointer, "px")
+        ninja = placed(object_of_type("ninja"), *self.tools.pointer, "px")
         return put(self.draft, Stamp({}, (ninja,))).level
 
     def tried(self, level: Level, inputs: bytes) -> None:

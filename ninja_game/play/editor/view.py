@@ -9,13 +9,14 @@ import pygame
 
 from ninja_game.editor.brush import placed
 from ninja_game.editor.motion import SYMMETRIES, Motion
-from ninja_game.editor.records import BODY, SWITCH, carried, points
+from ninja_game.editor.specs import BODY, SWITCH, carried, points
 from ninja_game.editor.stamp import CellArea, area_between, nearest
-from ninja_game.editor.tools import DRAGGED, EditorTools
+from ninja_game.editor.tools import PICK_REACH, EditorTools
 from ninja_game.play.app import App
+from ninja_game.play.editor.marks import GRIDS, MIDDLE, Grid, finding_points, level_marks
 from ninja_game.play.editor.palette_view import tile_icon
 from ninja_game.play.editor.session import EditorSession
-from ninja_game.play.editor.sheet import GRIDS, MIDDLE, Grid, LevelSheet, finding_points, joined, level_marks
+from ninja_game.play.editor.sheet import LevelSheet, joined
 from ninja_game.play.ui.canvas import Canvas, Colour, Point
 from ninja_game.play.ui.theme import Area, Palette, Theme
 from ninja_game.play.ui.widgets import Widget
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
 
 GHOST = 5
 """Eighths as solid as what is there is what would be drawn."""
-_COVERED = 1.0
+NEAR_SWITCH_PX = 1.0
 """A switch so near, px, would not be seen under the next exit: nothing is drawn over one that was just placed."""
 
 
@@ -69,8 +70,8 @@ class Overlay:
         if tools.selection.area:
             self._frame(tools.selection.area, self.sheet.palette.accent)
         for number, part in tools.selection.parts:
-            record = tools.draft.objects[number] if number < len(tools.draft.objects) else None
-            place = points(record).get(part) if record else None
+            spec = tools.draft.objects[number] if number < len(tools.draft.objects) else None
+            place = points(spec).get(part) if spec else None
             if place and is_near(*place):
                 self.target.sprite(_ring("accent"), *place)
         if tools.marquee:
@@ -93,25 +94,25 @@ class Overlay:
         """What a press would do here, and in the images of the symmetry."""
         if tools.placing_switch:
             return
-        drawing = tools.tool in ("brush", "rectangle") or (tools.tool == "fill" and not tools.objects)
-        motions = (Motion(), *(SYMMETRIES[tools.symmetry] if drawing else ()))
-        if not drawing:
-            found = nearest(tools.draft, *tools.pointer, DRAGGED)
+        draws = tools.tool in ("brush", "rectangle") or (tools.tool == "fill" and not tools.objects)
+        motions = (Motion(), *(SYMMETRIES[tools.symmetry] if draws else ()))
+        if not draws:
+            found = nearest(tools.draft, *tools.pointer, PICK_REACH)
             if found:
                 self.target.sprite(_ring("faint"), *points(tools.draft.objects[found[0]])[found[1]])
                 return
-        if not tools.objects or not drawing:
+        if not tools.objects or not draws:
             for motion in motions:
                 cell = motion.cell(tools.cell)
-                if drawing:
+                if draws:
                     self._ghost_tile(cell, motion.tile(tools.tile))
                 self._frame((*cell, 1, 1), self.sheet.palette.accent)
             return
-        record = placed(tools.record, *tools.pointer, tools.snap)
-        x, y = points(record).get(BODY, tools.pointer)
-        there = nearest(tools.draft, x, y, _COVERED)
+        spec = placed(tools.spec, *tools.pointer, tools.snap)
+        x, y = points(spec).get(BODY, tools.pointer)
+        there = nearest(tools.draft, x, y, NEAR_SWITCH_PX)
         if there is None or there[1] != SWITCH:
-            images = [record] if record.kind in (NINJA, EXIT) else [carried(record, motion) for motion in motions]
+            images = [spec] if spec.kind in (NINJA, EXIT) else [carried(spec, motion) for motion in motions]
             for each in self.sheet.pictures.sprites_of(images).values():
                 each.draw(self.target, alpha=GHOST)
         for a, b in (((x - 4, y), (x + 4, y)), ((x, y - 4), (x, y + 4))):
@@ -212,13 +213,11 @@ class EditorView(Part):
         """All that the overlay depends on; the sheet knows what has changed of the level."""
         tools = self.session.tools
         return (
-            tools.pointer, self.hovering, tools.tool, tools.objects, tools.tile, tools.record, tools.snap,
+            tools.pointer, self.hovering, tools.tool, tools.objects, tools.tile, tools.spec, tools.snap,
             tools.symmetry, tools.selection, tools.marquee, tools.placing_switch, tools.draft,
         )  # fmt: skip
 
-    def draw(
-        self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool
-    ) -> list[pygame.Rect]:  # fmt: skip
+    def draw(self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool) -> list[pygame.Rect]:
         if self._laid_out != self._layout_key():
             self._lay_out()
             whole = True

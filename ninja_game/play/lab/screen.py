@@ -9,9 +9,9 @@ import pygame
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.app import App
+from ninja_game.play.clock import RunClock
 from ninja_game.play.lab.figure import FIGURE, Figure, Sheet
 from ninja_game.play.lab.figures.catalogue import FIGURES
-from ninja_game.play.level.play import RunClock
 from ninja_game.play.menus.menu_screen import DIRECTIONS, MenuScreen
 from ninja_game.play.replay.film import write_gif
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH

@@ -11,8 +11,8 @@ from ninja_game.play.level.play import DEATH_PAUSE, LevelPlay, Phase
 from ninja_game.play.ui.canvas import HEIGHT
 from ninja_game.play.ui.theme import Palette, Theme, mixed
 from ninja_game.play.ui.widgets import draw_medal
-from ninja_game.player.progress import SELF
 from ninja_game.player.records import seconds_text
+from ninja_game.player.statistics import SELF
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.rules import LIFETIME
 
@@ -81,9 +81,8 @@ class Hud:
         thick = 5 + 8 * danger
         colour = mixed(palette.bar_full, palette.bar_empty, danger)
         frame = canvas.fill_rect(
-            surface, trough(palette), _BAR_LEFT - 1, _BAR_MIDDLE - thick / 2 - 1,
-            _BAR_LONGEST + 2, thick + 2, 2,
-        )  # fmt: skip
+            surface, trough(palette), _BAR_LEFT - 1, _BAR_MIDDLE - thick / 2 - 1, _BAR_LONGEST + 2, thick + 2, 2
+        )
         if length > 0:
             canvas.fill_rect(surface, colour, _BAR_LEFT, _BAR_MIDDLE - thick / 2, length, thick, 1.5)
         x = _BAR_LEFT + _BAR_LONGEST + 5

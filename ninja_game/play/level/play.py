@@ -6,62 +6,35 @@ from enum import Enum
 from random import Random
 
 from ninja_game.play.app import App
+from ninja_game.play.clock import RunClock
 from ninja_game.play.level.ghosts import Ghost
 from ninja_game.play.replay.playback import Playback
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.player.attempt import Attempt, Moment
 from ninja_game.player.level_context import LevelContext
-from ninja_game.player.progress import SELF, killer_of
 from ninja_game.sim.kinds import GOLD
-from ninja_game.sim.rules import LIFETIME, TICK_MS
+from ninja_game.sim.rules import LIFETIME
 
 _FILL_SHARE = 0.05
 """Share of what the bar lacks that fills in per picture, at least; always so before play starts."""
 
+DEATH_PAUSE = 41
+"""Ticks after a death before the message comes."""
 
-LONGEST_MS = 2000
-"""More than this in one picture is a stall: it counts as one tick and is not caught up."""
+SLOW_TICK_MS = 100
+"""A tick in slow motion: a quarter of the speed."""
+
+REWIND_TICKS = 2
+"""Ticks back for each tick's time that the rewind key is held."""
+
+_SPACING = 10
+"""Ticks between save-states, at first."""
 
 
 def followed(shown: float, true: float, *, filling: bool) -> float:
     """The lifetime to show in the next picture: it follows the true one softly, so that gold fills in."""
     share = _FILL_SHARE if filling else (1 - max(0.0, shown) / LIFETIME) ** 2
     return shown + (true - shown) * min(1.0, max(_FILL_SHARE, share))
-
-
-class RunClock:
-    """Counts real time and says how many ticks are due; the remainder is kept.
-
-    >>> clock = RunClock()
-    >>> [clock.ticks_due(ms) for ms in (24, 1, 60, 5000)]
-    [0, 1, 2, 1]
-    """
-
-    def __init__(self) -> None:
-        self.remainder = 0
-        self.tick_ms = TICK_MS
-
-    def reset(self) -> None:
-        """Start afresh: when play starts, on unpausing, on starting a replay."""
-        self.remainder = 0
-
-    def ticks_due(self, real_ms: int, tick_ms: int = TICK_MS) -> int:
-        """How many ticks to run now that ``real_ms`` have passed; ``tick_ms``: real ms a tick."""
-        self.tick_ms = tick_ms
-        time = real_ms + self.remainder
-        if time > LONGEST_MS:
-            time = tick_ms
-        due, self.remainder = divmod(time, tick_ms)
-        return due
-
-    @property
-    def fraction(self) -> float:
-        """How much of the next tick has passed, 0…1: where between two ticks to draw."""
-        return min(1.0, self.remainder / self.tick_ms)
-
-
-DEATH_PAUSE = 41
-"""Ticks after a death before the message comes."""
 
 
 class Phase(Enum):
@@ -83,8 +56,8 @@ class LevelPlay:
 
     ``view`` shows every tick. ``after_end``: ticks since the exit contact or death; ``killer``: what killed, one of
     ``statistics.KILLERS``. ``keys``: those of the last tick. ``notices``: what a pass has brought. ``aim``: the next
-    par, while it waits at the start. ``changed``: more
-    than a tick has happened, so that everything has to be drawn again.
+    par, while it waits at the start. ``changed``: more than a tick has happened, so that everything has to be drawn
+    again.
     """
 
     def __init__(self, app: App, context: LevelContext) -> None:
@@ -94,7 +67,7 @@ class LevelPlay:
         self.clock = RunClock()
         self.attempt = Attempt(
             context.level, body=context.body, lifetime=context.lifetime, practice_mode=context.practice_mode
-        )  # fmt: skip
+        )
         self.tools = PracticeTools(self.attempt)
         self.view = LevelView(app, self.attempt.simulation, seed=self.rng.randrange(1 << 30))
         self.all_gold = sum(record.kind == GOLD for record in context.level.objects)
@@ -246,19 +219,11 @@ class LevelPlay:
                 self.shown_lifetime = float(self.attempt.lifetime)
                 self.notices = self.context.passed(self.attempt)
             else:
-                self.killer = SELF if self.attempt.own_hand else killer_of(self.attempt.simulation.world)
+                self.killer = self.attempt.killer
                 self.context.died(self.attempt)
         elif self.phase in {Phase.DEAD, Phase.PASSED}:
             self.after_end += 1
             self.changed = self.changed or self.after_end == DEATH_PAUSE + 1
-
-
-SLOW_TICK_MS = 100
-"""A tick in slow motion: a quarter of the speed."""
-REWIND_TICKS = 2
-"""Ticks back for each tick's time that the rewind key is held."""
-_SPACING = 10
-"""Ticks between save-states, at first."""
 
 
 class PracticeTools:

@@ -141,20 +141,21 @@ class LevelScreen(Screen):
                 bytes(self.attempt.inputs),
                 context.level,
                 name=context.title,
-                author=self.app.player.settings.name,
+                author=self.app.settings.name,
                 body=context.body,
                 practice=self.attempt.assisted,
             )
             self.app.push(ReplayScreen(self.app, [Recording(context.level, replay)]))
 
+    def _replay(self) -> Replay:
+        return self.attempt.replay(self.context.title, self.app.settings.name)
+
     def keep_replay(self) -> None:
         """Put this run among the player's replays, whatever it is worth."""
-        player = self.app.player
-        self.app.notify(keep_replay(player, self.attempt.replay(self.context.title, player.settings.name)))
+        self.app.notify(keep_replay(self.app.player, self._replay()))
 
     def copy_link(self) -> None:
-        title, name = self.context.title, self.app.player.settings.name
-        copy_link(self.app, lambda: replay_link([self.attempt.replay(title, name)]), title=title)
+        copy_link(self.app, lambda: replay_link([self._replay()]), title=self.context.title)
 
     # --- events ---
 
@@ -185,14 +186,15 @@ class LevelScreen(Screen):
         if "quick_save" in event.pressed:
             self.play.tools.quick_save()
             self.app.notify(f"Saved: {self.app.controls.name('quick_load')} comes back to this moment")
-        elif "quick_load" in event.pressed and not self.play.quick_load():
-            self.app.notify(f"Nothing saved yet: {self.app.controls.name('quick_save')} saves this moment")
+        elif "quick_load" in event.pressed:
+            if not self.play.quick_load():
+                self.app.notify(f"Nothing saved yet: {self.app.controls.name('quick_save')} saves this moment")
         elif "step" in event.pressed:
             self.play.step()
-        for held in ("rewind", "slow"):
-            if held in event.pressed or held in event.released:
-                down = held in event.pressed
-                self.play.hold(**({"rewinding": down} if held == "rewind" else {"slow": down}))
+        if "rewind" in (*event.pressed, *event.released):
+            self.play.hold(rewinding="rewind" in event.pressed)
+        if "slow" in (*event.pressed, *event.released):
+            self.play.hold(slow="slow" in event.pressed)
 
     # --- time and picture ---
 

@@ -12,7 +12,7 @@ from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App
-from ninja_game.play.level.play import RunClock
+from ninja_game.play.clock import RunClock
 from ninja_game.play.replay.playback import Playback
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.simulation import Simulation

@@ -19,14 +19,14 @@ from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.replays import watch
-from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, where_from
+from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text, where_from
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.text_entry import TextEntry
-from ninja_game.play.ui.theme import Area, Theme, counted, unreadable
+from ninja_game.play.ui.theme import Area, Theme, unreadable
 from ninja_game.play.ui.widgets import Button, Choice, Widget
 from ninja_game.player.catalogue import Entry
+from ninja_game.player.marks import Mark
 from ninja_game.player.playthrough import LevelRun
-from ninja_game.player.progress import Mark
 from ninja_game.player.records import SavedReplay, seconds_text
 
 ROW = 54
@@ -60,7 +60,7 @@ class Browser(ThumbnailScreen):
         self.bests: dict[str, SavedReplay] = {}
         self.marks: dict[str, Mark] = {}
         self.list = ListView(
-            (44, 112, 376, 8 * ROW), ROW, self._draw_row, self._play, empty="No level has these words",
+            (44, 112, 376, 8 * ROW), ROW, self._draw_row, self.play, empty="No level has these words",
             hint="Enter plays; right leads to the buttons, up to the search", selected=self._select,
         )  # fmt: skip
         self.watch_best = Button((SIDE, 510, 154, 32), "Watch your best", self._watch)
@@ -77,26 +77,21 @@ class Browser(ThumbnailScreen):
         self._arrange()
         super().enter()
 
+    def choosers(self) -> list[Widget]:
+        """What a level is found and selected with."""
+        sort = Choice((288, 66, 132, 32), "", SORT_ORDERS, lambda: self.sort, self._sort, hint="How the list is sorted")
+        return [self.list, self.entry_field, sort]
+
     def build(self) -> Sequence[Widget]:
         """The list first, then what can be done with the selected level."""
-        play = Button((SIDE, 470, 154, 32), "Play", lambda: self._play(self.list.index))
+        play = Button((SIDE, 470, 154, 32), "Play", lambda: self.play(self.list.index))
         practice = Button(
-            (SIDE + 166, 470, 154, 32), "Practise", lambda: self._play(self.list.index, practice=True),
+            (SIDE + 166, 470, 154, 32), "Practise", lambda: self.play(self.list.index, practice=True),
             hint="No clock, quick save, rewind, slow motion; no records",
         )  # fmt: skip
-        sort = Choice((288, 66, 132, 32), "", SORT_ORDERS, lambda: self.sort, self._sort, hint="How the list is sorted")
         change = Button((SIDE + 166, 510, 71, 32), "Edit", self._change, hint="Open it in the editor")
         link = Button((SIDE + 249, 510, 71, 32), "Copy link", self._copy_link, hint="Whoever opens the link plays it")
-        return [
-            self.list,
-            self.entry_field,
-            sort,
-            play,
-            practice,
-            self.watch_best,
-            *([change] * bool(self._edit)),
-            link,
-        ]
+        return [*self.choosers(), play, practice, self.watch_best, *([change] * bool(self._edit)), link]
 
     def handle(self, event: InputEvent) -> None:
         """A file dropped on the window is copied into the player's folder; coming back to the window looks again."""
@@ -164,7 +159,8 @@ class Browser(ThumbnailScreen):
 
     # --- go ---
 
-    def _play(self, index: int, *, practice: bool = False) -> None:
+    def play(self, index: int, *, practice: bool = False) -> None:
+        """Play a level of the list."""
         if index >= len(self.shown):
             return
         run = LevelRun(self.player, self.shown[index], practice_mode=practice or self.player.settings.practice)
@@ -217,8 +213,7 @@ class Browser(ThumbnailScreen):
             theme.text(surface, time, SIDE + SIDE_WIDTH, 390, size=12, colour=palette.good, align="right")
         played = self.player.statistics.played(entry.digest)
         if played.attempts:
-            text = f"{counted(played.attempts, 'try', 'tries')}, {counted(played.deaths, 'death', 'deaths')}"
-            theme.text(surface, text, SIDE, 408, size=10.5, colour=palette.faint)
+            theme.text(surface, tries_text(played), SIDE, 408, size=10.5, colour=palette.faint)
         theme.text(surface, where_from(entry), SIDE, 424, size=10.5, colour=palette.faint, width=SIDE_WIDTH)
         mark = self.marks.get(entry.digest)
         all_gold_and_medal(surface, theme, entry, mark, SIDE + SIDE_WIDTH - 10, 330)
@@ -243,6 +238,26 @@ class Browser(ThumbnailScreen):
         if entry.pars and entry.pars.difficulty is not None:
             difficulty = f"{entry.pars.difficulty:.1f}"
             theme.text(surface, difficulty, x + w - 48, y + 32, size=10, colour=palette.faint, align="right")
+
+
+class LevelChoice(Browser):
+    """The browser of levels, to choose one for the editor."""
+
+    title = "Open a level"
+
+    def __init__(self, app: App, choose: Callable[[Entry], object]) -> None:
+        super().__init__(app)
+        self._choose = choose
+        self.list.hint = "Enter opens the level in the editor"
+
+    def build(self) -> Sequence[Widget]:
+        return [*self.choosers(), Button((SIDE, 470, SIDE_WIDTH, 32), "Edit", lambda: self.play(self.list.index))]
+
+    def play(self, index: int, *, practice: bool = False) -> None:
+        """Choose a level of the list."""
+        if index < len(self.shown):
+            self.app.pop()
+            self._choose(self.shown[index])
 
 
 def _words(entry: Entry) -> str:

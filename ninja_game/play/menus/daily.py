@@ -15,8 +15,8 @@ from ninja_game.files.user_folder import LEVELS
 from ninja_game.generator import daily
 from ninja_game.play.app import App
 from ninja_game.play.level.screen import LevelScreen
-from ninja_game.play.menus.thumbnails import ThumbnailScreen, draw_pars, time_and_par
-from ninja_game.play.ui.theme import counted, wrapped
+from ninja_game.play.menus.thumbnails import ThumbnailScreen, draw_pars, time_and_par, tries_text
+from ninja_game.play.ui.theme import wrapped
 from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import LevelRun
@@ -157,7 +157,7 @@ class DailyScreen(ThumbnailScreen):
             lines.insert(0, f"difficulty {entry.pars.difficulty:.1f}")
         lines.append(f"Your best: {seconds_text(best.score)} with {best.gold} gold" if best else "Not passed yet")
         if played.attempts:
-            lines.append(f"{counted(played.attempts, 'try', 'tries')}, {counted(played.deaths, 'death', 'deaths')}")
+            lines.append(tries_text(played))
         lines.append(time_and_par(entry, mark))
         for number, line in enumerate(lines):
             theme.text(surface, line, SIDE, TOP + 60 + 20 * number, size=11, width=SIDE_WIDTH)

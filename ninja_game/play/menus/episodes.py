@@ -12,13 +12,14 @@ from ninja_game.play.clipboard import copy_link
 from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.settings import PRACTICE_HINT
-from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, time_and_par
+from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, time_and_par, tries_text
 from ninja_game.play.ui.list_view import BAR, ListView
-from ninja_game.play.ui.theme import Area, Theme, counted, unreadable
+from ninja_game.play.ui.theme import Area, Theme, unreadable
 from ninja_game.play.ui.widgets import MEDALS, Choice, Widget, draw_all_gold, draw_medal
 from ninja_game.player.catalogue import Episode, EpisodeSet
+from ninja_game.player.marks import Mark, has_all_gold, tally, worst_medal
 from ninja_game.player.playthrough import EpisodeRun, LevelRun
-from ninja_game.player.progress import CHEATED, LOCKED, Mark, has_all_gold, tally, worst_medal
+from ninja_game.player.progress import CHEATED, LOCKED
 from ninja_game.player.records import seconds_text
 
 LEFT, TOP, WIDE, MOST_HIGH = 44, 116, 318, 286
@@ -315,5 +316,4 @@ class EpisodeGrid(ThumbnailScreen):
         theme.text(surface, text, left, y + 32, size=11, colour=colour)
         theme.text(surface, time_and_par(entry, mark), left, y + 48, size=10)
         if played.attempts:
-            tries = f"{counted(played.attempts, 'try', 'tries')}, {counted(played.deaths, 'death', 'deaths')}"
-            theme.text(surface, tries, left, y + 63, size=10, colour=theme.palette.faint)
+            theme.text(surface, tries_text(played), left, y + 63, size=10, colour=theme.palette.faint)

@@ -16,14 +16,14 @@ from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.panels import Question
+from ninja_game.play.menus.panels import Question, Row
 from ninja_game.play.menus.records import RecordsScreen
 from ninja_game.play.menus.replays import ReplaysScreen
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
 from ninja_game.play.ui.theme import Area
 from ninja_game.play.ui.widgets import Button, Widget
-from ninja_game.player.catalogue import Entry as LevelEntry
+from ninja_game.player.catalogue import Entry
 
 LEFT, WIDE, MIDDLE = 44, 232, 306
 """Where the panel lies: its left edge, its width, the height of its middle."""
@@ -33,9 +33,6 @@ HEAD, ROW, FOOT = 98, 43, 12
 
 TITLE = "NINJA"
 
-Entry = tuple[str, Callable[[], object], str]
-"""Text, action, hint."""
-
 
 class MainMenu(MenuScreen):
     """Where the game begins and where every way back ends."""
@@ -44,7 +41,7 @@ class MainMenu(MenuScreen):
         super().__init__(app)
         self.attract = Attract(app)
 
-    def entries(self) -> list[Entry]:
+    def entries(self) -> list[Row]:
         """One for each screen; the panel is as high as they need."""
         return [
             ("Play", self._opener(EpisodeGrid), "Play the episodes"),
@@ -62,7 +59,7 @@ class MainMenu(MenuScreen):
     def _browser(self, app: App) -> Browser:
         """The levels, which can be opened in the editor from there."""
 
-        def edit(entry: LevelEntry) -> None:
+        def edit(entry: Entry) -> None:
             screen = EditorScreen(app)
             app.push(screen)
             screen.commands.edit_entry(entry)

@@ -74,23 +74,6 @@ class Panel(MenuScreen):
         return None
 
 
-class Question(Panel):
-    """Asks before something is done that cannot be undone."""
-
-    def __init__(self, app: App, title: str, yes: str, action: Callable[[], object]) -> None:
-        super().__init__(app, title)
-        self._yes = yes
-        self._action = action
-
-    def rows(self) -> list[Row]:
-        """No first, so that a hasty key does no harm."""
-        return [("Cancel", self.back, ""), (self._yes, self._do, "")]
-
-    def _do(self) -> None:
-        self.app.pop()
-        self._action()
-
-
 class Menu(Panel):
     """Some actions; each of them closes the panel first."""
 
@@ -109,6 +92,13 @@ class Menu(Panel):
         return self._rows
 
 
+class Question(Menu):
+    """Asks before something is done that cannot be undone. No first, so that a hasty key does no harm."""
+
+    def __init__(self, app: App, title: str, yes: str, action: Callable[[], object]) -> None:
+        super().__init__(app, title, [CANCEL, (yes, action, "")])
+
+
 class FormPanel(Menu):
     """Fields to fill in above two buttons. ``fields``: prompt, text, how many characters fit in.
 
@@ -121,11 +111,11 @@ class FormPanel(Menu):
     ) -> None:  # fmt: skip
         self.texts = [text for _, text, _ in fields]
         self._fields = fields
-        super().__init__(app, title, [(yes, lambda: action(self.texts), ""), ("Cancel", lambda: None, "")])
+        super().__init__(app, title, [(yes, lambda: action(self.texts), ""), CANCEL])
 
     def rows(self) -> list[Row]:
         """The buttons, below as many empty rows as there are fields."""
-        return [("", lambda: None, "")] * len(self._fields) + self._rows
+        return [("", nothing, "")] * len(self._fields) + self._rows
 
     def build(self) -> Sequence[Widget]:
         x, y, w, _ = self._box

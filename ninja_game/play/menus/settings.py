@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 
 import pygame
 
+from ninja_game.files.user_folder import LEVELS
 from ninja_game.play.app import App, Screen
 from ninja_game.play.input.bindings import ACTIONS, InputEvent
 from ninja_game.play.input.gamepad import pad_label
@@ -20,9 +21,7 @@ from ninja_game.play.ui.widgets import TEXT, Button, Choice, Label, Slider, Widg
 from ninja_game.player.progress import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
 
 IN_REPLAYS_ONLY = frozenset({"faster", "slower", "frame_back", "frame_forward", "edit"})
-IN_LEVELS_ONLY = frozenset(
-    {"suicide", "replay", "skip", "quick_save", "quick_load", "rewind", "slow", "step"}
-)  # fmt: skip
+IN_LEVELS_ONLY = frozenset({"suicide", "replay", "skip", "quick_save", "quick_load", "rewind", "slow", "step"})
 """Actions that never mean something on the same screen."""
 
 
@@ -57,11 +56,7 @@ class Conflict(Panel):
     def rows(self) -> list[tuple[str, Callable[[], object], str]]:
         """To leave it comes first, so that a hasty key does no harm."""
         label = ACTIONS[self.action].label
-        return [
-            ("Cancel", self.back, ""),
-            (f"Only {label}", self._take, ""),
-            ("Use it for both", self._share, ""),
-        ]
+        return [("Cancel", self.back, ""), (f"Only {label}", self._take, ""), ("Use it for both", self._share, "")]
 
     def _take(self) -> None:
         """The others lose it."""
@@ -339,7 +334,7 @@ class SettingsScreen(MenuScreen):
                        lambda value: setattr(self.app, "overclock", round(value)),
                        hint="Shorter ticks, until the game ends; scores count as usual")
             )  # fmt: skip
-        text = f"Your levels: {self.player.folder / 'levels'}"
+        text = f"Your levels: {self.player.folder / LEVELS}"
         return [*widgets, Label((LEFT, TOP + STEP * 10 + 16, 500, 12), text, size=9.5, faint=True)]
 
     # --- picture ---

@@ -8,12 +8,13 @@ import pygame
 
 from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.ui.theme import Theme
+from ninja_game.play.ui.theme import Theme, counted
 from ninja_game.play.ui.widgets import MEDALS, draw_all_gold, draw_medal
 from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.progress import Mark, has_all_gold, medal_of, next_par
+from ninja_game.player.marks import Mark, has_all_gold, medal_of, next_par
 from ninja_game.player.records import seconds_text
+from ninja_game.player.statistics import Played
 
 BUDGET = 0.006
 """Seconds a picture may cost beyond its first thumbnail."""
@@ -87,6 +88,11 @@ def all_gold_and_medal(
         draw_medal(surface, theme, medal, right, middle)
     if has_all_gold(entry, mark):
         draw_all_gold(surface, theme, right - 18, middle)
+
+
+def tries_text(played: Played) -> str:
+    """How often a level was tried, and how often the ninja died in it."""
+    return f"{counted(played.attempts, 'try', 'tries')}, {counted(played.deaths, 'death', 'deaths')}"
 
 
 def time_and_par(entry: Entry, mark: Mark | None) -> str:

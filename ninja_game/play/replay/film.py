@@ -160,9 +160,7 @@ def write_gif(
     frames = images()
     first = next(frames)
     film = io.BytesIO()
-    first.save(
-        film, "GIF", save_all=True, append_images=frames, duration=durations, loop=0, optimize=False
-    )  # fmt: skip
+    first.save(film, "GIF", save_all=True, append_images=frames, duration=durations, loop=0, optimize=False)
     write_atomically(path, film.getvalue())
 
 

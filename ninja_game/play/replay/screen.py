@@ -13,21 +13,21 @@ from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
 from ninja_game.play.app import App, Screen
 from ninja_game.play.clipboard import copy_link
+from ninja_game.play.clock import RunClock
 from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.level.ghosts import Ghost
 from ninja_game.play.level.hud import Hud
-from ninja_game.play.level.play import RunClock
 from ninja_game.play.replay.film import FilmJob
 from ninja_game.play.replay.playback import Playback, ReplayBar
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.overlays import Overlays
 from ninja_game.player.level_context import GhostRun
-from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.sim.rules import TICK_MS, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
 NORMAL_SPEED = SPEEDS.index(1.0)
-AFTERMATH = 130
+SHOWN_AFTER_END = 130
 """Ticks that are shown after the end (game.md §2)."""
 _WARM = 12
 """Ticks that are run with their animations before the moment sought, so that it looks as if played."""
@@ -65,7 +65,7 @@ class ReplayScreen(Screen):
         self._way: tuple[int, int] | None = None
         self.playback = Playback(Simulation(run.level, body=run.body), inputs)
         self._scout: Playback | None = self.playback
-        self.end, self.outcome, self.length = len(inputs), "running", len(inputs) + AFTERMATH
+        self.end, self.outcome, self.length = len(inputs), "running", len(inputs) + SHOWN_AFTER_END
         self._look_ahead(self._turn)
         if self._scout:
             self._scout = self.playback.beside()
@@ -108,7 +108,7 @@ class ReplayScreen(Screen):
         """Look for the end of the run for this many ticks."""
         end = self._scout.find_end(ticks) if self._scout else None
         if self._scout and end is not None:
-            self.end, self.outcome, self.length = end, self._scout.simulation.outcome, end + AFTERMATH
+            self.end, self.outcome, self.length = end, self._scout.simulation.outcome, end + SHOWN_AFTER_END
             self._scout = None
             self.redraw = True
 
@@ -185,7 +185,7 @@ class ReplayScreen(Screen):
             self.still_ms -= real_ms
             self.clock.reset()
             return
-        tick_ms = max(1, round(25 / SPEEDS[self.speed]))
+        tick_ms = max(1, round(TICK_MS / SPEEDS[self.speed]))
         runs = 1 + len(self.ghosts)
         due = min(self.clock.ticks_due(real_ms, tick_ms), max(1, self._left // runs))
         for _ in range(due):

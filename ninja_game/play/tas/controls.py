@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from ninja_game.play.input.keys import Command
-from ninja_game.play.workspace.commands import CommandTable
+from ninja_game.play.workspace.commands import Command, CommandTable
 
 COMMANDS = (
     Command("help", "This page", ("f1",)),

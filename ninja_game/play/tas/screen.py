@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App
 from ninja_game.play.input.bindings import InputEvent
+from ninja_game.play.tas.commands import RunCommands
 from ninja_game.play.tas.controls import TABLE
-from ninja_game.play.tas.document import TasDocument
 from ninja_game.play.tas.editor import TasEditor, TasPart
 from ninja_game.play.tas.head import Foot, Head
 from ninja_game.play.tas.layout import Splitters
@@ -54,7 +54,7 @@ class TasScreen(WorkspaceScreen):
         self.level, self.roll = LevelPart(self.editor, values.ask), Roll(self.editor)
         self.strip = TabStrip(self.editor, self.tabs)
         self.head, self.foot_line = Head(self.editor), Foot(self.editor)
-        self.document = TasDocument(app, self.editor, self.run, self._recover)
+        self.files = RunCommands(app, self.editor, self.run, self._recover)
         self.level.others.open(others)
         placed = [self.head, self.level, self.roll, self.foot_line, self.strip, *self.tabs]
         self.splitters = Splitters(self.editor, placed)
@@ -76,7 +76,7 @@ class TasScreen(WorkspaceScreen):
         return self.editor.theme
 
     def commands(self) -> Commands:
-        own = dict(self.document.commands())
+        own = dict(self.files.commands())
         for part in (*self.parts, *self.tabs):
             own.update(part.commands())
         return own
@@ -98,7 +98,7 @@ class TasScreen(WorkspaceScreen):
         gc.freeze()
         if not self._entered:
             self._entered = True
-            self.document.offer_recovered()
+            self.files.offer_recovered()
 
     def leave(self) -> None:
         """Covered or closed: what is going on ends."""

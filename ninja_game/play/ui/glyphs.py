@@ -121,7 +121,7 @@ GLYPHS: dict[str, tuple[float, str]] = {
     "\u2192": (4.6, "M0 4 L4.6 4 M2.8 2.2 L4.6 4 L2.8 5.8"),
     "\u2191": (3.6, "M1.8 7 L1.8 0.6 M0 2.4 L1.8 0.6 L3.6 2.4"),
     "\u2193": (3.6, "M1.8 0.4 L1.8 6.8 M0 5 L1.8 6.8 L3.6 5"),
-}  # fmt: skip
+}
 """By character."""
 
 MARKS: dict[str, str] = {

@@ -14,6 +14,13 @@ from ninja_game.play.ui.lettering import Lettering
 Area = tuple[float, float, float, float]
 """x, y, width, height, logical px."""
 
+
+def inside(area: Area, x: float, y: float) -> bool:
+    """Whether a point lies in an area."""
+    left, top, w, h = area
+    return left <= x < left + w and top <= y < top + h
+
+
 NARROWEST = 0.2
 """Width of the narrowest letter with its space, as a share of the size: longer texts need not be measured."""
 
@@ -203,9 +210,7 @@ def palette_named(name: str) -> Palette:
 ROLES = tuple(entry.name for entry in fields(Palette) if entry.name not in {"name", "danger_by_shape"})
 """All colour roles."""
 
-NINJA_COLOURS = (
-    "", "#d9127f", "#7d7700", "#1a6488", "#765484", "#6a2424", "#f7f7f7", "#c79400", "#787887", "#bfbfc6",
-)  # fmt: skip
+NINJA_COLOURS = ("", "#d9127f", "#7d7700", "#1a6488", "#765484", "#6a2424", "#f7f7f7", "#c79400", "#787887", "#bfbfc6")
 """The ninja's colours: the palette's own, then one per completed column (game.md §8)."""
 
 

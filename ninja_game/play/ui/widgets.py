@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 import pygame
 
 from ninja_game.formats.pack.pars import MARGINS
-from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.theme import Area, Theme, inside
 
 PAD = 8
 TEXT = 11
@@ -34,8 +34,7 @@ class Widget:
 
     def contains(self, x: float, y: float) -> bool:
         """Whether a point lies in it."""
-        left, top, w, h = self.area
-        return left <= x < left + w and top <= y < top + h
+        return inside(self.area, x, y)
 
     def confirm(self) -> bool:
         """The confirm key, or a click that it does not treat otherwise."""

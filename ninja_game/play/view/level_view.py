@@ -54,14 +54,7 @@ class LevelView:
     ``seed``: of what is drawn at random. ``audible``: whether its events are played as sounds.
     """
 
-    def __init__(
-        self,
-        context: RenderContext,
-        simulation: Simulation,
-        *,
-        seed: int = 0,
-        audible: bool = True,
-    ) -> None:
+    def __init__(self, context: RenderContext, simulation: Simulation, *, seed: int = 0, audible: bool = True) -> None:
         self.context = context
         self.simulation = simulation
         self.audible = audible

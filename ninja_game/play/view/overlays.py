@@ -164,9 +164,7 @@ def _draw_circle(target: DrawTarget, shape: HitShape, colour: pygame.Color) -> p
 
 def _draw_box(target: DrawTarget, shape: HitShape, colour: pygame.Color) -> pygame.Rect:
     half = shape.half
-    return target.canvas.frame_rect(
-        target.surface, colour, shape.x - half, shape.y - half, 2 * half, 2 * half, 0.5
-    )  # fmt: skip
+    return target.canvas.frame_rect(target.surface, colour, shape.x - half, shape.y - half, 2 * half, 2 * half, 0.5)
 
 
 _FORMS: dict[bool, Callable[[DrawTarget, HitShape, pygame.Color], pygame.Rect]] = {True: _draw_circle, False: _draw_box}

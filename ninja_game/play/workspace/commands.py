@@ -3,15 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import pygame
 
 from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.input.gamepad import Gamepads
-from ninja_game.play.input.keys import Command, HeldKey, chord, key_text, scancode_of
+from ninja_game.play.input.held import HeldKey
+from ninja_game.play.input.keys import chord, key_label_of, scancode_of
 
 FIRST_REPEAT_MS = 300
 """A command whose key is held is repeated after so long."""
+
+
+class Command(NamedTuple):
+    """``keys``: names of keys, with ``ctrl+`` and ``shift+`` before them; ``pad``: inputs of a standard gamepad."""
+
+    name: str
+    label: str
+    keys: tuple[str, ...] = ()
+    pad: str = ""
+
+
+def key_text(command: Command) -> str:
+    """What to press for a command, for people; '' for nothing."""
+    return "+".join(map(key_label_of, command.keys[0].split("+"))) if command.keys else ""
 
 
 class CommandTable:

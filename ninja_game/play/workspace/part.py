@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 import pygame
 
-from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.theme import Area, Theme, inside
 from ninja_game.play.ui.widgets import Widget
 
 Commands = Mapping[str, Callable[[], object]]
@@ -59,12 +59,9 @@ class Part:
 
     def contains(self, x: float, y: float) -> bool:
         """Whether a point lies in it."""
-        left, top, w, h = self.area
-        return left <= x < left + w and top <= y < top + h
+        return inside(self.area, x, y)
 
-    def draw(
-        self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool
-    ) -> list[pygame.Rect]:  # fmt: skip
+    def draw(self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool) -> list[pygame.Rect]:
         """Draw it if anything has changed; the px that did."""
         key = self.render_key()
         if not whole and key == self._drawn:

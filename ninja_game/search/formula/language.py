@@ -198,9 +198,7 @@ def _comparison(
     a: Callable[[View], Any], b: Callable[[View], Any], compare: Callable[..., Any], margin: Callable[[Any, Any], Any]
 ) -> Formula:
     return Formula(
-        True,
-        lambda view: np.asarray(compare(a(view), b(view)), np.float64),
-        lambda view: margin(a(view), b(view)),
+        True, lambda view: np.asarray(compare(a(view), b(view)), np.float64), lambda view: margin(a(view), b(view))
     )
 
 

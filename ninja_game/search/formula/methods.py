@@ -163,8 +163,7 @@ def beam(task: SpanTask, step: int, results: Results, rng: np.random.Generator, 
         keys[tick : tick + ticks, used] = chosen
         margin = score = np.zeros(0)
         for each in range(ticks):
-            batch.run(keys[np.newaxis, tick + each], stop=True, press=True)
-            worlds.ticks_run += len(used)
+            worlds.ticks_run += batch.run(keys[np.newaxis, tick + each], stop=True, press=True)
             at_goal, margin, score = worlds.measured()
             for index in np.flatnonzero(at_goal[used])[:KEPT]:
                 ended = keys[:, index].copy()

@@ -129,9 +129,7 @@ class SpanWorlds:
     def __init__(self, task: SpanTask, count: int, *, memory: str = "auto", threads: int | None = None) -> None:
         self.task = task
         self.batch = Batch(task.level, count, body=task.body, memory=memory, threads=threads)
-        self.view = {
-            **view_of(self.batch), "difference": difference_from(task.level, task.inputs, self.batch)
-        }  # fmt: skip
+        self.view = {**view_of(self.batch), "difference": difference_from(task.level, task.inputs, self.batch)}
         self.goal, self.measure = task.formulas()
         before = np.frombuffer(task.inputs[: task.first], np.uint8)
         single = Batch(task.level, 1, body=task.body, memory=memory)
@@ -180,7 +178,7 @@ class SpanWorlds:
             np.full(count, np.inf), np.zeros(count, np.int64), np.full(count, -np.inf), np.zeros((count, 4))
         )
         for tick in range(self.task.length):
-            batch.run(keys[np.newaxis, tick], stop=True, press=True)
+            self.ticks_run += batch.run(keys[np.newaxis, tick], stop=True, press=True)
             at_goal, margin, score = self.measured()
             np.maximum(trials.margins, margin, out=trials.margins)
             better = at_goal & (score < trials.scores)
@@ -190,7 +188,6 @@ class SpanWorlds:
                 trials.ends[better] = np.column_stack([batch.positions[better], batch.velocities()[better]])
             if self.measure is None and (trials.ticks > 0).all():
                 break
-        self.ticks_run += self.task.length * count
         return trials
 
     def _play_rest(self, keys: Keys, trials: Trials) -> None:

@@ -151,13 +151,7 @@ def trace_world(
 
 @entry_point
 def run_worlds(
-    levels: Sequence[TileMap],
-    level_of: Any,
-    worlds: Sequence[World],
-    inputs: Any,
-    first: int,
-    last: int,
-    stop: int,
+    levels: Sequence[TileMap], level_of: Any, worlds: Sequence[World], inputs: Any, first: int, last: int, stop: int
 ) -> int:
     """Run worlds ``first`` … ``last`` - 1, each for all rows of ``inputs`` (ticks x worlds); the number of ticks run.
 

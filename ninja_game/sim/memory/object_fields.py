@@ -180,5 +180,5 @@ class Drone(Header):
 @struct
 class Object(
     Gold, Mine, Exit, Switch, BounceBlock, LaunchPad, OneWay, Door, Thwump, FloorGuard, Turret, Launcher, Drone
-):  # fmt: skip
+):
     """Any object. One class for all kinds, so that plain code stays monomorphic; one record in which they overlap."""

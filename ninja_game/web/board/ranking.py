@@ -15,10 +15,7 @@ from ninja_game.web.pages.published import PublishedLevels
 Order = Callable[[Run], tuple[int, ...]]
 
 FASTEST, HIGHEST = "fastest", "highest score"
-ORDERS: dict[str, Order] = {
-    FASTEST: lambda run: (run.tick, -run.gold),
-    HIGHEST: lambda run: (-run.score, run.tick),
-}
+ORDERS: dict[str, Order] = {FASTEST: lambda run: (run.tick, -run.gold), HIGHEST: lambda run: (-run.score, run.tick)}
 """What runs are ranked by, the smaller the better: the time to the exit, or the score with gold (game.md §1.3)."""
 
 

@@ -175,8 +175,8 @@ def heading(text: str) -> Markup:
     strokes = tag("path", d="".join(moves), fill="none", stroke="currentColor", stroke_width=str(WEIGHTS[1]),
                   stroke_linecap="round", stroke_linejoin="round")  # fmt: skip
     box = f"0 0 {x:.1f} {CAP + 7:.1f}"
-    picture = tag("svg", strokes, viewbox=box, aria_hidden="true", height=str(round(30 * (CAP + 7) / CAP)))
-    return tag("h1", Markup(picture.replace("viewbox", "viewBox")), tag("span", shown, class_="hidden"))
+    picture = tag("svg", strokes, viewBox=box, aria_hidden="true", height=str(round(30 * (CAP + 7) / CAP)))
+    return tag("h1", picture, tag("span", shown, class_="hidden"))
 
 
 def _icon() -> bytes:

@@ -65,7 +65,7 @@ def level_page(
         section("Par times", _pars(entry.pars)) if entry.pars else None,
         section("Certificates", table("Runs that prove the level", ("Run", "Time", ""), runs)) if runs else None,
         more,
-    ]  # fmt: skip
+    ]
     return page(entry.title, *contents, up=UP, links=links), texts
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from ninja_game.editor.brush import OBJECT_TYPES, placed
 from ninja_game.editor.files import Source
-from ninja_game.editor.records import BODY, points
+from ninja_game.editor.specs import BODY, points
 from ninja_game.editor.stamp import Selection, Stamp, put
 from ninja_game.files.user_folder import bundled_levels
 from ninja_game.formats.load import load_levels
@@ -20,7 +20,7 @@ from ninja_game.sim.level import ObjectSpec
 from tests.support.level_maker import ROOM, Maker
 
 CROWD = tuple(
-    placed(OBJECT_TYPES[2 + k * 7 % 15].record, 30 + 37 * k % 730, 30 + 53 * k % 540, "quarter") for k in range(500)
+    placed(OBJECT_TYPES[2 + k * 7 % 15].spec, 30 + 37 * k % 730, 30 + 53 * k % 540, "quarter") for k in range(500)
 )
 
 
@@ -34,7 +34,7 @@ def rounded(look: ObjectSprites) -> object:
 
 
 def test_what_is_asked_for_in_one_place_looks_as_it_does_in_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
-    records = {record for path in bundled_levels()[::9] for record in load_levels(path)[0].level.objects}
+    records = {spec for path in bundled_levels()[::9] for spec in load_levels(path)[0].level.objects}
     odd_doors = [
         (300.0, 300.0, 1.0, 1.0, column, row, 0.0, -1.0, 0.0)
         for column in (0.0, 33.0, -4.0)
@@ -42,10 +42,10 @@ def test_what_is_asked_for_in_one_place_looks_as_it_does_in_its_own(monkeypatch:
     ]
     records |= {*CROWD, *(ObjectSpec(9, values) for values in odd_doors), ObjectSpec(9, (1.0, 2.0)), ObjectSpec(77, ())}
     quick = pictures().sprites_of(records)
-    monkeypatch.setattr(object_pictures, "_model", lambda record: record)
+    monkeypatch.setattr(object_pictures, "_model", lambda spec: spec)
     exact = pictures().sprites_of(sorted(records))
-    for record, look in exact.items():
-        assert rounded(quick[record]) == rounded(look), record
+    for spec, look in exact.items():
+        assert rounded(quick[spec]) == rounded(look), spec
     assert sum(bool(look.sprites) for look in exact.values()) > 500
 
 
@@ -55,7 +55,7 @@ def test_what_is_dragged_goes_to_the_last_place_that_the_mouse_tells_of(room: Ma
     tools = room.editor.session.tools
     tools.tool, tools.snap = "select", "px"
     tools.selection = Selection(None, frozenset((n, BODY) for n in range(len(tools.draft.objects))))
-    before = [points(record)[BODY] for record in tools.draft.objects]
+    before = [points(spec)[BODY] for spec in tools.draft.objects]
     x, y = before[100]
     places = [room.app.canvas.point(*room.at(x + k, y)) for k in range(30)]
     moves: list[float] = []

@@ -232,7 +232,7 @@ def test_a_frame_of_a_full_level_is_quick(tmp_path: Path) -> None:
     try:
         maker.open("Editor")
         objects = tuple(
-            placed(OBJECT_TYPES[2 + k * 7 % 15].record, 30 + 37 * k % 730, 30 + 53 * k % 540, "quarter")
+            placed(OBJECT_TYPES[2 + k * 7 % 15].spec, 30 + 37 * k % 730, 30 + 53 * k % 540, "quarter")
             for k in range(500)
         )
         draft = put(ROOM, Stamp({}, objects))

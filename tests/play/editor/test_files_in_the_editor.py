@@ -14,14 +14,13 @@ import pytest
 
 from ninja_game.cli.main import cli
 from ninja_game.editor.ascii_text import ascii_text
-from ninja_game.editor.files import FOLDER, Autosave, Source, new_source, open_source, recovered
-from ninja_game.files.user_folder import bundled_levels
+from ninja_game.editor.files import Autosave, Source, new_source, open_source, recovered
+from ninja_game.files.user_folder import EDITING, bundled_levels
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.play.app import App
-from ninja_game.play.editor.commands import LevelChoice
 from ninja_game.play.editor.screen import EditorScreen
-from ninja_game.play.menus.browser import Browser
+from ninja_game.play.menus.browser import Browser, LevelChoice
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.panels import FormPanel, Menu
 from ninja_game.player.backup import read_backup, write_backup
@@ -39,7 +38,7 @@ def test_saved_levels_are_in_the_browser_at_once(room: Maker, tmp_path: Path) ->
     assert isinstance(room.top(), MainMenu)
     room.open("Levels")
     assert "Room" in [entry.title for entry in room.top().entries]  # type: ignore[attr-defined]
-    assert not list((tmp_path / FOLDER).glob("*")) if (tmp_path / FOLDER).exists() else True
+    assert not list((tmp_path / EDITING).glob("*")) if (tmp_path / EDITING).exists() else True
 
 
 def test_a_level_of_the_browser_is_edited_and_played_as_it_is_then(room: Maker) -> None:
@@ -159,7 +158,7 @@ def test_saving_first_stays_where_it_was_not_saved(room: Maker, tmp_path: Path) 
 def test_what_was_not_saved_when_the_program_died_is_offered(room: Maker, tmp_path: Path) -> None:
     room.drag((300, 300))
     session = room.editor.session
-    room.wait(lambda: list((tmp_path / FOLDER).glob("*.json")), "autosave")
+    room.wait(lambda: list((tmp_path / EDITING).glob("*.json")), "autosave")
     lost = session.draft
     session.autosave.close(keep=True)
     room.app.stack.clear()
@@ -171,12 +170,12 @@ def test_what_was_not_saved_when_the_program_died_is_offered(room: Maker, tmp_pa
     assert room.draft == lost
     assert not room.editor.session.is_saved
     room.chord("s", pygame.KMOD_LCTRL)
-    room.wait(lambda: not list((tmp_path / FOLDER).glob("*.json")), "end of the autosave")
+    room.wait(lambda: not list((tmp_path / EDITING).glob("*.json")), "end of the autosave")
 
 
 def test_what_another_window_goes_on_with_is_not_recovered_twice(room: Maker, tmp_path: Path) -> None:
     room.drag((300, 300))
-    room.wait(lambda: list((tmp_path / FOLDER).glob("*.json")), "autosave")
+    room.wait(lambda: list((tmp_path / EDITING).glob("*.json")), "autosave")
     room.editor.session.autosave.close(keep=True)
     room.app.stack.clear()
     room.app.push(MainMenu(room.app))
@@ -198,7 +197,7 @@ def test_what_a_backup_brings_is_never_saved_where_it_says(there: bool, maker: M
     kept = {"path": str(victim), "digest": sha256(b"mine").hexdigest(), "level": text}
     write_backup(maker.app.player, tmp_path / "all.zip")
     with ZipFile(tmp_path / "all.zip", "a") as archive:
-        archive.writestr(f"{FOLDER}/a.json", json.dumps(kept))
+        archive.writestr(f"{EDITING}/a.json", json.dumps(kept))
     read_backup(maker.app.player, (tmp_path / "all.zip").read_bytes())
     maker.open("Editor")
     maker.choose("Recover")
@@ -211,9 +210,9 @@ def test_what_a_backup_brings_is_never_saved_where_it_says(there: bool, maker: M
 def test_a_path_that_somebody_put_among_the_autosaves_by_hand_counts_for_nothing(maker: Maker, tmp_path: Path) -> None:
     victim = tmp_path / "profile"
     victim.write_text("mine")
-    (tmp_path / FOLDER).mkdir()
+    (tmp_path / EDITING).mkdir()
     kept = {"path": str(victim), "digest": sha256(b"mine").hexdigest(), "level": ascii_text(ROOM)}
-    (tmp_path / FOLDER / "a.json").write_text(json.dumps(kept))
+    (tmp_path / EDITING / "a.json").write_text(json.dumps(kept))
     maker.open("Editor")
     maker.choose("Recover")
     maker.chord("s", pygame.KMOD_LCTRL)
@@ -248,13 +247,13 @@ def test_levels_of_the_game_open_as_new_ones_and_own_ones_in_their_files(room: M
         choice = room.top()
     assert isinstance(choice, LevelChoice)
     index = next(k for k, entry in enumerate(choice.shown) if entry.source == "yours")
-    choice._play(index)
+    choice.play(index)
     assert room.editor.session.source.path == own
     room.drag((300, 60))
     room.chord("s", pygame.KMOD_LCTRL)
     assert own.read_text("utf-8").startswith("; a comment\n")
     room.chord("o", pygame.KMOD_LCTRL)
-    room.top()._play(1)  # type: ignore[attr-defined]
+    room.top().play(1)  # type: ignore[attr-defined]
     assert room.editor.session.source.path is None
 
 

@@ -16,7 +16,7 @@ from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import NAMED, Cells, EpisodeGrid
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.thumbnails import time_and_par
-from ninja_game.player.progress import Mark
+from ninja_game.player.marks import Mark
 from tests.support.draw_log import DrawLog
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK

@@ -184,7 +184,7 @@ def test_level_without_a_ninja_is_refused_with_a_message(driver: MenuDriver) -> 
     (driver.player.folder / "levels" / "empty.txt").write_text("0" * 713 + "|0^100,566")
     browser = driver.open("Levels")
     assert isinstance(browser, Browser)
-    browser._play([entry.title for entry in browser.shown].index("empty"))
+    browser.play([entry.title for entry in browser.shown].index("empty"))
     assert driver.top() is browser
     assert browser.message
 

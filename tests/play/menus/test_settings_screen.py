@@ -67,11 +67,10 @@ def test_left_at_the_low_end_of_a_slider_goes_back_to_the_pages(driver: MenuDriv
     assert screen.focus is screen.tabs
 
 
-@pytest.mark.parametrize("presses, jump, retry", [
-    (("return",), False, True),
-    (("down", "return"), True, False),
-    (("down", "down", "return"), True, True),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "presses, jump, retry",
+    [(("return",), False, True), (("down", "return"), True, False), (("down", "down", "return"), True, True)],
+)
 def test_taken_key_asks_what_becomes_of_it(
     driver: MenuDriver, screen: SettingsScreen, presses: tuple[str, ...], jump: bool, retry: bool
 ) -> None:

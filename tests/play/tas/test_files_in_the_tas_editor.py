@@ -232,7 +232,7 @@ def test_edit_in_the_viewer_opens_the_tas_editor(tmp_path: Path) -> None:
         assert (screen.editor.cursor, screen.session.file.path) == (4, None)
         assert screen.editor.track.inputs[:23] == bytes([2] * 23)
         assert [len(each.track) for each in screen.editor.others] == [10]
-        screen.document.leave()
+        screen.files.leave()
         assert app.top is viewer
 
 

@@ -62,7 +62,7 @@ def test_the_window_says_what_is_done_until_the_tas_editor_is_there(at: MenuDriv
     editor = at.top()
     assert isinstance(editor, TasScreen)
     assert editor.editor.cursor == 17
-    editor.document.leave()
+    editor.files.leave()
     assert screen not in at.app.stack
 
 

@@ -161,8 +161,7 @@ def test_ticks_travel_as_text(at: TasDriver, clipboard: list[str]) -> None:
 
 
 @pytest.mark.parametrize(
-    "text, made",
-    [("(R J)*2 ; twice", [2, 4, 2, 4]), ("   3,R,J", [6, 6, 6]), ("\r\nL*2\r\n", [1, 1])],
+    "text, made", [("(R J)*2 ; twice", [2, 4, 2, 4]), ("   3,R,J", [6, 6, 6]), ("\r\nL*2\r\n", [1, 1])]
 )
 def test_text_from_elsewhere_is_pasted(at: TasDriver, clipboard: list[str], text: str, made: list[int]) -> None:
     clipboard[0] = text

@@ -230,10 +230,7 @@ class FiveCells(Figure):
         self.truth = {(a.slot, b.slot) for a, b in combinations(objects, 2) if self.crowd.meet(a, b)}
 
     def controls(self) -> Sequence[Control]:
-        return [
-            slider("Objects", (10, 200, 10), self, "count"),
-            slider("Tests a tick", (1, 40, 1), self, "speed"),
-        ]
+        return [slider("Objects", (10, 200, 10), self, "count"), slider("Tests a tick", (1, 40, 1), self, "speed")]
 
     def demonstrate(self, tick: int) -> None:
         if self.done and tick % 80 == 0:

@@ -38,6 +38,14 @@ _REACH = 16.0
 _LEAP = 40.0
 """A drag goes to a nearer part of the run that is many ticks away only if it is nearer by more px than this."""
 
+LINE = 13.0
+"""Height of what is written below the level, logical px."""
+
+_STILL = 3
+"""The mouse that moves less, px, clicks."""
+
+Px = tuple[int, int]
+
 
 def nearest_tick(positions: Positions, x: float, y: float, cursor: int, *, dragged: bool = False) -> int:
     """The tick, of those whose path is shown, after which the ninja was nearest to a place, px of the level."""
@@ -54,10 +62,6 @@ def object_at(run: Simulation, x: float, y: float) -> ObjectView | None:
     """The object that is nearest to a place now, if it is near."""
     found = min(run.objects, key=lambda each: hypot(each.x - x, each.y - y), default=None)
     return found if found is not None and hypot(found.x - x, found.y - y) < _REACH else None
-
-
-LINE = 13.0
-"""Height of what is written below the level, logical px."""
 
 
 class LevelPart(TasPart):
@@ -256,12 +260,6 @@ class LevelPart(TasPart):
         right = theme.text(surface, speed, x + w - 6, y + 1, size=LETTERS, colour=palette.on_tile, align="right")
         room = right.left / theme.canvas.scale - x - 12
         theme.text(surface, text, x + 6, y + 1, size=LETTERS, colour=palette.on_tile, bold=take_over.on, width=room)
-
-
-_STILL = 3
-"""The mouse that moves less, px, clicks."""
-
-Px = tuple[int, int]
 
 
 class LevelPointer:

@@ -156,9 +156,7 @@ class LevelPaths:
         name = self.theme.fit(name, _LONGEST_NAME, LETTERS)
         self._label(surface, name, at, (-4, -18), colour)
 
-    def _label(
-        self, surface: pygame.Surface, text: str, at: Point, beside: Point, colour: pygame.Color
-    ) -> None:  # fmt: skip
+    def _label(self, surface: pygame.Surface, text: str, at: Point, beside: Point, colour: pygame.Color) -> None:
         """A small text on a plate, beside a place of the level, inside of the picture where that place is."""
         theme, px = self.theme, self.canvas.point(*at)
         if not surface.get_rect().collidepoint(px):

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from ninja_game.play.clock import RunClock
 from ninja_game.play.input.bindings import InputEvent
-from ninja_game.play.level.play import RunClock
 from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.play.tas.controls import BY_PAD, COMMANDS
 from ninja_game.play.tas.editor import TasEditor

@@ -6,7 +6,7 @@ from functools import partial
 
 import pygame
 
-from ninja_game.play.menus.panels import Menu
+from ninja_game.play.menus.panels import Menu, nothing
 from ninja_game.play.tas.editor import TasEditor, TasPart
 from ninja_game.play.tas.roll.commands import RollCommands
 from ninja_game.play.tas.roll.facts import compared, different_rows, in_words, keys_in_words, row_facts
@@ -17,6 +17,11 @@ from ninja_game.tas.input_track import InputTrack
 
 MARGIN = 4
 """The rows scroll with a cursor that moves in the first or the last of so many parts of the roll."""
+
+WHEEL_ROWS = 4
+SCROLL_MS = 25
+"""Beyond the edge a row comes after so many ms for each row that the pointer is beyond it, but for four at most."""
+DOUBLE_MS = 400
 
 
 class Roll(TasPart):
@@ -74,7 +79,7 @@ class Roll(TasPart):
             for each in COLUMNS
             if each.meaning
         ]
-        self.editor.app.push(Menu(self.editor.app, "Columns", [*rows, ("Done", lambda: None, "")]))
+        self.editor.app.push(Menu(self.editor.app, "Columns", [*rows, ("Done", nothing, "")]))
 
     # --- a part of the window ---
 
@@ -114,12 +119,6 @@ class Roll(TasPart):
 
     def commands(self) -> Commands:
         return self.edits.commands()
-
-
-WHEEL_ROWS = 4
-SCROLL_MS = 25
-"""Beyond the edge a row comes after so many ms for each row that the pointer is beyond it, but for four at most."""
-DOUBLE_MS = 400
 
 
 class RollMouse:

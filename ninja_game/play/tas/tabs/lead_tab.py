@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pygame
 
-from ninja_game.editor.background import NewestJob
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.input_runs import Marker
@@ -12,6 +11,7 @@ from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.tas.tabs.tab import SMALL, UNPLACED, Rows, Tab
 from ninja_game.play.ui.theme import Area, Theme, counted
 from ninja_game.play.ui.widgets import Choice
+from ninja_game.runtime import NewestJob
 from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.leads import LeadTable, lead_table
 
@@ -47,8 +47,7 @@ class LeadTab(Tab):
         self._job: NewestJob[Job, tuple[Pair, LeadTable | str]] = NewestJob(compared)
         self._choice = Choice(UNPLACED, "", self._options(), self._against, self._put,
                               hint="The run that this one is compared to")  # fmt: skip
-        self.list = Rows(self._draw_row, self._go, keeps=False,
-                         hint="A click puts the cursor there")  # fmt: skip
+        self.list = Rows(self._draw_row, self._go, keeps=False, hint="A click puts the cursor there")
         self.widgets = [self._choice, self.list]
 
     def arrange(self, x: float, y: float, w: float, h: float) -> None:

@@ -86,7 +86,7 @@ def colour_of(number: int, palette: Palette) -> pygame.Color:
 
 def draw_lane(
     surface: pygame.Surface, theme: Theme, area: Area, window: TickRange, values: Numbers, colour: pygame.Color
-) -> None:  # fmt: skip
+) -> None:
     """A value over ticks, float64 (ticks,), in the window; NaN leaves a gap. Its bounds stand at the left."""
     canvas, palette = theme.canvas, theme.palette
     x, y, w, h = area

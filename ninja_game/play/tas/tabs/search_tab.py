@@ -30,11 +30,31 @@ from ninja_game.tas.timeline import Timeline
 CLOSING_SECONDS = 0.5
 """How long a search that is cancelled is waited for when the TAS editor is left."""
 
-
 COMPILING = "The rules are made ready. On a machine that has never searched this takes a minute or two."
 NOT_BEGUN = "Stopped before it began. The rules are still made ready, for the next search."
 NOTHING_YET = "Nothing yet."
 NOTHING = "The goal was not reached. More time, a longer span or another method may reach it."
+
+LONGEST = 300
+"""Characters of a formula that one can type."""
+
+EARLIEST, GREATEST, SMALLEST = "earliest", "greatest", "smallest"
+_METHODS = (
+    ("both methods", "auto"),
+    ("beam", "beam"),
+    ("small changes", "local"),
+    ("all keys there are", "exhaustive"),
+)
+_ORDERS = (("the earliest", EARLIEST), ("the greatest", GREATEST), ("the smallest", SMALLEST))
+_RESTS = (("end at the goal", False), ("then the rest", True))
+_NAMES = "x y vx vy speed tick gold state dead won in_air distance(x, y) taken(id) opened(id) and or not < > abs(a)"
+_LEFT, _COLUMNS, _WIDTHS = 14, (232, 182, 122), (46, 58, 30)
+"""Of the cells of a result, px: the first from the left of a row, the others from its right; widths of the others."""
+_HEADS = ("Result", "Other from", "Ends at x, y", "Speed")
+_EXPLAINED = (
+    "Say what for: a goal that is true after one of these ticks, as early as possible, or a value that is to be "
+    "the greatest or smallest then. Other keys for these ticks are searched; a click puts a result into the run."
+)
 
 
 class SpanResults:
@@ -167,28 +187,6 @@ class SpanResults:
         if not search.ticks_run:
             return COMPILING if self.running else NOT_BEGUN
         return NOTHING_YET if self.running else NOTHING
-
-
-LONGEST = 300
-"""Characters of a formula that one can type."""
-
-EARLIEST, GREATEST, SMALLEST = "earliest", "greatest", "smallest"
-_METHODS = (
-    ("both methods", "auto"),
-    ("beam", "beam"),
-    ("small changes", "local"),
-    ("all keys there are", "exhaustive"),
-)
-_ORDERS = (("the earliest", EARLIEST), ("the greatest", GREATEST), ("the smallest", SMALLEST))
-_RESTS = (("end at the goal", False), ("then the rest", True))
-_NAMES = "x y vx vy speed tick gold state dead won in_air distance(x, y) taken(id) opened(id) and or not < > abs(a)"
-_LEFT, _COLUMNS, _WIDTHS = 14, (232, 182, 122), (46, 58, 30)
-"""Of the cells of a result, px: the first from the left of a row, the others from its right; widths of the others."""
-_HEADS = ("Result", "Other from", "Ends at x, y", "Speed")
-_EXPLAINED = (
-    "Say what for: a goal that is true after one of these ticks, as early as possible, or a value that is to be "
-    "the greatest or smallest then. Other keys for these ticks are searched; a click puts a result into the run."
-)
 
 
 class SearchTab(Tab):

@@ -142,9 +142,7 @@ class Rows(ListView):
 class EntryField(TextEntry):
     """A text field in which Enter does something."""
 
-    def __init__(
-        self, prompt: str, enter: Callable[[], object], *, longest: int, hint: str = ""
-    ) -> None:  # fmt: skip
+    def __init__(self, prompt: str, enter: Callable[[], object], *, longest: int, hint: str = "") -> None:
         super().__init__(UNPLACED, prompt, "", lambda _: None, longest=longest, hint=hint)
         self._enter = enter
 

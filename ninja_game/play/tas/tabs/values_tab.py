@@ -17,7 +17,7 @@ from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.tas.tabs.plot import TickRange, colour_of, draw_lane
 from ninja_game.play.tas.tabs.tab import SMALL, UNPLACED, Rows, Tab, put_in_a_row, what_is_wrong
 from ninja_game.play.ui.list_view import ListView
-from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.theme import Area, Theme, inside
 from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.play.workspace.part import Commands
 from ninja_game.runs.compare import SPLIT_EVENTS
@@ -295,7 +295,7 @@ class ValuesTab(Tab):
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
         """In the plot: the wheel zooms, a drag moves, a click puts the cursor there, the right button shows all."""
         left, top, w, h = self._plot
-        inside = left <= x < left + w and top <= y < top + h + 18
+        in_plot = inside((left, top, w, h + 18), x, y)
         if event.type == pygame.MOUSEBUTTONUP and self._grabbed is not None:
             if not self._dragged:
                 self.editor.go(round(self.window.tick(x)), select=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))
@@ -307,7 +307,7 @@ class ValuesTab(Tab):
                 self.window.move(self.window.tick(self._grabbed) - self.window.tick(x))
                 self._grabbed = x
             return True
-        if not inside:
+        if not in_plot:
             return super().mouse(event, x, y)
         if event.type == pygame.MOUSEMOTION:
             super().mouse(event, x, y)

@@ -147,8 +147,5 @@ def _overlong(tile: int) -> list[Point]:
     """The outline of a slope that reaches beyond its cell, so that no side of the cell has a gap."""
     start, end = (tiles.T_X[tile], tiles.T_Y[tile]), (tiles.S_X[tile], tiles.S_Y[tile])
     dx, dy = end[0] - start[0], end[1] - start[1]
-    longer = {
-        start: (start[0] - dx / 12, start[1] - dy / 12),
-        end: (end[0] + dx / 12, end[1] + dy / 12),
-    }
+    longer = {start: (start[0] - dx / 12, start[1] - dy / 12), end: (end[0] + dx / 12, end[1] + dy / 12)}
     return [longer.get(point, (point[0] * 1.2, point[1] * 1.2)) for point in outline(tile)]

@@ -19,9 +19,9 @@ BLEND_RGBA_MULT, BLEND_PREMULTIPLIED = 8, 17
 LONGEST_COPY, LARGEST_COPY, ONE_SHAPE = 3000, 65536, 8
 """Fresh surfaces of at most this many numbers and px, or of one simple shape, are copied to where they are blitted."""
 
-(
-    TARGET, CANVAS, FREE, CLIP, IMAGE, STRETCH, FILL, SHIFT, UNSHIFT, POLYGON, DISC, RING, LINE, FRAME, TEXT,
-) = range(1, 16)  # fmt: skip
+(TARGET, CANVAS, FREE, CLIP, IMAGE, STRETCH, FILL, SHIFT, UNSHIFT, POLYGON, DISC, RING, LINE, FRAME, TEXT) = range(
+    1, 16
+)
 """Kinds of entries, each followed by its numbers (painter.js says which)."""
 
 SCREEN = 1

@@ -1,4 +1,4 @@
-"""The run under edit as a document: its menu, saving, what was not saved last time."""
+"""The commands that concern the file of a run: its menu, saving, what was not saved last time."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ a plot. With Ctrl the wheel goes tick by tick. Drag what is between the parts to
 """What one has to know to begin."""
 
 
-class TasDocument(DocumentCommands):
+class RunCommands(DocumentCommands):
     """The commands that concern files.
 
     ``run``: does a command of any part by its name; ``recover``: opens what was not saved.
@@ -156,7 +156,7 @@ class TasDocument(DocumentCommands):
         rows: list[Row] = [
             (_name_of(found), partial(self._offer, found), _when(found))
             for found in islice(recovered(self.app.player.folder), 8)
-        ]  # fmt: skip
+        ]
         if rows:
             self.app.push(Menu(self.app, "Not saved last time", [*rows, ("Back", nothing, "")]))
         else:

@@ -42,7 +42,7 @@ def readers(source: str) -> set[str]:
 
 
 def rows() -> list[list[str]]:
-    table = (ROOT / "SECURITY.md").read_text("utf-8").partition("## Doors")[2].partition("\n## ")[0]
+    table = (ROOT / "SECURITY.md").read_text("utf-8").partition("## Entry points")[2].partition("\n## ")[0]
     return [line.strip("| ").split(" | ") for line in table.splitlines() if line.startswith("| ")][1:]
 
 

@@ -1,0 +1,87 @@
+"""What has been reached in levels: marks, medals, all gold (game.md §2.1)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from ninja_game.formats.pack.pars import MARGINS, Pars
+from ninja_game.player.catalogue import Entry
+from ninja_game.player.records import seconds_text
+from ninja_game.player.store import Store
+
+
+class Mark(NamedTuple):
+    """``fastest``: tick of the earliest exit contact; ``most_gold``: pieces in the passed run that took the most."""
+
+    fastest: int
+    most_gold: int
+
+
+class Marks:
+    """Marks in a store. Reading leaves out what is damaged."""
+
+    def __init__(self, store: Store) -> None:
+        self.store = store
+
+    def all(self, body: str = "circle") -> dict[str, Mark]:
+        """All marks by level digest."""
+        query = "SELECT level, fastest, most_gold FROM level_mark WHERE body = ?"
+        return {level: Mark(*numbers) for level, *numbers in self.store.rows(query, (body,), [str, int, int])}
+
+    def of(self, level: str, body: str = "circle") -> Mark | None:
+        """The mark of a level, by its digest."""
+        query = "SELECT fastest, most_gold FROM level_mark WHERE level = ? AND body = ?"
+        rows = self.store.rows(query, (level, body), [int, int])
+        return Mark(*rows[0]) if rows else None
+
+    def passed(self, level: str, tick: int, gold: int, body: str = "circle") -> Mark:
+        """Take note of a passed run: what is better in it stays. Raises sqlite3.Error."""
+        with self.store.change() as db:
+            before = self.of(level, body) or Mark(tick, gold)
+            mark = Mark(min(tick, before.fastest), max(gold, before.most_gold))
+            row = (level, body, *mark)
+            db.execute("REPLACE INTO level_mark (level, body, fastest, most_gold) VALUES (?, ?, ?, ?)", row)
+        return mark
+
+
+class Tally(NamedTuple):
+    """What has been reached in levels: how many there are, passed, with each medal or a better one, with all gold."""
+
+    levels: int
+    passed: int
+    medals: dict[str, int]
+    all_gold: int
+
+
+def medal_of(entry: Entry, mark: Mark | None) -> str:
+    """The medal that a mark brings in a level, "" for none."""
+    return entry.pars.medal(mark.fastest) if entry.pars and mark else ""
+
+
+def next_par(pars: Pars, mark: Mark | None) -> str:
+    """The medal after the one that a mark brings, and its par, in words; "" after the best."""
+    medal = pars.next_medal(mark.fastest) if mark else list(MARGINS)[-1]
+    return f"{medal}: {seconds_text(pars.par(medal))} s" if medal else ""
+
+
+def has_all_gold(entry: Entry, mark: Mark | None) -> bool:
+    """Whether a level, which has gold, was passed with all of it."""
+    return mark is not None and mark.most_gold >= entry.all_gold > 0
+
+
+def worst_medal(entries: Iterable[Entry], marks: dict[str, Mark]) -> str:
+    """The medal that all the levels have, or a better one; "" where one has none."""
+    order = [*MARGINS, ""]
+    found = (order.index(medal_of(entry, marks.get(entry.digest))) for entry in entries)
+    return order[max(found, default=len(MARGINS))]
+
+
+def tally(entries: Iterable[Entry], marks: dict[str, Mark]) -> Tally:
+    """Count what has been reached in levels."""
+    pairs = [(entry, marks.get(entry.digest)) for entry in entries]
+    order = list(MARGINS)
+    medals = [medal_of(*pair) for pair in pairs]
+    at_least = {medal: sum(order.index(each) <= order.index(medal) for each in medals if each) for medal in order}
+    passed = sum(mark is not None for _, mark in pairs)
+    return Tally(len(pairs), passed, at_least, sum(has_all_gold(*pair) for pair in pairs))
