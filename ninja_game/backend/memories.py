@@ -100,7 +100,8 @@ def open_worlds(
         found, expected = f"work of {cost:,} a tick", f"at most {_MOST_TICK_COST:,}"
         raise LevelError("too many objects for a page", found=found, expected=expected, hint="play it on a desktop")
     # The first time this imports Numba, which must come before NumPy.
-    if memory == JUDGED or (at_once and begins_plain(memory, cost * ticks)) or _usable_memory(memory) == "plain":
+    begins = at_once and memory == "auto" and begins_plain(memory, ticks * max(map(tick_cost, several), default=0))
+    if begins or memory == JUDGED or _usable_memory(memory) == "plain":
         return PlainWorlds(several, count, box=box)
     from ninja_game.sim.memory.compiled import CompiledWorlds
 
