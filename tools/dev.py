@@ -13,7 +13,7 @@ usage: python3 tools/dev.py COMMAND ...
   change-rules     test the tests: break the rules one at a time and tell which breaks no test notices
   accept-pictures  record the screens and pictures of the tests again, after a change of the looks that is meant
   docs             draw the pictures of docs/ again
-  tool             any script of tools/, listed in docs/tools.md: `tool soak.attract_mode --minutes 1`
+  tool             any script of tools/, listed in docs/tools.md: `tool soak.kills --kills 10`
   clean            remove .venv, caches and build products
 
 Versions are those of uv.lock: uv installs them, or pip where uv cannot be had. Standard library only.

@@ -1,14 +1,13 @@
 """Kill the game, the editor or the TAS editor at random moments: nothing that was called saved may be lost.
 
     python3 tools/dev.py tool soak.kills --kills 200
-    python3 tools/dev.py tool soak.kills --kills 500 --what window
-    SDL_VIDEODRIVER=x11 DISPLAY=:73 python3 tools/dev.py tool soak.kills --kills 100 --what settings
+    SDL_VIDEODRIVER=x11 DISPLAY=:73 python3 tools/dev.py tool soak.kills --kills 100 --what window
 
 A child process opens the player's folder, goes on where the last one ended, and says after each save or edit what
 there must be now. It is killed (SIGKILL) after a random time, also while the files are being made. Then the folder is
-opened as the program would open it. ``--what``: records, window and settings of the game lose nothing that was said;
-the editor loses at most two seconds of drawing; the TAS editor (tas without its window, or tas-window) at most its last
-edit; and no file is half written.
+opened as the program would open it. ``--what``: the game (records without its window, or window) loses nothing that was
+said; the editor loses at most two seconds of drawing; the TAS editor (tas without its window, or tas-window) at most
+its last edit; and no file is half written.
 """
 
 from __future__ import annotations
@@ -119,23 +118,6 @@ def play_in_window(folder: Path, rng: Random, pipe: Connection) -> NoReturn:
         driver.app.change_settings(volume=volume)
         pipe.send(("volume", "", volume))
         screen.quit()
-
-
-def play_settings(folder: Path, rng: Random, pipe: Connection) -> NoReturn:
-    """The settings screen: its volume moved by keys, up and down."""
-    from tests.support.menu_driver import MenuDriver
-
-    driver = MenuDriver(folder)
-    driver.open("Settings")
-    screen = driver.settings_page("Sound")
-    screen.focus = screen.widgets[1]
-    step = rng.choice((3, -3))
-    while True:
-        if not 0 <= driver.player.settings.volume + step <= 99:
-            step = -step
-        pipe.send(("about", "", driver.player.settings.volume + step))
-        driver.press("right" if step > 0 else "left")
-        pipe.send(("volume", "", driver.player.settings.volume))
 
 
 def draw_level(folder: Path, rng: Random, pipe: Connection) -> NoReturn:
@@ -330,7 +312,6 @@ TRIALS = {
     # Without a word: from its birth, so that opening the files is interrupted too.
     "records": Trial(play_records, Game, lambda rng: rng.choice((0, 1, 1, 1)), 0.25),
     "window": Trial(play_in_window, Game, lambda rng: rng.choice((0, 1, 1, 1)), 0.25),
-    "settings": Trial(play_settings, Game, lambda rng: rng.choice((0, 1, 1, 1)), 0.25),
     "editor": Trial(draw_level, Drawing, lambda _: 1, 2.5),
     "tas": Trial(edit_run, Track, lambda rng: rng.randrange(1, 21), 0.05),
     "tas-window": Trial(edit_run_in_window, Track, lambda rng: rng.randrange(1, 21), 0.05),
