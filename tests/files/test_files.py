@@ -9,6 +9,7 @@ import subprocess
 import sys
 import threading
 import time
+from importlib.metadata import PackageNotFoundError
 from pathlib import Path
 from typing import IO
 from unittest.mock import Mock
@@ -291,4 +292,15 @@ def test_home_of_an_unknown_user_is_an_error_of_ours(monkeypatch: pytest.MonkeyP
 def test_what_is_missing_is_installed_as_the_place_has_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert "tools/dev.py run" in folders.how_to_install("fast")
     monkeypatch.setattr(folders, "PACKAGE", tmp_path / "site-packages" / "ninja_game")
-    assert folders.how_to_install("fast") == f"install it: {sys.executable} -m pip install 'ninja-game[fast]'"
+    install = f"install it: {sys.executable} -m pip install "
+    assert folders.how_to_install("learn").startswith(f"{install}'gymnasium>=")
+    for extra in ("fast", "cluster", "plots", "film", "learn", "minari", "train"):
+        told = folders.how_to_install(extra).removeprefix(install)
+        assert told
+        assert "ninja-game" not in told, "nobody knows whether it can be had there"
+
+    def refuse(name: str) -> None:
+        raise PackageNotFoundError(name)
+
+    monkeypatch.setattr("importlib.metadata.requires", refuse)
+    assert folders.how_to_install("fast").startswith("this copy of the program cannot be added to")

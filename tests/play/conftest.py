@@ -31,3 +31,8 @@ def recording_of_first_level() -> Recording:
 def stage_with_app() -> Iterator[tuple[App, ScriptedControls]]:
     with scripted_app() as made:
         yield made
+
+
+@pytest.fixture(name="app")
+def app_of_the_stage(stage: tuple[App, ScriptedControls]) -> App:
+    return stage[0]

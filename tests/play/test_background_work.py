@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from threading import Event
@@ -61,15 +60,6 @@ def raising(why: str) -> Callable[..., None]:
     return work
 
 
-def until(driver: MenuDriver, condition: Callable[[], object]) -> None:
-    """Let pictures pass until something is so."""
-    end = time.monotonic() + LONGEST
-    while not condition():
-        assert time.monotonic() < end
-        time.sleep(0.005)
-        driver.frames()
-
-
 @pytest.fixture(name="driver")
 def main_menu(tmp_path: Path) -> Iterator[MenuDriver]:
     driver = MenuDriver(tmp_path)
@@ -99,7 +89,7 @@ def test_a_film_that_cannot_be_made_can_be_tried_again(
     for _ in range(2):
         driver.app.notify("")
         driver.press("e")
-        until(driver, lambda: screen.export is None)
+        driver.wait(lambda: screen.export is None)
         assert driver.app.notice == f"No film: {why}"
 
 
@@ -109,7 +99,7 @@ def test_a_daily_level_that_cannot_be_made_says_why(
     monkeypatch.setattr("ninja_game.generator.daily.make_daily", raising(why))
     monkeypatch.setattr("ninja_game.play.menus.daily.choose_memory", lambda _: None)
     screen = driver.open("Daily")
-    until(driver, lambda: screen._maker is None)  # type: ignore[attr-defined]
+    driver.wait(lambda: screen._maker is None)  # type: ignore[attr-defined]
     assert screen.message == f"No level could be made for this day: {why}"  # type: ignore[attr-defined]
 
 
@@ -124,10 +114,10 @@ def test_a_level_that_cannot_be_examined_or_certified_says_why(
         maker.open("Editor")
         session = maker.editor.session
         session.tools.load(ROOM)
-        until(maker, lambda: maker.app.notice)
+        maker.wait(lambda: maker.app.notice)
         assert maker.app.notice == f"The level could not be examined: {why}"
         maker.press("f7")
-        until(maker, lambda: not session.certifier.busy)
+        maker.wait(lambda: not session.certifier.busy)
         assert session.certifier.text == why
         session.close()
     finally:
@@ -139,7 +129,7 @@ def test_runs_that_cannot_be_compared_say_why(tmp_path: Path, why: str, monkeypa
     at = TasDriver(tmp_path, RUN)
     try:
         at.editor.show_tab("Lead")
-        until(at, lambda: at.screen.tabs[2].summary not in ("", "comparing ..."))  # type: ignore[attr-defined]
+        at.wait(lambda: at.screen.tabs[2].summary not in ("", "comparing ..."))  # type: ignore[attr-defined]
         assert at.screen.tabs[2].summary == why  # type: ignore[attr-defined]
     finally:
         at.close()
@@ -160,7 +150,7 @@ def test_a_run_whose_rules_cannot_be_loaded_says_why(
     monkeypatch.setattr(opening, "prepare", raising(why))
     below = driver.top()
     opening.open_tas_editor(driver.app, load_replays(RUN)[0], [], 0)
-    until(driver, lambda: driver.top() is below)
+    driver.wait(lambda: driver.top() is below)
     assert driver.app.notice == f"It cannot be edited: {why}"
 
 

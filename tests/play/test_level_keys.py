@@ -22,10 +22,7 @@ from tests.support.scripted import ScriptedControls, frames, level_run, open_lev
 LONG = "0" * 713 + "|5^100,566!11^400,564,300,564"
 
 
-def test_retry_key_retries_after_a_death_and_never_watches(
-    stage: tuple[App, ScriptedControls], recording: Recording
-) -> None:
-    app, _ = stage
+def test_retry_key_retries_after_a_death_and_never_watches(app: App, recording: Recording) -> None:
     screen = open_level(app, recording)
     press("confirm")
     frames(app, 5)
@@ -67,10 +64,7 @@ def test_jump_retries_after_the_death_message_and_begins_when_pressed_anew(
 
 
 @pytest.mark.parametrize("action", ["confirm", "right"])
-def test_time_goes_on_after_single_steps(
-    stage: tuple[App, ScriptedControls], recording: Recording, action: str
-) -> None:
-    app, _ = stage
+def test_time_goes_on_after_single_steps(app: App, recording: Recording, action: str) -> None:
     screen = open_level(app, recording, practice_mode=True)
     press("confirm")
     frames(app)
@@ -83,10 +77,7 @@ def test_time_goes_on_after_single_steps(
     assert screen.attempt.simulation.tick > tick
 
 
-def test_escape_before_the_first_move_does_not_end_the_game(
-    stage: tuple[App, ScriptedControls], recording: Recording
-) -> None:
-    app, _ = stage
+def test_escape_before_the_first_move_does_not_end_the_game(app: App, recording: Recording) -> None:
     screen = open_level(app, recording)
     press("back")
     frames(app)
@@ -98,10 +89,7 @@ def test_escape_before_the_first_move_does_not_end_the_game(
     assert phase_of(screen) is Phase.READY
 
 
-def test_changed_level_file_is_read_again_on_retry(
-    stage: tuple[App, ScriptedControls], recording: Recording, tmp_path: Path
-) -> None:
-    app, _ = stage
+def test_changed_level_file_is_read_again_on_retry(app: App, recording: Recording, tmp_path: Path) -> None:
     file = tmp_path / "mine.txt"
     both = f"$one#a#b#{LONG}#\n$two#a#b#{LONG}!0^9,9#\n"
     file.write_text(both)
@@ -140,9 +128,8 @@ def test_locked_records_are_a_notice(
 
 
 def test_skipping_with_locked_records_goes_on_with_a_notice(
-    stage: tuple[App, ScriptedControls], recording: Recording, monkeypatch: pytest.MonkeyPatch
+    app: App, recording: Recording, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    app, _ = stage
     run = EpisodeRun(app.player, app.player.catalogue.episodes[0], practice_mode=True)
     app.push(LevelScreen(app, run))
 
@@ -176,11 +163,8 @@ def test_a_passed_level_says_what_its_keys_do(
     assert phase_of(alone) is Phase.READY
 
 
-def test_nothing_is_written_over_the_level_but_the_passed_panel(
-    stage: tuple[App, ScriptedControls], recording: Recording
-) -> None:
+def test_nothing_is_written_over_the_level_but_the_passed_panel(app: App, recording: Recording) -> None:
     """Hints of practice, of stepping and of death lie in the border, y >= 576 px."""
-    app, _ = stage
     screen = open_level(app, recording, practice_mode=True)
     for actions in (("confirm",), ("quick_save",), ("step",), ("suicide",), ()):
         if actions:

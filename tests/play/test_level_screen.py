@@ -60,10 +60,7 @@ def test_nothing_ticks_before_a_move_and_any_move_begins(
     assert screen.attempt.inputs[0] == 2
 
 
-def test_pause_stops_time_and_the_clock_starts_afresh(
-    stage: tuple[App, ScriptedControls], recording: Recording
-) -> None:
-    app, _ = stage
+def test_pause_stops_time_and_the_clock_starts_afresh(app: App, recording: Recording) -> None:
     screen = open_level(app, recording)
     press("confirm")
     frames(app, 10, 33)
@@ -78,8 +75,7 @@ def test_pause_stops_time_and_the_clock_starts_afresh(
     assert screen.attempt.simulation.tick == tick, "24 ms are not a tick: the remainder was dropped"
 
 
-def test_a_stall_counts_as_one_tick(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
-    app, _ = stage
+def test_a_stall_counts_as_one_tick(app: App, recording: Recording) -> None:
     screen = open_level(app, recording)
     press("confirm")
     frames(app)
@@ -131,8 +127,7 @@ def test_death_goes_on_as_a_corpse_then_offers_retry_and_replay(
     assert screen.attempt.outcome == "running"
 
 
-def test_giving_up_has_no_replay(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
-    app, _ = stage
+def test_giving_up_has_no_replay(app: App, recording: Recording) -> None:
     screen = open_level(app, recording)
     press("confirm")
     frames(app, 3)
@@ -182,8 +177,7 @@ def test_rewind_runs_the_recording_backwards(stage: tuple[App, ScriptedControls]
     assert len(screen.attempt.inputs) == tick
 
 
-def test_slow_motion_and_single_steps(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
-    app, _ = stage
+def test_slow_motion_and_single_steps(app: App, recording: Recording) -> None:
     screen = open_level(app, recording, practice_mode=True)
     press("confirm")
     frames(app)
@@ -195,8 +189,7 @@ def test_slow_motion_and_single_steps(stage: tuple[App, ScriptedControls], recor
     assert screen.attempt.simulation.tick == 4, "time stands still after a step"
 
 
-def test_tools_do_nothing_outside_practice(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
-    app, _ = stage
+def test_tools_do_nothing_outside_practice(app: App, recording: Recording) -> None:
     screen = open_level(app, recording)
     press("confirm")
     frames(app, 30)
@@ -206,8 +199,7 @@ def test_tools_do_nothing_outside_practice(stage: tuple[App, ScriptedControls], 
     assert not screen.attempt.assisted
 
 
-def test_the_boss_sees_a_sheet_of_figures(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
-    app, _ = stage
+def test_the_boss_sees_a_sheet_of_figures(app: App, recording: Recording) -> None:
     screen = open_level(app, recording)
     press("confirm")
     frames(app, 20)

@@ -51,8 +51,7 @@ def test_link_of_a_level_is_copied_under_levels_and_played(driver: MenuDriver, c
     (link,) = clipboard
     assert link.startswith("https://example.org/game/#level=1.")
     opened(driver, link)
-    screen = driver.top()
-    assert isinstance(screen, LevelScreen)
+    screen = driver.shown(LevelScreen)
     assert browser.selected is not None
     assert screen.context.level == browser.selected.named.level
     driver.frames(2)
@@ -70,8 +69,7 @@ def test_link_of_a_replay_is_copied_in_the_viewer_and_watched(driver: MenuDriver
     (first,), (again,) = map(load_replays, clipboard)
     assert first.replay == again.replay
     opened(driver, clipboard[1])
-    screen = driver.top()
-    assert isinstance(screen, ReplayScreen)
+    screen = driver.shown(ReplayScreen)
     assert screen.outcome == "exit"
     driver.press("escape")
     assert isinstance(driver.top(), MainMenu)
@@ -92,8 +90,7 @@ def test_link_of_a_run_is_copied_after_it(driver: MenuDriver, clipboard: list[st
 
 def test_link_of_a_pack_is_copied_from_its_episodes_and_offered(driver: MenuDriver, clipboard: list[str]) -> None:
     opened(driver, PackFiles(Path("tests/pack")).link())
-    screen = driver.top()
-    assert isinstance(screen, EpisodeGrid)
+    screen = driver.shown(EpisodeGrid)
     name = screen.pack.name
     assert name == Pack(Path("tests/pack")).name
     driver.frames(2)
@@ -105,16 +102,14 @@ def test_link_of_a_pack_is_copied_from_its_episodes_and_offered(driver: MenuDriv
 
 def test_link_of_several_replays_shows_ghosts(driver: MenuDriver) -> None:
     opened(driver, recording_link(load_replays(bundled_replays()[0]) * 2))
-    screen = driver.top()
-    assert isinstance(screen, ReplayScreen)
+    screen = driver.shown(ReplayScreen)
     assert len(screen.view.ghosts) == 1
 
 
 def test_texts_of_the_board_are_watched_over_the_menu(driver: MenuDriver) -> None:
     text = write_replay(replace(load_replays(bundled_replays()[0])[0].replay or Replay(b"", 0, "dead"), waypoints=()))
     driver.app.push(watch_screen([text, text])(driver.app))
-    screen = driver.top()
-    assert isinstance(screen, ReplayScreen)
+    screen = driver.shown(ReplayScreen)
     assert len(screen.view.ghosts) == 1
     driver.press("escape")
     assert isinstance(driver.top(), MainMenu)
@@ -143,8 +138,7 @@ def test_link_of_a_level_is_copied_in_the_pause(driver: MenuDriver, clipboard: l
     opened(driver, level_link(named.level, name=named.name, author=named.author))
     driver.press("space")
     driver.press("p")
-    panel = driver.top()
-    assert isinstance(panel, PausePanel)
+    panel = driver.shown(PausePanel)
     next(each for each in panel.widgets if getattr(each, "text", "") == "Copy a link").confirm()
     (again,) = load_levels(clipboard[0])
     assert (again.level, again.name, again.author) == (named.level, named.name, named.author)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from random import Random
@@ -27,7 +28,7 @@ from tests.support.heavy import heavy_level
 from tests.support.own_pack import PACK
 from tests.support.scripted import frames, press, scripted_app
 
-TAKE = load_replays(PACK / "certificates" / "01-2-the-works.exit.replay.txt")[0]
+RUN = load_replays(PACK / "certificates" / "01-2-the-works.exit.replay.txt")[0]
 
 
 def recording(name: str, level: Level, inputs: bytes) -> Recording:
@@ -35,13 +36,22 @@ def recording(name: str, level: Level, inputs: bytes) -> Recording:
     return Recording(level, Replay.of_inputs(inputs, level, name=name))
 
 
-def straight_digests(take: Recording, ticks: int) -> list[str]:
-    run = Simulation(take.level, body=take.body)
+def straight_digests(of: Recording, ticks: int) -> list[str]:
+    run = Simulation(of.level, body=of.body)
     digests = [run.digest()]
     for tick in range(ticks):
-        run.step_keys(take.inputs[tick] if tick < len(take.inputs) else 0)
+        run.step_keys(of.inputs[tick] if tick < len(of.inputs) else 0)
         digests.append(run.digest())
     return digests
+
+
+@contextmanager
+def viewer(*runs: Recording, size: tuple[int, int] = (396, 300)) -> Iterator[tuple[App, ReplayScreen]]:
+    """The viewer with some runs, on an app without a display."""
+    with scripted_app(size) as (app, _):
+        screen = ReplayScreen(app, runs)
+        app.push(screen)
+        yield app, screen
 
 
 def settle(app: App, screen: ReplayScreen) -> None:
@@ -51,11 +61,9 @@ def settle(app: App, screen: ReplayScreen) -> None:
 
 
 def test_any_tick_sought_is_the_one_of_a_straight_run() -> None:
-    with scripted_app((396, 300)) as (app, _):
-        screen = ReplayScreen(app, [TAKE])
-        app.push(screen)
+    with viewer(RUN) as (app, screen):
         settle(app, screen)
-        digests = straight_digests(TAKE, screen.length)
+        digests = straight_digests(RUN, screen.length)
         rng = Random(4)
         for tick in [0, 1, screen.length, *(rng.randrange(screen.length) for _ in range(40))]:
             screen.seek(tick)
@@ -66,9 +74,7 @@ def test_any_tick_sought_is_the_one_of_a_straight_run() -> None:
 
 
 def test_single_ticks_go_both_ways_and_stop() -> None:
-    with scripted_app((396, 300)) as (app, _):
-        screen = ReplayScreen(app, [TAKE])
-        app.push(screen)
+    with viewer(RUN) as (app, screen):
         screen.seek(100)
         press("frame_forward")
         frames(app, 5)
@@ -80,9 +86,7 @@ def test_single_ticks_go_both_ways_and_stop() -> None:
 
 
 def test_speed_and_stillness_at_the_start() -> None:
-    with scripted_app((396, 300)) as (app, _):
-        screen = ReplayScreen(app, [TAKE])
-        app.push(screen)
+    with viewer(RUN) as (app, screen):
         frames(app, 20)
         assert screen.tick == 0, "half a second of stillness"
         frames(app, 10)
@@ -94,9 +98,7 @@ def test_speed_and_stillness_at_the_start() -> None:
 
 
 def test_it_starts_again_after_the_end() -> None:
-    with scripted_app((396, 300)) as (app, _):
-        screen = ReplayScreen(app, [TAKE])
-        app.push(screen)
+    with viewer(RUN) as (app, screen):
         settle(app, screen)
         screen.still_ms = 0
         screen.seek(screen.end + SHOWN_AFTER_END - 2)
@@ -105,10 +107,8 @@ def test_it_starts_again_after_the_end() -> None:
 
 
 def test_others_on_the_same_level_run_along() -> None:
-    other = recording("other", TAKE.level, TAKE.inputs[:50])
-    with scripted_app((396, 300)) as (app, _):
-        screen = ReplayScreen(app, [TAKE, other, other])
-        app.push(screen)
+    other = recording("other", RUN.level, RUN.inputs[:50])
+    with viewer(RUN, other, other) as (app, screen):
         screen.seek(80)
         settle(app, screen)
         assert [ghost.simulation.tick for ghost in screen.ghosts] == [80, 80]
@@ -119,7 +119,7 @@ def test_others_on_the_same_level_run_along() -> None:
 
 def test_a_key_shows_and_hides_the_others() -> None:
     with scripted_app((396, 300)) as (app, _):
-        app.push(ReplayScreen(app, [TAKE]))
+        app.push(ReplayScreen(app, [RUN]))
         for shown in (False, True):
             press("ghost")
             frames(app)
@@ -127,9 +127,7 @@ def test_a_key_shows_and_hides_the_others() -> None:
 
 
 def test_the_mouse_drags_the_bar() -> None:
-    with scripted_app((792, 600)) as (app, _):
-        screen = ReplayScreen(app, [TAKE])
-        app.push(screen)
+    with viewer(RUN, size=(792, 600)) as (app, screen):
         pygame.event.post(pygame.Event(pygame.MOUSEBUTTONDOWN, pos=(304, 588), button=1))
         pygame.event.post(pygame.Event(pygame.MOUSEBUTTONUP, pos=(304, 588), button=1))
         frames(app, 1, 0)
@@ -137,7 +135,7 @@ def test_the_mouse_drags_the_bar() -> None:
 
 
 def test_a_folder_of_pictures_has_one_a_tick(tmp_path: Path) -> None:
-    short = recording("short", TAKE.level, TAKE.inputs[:5])
+    short = recording("short", RUN.level, RUN.inputs[:5])
     write_film(Film(short), tmp_path / "film")
     names = sorted(path.name for path in (tmp_path / "film").iterdir())
     assert len(names) == len(Film(short).moments)
@@ -146,7 +144,7 @@ def test_a_folder_of_pictures_has_one_a_tick(tmp_path: Path) -> None:
 
 def test_a_gif_has_as_many_pictures(tmp_path: Path) -> None:
     image = pytest.importorskip("PIL.Image")
-    short = recording("short", TAKE.level, TAKE.inputs[:5])
+    short = recording("short", RUN.level, RUN.inputs[:5])
     write_film(Film(short), tmp_path / "film.gif")
     with image.open(tmp_path / "film.gif") as film:
         ms = 0
@@ -158,9 +156,7 @@ def test_a_gif_has_as_many_pictures(tmp_path: Path) -> None:
 
 
 def test_home_and_end_lead_to_the_start_and_the_outcome() -> None:
-    with scripted_app((396, 300)) as (app, _):
-        screen = ReplayScreen(app, [TAKE])
-        app.push(screen)
+    with viewer(RUN) as (app, screen):
         settle(app, screen)
         press("last")
         frames(app, 1, 0)
@@ -172,9 +168,7 @@ def test_home_and_end_lead_to_the_start_and_the_outcome() -> None:
 
 
 def test_count_of_ticks_stops_at_the_end_of_the_recording(monkeypatch: pytest.MonkeyPatch) -> None:
-    with scripted_app((396, 300)) as (app, _):
-        screen = ReplayScreen(app, [TAKE])
-        app.push(screen)
+    with viewer(RUN) as (app, screen):
         screen.seek(screen.end + 20)
         written: list[str] = []
 
@@ -189,9 +183,9 @@ def test_count_of_ticks_stops_at_the_end_of_the_recording(monkeypatch: pytest.Mo
 
 def test_mark_of_an_exit_is_not_that_of_a_death() -> None:
     marks = []
-    for inputs, outcome in ((TAKE.inputs, "exit"), (bytes(600), "running")):
+    for inputs, outcome in ((RUN.inputs, "exit"), (bytes(600), "running")):
         with scripted_app((792, 600)) as (app, _):
-            screen = ReplayScreen(app, [recording("run", TAKE.level, inputs)])
+            screen = ReplayScreen(app, [recording("run", RUN.level, inputs)])
             app.push(screen)
             frames(app, 1, 0)
             assert screen.outcome == outcome
@@ -205,7 +199,7 @@ def test_mark_of_an_exit_is_not_that_of_a_death() -> None:
 
 def test_nothing_of_the_viewer_is_written_over_the_level() -> None:
     with scripted_app() as (app, _):
-        screen = ReplayScreen(app, [TAKE])
+        screen = ReplayScreen(app, [RUN])
         app.push(screen)
         press("pause")
         frames(app, 3)
@@ -219,7 +213,7 @@ def test_nothing_of_the_viewer_is_written_over_the_level() -> None:
 
 def test_sound_is_back_after_seeking_even_if_it_fails(monkeypatch: pytest.MonkeyPatch) -> None:
     with scripted_app((396, 300)) as (app, _):
-        screen = ReplayScreen(app, [TAKE])
+        screen = ReplayScreen(app, [RUN])
 
         def broken() -> None:
             raise RuntimeError
@@ -282,9 +276,7 @@ def test_no_turn_of_the_costliest_run_is_longer_than_others(
 
 def test_ghosts_catch_up_after_a_leap_in_turns() -> None:
     level = heavy_level(300)
-    with scripted_app((396, 300)) as (app, _):
-        screen = ReplayScreen(app, [recording(name, level, bytes(500)) for name in "abc"])
-        app.push(screen)
+    with viewer(*(recording(name, level, bytes(500)) for name in "abc")) as (app, screen):
         screen.toggle_pause()
         screen.seek(400)
         while screen._way:
@@ -298,7 +290,7 @@ def test_ghosts_catch_up_after_a_leap_in_turns() -> None:
 def test_a_run_that_costs_too_much_is_shown_as_far_as_it_may_go(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("ninja_game.play.replay.screen.affordable_ticks", lambda _: 50)
     with scripted_app((396, 300)) as (app, _):
-        screen = ReplayScreen(app, [TAKE])
+        screen = ReplayScreen(app, [RUN])
         assert app.notice == "This run costs too much work: it is shown up to tick 50"
         settle(app, screen)
         assert screen.end == 50
@@ -312,8 +304,8 @@ def test_save_states_of_large_levels_are_few() -> None:
 
 def test_long_run_keeps_few_states_and_every_moment_stays_exact(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(save_states, "MOST_STATES", 10)
-    played = playback.Playback(Simulation(TAKE.level), TAKE.inputs, spacing=4)
-    digests = straight_digests(TAKE, 300)
+    played = playback.Playback(Simulation(RUN.level), RUN.inputs, spacing=4)
+    digests = straight_digests(RUN, 300)
     played.seek(300)
     assert len(played._states) <= 10
     for tick in (0, 299, 8, 150, 151, 3):
@@ -322,9 +314,7 @@ def test_long_run_keeps_few_states_and_every_moment_stays_exact(monkeypatch: pyt
 
 
 def test_without_a_tas_editor_nothing_is_edited() -> None:
-    with scripted_app((396, 300)) as (app, _):
-        screen = ReplayScreen(app, [TAKE])
-        app.push(screen)
+    with viewer(RUN) as (app, screen):
         screen.toggle_pause()
         press("edit")
         frames(app, 1, 0)
@@ -334,7 +324,7 @@ def test_without_a_tas_editor_nothing_is_edited() -> None:
 
 def test_film_is_made_from_the_viewer_and_told_whatever_the_palette() -> None:
     with scripted_app((396, 300), palette="of-another-version") as (app, _):
-        screen = ReplayScreen(app, [recording("a / b", TAKE.level, TAKE.inputs[:3])])
+        screen = ReplayScreen(app, [recording("a / b", RUN.level, RUN.inputs[:3])])
         app.push(screen)
         press("export")
         frames(app, 1, 0)
@@ -348,7 +338,7 @@ def test_film_is_made_from_the_viewer_and_told_whatever_the_palette() -> None:
 
 def test_film_that_cannot_be_saved_is_told() -> None:
     with scripted_app((396, 300)) as (app, _):
-        screen = ReplayScreen(app, [recording("run", TAKE.level, TAKE.inputs[:3])])
+        screen = ReplayScreen(app, [recording("run", RUN.level, RUN.inputs[:3])])
         app.push(screen)
         (app.player.folder / "exports").rmdir()
         (app.player.folder / "exports").write_text("in the way")

@@ -39,7 +39,7 @@ class Writer(MenuDriver):
             pygame.event.post(pygame.Event(kind, key=0, scancode=SCANCODES[name], mod=mod, unicode=""))
         self.frames()
 
-    def button(self, kind: int, at: tuple[float, float]) -> None:
+    def post_button(self, kind: int, at: tuple[float, float]) -> None:
         """A mouse event with the left button."""
         place = self.app.canvas.point(*at)
         more = {"buttons": (1, 0, 0), "rel": (0, 0)} if kind == pygame.MOUSEMOTION else {"button": 1}
@@ -142,23 +142,23 @@ def test_the_mouse_puts_the_cursor_drags_and_selects_words(at: Writer, monkeypat
     down, up, move = pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEMOTION
     now = [1000]
     monkeypatch.setattr(pygame.time, "get_ticks", lambda: now[0])
-    at.button(down, at.place(4))
+    at.post_button(down, at.place(4))
     assert at.field.edited.span == (4, 4)
-    at.button(move, at.place(9))
-    at.button(move, (at.place(7)[0] + 1, 500))
-    at.button(up, at.place(7))
+    at.post_button(move, at.place(9))
+    at.post_button(move, (at.place(7)[0] + 1, 500))
+    at.post_button(up, at.place(7))
     assert at.field.edited.selected == "two"
     selected = []
     for _ in range(4):
         now[0] += 200
-        at.button(down, (at.place(9)[0] + 1, at.place(9)[1]))
-        at.button(move, at.place(12))
-        at.button(up, at.place(12))
+        at.post_button(down, (at.place(9)[0] + 1, at.place(9)[1]))
+        at.post_button(move, at.place(12))
+        at.post_button(up, at.place(12))
         selected.append(at.field.edited.selected)
     assert selected == ["hre", "three", "one two-three", "hre"]
     now[0] += 2000
     monkeypatch.setattr(pygame.key, "get_mods", lambda: SHIFT)
-    at.button(down, at.place(2))
+    at.post_button(down, at.place(2))
     assert at.field.edited.selected == "e two-t"
 
 
@@ -182,12 +182,12 @@ def test_a_long_text_shows_the_part_with_the_cursor(at: Writer) -> None:
     at.key("home")
     assert field._first == 0
     right = at.place(-1)
-    at.button(pygame.MOUSEBUTTONDOWN, at.place(0))
-    at.button(pygame.MOUSEMOTION, (right[0] + 30, right[1]))
-    at.button(pygame.MOUSEMOTION, (right[0] + 31, right[1]))
+    at.post_button(pygame.MOUSEBUTTONDOWN, at.place(0))
+    at.post_button(pygame.MOUSEMOTION, (right[0] + 30, right[1]))
+    at.post_button(pygame.MOUSEMOTION, (right[0] + 31, right[1]))
     assert field._first > 0
     assert field.edited.span[0] == 0
-    at.button(pygame.MOUSEBUTTONUP, right)
+    at.post_button(pygame.MOUSEBUTTONUP, right)
 
 
 @pytest.mark.parametrize("text", ["", " ", "-", "é"])

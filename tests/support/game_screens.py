@@ -111,12 +111,6 @@ def home(driver: MenuDriver) -> None:
     raise AssertionError(f"no way home from {driver.top()}")
 
 
-def _level(driver: MenuDriver) -> LevelScreen:
-    level = driver.top()
-    assert isinstance(level, LevelScreen)
-    return level
-
-
 def _first_steps(driver: MenuDriver) -> Iterator[str]:
     """Everything as a new player sees it."""
     driver.frames(90)
@@ -154,7 +148,7 @@ def _an_episode(driver: MenuDriver) -> Iterator[str]:
     yield "dead-message"
     driver.press("space", "space", "k", "space")
     for number in range(1, 6):
-        level = _level(driver)
+        level = driver.shown(LevelScreen)
         if number == 4:
             driver.app.change_settings(show_keys=True)
             level.begin()
@@ -190,7 +184,7 @@ def _levels(driver: MenuDriver) -> Iterator[str]:
     driver.press("return", "space")
     driver.frames(45)
     yield "playing-with-a-ghost"
-    level = _level(driver)
+    level = driver.shown(LevelScreen)
     level.attempt.lifetime = 150
     level.play.shown_lifetime = 150.0
     yield "playing-in-danger"
@@ -202,10 +196,10 @@ def _levels(driver: MenuDriver) -> Iterator[str]:
     driver.type("zz")
     yield "levels-none-found"
     driver.press("backspace", "backspace", "down", "return")
-    _level(driver).begin()
+    driver.shown(LevelScreen).begin()
     for ticks in (25, 20, 15, 45):
         driver.frames(ticks)
-        yield f"shooting-{_level(driver).attempt.simulation.tick}"
+        yield f"shooting-{driver.shown(LevelScreen).attempt.simulation.tick}"
         if ticks == 20:
             driver.press("4")
             yield "shooting-rays"

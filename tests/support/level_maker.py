@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-import time
-
 import pygame
 
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.view import LAYOUT
-from ninja_game.play.input.keys import SCANCODES
-from ninja_game.play.menus.panels import Menu
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import Level, ObjectSpec
 from tests.support.menu_driver import MenuDriver
-from tests.support.waiting import LONGEST
 
 ROOM = put(
     Draft(Level(), "Room", "me"),
@@ -60,22 +55,3 @@ class Maker(MenuDriver):
             self.frames()
         pygame.event.post(pygame.Event(pygame.MOUSEBUTTONUP, pos=px, button=button, touch=False))
         self.frames()
-
-    def chord(self, key: str, *modifiers: int) -> None:
-        for kind in (pygame.KEYDOWN, pygame.KEYUP):
-            pygame.event.post(pygame.Event(kind, key=0, scancode=SCANCODES[key], mod=sum(modifiers), unicode=""))
-        self.frames()
-
-    def choose(self, text: str) -> None:
-        """Click a button of the panel on top."""
-        panel = self.top()
-        assert isinstance(panel, Menu)
-        button = next(widget for widget in panel.widgets if getattr(widget, "text", "") == text)
-        self.mouse(*button.centre)
-
-    def wait(self, condition: object, what: str, *, seconds: float = LONGEST) -> None:
-        end = time.monotonic() + seconds
-        while not condition():  # type: ignore[operator]
-            assert time.monotonic() < end, what
-            time.sleep(0.01)
-            self.frames()

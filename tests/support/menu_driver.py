@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import time
+from collections.abc import Callable
 from pathlib import Path
+from typing import TypeVar
 from unittest.mock import patch
 
 import pygame
@@ -13,11 +16,15 @@ from ninja_game.play.app import Screen, build_app
 from ninja_game.play.input.bindings import Bindings
 from ninja_game.play.input.keys import SCANCODES
 from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.menus.panels import FormPanel
 from ninja_game.play.menus.settings import PAGES, SettingsScreen
 from ninja_game.play.tas.opening import open_tas_editor
+from ninja_game.play.ui.widgets import Widget
 from ninja_game.player.player_data import PlayerData
+from tests.support.waiting import LONGEST
 
 FRAME_MS = 25
+S = TypeVar("S", bound=Screen)
 
 
 class ScriptedKeys(Bindings):
@@ -49,6 +56,12 @@ class MenuDriver:
         """The screen on top."""
         return self.app.top
 
+    def shown(self, kind: type[S]) -> S:
+        """The screen on top, which is of this kind."""
+        top = self.app.top
+        assert isinstance(top, kind), top
+        return top
+
     def frames(self, count: int = 1, ms: int = FRAME_MS) -> None:
         """Let pictures pass."""
         for _ in range(count):
@@ -70,6 +83,40 @@ class MenuDriver:
             pygame.event.post(pygame.Event(pygame.TEXTINPUT, text=char))
             pygame.event.post(pygame.Event(pygame.KEYUP, key=0, scancode=SCANCODES[name], mod=0, unicode=char))
             self.frames(1)
+
+    def chord(self, key: str, *modifiers: int) -> None:
+        """A key with modifiers."""
+        for kind in (pygame.KEYDOWN, pygame.KEYUP):
+            pygame.event.post(pygame.Event(kind, key=0, scancode=SCANCODES[key], mod=sum(modifiers), unicode=""))
+        self.frames()
+
+    def button(self, text: str) -> Widget:
+        """The widget with a text on the screen on top."""
+        widgets = self.top().widgets  # type: ignore[attr-defined]
+        found: Widget = next(each for each in widgets if getattr(each, "text", "") == text)
+        return found
+
+    def choose(self, text: str) -> None:
+        """Click the button with a text."""
+        self.mouse(*self.button(text).centre)
+
+    def choose_in_menu(self, text: str) -> None:
+        """Open the menu of an editor, and click a button of it."""
+        self.press("escape")
+        self.choose(text)
+
+    def fill(self, text: str, button: str = "Save") -> None:
+        """Put a text into the first field of the form on top, and click a button."""
+        self.shown(FormPanel).texts[0] = text
+        self.choose(button)
+
+    def wait(self, condition: Callable[[], object], what: str = "", *, seconds: float = LONGEST) -> None:
+        """Let pictures pass until something is so."""
+        end = time.monotonic() + seconds
+        while not condition():
+            assert time.monotonic() < end, what
+            time.sleep(0.01)
+            self.frames()
 
     def mouse(self, x: float, y: float, *, click: bool = True) -> None:
         """Move the mouse to a logical point, and click."""

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import pygame
 
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import build_app
-from ninja_game.play.input.keys import SCANCODES
 from ninja_game.play.tas.screen import TasScreen
-from ninja_game.play.ui.widgets import Widget
 from ninja_game.simulation import Simulation
 from ninja_game.tas.files import open_run
 from tests.support.menu_driver import MenuDriver, ScriptedKeys
-from tests.support.waiting import LONGEST
 
 
 class TasDriver(MenuDriver):
@@ -75,34 +71,10 @@ class TasDriver(MenuDriver):
         y = layout.body.top + (tick - roll.top) * layout.row + layout.row // 2
         return self.top().theme.canvas.logical((place.left + place.width // 2, y))
 
-    def chord(self, key: str, *modifiers: int) -> None:
-        """A key with modifiers."""
-        for kind in (pygame.KEYDOWN, pygame.KEYUP):
-            pygame.event.post(pygame.Event(kind, key=0, scancode=SCANCODES[key], mod=sum(modifiers), unicode=""))
-        self.frames()
-
     def write(self, text: str) -> None:
         """Type any text, as the system gives it behind the keys."""
         pygame.event.post(pygame.Event(pygame.TEXTINPUT, text=text))
         self.frames()
-
-    def button(self, text: str) -> Widget:
-        """The widget with a text on the screen on top."""
-        widgets = self.top().widgets  # type: ignore[attr-defined]
-        found: Widget = next(each for each in widgets if getattr(each, "text", "") == text)
-        return found
-
-    def choose(self, text: str) -> None:
-        """Click the button with a text."""
-        self.mouse(*self.button(text).centre)
-
-    def wait(self, condition: Callable[[], object], what: str, *, seconds: float = LONGEST) -> None:
-        """Let pictures pass until something is so."""
-        end = time.monotonic() + seconds
-        while not condition():
-            assert time.monotonic() < end, what
-            time.sleep(0.01)
-            self.frames()
 
     def shown_digest(self) -> str:
         """Of the world that the level shows."""

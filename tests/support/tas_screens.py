@@ -149,8 +149,7 @@ def tas_editor(driver: MenuDriver) -> Iterator[str]:
         yield from _level(at)
         yield from _tabs(at)
         yield from _panels(at)
-        at.press("escape")
-        at.choose("Leave")
+        at.choose_in_menu("Leave")
         yield "tas-leave-unsaved"
         at.choose("Discard changes")
     waiting = OpeningScreen(driver.app, at.session.recording(at.editor.track, "Locksmith"), lambda: at.screen)

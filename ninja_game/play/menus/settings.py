@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import pygame
 
@@ -12,7 +12,7 @@ from ninja_game.play.input.bindings import ACTIONS, InputEvent
 from ninja_game.play.input.gamepad import pad_label
 from ninja_game.play.input.keys import key_label
 from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.panels import Panel
+from ninja_game.play.menus.panels import CANCEL, Menu, Row
 from ninja_game.play.ui.canvas import WIDTH
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.text_entry import TextEntry
@@ -41,22 +41,23 @@ def input_label(device: str, name: str) -> str:
     return key_label(name) if device == "keys" else pad_label(name)
 
 
-class Conflict(Panel):
-    """An input that other actions have already: the player says what becomes of it."""
+class Conflict(Menu):
+    """An input that other actions have already: the player says what becomes of it.
+
+    To leave it comes first, so that a hasty key does no harm.
+    """
 
     def __init__(self, table: BindingTable, action: str, slot: int, name: str, others: Sequence[str]) -> None:
         labels = " and ".join(ACTIONS[other].label for other in others)
-        super().__init__(table.screen.app, f"{input_label(table.device, name)} already means {labels}")
+        rows: list[Row] = [
+            CANCEL, (f"Only {ACTIONS[action].label}", self._take, ""), ("Use it for both", self._share, "")
+        ]  # fmt: skip
+        super().__init__(table.screen.app, f"{input_label(table.device, name)} already means {labels}", rows)
         self.table = table
         self.action = action
         self.slot = slot
         self.name = name
         self.others = others
-
-    def rows(self) -> list[tuple[str, Callable[[], object], str]]:
-        """To leave it comes first, so that a hasty key does no harm."""
-        label = ACTIONS[self.action].label
-        return [("Cancel", self.back, ""), (f"Only {label}", self._take, ""), ("Use it for both", self._share, "")]
 
     def _take(self) -> None:
         """The others lose it."""
@@ -65,7 +66,6 @@ class Conflict(Panel):
         self._share()
 
     def _share(self) -> None:
-        self.app.pop()
         self.table.put(self.action, self.slot, self.name)
 
 

@@ -33,8 +33,7 @@ def test_saved_levels_are_in_the_browser_at_once(room: Maker, tmp_path: Path) ->
     path = tmp_path / "levels" / "room.txt"
     assert level_digest(load_levels(path)[0].level) == level_digest(ROOM.level)
     assert room.editor.session.is_saved
-    room.press("escape")
-    room.choose("Leave the editor")
+    room.choose_in_menu("Leave the editor")
     assert isinstance(room.top(), MainMenu)
     room.open("Levels")
     assert "Room" in [entry.title for entry in room.top().entries]  # type: ignore[attr-defined]
@@ -44,8 +43,7 @@ def test_saved_levels_are_in_the_browser_at_once(room: Maker, tmp_path: Path) ->
 def test_a_level_of_the_browser_is_edited_and_played_as_it_is_then(room: Maker) -> None:
     room.chord("s", pygame.KMOD_LCTRL)
     assert room.app.notice.startswith("Saved, and in the menu Levels: ")
-    room.press("escape")
-    room.choose("Leave the editor")
+    room.choose_in_menu("Leave the editor")
     browser = room.open("Levels")
     assert isinstance(browser, Browser)
     assert [entry.source for entry in browser.shown[:2]] == ["yours", "game"]
@@ -54,8 +52,7 @@ def test_a_level_of_the_browser_is_edited_and_played_as_it_is_then(room: Maker) 
     assert room.draft == ROOM
     room.drag((300, 300))
     room.chord("s", pygame.KMOD_LCTRL)
-    room.press("escape")
-    room.choose("Leave the editor")
+    room.choose_in_menu("Leave the editor")
     assert room.top() is browser
     assert browser.entries[0].named.level.tile(12, 12) == 1
 
@@ -74,41 +71,19 @@ def test_a_name_is_asked_for_where_there_is_none(maker: Maker, tmp_path: Path) -
     assert sum(maker.draft.level.tiles) == 1
     (tmp_path / "levels" / "other.txt").write_text("somebody's")
     maker.editor.commands.save_as()
-    form = maker.top()
-    assert isinstance(form, FormPanel)
-    form.texts[0] = "other"
-    maker.choose("Save")
+    maker.fill("other")
     assert "already exists" in maker.top().title  # type: ignore[attr-defined]
     maker.choose("Cancel")
     assert maker.draft.name == "bd", "what was not saved is not renamed"
 
 
-def test_a_file_that_changed_meanwhile_is_not_replaced_unasked(room: Maker, tmp_path: Path) -> None:
-    room.chord("s", pygame.KMOD_LCTRL)
-    path = tmp_path / "levels" / "room.txt"
-    path.write_text(path.read_text("utf-8") + "; by hand\n", "utf-8")
-    room.drag((300, 300))
-    room.chord("s", pygame.KMOD_LCTRL)
-    assert isinstance(room.top(), Menu)
-    assert "changed by another program" in room.top().title  # type: ignore[attr-defined]
-    room.choose("Cancel")
-    assert path.read_text("utf-8").endswith("; by hand\n")
-    assert not room.editor.session.is_saved
-    room.chord("s", pygame.KMOD_LCTRL)
-    room.choose("Replace it")
-    assert room.editor.session.source.draft == room.draft
-    assert load_levels(path)[0].level.tile(12, 12) == 1
-
-
 def test_leaving_asks_about_what_is_not_saved(room: Maker, tmp_path: Path) -> None:
     room.drag((300, 300))
-    room.press("escape")
-    room.choose("Leave the editor")
+    room.choose_in_menu("Leave the editor")
     assert isinstance(room.top(), Menu)
     room.choose("Cancel")
     assert isinstance(room.top(), EditorScreen)
-    room.press("escape")
-    room.choose("Leave the editor")
+    room.choose_in_menu("Leave the editor")
     room.choose("Discard changes")
     assert isinstance(room.top(), MainMenu)
     assert not list((tmp_path / "levels").iterdir())
@@ -121,8 +96,7 @@ def test_saving_first_goes_on_with_what_was_asked(maker: Maker, tmp_path: Path, 
     maker.editor.commands.edit(Source(ROOM if named else replace(ROOM, name="")))
     maker.drag((300, 300))
     drawn = maker.draft
-    maker.press("escape")
-    maker.choose(asked)
+    maker.choose_in_menu(asked)
     maker.choose("Save")
     if not named:
         assert isinstance(maker.top(), FormPanel)
@@ -141,14 +115,13 @@ def test_saving_first_stays_where_it_was_not_saved(room: Maker, tmp_path: Path) 
     path = tmp_path / "levels" / "room.txt"
     path.write_text(path.read_text("utf-8") + "; by hand\n", "utf-8")
     room.drag((300, 300))
-    room.press("escape")
-    room.choose("Leave the editor")
+    room.choose_in_menu("Leave the editor")
     room.choose("Save")
     assert "changed by another program" in room.top().title  # type: ignore[attr-defined]
     room.choose("Cancel")
     assert isinstance(room.top(), EditorScreen)
-    room.press("escape")
-    room.choose("Leave the editor")
+    assert (path.read_text("utf-8")[-10:], room.editor.session.is_saved) == ("; by hand\n", False)
+    room.choose_in_menu("Leave the editor")
     room.choose("Save")
     room.choose("Replace it")
     assert isinstance(room.top(), MainMenu)
@@ -241,11 +214,7 @@ def test_levels_of_the_game_open_as_new_ones_and_own_ones_in_their_files(room: M
     own = tmp_path / "levels" / "own.txt"
     own.write_text("; a comment\n" + Path("levels/00-0-first-steps.txt").read_text("utf-8"), "utf-8")
     room.chord("o", pygame.KMOD_LCTRL)
-    choice = room.top() if isinstance(room.top(), LevelChoice) else None
-    if choice is None:
-        room.choose("Discard changes")
-        choice = room.top()
-    assert isinstance(choice, LevelChoice)
+    choice = room.shown(LevelChoice)
     index = next(k for k, entry in enumerate(choice.shown) if entry.source == "yours")
     choice.play(index)
     assert room.editor.session.source.path == own
@@ -273,11 +242,9 @@ def test_strings_of_n_travel_by_the_clipboard(room: Maker) -> None:
 
 
 def test_pictures_and_the_solvers_run_can_be_kept(room: Maker, tmp_path: Path) -> None:
-    room.press("escape")
-    room.choose("Export a picture")
+    room.choose_in_menu("Export a picture")
     assert list((tmp_path / "exports").glob("room-1.png"))
-    room.press("escape")
-    room.choose("Keep the solver's run")
+    room.choose_in_menu("Keep the solver's run")
     assert "Certify the level first" in room.app.notice
 
 

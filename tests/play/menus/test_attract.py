@@ -7,8 +7,7 @@ from tests.support.menu_driver import MenuDriver
 
 
 def test_one_replay_follows_another(driver: MenuDriver) -> None:
-    menu = driver.top()
-    assert isinstance(menu, MainMenu)
+    menu = driver.shown(MainMenu)
     names = set()
     for _ in range(3000):
         menu.attract.update(500)
@@ -21,8 +20,7 @@ def test_one_replay_follows_another(driver: MenuDriver) -> None:
 
 
 def test_reduced_motion_shows_a_still_picture(driver: MenuDriver) -> None:
-    menu = driver.top()
-    assert isinstance(menu, MainMenu)
+    menu = driver.shown(MainMenu)
     driver.app.change_settings(reduced_motion=True)
     assert menu.attract.view is not None
     tick = menu.attract.view.simulation.tick

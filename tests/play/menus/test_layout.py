@@ -50,8 +50,7 @@ def test_widgets_lie_in_the_stage_and_not_over_each_other(driver: MenuDriver, en
 def test_panel_of_the_main_menu_holds_its_entries(
     driver: MenuDriver, monkeypatch: pytest.MonkeyPatch, count: int
 ) -> None:
-    menu = driver.top()
-    assert isinstance(menu, MainMenu)
+    menu = driver.shown(MainMenu)
     entries = (menu.entries() * 2)[:count]
     monkeypatch.setattr(MainMenu, "entries", lambda _: entries)
     menu.enter()
@@ -97,8 +96,7 @@ def test_only_what_was_passed_can_be_watched(driver: MenuDriver) -> None:
     assert isinstance(browser, Browser)
     assert browser.watch_best.enabled is False
     driver.press("return")
-    level = driver.top()
-    assert isinstance(level, LevelScreen)
+    level = driver.shown(LevelScreen)
     level.begin()
     driver.play_replay(1)
     driver.press("q")

@@ -51,8 +51,7 @@ def test_pack_in_the_folder_can_be_chosen_and_played(driver: MenuDriver) -> None
     driver.frames(3)
     assert "'Left'" in shown(driver)
     driver.press("down", "return")
-    level = driver.top()
-    assert isinstance(level, LevelScreen)
+    level = driver.shown(LevelScreen)
     assert "bronze: 7.500 s" in shown(driver), "what to aim at stands beside the level's name"
     level.begin()
     driver.frames(1)

@@ -22,8 +22,7 @@ def test_first_episode_is_played_to_its_end(driver: MenuDriver) -> None:
     driver.open("Play")
     driver.press("return")
     for number in range(1, 6):
-        level = driver.top()
-        assert isinstance(level, LevelScreen)
+        level = driver.shown(LevelScreen)
         assert level.context.title.startswith(f"Episode 0 Level {number - 1}")
         assert level.context.show_tutorial == (number == 1)
         level.begin()
@@ -31,8 +30,7 @@ def test_first_episode_is_played_to_its_end(driver: MenuDriver) -> None:
         assert level.phase is Phase.PASSED
         assert "saved" in " ".join(level.play.notices)
         driver.press("space")
-    passed = driver.top()
-    assert isinstance(passed, EpisodePassed)
+    passed = driver.shown(EpisodePassed)
     assert driver.player.progress.state(1) == UNLOCKED
     best = driver.player.records.episode_best(passed.run.episode.key)
     assert best is not None
@@ -41,8 +39,7 @@ def test_first_episode_is_played_to_its_end(driver: MenuDriver) -> None:
     driver.press("down", "return")
     assert isinstance(driver.top(), ReplayScreen)
     driver.press("escape", "up", "return")
-    following = driver.top()
-    assert isinstance(following, LevelScreen)
+    following = driver.shown(LevelScreen)
     assert following.context.title.startswith("Episode 1 Level 0")
     driver.press("q")
     assert isinstance(driver.top(), EpisodeGrid)
@@ -51,8 +48,7 @@ def test_first_episode_is_played_to_its_end(driver: MenuDriver) -> None:
 def test_runs_that_are_begun_anew_count_with_their_gold(driver: MenuDriver) -> None:
     driver.open("Levels")
     driver.press("return")
-    level = driver.top()
-    assert isinstance(level, LevelScreen)
+    level = driver.shown(LevelScreen)
     recording = load_replays(bundled_replays()[0])[0]
     gold = 0
     for _ in range(2):
@@ -74,8 +70,7 @@ def test_best_run_of_a_level_runs_along_the_next_time(driver: MenuDriver, tmp_pa
     browser = driver.open("Levels")
     assert isinstance(browser, Browser)
     driver.press("return")
-    level = driver.top()
-    assert isinstance(level, LevelScreen)
+    level = driver.shown(LevelScreen)
     assert not level.play.view.ghosts
     level.begin()
     driver.play_replay(1)
@@ -86,8 +81,7 @@ def test_best_run_of_a_level_runs_along_the_next_time(driver: MenuDriver, tmp_pa
     again = MenuDriver(tmp_path)
     again.open("Levels")
     again.press("return")
-    level = again.top()
-    assert isinstance(level, LevelScreen)
+    level = again.shown(LevelScreen)
     assert [ghost.inputs for ghost in level.play.ghosts]
     assert isinstance(browser, Browser)
     again.press("q", "escape")
@@ -106,8 +100,7 @@ def test_best_run_of_a_level_runs_along_the_next_time(driver: MenuDriver, tmp_pa
 def test_deaths_are_counted_and_retry_is_one_key(driver: MenuDriver) -> None:
     driver.open("Play")
     driver.press("return", "space")
-    level = driver.top()
-    assert isinstance(level, LevelScreen)
+    level = driver.shown(LevelScreen)
     driver.press("k")
     assert level.phase is Phase.DEAD
     assert driver.player.statistics.deaths()["player"] == 1
@@ -121,8 +114,7 @@ def test_practice_saves_no_record_and_unlocks_nothing(driver: MenuDriver) -> Non
     grid._set_practice(True)
     driver.press("return")
     for number in range(1, 6):
-        level = driver.top()
-        assert isinstance(level, LevelScreen)
+        level = driver.shown(LevelScreen)
         level.begin()
         driver.play_replay(number)
         assert level.phase is Phase.PASSED

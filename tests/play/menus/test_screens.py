@@ -69,8 +69,7 @@ def test_focus_is_always_on_a_widget_and_seen(driver: MenuDriver, entry: str) ->
 
 @pytest.mark.parametrize("entry", WITH_FOCUS)
 def test_screen_is_reached_and_left_by_gamepad(driver: MenuDriver, entry: str) -> None:
-    menu = driver.top()
-    assert isinstance(menu, MainMenu)
+    menu = driver.shown(MainMenu)
     for _ in range(list(ENTRIES).index(entry)):
         driver.pad(pygame.CONTROLLER_BUTTON_DPAD_DOWN)
     driver.pad(pygame.CONTROLLER_BUTTON_A)
@@ -81,8 +80,7 @@ def test_screen_is_reached_and_left_by_gamepad(driver: MenuDriver, entry: str) -
 
 @pytest.mark.parametrize("entry", WITH_FOCUS)
 def test_screen_is_reached_by_mouse(driver: MenuDriver, entry: str) -> None:
-    menu = driver.top()
-    assert isinstance(menu, MainMenu)
+    menu = driver.shown(MainMenu)
     button = menu.widgets[list(ENTRIES).index(entry)]
     driver.mouse(*button.centre)
     assert isinstance(driver.top(), ENTRIES[entry])
@@ -99,14 +97,12 @@ def test_leaving_the_game_is_asked_first(driver: MenuDriver) -> None:
 
 def test_up_from_the_first_entry_leads_to_the_last(driver: MenuDriver) -> None:
     driver.press("up")
-    menu = driver.top()
-    assert isinstance(menu, MainMenu)
+    menu = driver.shown(MainMenu)
     assert menu.focus is menu.widgets[-1]
 
 
 def test_held_direction_repeats(driver: MenuDriver) -> None:
-    menu = driver.top()
-    assert isinstance(menu, MainMenu)
+    menu = driver.shown(MainMenu)
     pygame.event.post(pygame.Event(pygame.KEYDOWN, key=pygame.K_DOWN, scancode=pygame.KSCAN_DOWN, mod=0, unicode=""))
     driver.frames(30)
     pygame.event.post(pygame.Event(pygame.KEYUP, key=pygame.K_DOWN, scancode=pygame.KSCAN_DOWN, mod=0, unicode=""))
@@ -118,8 +114,7 @@ def test_held_direction_repeats(driver: MenuDriver) -> None:
 
 
 def test_stall_during_a_short_press_does_not_repeat_it(driver: MenuDriver) -> None:
-    menu = driver.top()
-    assert isinstance(menu, MainMenu)
+    menu = driver.shown(MainMenu)
     pygame.event.post(pygame.Event(pygame.KEYDOWN, key=pygame.K_DOWN, scancode=pygame.KSCAN_DOWN, mod=0, unicode=""))
     driver.frames(2, ms=1500)
     pygame.event.post(pygame.Event(pygame.KEYUP, key=pygame.K_DOWN, scancode=pygame.KSCAN_DOWN, mod=0, unicode=""))
@@ -137,8 +132,7 @@ def test_every_page_of_the_settings_shows(driver: MenuDriver) -> None:
 def test_palette_is_changed_shown_and_saved(driver: MenuDriver) -> None:
     driver.open("Settings")
     driver.press("right", "right")
-    screen = driver.top()
-    assert isinstance(screen, SettingsScreen)
+    driver.shown(SettingsScreen)
     chosen = driver.player.settings.palette
     assert chosen != "classic"
     assert driver.app.theme.palette.name == chosen
@@ -192,8 +186,7 @@ def test_level_without_a_ninja_is_refused_with_a_message(driver: MenuDriver) -> 
 def test_pause_offers_going_on_retry_and_leaving(driver: MenuDriver) -> None:
     driver.open("Play")
     driver.press("return", "space")
-    level = driver.top()
-    assert isinstance(level, LevelScreen)
+    level = driver.shown(LevelScreen)
     driver.press("p")
     assert isinstance(driver.top(), PausePanel)
     tick = level.attempt.simulation.tick

@@ -76,8 +76,7 @@ def test_taken_key_asks_what_becomes_of_it(
 ) -> None:
     driver.settings_page("Keyboard")
     driver.press("down", "down", "return", "r")
-    question = driver.top()
-    assert isinstance(question, Conflict)
+    question = driver.shown(Conflict)
     assert ACTIONS["retry"].label in question.title
     driver.press(*presses)
     assert driver.top() is screen

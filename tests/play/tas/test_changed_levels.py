@@ -37,8 +37,7 @@ def test_the_question_leads_to_the_run_on_the_changed_level_and_to_a_new_recordi
     with pytest.raises(ReplayError, match="`ninja-game tas` opens the run on the changed level"):
         load_replays(old)
     at = TasDriver(tmp_path / "player", old)
-    question = at.top()
-    assert isinstance(question, Menu)
+    question = at.shown(Menu)
     assert question.title == "walk: this level is not the one that was recorded"
     at.choose("Edit it on this level")
     assert at.editor.track.inputs == bytes([KEY_RIGHT] * (WALK_END + 1))
@@ -47,8 +46,7 @@ def test_the_question_leads_to_the_run_on_the_changed_level_and_to_a_new_recordi
     at.editor.edit(lambda track: track.with_key(WALK_END, WALK_END + 21, KEY_RIGHT, down=True))
     assert at.session.timeline.end[1] == "exit"
     at.chord("s", pygame.KMOD_LCTRL)
-    form = at.top()
-    assert isinstance(form, FormPanel)
+    form = at.shown(FormPanel)
     assert form.texts == ["walk-2"]
     form.texts[0] = "walk"
     at.choose("Save")

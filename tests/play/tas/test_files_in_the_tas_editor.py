@@ -9,7 +9,7 @@ import pygame
 from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.load import load_replays
 from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.panels import FormPanel, Menu
+from ninja_game.play.menus.panels import Menu
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.tas.controls import COMMANDS
 from ninja_game.play.tas.opening import open_tas_editor
@@ -58,15 +58,13 @@ def test_a_run_of_n_is_saved_beside_its_file_under_a_name_that_is_asked_for(tmp_
     first = tmp_path / "a-run.replay.txt"
     assert load_replays(first)[0].author == "me"
     assert "Saved, with what is behind its end (Ctrl+E takes that out)" in at.app.notice
-    at.press("escape")
-    at.choose("Keep as a replay")
+    at.choose_in_menu("Keep as a replay")
     assert "behind the end" in at.app.notice
     at.chord("e", CTRL)
     at.chord("s", CTRL)
     assert at.app.notice == f"Saved: {first}"
     assert load_replays(first)[0].replay.outcome == "exit"
-    at.press("escape")
-    at.choose("Keep as a replay")
+    at.choose_in_menu("Keep as a replay")
     assert "saved" in at.app.notice
     assert len(at.player.records.replays()) == 1
     at.close()
@@ -79,10 +77,7 @@ def test_it_is_saved_under_another_name_and_asks_before_it_replaces(at: TasDrive
     taken.write_text("somebody's", "utf-8")
     change(at)
     at.chord("s", CTRL, SHIFT)
-    form = at.top()
-    assert isinstance(form, FormPanel)
-    form.texts[0] = "taken"
-    at.choose("Save")
+    at.fill("taken")
     assert at.top().title == "A file named taken.replay.txt already exists"  # type: ignore[attr-defined]
     at.choose("Cancel")
     assert taken.read_text("utf-8") == "somebody's"
@@ -90,16 +85,10 @@ def test_it_is_saved_under_another_name_and_asks_before_it_replaces(at: TasDrive
     at.chord("s", CTRL)
     assert "changed by another program" in at.top().title  # type: ignore[attr-defined]
     at.choose("Save under another name")
-    form = at.top()
-    assert isinstance(form, FormPanel)
-    form.texts[0] = "nowhere/b"
-    at.choose("Save")
+    at.fill("nowhere/b")
     assert "there is no folder" in at.app.notice
     at.chord("s", CTRL, SHIFT)
-    form = at.top()
-    assert isinstance(form, FormPanel)
-    form.texts[0] = str(path.with_name("a:b.replay.txt"))
-    at.choose("Save")
+    at.fill(str(path.with_name("a:b.replay.txt")))
     assert at.session.file.path == path.with_name("a-b.replay.txt")
     at.chord("s", CTRL)
     assert isinstance(at.top(), TasScreen)
@@ -107,13 +96,11 @@ def test_it_is_saved_under_another_name_and_asks_before_it_replaces(at: TasDrive
 
 def test_leaving_asks_if_the_run_is_not_saved(at: TasDriver) -> None:
     change(at)
-    at.press("escape")
-    at.choose("Leave")
+    at.choose_in_menu("Leave")
     assert isinstance(at.top(), Menu)
     at.choose("Cancel")
     assert isinstance(at.top(), TasScreen)
-    at.press("escape")
-    at.choose("Leave")
+    at.choose_in_menu("Leave")
     at.choose("Discard changes")
     assert not at.app.running
     assert journals(at) == []
@@ -122,8 +109,7 @@ def test_leaving_asks_if_the_run_is_not_saved(at: TasDriver) -> None:
 def test_save_first_saves_and_leaves(at: TasDriver) -> None:
     change(at)
     wanted = at.editor.track.inputs[:30]
-    at.press("escape")
-    at.choose("Leave")
+    at.choose_in_menu("Leave")
     at.choose("Save")
     assert not at.app.running
     assert load_replays(at.session.file.path or "")[0].replay.playback(30) == wanted
@@ -143,8 +129,7 @@ def test_a_closed_window_keeps_what_is_not_saved_and_it_is_offered(at: TasDriver
     again.app.stack.clear()
     again = TasDriver(tmp_path / "player", tmp_path / "run.replay.txt")
     again.choose("Recover")
-    screen = again.top()
-    assert isinstance(screen, TasScreen)
+    screen = again.shown(TasScreen)
     assert (screen.editor.track, len(screen.session.branches)) == (wanted, 1)
     assert screen.session.file.path == tmp_path / "run.replay.txt"
     again.chord("z", CTRL)
@@ -156,8 +141,7 @@ def test_a_closed_window_keeps_what_is_not_saved_and_it_is_offered(at: TasDriver
     last.choose("Discard...")
     last.choose("Keep for later")
     assert len(list(recovered(tmp_path / "player"))) == 1
-    last.press("escape")
-    last.choose("Not saved last time...")
+    last.choose_in_menu("Not saved last time...")
     last.choose("run.replay.txt")
     last.choose("Discard...")
     last.choose("Discard")
@@ -182,12 +166,10 @@ def test_what_was_not_saved_of_another_run_is_told_and_opens_from_the_menu(at: T
     again = TasDriver(tmp_path / "player", other)
     assert isinstance(again.top(), TasScreen)
     assert "Not saved last time: run.replay.txt" in again.app.notice
-    again.press("escape")
-    again.choose("Not saved last time...")
+    again.choose_in_menu("Not saved last time...")
     again.choose("run.replay.txt")
     again.choose("Recover")
-    screen = again.top()
-    assert isinstance(screen, TasScreen)
+    screen = again.shown(TasScreen)
     assert screen.editor.track == wanted
     again.close()
 
@@ -204,16 +186,13 @@ def test_help_page_and_viewer_come_from_the_menu(at: TasDriver) -> None:
     assert isinstance(at.top(), HelpPage)
     at.frames(2)
     at.press("escape")
-    at.press("escape")
-    at.choose("Watch")
-    viewer = at.top()
-    assert isinstance(viewer, ReplayScreen)
+    at.choose_in_menu("Watch")
+    viewer = at.shown(ReplayScreen)
     assert viewer.run.inputs == at.editor.track.inputs
     at.press("t")
     assert at.top() is viewer
     at.press("escape")
-    at.press("escape")
-    at.choose("Copy a link")
+    at.choose_in_menu("Copy a link")
     assert at.top() is at.screen
 
 

@@ -181,8 +181,7 @@ def test_the_list_of_other_runs_has_those_of_the_level(at: TasDriver) -> None:
     screen = at.screen
     at.chord("o", pygame.KMOD_LCTRL)
     at.frames()
-    listed = at.top()
-    assert isinstance(listed, OtherRunScreen)
+    listed = at.shown(OtherRunScreen)
     assert listed.rows
     assert all("the-works" in row.text for row in listed.rows), "names of files"
     at.press("return")
@@ -218,8 +217,7 @@ def test_other_runs_come_from_any_file(at: TasDriver, tmp_path: Path) -> None:
     (tmp_path / "notes.txt").write_text("nothing of ours")
     copy(PACK / "certificates" / "00-0-first-steps.exit.replay.txt", tmp_path / "elsewhere.replay.txt")
     at.chord("o", pygame.KMOD_LCTRL)
-    listed = at.top()
-    assert isinstance(listed, OtherRunScreen)
+    listed = at.shown(OtherRunScreen)
     assert [row.when for row in listed.rows].count("Same folder") == 1
     files = set(tmp_path.rglob("*"))
     at.press("e", "c", "delete")

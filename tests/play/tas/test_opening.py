@@ -38,8 +38,7 @@ def loaded(monkeypatch: pytest.MonkeyPatch) -> Iterator[Event]:
 
 def opened(at: MenuDriver) -> None:
     """Let pictures pass until the TAS editor is there, or refused."""
-    screen = at.top()
-    assert isinstance(screen, OpeningScreen)
+    screen = at.shown(OpeningScreen)
     screen._thread.join(60)
     at.frames(2)
 
@@ -47,8 +46,7 @@ def opened(at: MenuDriver) -> None:
 def test_the_window_says_what_is_done_until_the_tas_editor_is_there(at: MenuDriver, loaded: Event) -> None:
     open_tas_editor(at.app, load_replays(RUN)[0], [], 17)
     at.frames(2)
-    screen = at.top()
-    assert isinstance(screen, OpeningScreen)
+    screen = at.shown(OpeningScreen)
     assert screen.explanation == ""
     at.frames(100)
     assert screen.explanation == "Loading the rules (2 s)"
@@ -59,8 +57,7 @@ def test_the_window_says_what_is_done_until_the_tas_editor_is_there(at: MenuDriv
     assert at.top() is screen, "nothing can be done yet"
     loaded.set()
     opened(at)
-    editor = at.top()
-    assert isinstance(editor, TasScreen)
+    editor = at.shown(TasScreen)
     assert editor.editor.cursor == 17
     editor.files.leave()
     assert screen not in at.app.stack

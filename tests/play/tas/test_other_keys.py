@@ -126,8 +126,7 @@ def test_runs_of_one_file_of_n_are_told_apart(at: TasDriver, tmp_path: Path) -> 
     at.screen.level.others.open(load_replays(file))
     assert [other.name for other in at.editor.others] == ["many.txt", "many.txt 1", "many.txt 2"]
     at.chord("o", pygame.KMOD_LCTRL)
-    screen = at.top()
-    assert isinstance(screen, OtherRunScreen)
+    screen = at.shown(OtherRunScreen)
     rows = [row for row in screen.rows if row.text.startswith("many.txt")]
     assert [(row.text, row.who) for row in rows] == [
         ("many.txt 1   test", ""), ("many.txt 2   test", ""), ("many.txt   test", "")
@@ -142,6 +141,5 @@ def test_a_press_that_opens_a_dialog_holds_nothing(at: TasDriver) -> None:
     at.event(pygame.MOUSEBUTTONDOWN, x, heads[1], button=1)
     assert isinstance(at.top(), Menu)
     at.event(pygame.MOUSEBUTTONUP, x, heads[1], button=1)
-    at.press("escape")
-    at.choose("Branches")
+    at.choose_in_menu("Branches")
     assert (at.editor.tab, at.editor.cursor) == ("Branches", cursor)

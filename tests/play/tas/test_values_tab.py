@@ -60,8 +60,7 @@ def test_what_is_wrong_with_a_formula_is_told_with_its_column_and_asked_again(at
     at.write("vx + colour")
     at.press("return")
     assert at.app.notice.startswith("Column 6")
-    form = at.top()
-    assert isinstance(form, FormPanel)
+    form = at.shown(FormPanel)
     assert form.texts == ["vx + colour"]
     at.write("(9999)")
     form.texts[0] = "object_x(9999)"
@@ -75,8 +74,7 @@ def test_an_object_is_found_by_its_id(at: TasDriver, tab: ValuesTab) -> None:
     at.choose("Objects")
     assert isinstance(at.top(), ObjectList)
     at.press("return")
-    form = at.top()
-    assert isinstance(form, FormPanel)
+    form = at.shown(FormPanel)
     at.press("return")
     assert [each.watch.text for each in tab.watched][3:] == form.texts
     assert at.session.timeline.watched
