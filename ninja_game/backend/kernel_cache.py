@@ -60,10 +60,13 @@ def attach_cache(dispatcher: Any, entry: Callable[..., Any], checked: bool) -> N
 
     A Numba without the private parts that this needs works without a cache, which is said once.
     """
-    from numba.core import compiler, serialize
+    from numba.core import codegen, compiler, serialize
 
-    needed = (dispatcher, "_cache"), (compiler.CompileResult, "_rebuild"), (compiler.CompileResult, "_reduce")
-    if missing := [name for owner, name in (*needed, (serialize, "dumps")) if not hasattr(owner, name)]:
+    needed: tuple[tuple[Any, str], ...] = (
+        (dispatcher, "_cache"), (compiler.CompileResult, "_rebuild"), (compiler.CompileResult, "_reduce"),
+        (serialize, "dumps"), (codegen, "JITCPUCodegen"), (getattr(codegen, "JITCPUCodegen", None), "magic_tuple"),
+    )  # fmt: skip
+    if missing := [name for owner, name in needed if not hasattr(owner, name)]:
         say_once(f"compiled code cannot be kept, since this Numba has no {missing[0]}{COMPILES_AGAIN}")
         return
     dispatcher._cache = KernelCache(cache_folder(), kernel_name(entry, checked))  # noqa: SLF001

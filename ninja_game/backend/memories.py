@@ -2,8 +2,9 @@
 
 Before the first compiled world of a process is loaded, a known run must come out on it as it must (``known_run``).
 
-"auto" is the compiled memory. Where its kernels are not in the cache yet, one run begins on the plain memory, and goes
-on (``go_on``) on the compiled one once a process in the background has compiled them: the bits are the same.
+"auto" is the compiled memory. One run of little work, for which loading Numba would take longer, stays on the plain
+memory. Where its kernels are not in the cache yet, any run begins there, and goes on (``go_on``) on the compiled one
+once a process in the background has compiled them: the bits are the same.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from ninja_game.budget import NO_LIMIT, PAGE_TICK_COST, PLAIN_WORK, tick_cost
 from ninja_game.errors import ArgumentError, LevelError, NinjaGameError
 from ninja_game.files.user_folder import how_to_install
 from ninja_game.runtime import in_page_or_not
+from ninja_game.sim.inputs import MAX_TICKS
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import MemoryName, Worlds
 from ninja_game.sim.memory.kernels import kill_ninja, load_world, observe_object, run_world, step_world, trace_world
@@ -40,6 +42,9 @@ _ALL_CHECKED = os.environ.get("NINJA_GAME_CHECKED") == "1"
 
 JUDGED = "auto-checked"
 """As "auto", but "checked" when it is compiled: the memory of a run that is judged and begins on the plain one."""
+
+_WORK = [0]
+"""Of all runs of this process that might be little; up to PLAIN_WORK they are."""
 
 _OF_ONE_RUN = {
     False: (load_world, run_world, step_world, observe_object, trace_world, kill_ninja),
@@ -75,11 +80,17 @@ def choose_memory(memory: str) -> MemoryName:
 
 
 def open_worlds(
-    memory: str, levels: Level | Sequence[Level], count: int = 1, *, box: bool, at_once: bool = False
+    memory: str,
+    levels: Level | Sequence[Level],
+    count: int = 1,
+    *,
+    box: bool,
+    at_once: bool = False,
+    ticks: int = MAX_TICKS,
 ) -> Worlds:
     """``count`` new worlds in one level or several, in the memory of that name (as ``choose_memory`` takes it).
 
-    ``at_once``: wait for no compiler; where "auto" would, they are plain.
+    ``at_once``: wait for no compiler; where "auto" would, they are plain, and where so many ``ticks`` are little work.
     "checked" is the compiled memory where each index is checked: one out of range is an IndexError.
     Raises LevelError for a level that cannot be played or is too large for a page, what ``choose_memory`` and
     ``compiled`` raise.
@@ -89,7 +100,8 @@ def open_worlds(
         found, expected = f"work of {cost:,} a tick", f"at most {_MOST_TICK_COST:,}"
         raise LevelError("too many objects for a page", found=found, expected=expected, hint="play it on a desktop")
     # The first time this imports Numba, which must come before NumPy.
-    if (at_once and begins_plain(memory)) or _usable_memory(memory) == "plain":
+    begins = at_once and memory == "auto" and begins_plain(memory, ticks * max(map(tick_cost, several), default=0))
+    if begins or memory == JUDGED or _usable_memory(memory) == "plain":
         return PlainWorlds(several, count, box=box)
     from ninja_game.sim.memory.compiled import CompiledWorlds
 
@@ -101,28 +113,31 @@ def _twins_for(memory: str) -> Callable[[Callable[..., Any]], Callable[..., Any]
     return partial(compiled, checked=True) if memory in ("checked", JUDGED) else compiled
 
 
-def begins_plain(memory: str = "auto") -> bool:
-    """Whether a run in this memory begins on the plain one, since its kernels are still to be compiled.
+def begins_plain(memory: str = "auto", work: int = NO_LIMIT, *, checked: bool = False) -> bool:
+    """Whether a run of so much work begins on the plain memory: it is little, or its kernels are still to be compiled.
 
     Then a process in the background compiles them.
     """
-    if memory not in ("auto", JUDGED) or not compiled_available():
+    if memory != "auto" or not compiled_available():
         return False
     from ninja_game.backend import background_compiler
 
     if not background_compiler.allowed():
         return False
-    if _are_there(memory):
+    if (load_world, checked or _ALL_CHECKED) in _KERNELS:
         return False
+    if _are_there(checked=checked):
+        _WORK[0] += work
+        return _WORK[0] <= PLAIN_WORK
     background_compiler.start()
     return True
 
 
-def _are_there(memory: str) -> bool:
-    """Whether the kernels for a run in this memory have been made, or are in the cache."""
+def _are_there(*, checked: bool) -> bool:
+    """Whether the kernels for a run have been made, or are in the cache."""
     from ninja_game.backend.kernel_cache import are_kept
 
-    checked = _ALL_CHECKED or memory == JUDGED
+    checked = _ALL_CHECKED or checked
     missing = [entry for entry in _OF_ONE_RUN[checked] if (entry, checked) not in _KERNELS]
     return not missing or are_kept(missing, checked)
 
@@ -138,7 +153,9 @@ def go_on(worlds: Worlds, memory: str, ticks: int) -> Worlds:
         return worlds
     from ninja_game.backend import background_compiler
 
-    if (not _are_there(memory) and background_compiler.is_at_work()) or _usable_memory(memory) == "plain":
+    if (not _are_there(checked=memory == JUDGED) and background_compiler.is_at_work()) or _usable_memory(
+        memory
+    ) == "plain":
         return worlds
     from ninja_game.sim.memory.compiled import compiled_copy
 
@@ -161,12 +178,14 @@ def _usable_memory(memory: str, *, checked: bool = False) -> MemoryName:
     return "compiled"
 
 
-def proven_memory(memory: str) -> str:
-    """The memory in which runs are judged, once the known run has come out on it: "plain", "checked" or JUDGED.
+def proven_memory(memory: str, work: int = NO_LIMIT) -> str:
+    """The memory in which a run of so much work is judged, once the known run has come out on it.
+
+    "plain", "checked", or JUDGED for one that begins on the plain memory.
 
     Raises KnownRunError where it does not, and what ``choose_memory`` raises.
     """
-    if memory == "auto" and begins_plain(JUDGED):
+    if begins_plain(memory, work, checked=True):
         _prove_plain()
         return JUDGED
     if _usable_memory(memory, checked=True) == "plain":

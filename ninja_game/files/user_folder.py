@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 import sys
 from collections.abc import Callable
 from contextlib import suppress
@@ -126,10 +127,23 @@ def bundled_replays() -> list[Path]:
 
 
 def how_to_install(extra: str) -> str:
-    """What gets an optional part of the program: in a checkout its own tool, else pip of the Python that runs this."""
+    """What gets an optional part of the program: in a checkout its own tool, else pip of the Python that runs this.
+
+    The packages of the part are named, not this one: nobody knows whether it can be had where the user is.
+    """
     if IN_PAGE:
         return ONLY_ON_A_DESKTOP
+    # It takes as long to import as all of this.
+    from importlib.metadata import PackageNotFoundError, requires
+
     tool = PACKAGE.parent / "tools" / "dev.py"
     if tool.is_file():
         return f"start the command as 'python3 {tool} run ...', which installs what is missing"
-    return f"install it: {sys.executable} -m pip install 'ninja-game[{extra}]'"
+    try:
+        needed = [each.partition(";") for each in requires("ninja-game") or ()]
+    except PackageNotFoundError:
+        return "this copy of the program cannot be added to; use one that is installed in a Python"
+    wanted = [
+        package.strip() for package, _, marker in needed if marker.replace('"', "'").strip() == f"extra == '{extra}'"
+    ]
+    return f"install it: {sys.executable} -m pip install {shlex.join(wanted)}"

@@ -137,8 +137,8 @@ def run_in_slices(
 ) -> Generator[None, None, RunResult]:
     """As ``run_level``, but a generator: it pauses after each ``slice_work`` of work, and its value is the result."""
     check_inputs(inputs)
-    world = open_worlds(memory, level, box=is_box(body), at_once=True)
     most = min(len(inputs), affordable_ticks(level, budget))
+    world = open_worlds(memory, level, box=is_box(body), at_once=True, ticks=most)
     slice_ticks = affordable_ticks(level, slice_work if world.name == memory else min(slice_work, PLAIN_WORK))
     records: list[RunRecord] = []
     in_time = True

@@ -127,7 +127,9 @@ def _trace(
 ) -> RunTrace:
     """The trace of all inputs, or of those up to ``after`` ticks behind the first exit contact or death."""
     check_inputs(inputs)
-    world = open_worlds(memory, level, box=is_box(body), at_once=True)
+    world = open_worlds(
+        memory, level, box=is_box(body), at_once=True, ticks=min(len(inputs), affordable_ticks(level, budget))
+    )
     kinds = [world.observe(id_ + 1)[0] for id_ in range(world.number("id_count"))] if with_objects else []
     ids = tuple(id_ for id_, kind in enumerate(kinds) if KIND_OF[kind].traced)
     end, most, at_once = len(inputs), affordable_ticks(level, budget), BLOCK if after is not None else MAX_TICKS

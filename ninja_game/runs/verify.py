@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ninja_game.backend.memories import proven_memory
-from ninja_game.budget import RUN_BUDGET
+from ninja_game.budget import RUN_BUDGET, affordable_ticks, tick_cost
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
@@ -126,7 +126,8 @@ def verify_in_slices(
     )  # fmt: skip
     if counting is not None and verdict.level_digest not in counting:
         return verdict
-    one_memory = proven_memory("plain" if memory == "both" else memory)
+    work = min(recording.ticks, affordable_ticks(recording.level, budget)) * tick_cost(recording.level)
+    one_memory = proven_memory("plain" if memory == "both" else memory, work)
     with named_errors(recording):
         inputs = recording.inputs
         try:

@@ -14,6 +14,7 @@ from ninja_game.backend import background_compiler, memories
 from ninja_game.backend.kernel_cache import are_kept, cache_folder
 from ninja_game.backend.known_run import _OBJECTS, RUNS, _keys
 from ninja_game.backend.memories import JUDGED, compiled_available, go_on, open_worlds, proven_memory
+from ninja_game.budget import PLAIN_WORK, tick_cost
 from ninja_game.errors import FileError
 from ninja_game.formats.load import load_replays
 from ninja_game.runs.run import run_level
@@ -39,13 +40,13 @@ class Compiler:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.asked, self.ready_after = 0, 10**9
-        monkeypatch.setattr(memories, "begins_plain", lambda memory="auto": memory in ("auto", JUDGED))
+        monkeypatch.setattr(memories, "begins_plain", lambda memory, *_, **__: memory == "auto")
         monkeypatch.setattr(memories, "_are_there", self.are_there)
         monkeypatch.setattr(background_compiler, "is_at_work", lambda: True)
         for module in ("backend.memories", "runs.run", "runs.trace"):
             monkeypatch.setattr(f"ninja_game.{module}.PLAIN_WORK", 1)
 
-    def are_there(self, _: str) -> bool:
+    def are_there(self, **_: bool) -> bool:
         self.asked += 1
         return self.asked > self.ready_after
 
@@ -100,6 +101,20 @@ def test_a_verdict_is_the_same_wherever_the_run_goes_over(compiler: Compiler) ->
     judged = go_on(open_worlds("plain", run.level, box=False), JUDGED, 10**6)
     assert judged.kernel(run_world) is memories.compiled(run_world, checked=True)
     assert go_on(open_worlds("plain", run.level, box=False), "plain", 10**6).name == "plain"
+
+
+def test_a_few_short_runs_are_not_worth_loading_numba(monkeypatch: pytest.MonkeyPatch) -> None:
+    run = load_replays(PACK / "certificates" / "00-4-locksmith.exit.replay.txt")[0]
+    work = tick_cost(run.level) * run.ticks
+    monkeypatch.setattr(memories, "_KERNELS", {})
+    monkeypatch.setattr(memories, "_WORK", [PLAIN_WORK - 3 * work])
+    monkeypatch.setattr(memories, "_are_there", lambda *, checked: True)
+    monkeypatch.setenv(background_compiler.VARIABLE, "1")
+    assert proven_memory("auto", work) == JUDGED
+    short, long = (open_worlds("auto", run.level, box=False, at_once=True, ticks=n * run.ticks) for n in (2, 4))
+    assert (short.name, long.name) == ("plain", "compiled")
+    assert open_worlds("auto", run.level, box=False).name == "compiled"
+    assert proven_memory("auto", work) == "checked"
 
 
 def test_little_work_stays_on_the_plain_memory(compiler: Compiler) -> None:

@@ -82,6 +82,7 @@ def test_where_nothing_can_be_written_it_works_and_says_so_once(tmp_path: Path) 
     [
         ("del numba.core.compiler.CompileResult._rebuild", "this Numba has no _rebuild"),
         ("del numba.core.compiler.CompileResult._reduce", "this Numba has no _reduce"),
+        ("from numba.core import codegen; del codegen.CPUCodegen.magic_tuple", "this Numba has no magic_tuple"),
         ("numba.core.compiler.CompileResult._reduce = lambda self, more: 0", "cannot be kept (TypeError"),
     ],
 )

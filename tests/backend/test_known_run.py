@@ -64,7 +64,7 @@ def test_what_is_wrong_here_is_no_result_of_a_run(tmp_path: Path, monkeypatch: p
     path, log = write_records(tmp_path / "walk.txt", ("Walk", WALK, running(WALK_END))), tmp_path / "log"
     words = ["verify", str(path), "--memory", "plain", "--jobs", "1", "--resume", str(log)]
 
-    def unusable(memory: str) -> str:
+    def unusable(memory: str, work: int) -> str:
         raise FileError("the cache of compiled code has a relative path", found="rel")
 
     with monkeypatch.context() as here:

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import threading
 import time
+from importlib.metadata import PackageNotFoundError
 from pathlib import Path
 from typing import IO
 from unittest.mock import Mock
@@ -145,10 +146,12 @@ def test_leftovers_of_killed_writers_are_removed_and_live_ones_stay(tmp_path: Pa
     assert len(list(tmp_path.iterdir())) == 1
     with open_atomically(tmp_path / "b") as file:
         assert len(list(tmp_path.iterdir())) == 1
+        link = tmp_path / f"{writing.PART_PREFIX}link{writing.PART_SUFFIX}"
+        link.symlink_to(sys.executable)  # nobody's leftover, and nothing is opened through it
         writing._tidied.clear()
         remove_leftovers(tmp_path)
         file.write(b"whole")
-    assert [each.name for each in tmp_path.iterdir()] == ["b"]
+    assert {each.name for each in tmp_path.iterdir()} == {"b", link.name}
 
 
 # --- reading ---
@@ -289,4 +292,15 @@ def test_home_of_an_unknown_user_is_an_error_of_ours(monkeypatch: pytest.MonkeyP
 def test_what_is_missing_is_installed_as_the_place_has_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert "tools/dev.py run" in folders.how_to_install("fast")
     monkeypatch.setattr(folders, "PACKAGE", tmp_path / "site-packages" / "ninja_game")
-    assert folders.how_to_install("fast") == f"install it: {sys.executable} -m pip install 'ninja-game[fast]'"
+    install = f"install it: {sys.executable} -m pip install "
+    assert folders.how_to_install("learn").startswith(f"{install}'gymnasium>=")
+    for extra in ("fast", "cluster", "plots", "film", "learn", "minari", "train"):
+        told = folders.how_to_install(extra).removeprefix(install)
+        assert told
+        assert "ninja-game" not in told, "nobody knows whether it can be had there"
+
+    def refuse(name: str) -> None:
+        raise PackageNotFoundError(name)
+
+    monkeypatch.setattr("importlib.metadata.requires", refuse)
+    assert folders.how_to_install("fast").startswith("this copy of the program cannot be added to")

@@ -42,7 +42,7 @@ def test_a_break_is_tried_on_the_tests_that_execute_its_line_fastest_first(
         data.add_lines({file: lines})
     data.write()
     data.close()
-    (tmp_path / "seconds.json").write_text(json.dumps({"slow": 50.0, "fast": 11.0, "other": 1.0}))
+    (tmp_path / "seconds.json").write_text(json.dumps({"slow": 110.0, "fast": 11.0, "other": 1.0}))
     executed = breaks.Executed(tmp_path, tmp_path, 1)
     chosen = {source[b.start : b.end]: executed.tests_of(b) for b in breaks.breaks_of(file)}
     assert chosen["x + 1"] == ["fast"]  # the other one would be too long
