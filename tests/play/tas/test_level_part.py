@@ -11,6 +11,7 @@ import numpy as np
 import pygame
 import pytest
 
+from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import ReplayError
 from ninja_game.formats.load import load_replays
 from ninja_game.play.menus.panels import FormPanel
@@ -20,6 +21,7 @@ from ninja_game.play.tas.level.paths import shown_span
 from ninja_game.play.tas.screen import TasScreen
 from ninja_game.play.tas.tabs.values_tab import ValuesTab
 from ninja_game.tas.files import open_run, runs_of_level
+from ninja_game.tas.timeline import Timeline
 from tests.support.own_pack import PACK
 from tests.support.tas_driver import TasDriver
 
@@ -270,3 +272,23 @@ def test_names_do_not_lie_on_each_other(at: TasDriver) -> None:
     labels = paths._labels
     assert len(labels) == 5, "a flag, its name, three runs"
     assert all(label.collidelist([each for each in labels if each is not label]) < 0 for label in labels)
+
+
+@pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
+def test_the_picture_goes_over_to_another_memory_with_the_run(at: TasDriver) -> None:
+    picture, timeline = at.screen.level.picture, at.session.timeline
+    place = picture.run.ninja.x
+    timeline.__dict__.update(Timeline(timeline.level, timeline.inputs, memory="plain").__dict__)
+    timeline.simulate(40)
+    used = []
+    for _ in range(2):
+        at.editor.go(30)
+        at.frames(2)
+        used.append((picture.run.memory, picture.run.tick > 0, picture.run.ninja.x))
+        at.editor.go(0)
+        at.frames(2)
+        timeline.__dict__.update(Timeline(timeline.level, timeline.inputs, memory="compiled").__dict__)
+        timeline.simulate(40)
+    assert [memory for memory, *_ in used] == ["plain", "compiled"]
+    assert used[0][1:] == used[1][1:]
+    assert used[0][2] != place
