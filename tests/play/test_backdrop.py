@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import pygame
@@ -69,10 +70,10 @@ def test_whatever_is_drawn_lies_in_what_is_told_to_be_covered() -> None:
     """What moves is erased there before the next picture."""
     target = DrawTarget(CANVAS, CLASSIC, SpriteBook(CANVAS.scale, CLASSIC))
     for draw in (
-        lambda: target.line(CLASSIC.ninja, 300.3, 200.2, 402.7, 333.1, 1.5),
-        lambda: target.disc(CLASSIC.ninja, 300.3, 200.2, 7.7),
-        lambda: target.sprite(moving_sprites.thwump(0, 0), 300.3, 200.2),
-        lambda: target.picture(target.book.sprite(moving_sprites.thwump(0, 0)), 300.3, 200.2),
+        partial(target.line, CLASSIC.ninja, 300.3, 200.2, 402.7, 333.1, 1.5),
+        partial(target.disc, CLASSIC.ninja, 300.3, 200.2, 7.7),
+        partial(target.sprite, moving_sprites.thwump(0, 0), 300.3, 200.2),
+        partial(target.picture, target.book.sprite(moving_sprites.thwump(0, 0)), 300.3, 200.2),
     ):
         target.begin(pygame.Surface(CANVAS.size))
         draw()
