@@ -102,7 +102,7 @@ def test_what_has_a_switch_takes_two_presses_or_one_drag(tools: EditorTools, nam
 
 def test_doors_go_to_the_nearest_side_and_the_rest_where_it_sits_in_a_cell(tools: EditorTools) -> None:
     tools.snap = "cell"
-    for name, at in (("automatic door", (262, 252)), ("launch pad", (300, 300)), ("floor guard", (350, 350)),
+    for name, at in (("automatic door", (262, 262)), ("launch pad", (300, 300)), ("floor guard", (350, 350)),
                      ("zap drone", (391, 402)), ("gold", (431, 431))):  # fmt: skip
         tools.pick_up(object_of_type(name))
         drag(tools, at)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import pygame
@@ -10,8 +11,9 @@ import pytest
 from ninja_game.formats.load import load_replays
 from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.ui.theme import CLASSIC
+from ninja_game.play.view.sprites import moving_sprites
 from ninja_game.play.view.sprites.backdrop import Backdrop
-from ninja_game.play.view.sprites.drawing import SpriteBook
+from ninja_game.play.view.sprites.drawing import DrawTarget, SpriteBook
 from ninja_game.play.view.sprites.object_animation import ObjectAnimation
 from ninja_game.sim.events import EXIT_OPENED
 from ninja_game.sim.kinds import SWITCH
@@ -62,3 +64,19 @@ def test_exit_switch_looks_pressed_from_its_tick_on() -> None:
             break
         assert pygame.transform.average_color(backdrop.picture, place) == lit
     assert pygame.transform.average_color(backdrop.picture, place) != lit
+
+
+def test_whatever_is_drawn_lies_in_what_is_told_to_be_covered() -> None:
+    """What moves is erased there before the next picture."""
+    target = DrawTarget(CANVAS, CLASSIC, SpriteBook(CANVAS.scale, CLASSIC))
+    for draw in (
+        partial(target.line, CLASSIC.ninja, 300.3, 200.2, 402.7, 333.1, 1.5),
+        partial(target.disc, CLASSIC.ninja, 300.3, 200.2, 7.7),
+        partial(target.sprite, moving_sprites.thwump(0, 0), 300.3, 200.2),
+        partial(target.picture, target.book.sprite(moving_sprites.thwump(0, 0)), 300.3, 200.2),
+    ):
+        target.begin(pygame.Surface(CANVAS.size))
+        draw()
+        drawn = pygame.mask.from_threshold(target.surface, (0, 0, 0), (1, 1, 1, 255))
+        drawn.invert()
+        assert any(rect.contains(drawn.get_bounding_rects()[0]) for rect in target.covered)

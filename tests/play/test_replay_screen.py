@@ -73,7 +73,7 @@ def test_any_tick_sought_is_the_one_of_a_straight_run() -> None:
             assert screen.playback.simulation.digest() == digests[tick]
 
 
-def test_single_ticks_go_both_ways_and_stop() -> None:
+def test_single_ticks_and_seconds_go_both_ways_and_stop() -> None:
     with viewer(RUN) as (app, screen):
         screen.seek(100)
         press("frame_forward")
@@ -83,6 +83,10 @@ def test_single_ticks_go_both_ways_and_stop() -> None:
         press("frame_back")
         frames(app, 5)
         assert screen.tick == 99
+        for key, tick in (("left", 59), ("right", 99)):
+            press(key)
+            frames(app, 5)
+            assert screen.tick == tick
 
 
 def test_speed_and_stillness_at_the_start() -> None:

@@ -35,6 +35,14 @@ def test_names_of_keys_and_scancodes_belong_together() -> None:
     assert scancode_named("scancode-512") is None
 
 
+def test_pads_that_are_there_at_the_start_are_opened(monkeypatch: pytest.MonkeyPatch) -> None:
+    opened: list[int] = []
+    monkeypatch.setattr(pygame.joystick, "get_count", lambda: 2)
+    monkeypatch.setattr(Gamepads, "_add", lambda _, number: opened.append(number))
+    Gamepads()
+    assert opened == [0, 1]
+
+
 def test_keys_that_there_are_not_leave_the_defaults_and_are_named(tmp_path: Path) -> None:
     (tmp_path / "settings.toml").write_text('[keys]\njump = ["scancode-512", "scancode-999"]\nleft = ["odd", "q"]\n')
     app = build_app(tmp_path)
