@@ -1,4 +1,7 @@
-"""Where the program runs: on a desktop, or in a page of a browser. The only module that knows."""
+"""Where the program runs: on a desktop, or in a page of a browser; what is done in the background there.
+
+The only module that knows.
+"""
 
 from __future__ import annotations
 

@@ -26,6 +26,7 @@ from ninja_game.sim.level import Level
 from ninja_game.simulation import Simulation
 from tests.support.heavy import heavy_level
 from tests.support.own_pack import PACK
+from tests.support.page_scenes import settle
 from tests.support.scripted import frames, press, scripted_app
 
 RUN = load_replays(PACK / "certificates" / "01-2-the-works.exit.replay.txt")[0]
@@ -52,12 +53,6 @@ def viewer(*runs: Recording, size: tuple[int, int] = (396, 300)) -> Iterator[tup
         screen = ReplayScreen(app, runs)
         app.push(screen)
         yield app, screen
-
-
-def settle(app: App, screen: ReplayScreen) -> None:
-    """Let turns pass until the end of the run is known and the moment sought is reached."""
-    while not screen.settled:
-        frames(app, 1, 0)
 
 
 def test_any_tick_sought_is_the_one_of_a_straight_run() -> None:
