@@ -11,6 +11,7 @@ from ninja_game.batch.batch import Batch
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import CELL, TICKS_PER_SECOND
+from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_RUNNING
 
 SPACING = TICKS_PER_SECOND
 """Ticks between the save-states from which the tries begin."""
@@ -54,9 +55,9 @@ def difficulty(level: Level, inputs: bytes, *, seed: int = 0, tries: int = TRIES
 
 def _failing(batch: Batch, noisy: slice) -> float:
     """The share of tries that fail, never quite 1."""
-    dead = batch.outcomes[noisy] == 2
+    dead = batch.outcomes[noisy] == OUTCOME_DEAD
     away = np.abs(batch.positions[noisy] - batch.positions[0]).max(axis=1) >= LOST
-    lost = (batch.outcomes[noisy] == 0) & away
+    lost = (batch.outcomes[noisy] == OUTCOME_RUNNING) & away
     share = (dead.sum() + LOST_WEIGHT * lost.sum()) / len(dead)
     return float(min(share, 1 - 0.5 / len(dead)))
 

@@ -167,7 +167,7 @@ class Scene:
 
     def full(self, cell: Cell) -> bool:
         """Whether a cell is a full tile or of the border."""
-        return self.tiles.get(cell) == "#" or not (1 <= cell[0] <= COLUMNS and 1 <= cell[1] <= ROWS)
+        return self.tiles.get(cell) == "#" or not inside(cell)
 
     def stands(self, cell: Cell) -> bool:
         """Whether one can come to a cell and stand in it."""

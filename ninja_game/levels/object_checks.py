@@ -108,7 +108,7 @@ def _thwump(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:  # noqa: A
 
 def _floor_guard(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
     cell = cell_at(*record.values[:2])
-    if COLUMN[cell] in (0, 32):
+    if COLUMN[cell] in (0, COLUMNS + 1):
         yield found("guard-in-border")
     elif SHAPE[ground.level.tiles[cell]] == FULL:
         yield found("in-full-tile")

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.search.heuristics import UNREACHED
-from ninja_game.search.nodes import Start
+from ninja_game.search.nodes import Start, copy_words
 from ninja_game.search.switches import open_mask
 from ninja_game.sim.inputs import KEYS_DOWN, pressed
 from ninja_game.sim.memory.declare import entry_point, fast
@@ -65,8 +65,7 @@ def note(run: KnownRun, w: World, switch_slots: NDArray[np.int64]) -> None:
 def play_known(start: Start, run: KnownRun, switch_slots: NDArray[np.int64], until: int, noted: int) -> int:
     """Play the run's keys from the start to before tick ``until``, noted if that is 1; the ticks played."""
     w = start.worlds[1]
-    for k in range(len(start.initial)):
-        start.scratch[k] = start.initial[k]
+    copy_words(start.scratch, start.initial)
     if noted:
         note(run, w, switch_slots)
     for tick in range(until):

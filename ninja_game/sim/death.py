@@ -26,6 +26,7 @@ from ninja_game.sim.states import (
     LAUNCHER_IDLE,
     OUTCOME_DEAD,
     OUTCOME_EXIT,
+    OUTCOME_RUNNING,
     TURRET_WAITING,
     leave_state,
 )
@@ -44,7 +45,7 @@ def kill(w: World, cause: int, slot: int, fx: float, fy: float, cx: float, cy: f
     leave_state(w)
     n.state = DEAD
     w.deaths += 1
-    if w.outcome == 0:
+    if w.outcome == OUTCOME_RUNNING:
         w.outcome = OUTCOME_DEAD
     emit_death(w, cause, slot, cx, cy, fx, fy)
     idle_event(w)
@@ -74,7 +75,7 @@ def win(w: World) -> None:
     n.state = CELEBRATING
     n.celebrated_in_air = n.in_air
     w.won += 1
-    if w.outcome == 0:
+    if w.outcome == OUTCOME_RUNNING:
         w.outcome = OUTCOME_EXIT
     emit(w, WON, 0, n.x, n.y, 0.0, 0.0)
     idle_event(w)

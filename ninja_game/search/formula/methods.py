@@ -14,6 +14,7 @@ from ninja_game.search.formula.task import Found, Keys, Report, SpanTask, SpanWo
 from ninja_game.search.local_search import mutate
 from ninja_game.search.nodes import RandomState, random_below, zeroed
 from ninja_game.sim.memory.declare import entry_point
+from ninja_game.sim.states import OUTCOME_RUNNING
 
 METHODS = ("local", "beam", "exhaustive")
 
@@ -170,7 +171,7 @@ def beam(task: SpanTask, step: int, results: Results, rng: np.random.Generator, 
                 ended[tick + each + 1 :] = 0
                 found.append(ended)
         promising = (margin if worlds.measure is None else -score) * rng.normal(1.0, noise, len(margin))
-        alive = used[batch.outcomes[used] == 0]
+        alive = used[batch.outcomes[used] == OUTCOME_RUNNING]
         halves = [alive[np.argsort(-each[alive], kind="stable")] for each in (margin, promising)]
         survivors = _different(batch, halves, batch.count // len(ACTIONS))
         if not len(survivors) or not results.going:

@@ -14,6 +14,7 @@ from ninja_game.search.formula.language import Formula, FormulaError, Values, pa
 from ninja_game.search.formula.names import FACTS, SPAN_NAMES, difference_from, view_of
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
 from ninja_game.sim.level import Level
+from ninja_game.sim.states import OUTCOME_EXIT
 from ninja_game.simulation import Body
 
 Keys = NDArray[np.uint8]
@@ -203,7 +204,7 @@ class SpanWorlds:
         rest = np.append(following, 0)[np.clip(when, 0, len(following))]
         played = np.where((when >= 0) & reached, rest, padded).astype(np.uint8)
         self.ticks_run += batch.run(played, stop=True, press=True)
-        passed = (batch.outcomes == 1) & reached
+        passed = (batch.outcomes == OUTCOME_EXIT) & reached
         trials.scores[:] = np.where(passed, batch.ticks, np.inf)
         trials.margins[:] = np.where(reached & ~passed, 0.0, trials.margins)
 

@@ -10,7 +10,7 @@ from ninja_game.sim.kinds import INERT
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.object_fields import FloorGuard
 from ninja_game.sim.memory.schema import TileMap, World
-from ninja_game.sim.rules import DOWN, GUARD_RADIUS, GUARD_SPEED, HALF, SOLID
+from ninja_game.sim.rules import DOWN, GRID_COLUMNS, GUARD_RADIUS, GUARD_SPEED, HALF, SOLID
 from ninja_game.sim.schedule import start_update
 from ninja_game.sim.states import GUARD_CHASE, GUARD_IDLE
 
@@ -25,10 +25,10 @@ def empty_for_guard(level: TileMap, cell: int) -> bool:
 def create_guard(level: TileMap, w: World, o: FloorGuard) -> None:
     """Scan the corridor (floor edges as they are at this moment of loading) and the sight range along the row.
 
-    In column 0 or 32 or outside the grid the original hangs while loading; here such a guard is inert.
+    In the first or last column or outside the grid the original hangs while loading; here such a guard is inert.
     """
     cell = cell_at(o.x, o.y)
-    if cell == 0 or COLUMN[cell] == 0 or COLUMN[cell] == 32:
+    if cell == 0 or COLUMN[cell] == 0 or COLUMN[cell] == GRID_COLUMNS - 1:
         o.kind = INERT
         return
     grid_insert(w, o)
