@@ -12,7 +12,7 @@ from ninja_game.files.reading import read_text
 from ninja_game.files.tree import Tree
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.files import CERTIFICATES, INDEX, PARS
-from ninja_game.formats.pack.pars import Pars, parse_pars, write_pars
+from ninja_game.formats.pack.pars import DIGITS, Pars, parse_pars, write_pars
 from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.generator.naming import AUTHOR
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 
 FOLDER = "daily-levels"
 _INDEX = f'name = "Daily levels"\nauthor = "{AUTHOR}"\ncomment = "A level a day, from the date"\n'
-_DIGITS = 16
 _MONDAY = 2
 _OTHER_SEEDS = 9
 
@@ -72,7 +71,7 @@ def _keep(file: Path, made: Generated) -> None:
     replay = write_replay(named_run(made.run, name=made.name, author=AUTHOR, level_author=AUTHOR))
     tree.write(f"{CERTIFICATES}/{file.stem}.exit.replay.txt", replay)
     verdict = verify_recording(parse_replays(replay, file=file.stem, level=made.level)[0])
-    level, run = level_digest(made.level)[:_DIGITS], verdict.xy_sha256[:_DIGITS]
+    level, run = level_digest(made.level)[:DIGITS], verdict.xy_sha256[:DIGITS]
     table = pack / PARS
     pars = parse_pars(read_text(table), file=str(table)) if table.exists() else {}
     pars[file.name] = Pars(level, run, made.run.end_tick, None, made.difficulty)

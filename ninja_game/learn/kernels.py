@@ -11,6 +11,13 @@ from ninja_game.sim.memory.schema import MAX_EVENTS
 from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_EXIT
 from ninja_game.sim.world import step
 
+EXIT, DEATH, PIECE, TICK = range(4)
+"""Columns of what is paid."""
+OUTCOME, TICKS, GOLD, EVENTS, ENDED = range(5)
+"""Columns of what is told of each world."""
+TERMINATED, TRUNCATED = 1, 2
+"""How an episode has ended; 0: it goes on."""
+
 
 @entry_point
 def advance_worlds(
@@ -31,10 +38,10 @@ def advance_worlds(
     """Run worlds ``which[first:last]``, each with its ``keys`` for ``frame_skip`` ticks; the number of ticks run.
 
     A world stops at its first exit contact or death, and at ``time_limit`` ticks. Jump is pressed, as at a keyboard,
-    where it is held and was not in the tick before. ``weights``: what an exit, a death, a piece of gold and a tick are
-    worth; ``rewards`` (worlds) receives the sum. ``facts`` (worlds x 5): outcome, ticks, gold, the events of all these
-    ticks as bits, and how the episode goes on: 0, 1 terminated, 2 truncated. ``changed`` (worlds): whether gold was
-    taken or an exit opened, as far as events tell, of which there is room for so many only.
+    where it is held and was not in the tick before. ``weights`` (EXIT to TICK): what each is worth; ``rewards``
+    (worlds) receives the sum. ``facts`` (worlds x OUTCOME to ENDED): EVENTS are those of all these ticks, as bits.
+    ``changed`` (worlds): whether gold was taken or an exit opened, as far as events tell, of which there is room for so
+    many only.
     """
     total = 0
     for k in range(first, last):
@@ -55,17 +62,17 @@ def advance_worlds(
             if w.outcome or w.tick >= time_limit:
                 break
         ticks = w.tick - tick
-        reward = weights[2] * (w.gold - gold) + weights[3] * ticks
+        reward = weights[PIECE] * (w.gold - gold) + weights[TICK] * ticks
         if w.outcome == OUTCOME_EXIT:
-            reward += weights[0]
+            reward += weights[EXIT]
         elif w.outcome == OUTCOME_DEAD:
-            reward += weights[1]
+            reward += weights[DEATH]
         rewards[index] = reward
-        facts[index, 0] = w.outcome
-        facts[index, 1] = w.tick
-        facts[index, 2] = w.gold
-        facts[index, 3] = seen
-        facts[index, 4] = 1 if w.outcome else 2 if w.tick >= time_limit else 0
+        facts[index, OUTCOME] = w.outcome
+        facts[index, TICKS] = w.tick
+        facts[index, GOLD] = w.gold
+        facts[index, EVENTS] = seen
+        facts[index, ENDED] = TERMINATED if w.outcome else TRUNCATED if w.tick >= time_limit else 0
         changed[index] = crowded or (seen >> GOLD_TAKEN) & 1 or (seen >> EXIT_OPENED) & 1
         total += ticks
     return total

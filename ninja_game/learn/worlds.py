@@ -27,7 +27,7 @@ from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import Keys
 from ninja_game.learn.draws import LevelSequences
 from ninja_game.learn.goal_distance import GoalDistance
-from ninja_game.learn.kernels import advance_worlds
+from ninja_game.learn.kernels import ENDED, EVENTS, TERMINATED, TRUNCATED, advance_worlds
 from ninja_game.learn.levels import LevelChoice, Origin, level_source
 from ninja_game.learn.observations.observation import Observation, PartLike
 from ninja_game.learn.observations.part import Setting
@@ -39,10 +39,6 @@ from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.states import OUTCOME_EXIT
 from ninja_game.simulation import Body, is_box
-
-OUTCOME, TICKS, GOLD, EVENTS, ENDED = range(5)
-"""Columns of what the kernel tells of each world (``advance_worlds``)."""
-TERMINATED, TRUNCATED = 1, 2
 
 TOGETHER = 512
 """Worlds that are run and then observed before the next ones: so many stay in the processor's cache."""

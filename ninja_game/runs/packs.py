@@ -13,16 +13,13 @@ from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.files import CERTIFICATES, INDEX, PARS
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.pack.pack import Pack
-from ninja_game.formats.pack.pars import Pars, parse_pars
+from ninja_game.formats.pack.pars import DIGITS, Pars, parse_pars
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.levels.findings import PackFinding, in_pack
 from ninja_game.levels.warnings import level_findings
 from ninja_game.runs.verify import Verdict, verify_recording, with_demands
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.level import Level
-
-DIGITS = 16
-"""How much of a digest the table of pars keeps."""
 
 
 @dataclass(frozen=True)

@@ -20,6 +20,9 @@ levels at most 22.5 %. Silver gives twice that margin, bronze four times.
 STEP = 4
 """Ticks to whose multiples pars are rounded up: a tenth of a second."""
 
+DIGITS = 16
+"""How much of a digest the table keeps."""
+
 _HEAD = "# Made by `ninja-game levels pars` from the levels and their certificates: exit and gold in ticks.\n\n"
 
 

@@ -12,7 +12,7 @@ from ninja_game.files.reading import read_text
 from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.files import PARS
-from ninja_game.formats.pack.pars import parse_pars
+from ninja_game.formats.pack.pars import DIGITS, parse_pars
 from ninja_game.learn.levels.source import LevelSource
 
 UNPASSED_WEIGHT = 0.1
@@ -74,7 +74,7 @@ def measured_difficulties(source: LevelSource) -> list[float]:
     """The difficulties of levels as the table of the game's own levels has them. Raises ArgumentError for others."""
     pars = parse_pars(read_text(data_folder("levels") / PARS)).values()
     known = {each.level: each.difficulty for each in pars if each.difficulty is not None}
-    digests = [level_digest(level)[:16] for level in source.levels]
+    digests = [level_digest(level)[:DIGITS] for level in source.levels]
     unknown = [name for name, digest in zip(source.names, digests, strict=True) if digest not in known]
     if unknown:
         hint = "give `difficulties`, or take levels of the game"
