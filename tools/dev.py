@@ -52,7 +52,7 @@ PICTURE_TESTS = ("tests/play/test_recorded_screens.py", "tests/play/test_picture
 LINT = (("ruff", "check"), ("ruff", "format", "--check"), ("mypy",), ("lint-imports",))
 FIX = (("ruff", "check", "--fix"), ("ruff", "format"), *LINT[2:])
 GOOD = "lint: all good"
-CORES = str(min(4, os.cpu_count() or 1))
+CORES = str(min(4, 1 + (os.cpu_count() or 1)))
 
 
 def program(name: str) -> str:

@@ -266,6 +266,7 @@ print(memories.compiled(doubled)(np.array([3])))
 """
 
 
+@pytest.mark.slow
 def test_a_kernel_that_another_process_compiles_is_waited_for(tmp_path: Path) -> None:
     from ninja_game.files.locking import hold
 

@@ -76,6 +76,7 @@ def test_where_nothing_can_be_written_it_works_and_says_so_once(tmp_path: Path) 
     assert not list(Path(memories.__file__).parent.rglob("*.nbi"))
 
 
+@pytest.mark.slow
 @needs_numba
 @pytest.mark.parametrize(
     "change, said",

@@ -99,6 +99,7 @@ def test_a_level_without_a_certificate_is_searched() -> None:
         assert worlds.outcomes[0] == 1
 
 
+@pytest.mark.slow
 def test_the_program_keeps_the_agent_and_says_how_good_it_is(tmp_path: Path) -> None:
     output = tmp_path / "agent.npz"
     words = ["--levels", LEVELS[0], "--steps", "500", "--worlds", "16", "-o", str(output)]

@@ -79,6 +79,7 @@ def test_the_command_writes_level_and_certificate(tmp_path: Path) -> None:
     assert run_level(named.level, recording.inputs).outcome == "exit"
 
 
+@pytest.mark.slow
 def test_without_a_name_nothing_is_overwritten(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     for _ in range(2):

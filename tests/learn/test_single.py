@@ -21,6 +21,7 @@ from ninja_game.learn.observations.surroundings import LocalTiles
 from ninja_game.learn.rewards import REWARD_TERMS
 from ninja_game.learn.single import NinjaEnv
 from ninja_game.sim.events import EVENT_NAMES
+from tests.support.slow import the_rest_is_slow
 
 EXIT_NEAR = "0" * 713 + "|5^100,566!0^130,566!11^260,564,230,564"
 RIGHT, RIGHT_JUMP = 2, 5
@@ -45,7 +46,7 @@ def checked(env: NinjaEnv) -> None:
         check_env(env)
 
 
-@pytest.mark.parametrize("name", ENVIRONMENTS)
+@pytest.mark.parametrize("name", the_rest_is_slow(ENVIRONMENTS, 1))
 def test_gymnasium_finds_nothing_wrong_with_any_id(name: str) -> None:
     checked(made(name))
 
@@ -60,6 +61,7 @@ def test_gymnasium_finds_nothing_wrong_with_tiles_as_flags() -> None:
     checked(made("Ninja-v0", observation=LocalTiles(size=3, form="one-hot")))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("normalised", [False, True])
 def test_gymnasium_finds_nothing_wrong_with_all_parts_together(normalised: bool) -> None:
     parts = [part(normalised=normalised) for part in PARTS.values()]

@@ -21,8 +21,8 @@ from ninja_game.search.formula.names import FACTS, NAMES, SPAN_NAMES, difference
 from ninja_game.search.formula.task import Found, SpanTask, SpanWorlds
 from ninja_game.sim.digest import state_digest
 from ninja_game.sim.inputs import with_press_bits
-from tests.support.memories import BOTH
 from tests.support.samples import unclaimed_text
+from tests.support.slow import COMPILED_OR_SLOW
 
 TEXT = "0" * 713 + "|5^100,566!11^200,564,170,564!0^140,566!12^400,400"
 LEVEL = parse_level(TEXT)
@@ -211,7 +211,7 @@ def test_the_rest_of_the_run_follows_and_must_reach_the_exit() -> None:
     assert after[1] < before[1]
 
 
-@pytest.mark.parametrize("memory", BOTH)
+@pytest.mark.parametrize("memory", COMPILED_OR_SLOW)
 def test_exactly_the_same_state_is_reached_sooner_and_the_rest_follows(memory: str) -> None:
     """It stands still for six ticks."""
     task = SpanTask(LEVEL, WAITING, 0, 20, goal="difference(19) == 0", rest=True)

@@ -16,6 +16,7 @@ def test_every_break_of_the_rules_can_be_made() -> None:
     assert breaks.rule_breaks()
 
 
+@pytest.mark.slow
 def test_every_random_break_is_a_program() -> None:
     file = "tools/breaks.py"
     source = (ROOT / file).read_bytes()

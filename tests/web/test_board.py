@@ -364,6 +364,7 @@ def test_check_against_something_else_is_an_error(text: str, runs: Path, levels:
     assert check(runs, levels, "--check", str(path))[0] == 2
 
 
+@pytest.mark.slow
 def test_the_template_of_a_repository_works(tmp_path: Path) -> None:
     template = Path("docs/board-template")
     workflow = (template / ".github" / "workflows" / "board.yml").read_text("utf-8")

@@ -64,6 +64,7 @@ def events(page: Any) -> Any:
     return read
 
 
+@pytest.mark.slow
 def test_keys_are_pressed_held_and_released(page: Any, events: Any) -> None:
     page.keyboard.down("ArrowLeft")
     page.keyboard.down("Shift")

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 from zipfile import ZipFile
 
+import pytest
 from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
@@ -126,6 +127,7 @@ def test_a_link_of_replays_is_watched_with_a_ghost(new_visitor: NewVisitor) -> N
     assert visitor.problems == []
 
 
+@pytest.mark.slow
 def test_a_level_is_passed_by_touch(new_visitor: NewVisitor) -> None:
     visitor = new_visitor(viewport={"width": 844, "height": 390}, has_touch=True, is_mobile=True, device_scale_factor=2)
     visitor.visit(level_link(LEVEL))
@@ -172,6 +174,7 @@ def test_what_throws_in_a_turn_is_told_and_nothing_foreign_runs(new_visitor: New
     visitor.until("menu")
 
 
+@pytest.mark.slow
 def test_a_memory_that_cannot_be_used_is_given_up_and_a_game_that_ends_says_so(new_visitor: NewVisitor) -> None:
     visitor = new_visitor()
     visitor.visit()
@@ -196,6 +199,7 @@ def test_a_memory_that_cannot_be_used_is_given_up_and_a_game_that_ends_says_so(n
     assert visitor.problems == []
 
 
+@pytest.mark.slow
 def test_one_tab_at_a_time_writes_the_records(new_visitor: NewVisitor) -> None:
     visitor = new_visitor()
     visitor.visit()
@@ -225,6 +229,7 @@ def test_verdicts_in_the_page_are_those_of_the_command(new_visitor: NewVisitor, 
     assert visitor.problems == []
 
 
+@pytest.mark.slow
 def test_a_new_version_takes_over_on_the_next_visit(new_visitor: NewVisitor, site: Path, tmp_path: Path) -> None:
     folder = tmp_path / "site"
     shutil.copytree(site, folder)

@@ -222,6 +222,7 @@ def test_events_carry_what_they_are_given() -> None:
             event.pos  # noqa: B018
 
 
+@pytest.mark.slow
 def test_every_screen_draws_over_it_what_it_draws_over_pygame(tmp_path: Path) -> None:
     environment = os.environ | {"PYTHONPATH": os.pathsep.join((str(FOLDER.parent), str(ROOT)))}
     command = [sys.executable, "-m", "tests.support.shim_tour", str(tmp_path)]

@@ -110,6 +110,7 @@ def test_no_script_of_a_name_runs(site: Path, open_page: Callable[..., Any]) -> 
             assert link == "http:"
 
 
+@pytest.mark.slow
 def test_the_policy_lets_nothing_else_run(open_page: Callable[..., Any], chromium: Any, address: str) -> None:
     context = chromium.new_context()
     page = context.new_page()

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from ninja_game.backend.memories import compiled_available
 from ninja_game.formats.load import load_levels
 from ninja_game.play.editor.view import LAYOUT
@@ -36,6 +38,7 @@ def draw(maker: Player) -> None:
     maker.drag(*(at(column, 22) for column in range(5, 13)))
 
 
+@pytest.mark.slow
 def test_a_level_from_nothing(tmp_path: Path, root: Path) -> None:
     with virtual_screen() as display:
         maker = Player(display, tmp_path, root)
