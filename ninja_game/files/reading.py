@@ -33,16 +33,19 @@ class LeftOut:
         return f"{self.path}: {self.why}"
 
 
-def files_below(folder: Path) -> Iterator[Path | LeftOut]:
+def files_below(folder: Path, *, follow_links: bool = True) -> Iterator[Path | LeftOut]:
     """The files below a folder that may hold levels or recordings, in order of their names, hidden ones apart.
 
-    Links are followed; every folder is visited once, so that loops end. Only the folders on the way to the present
-    file are in memory. What cannot be looked at is given as LeftOut and stops nothing.
+    Links are followed, or left out. Every folder is visited once, so that loops end. Only the folders on the way to the
+    present file are in memory. What cannot be looked at is given as LeftOut and stops nothing.
     """
     visited: set[tuple[int, int]] = set()
     waiting = [(folder, True)]
     while waiting:
         path, is_folder = waiting.pop()
+        if not follow_links and path != folder and path.is_symlink():
+            yield LeftOut(path, "a link; put the file itself here")
+            continue
         try:
             about = path.stat()
             if not is_folder:
@@ -72,11 +75,12 @@ def _is_folder(entry: os.DirEntry[str]) -> bool:
         return False
 
 
-def files_in(folder: Path) -> list[str]:
+def files_in(folder: Path, *, follow_links: bool = True) -> list[str]:
     """The names of the regular files in a folder, sorted, hidden ones apart; none where there is no folder."""
     try:
         with os.scandir(folder) as entries:
-            return sorted(each.name for each in entries if each.is_file() and not each.name.startswith("."))
+            files = [each.name for each in entries if each.is_file(follow_symlinks=follow_links)]
+            return sorted(name for name in files if not name.startswith("."))
     except OSError:
         return []
 

@@ -49,6 +49,9 @@ MOST_REPLAYS, MOST_ROWS = 5_000, 100_000
 FOLDERS = (LEVELS, REPLAYS, EXPORTS, EDITING)
 """What a backup holds of the player's folder besides the settings and the records."""
 
+MOST_STEPS = 100
+"""Millions of instructions of SQLite to look through the records: a second or two; most take one."""
+
 MOST_OF_DRAFT, MOST_OF_LEVEL = 2**20, 2**20
 """Bytes of a level under edit, and of the level of a replay."""
 
@@ -167,6 +170,9 @@ def _opened(path: Path) -> Store:
     """The records of a backup. Raises ValueError where they hold too much, or a trigger, which would do something."""
     try:
         with closing(sqlite3.connect(path)) as db:
+            # A damaged file may lead in circles; what is interrupted is an error of it.
+            steps = count(1)
+            db.set_progress_handler(lambda: next(steps) > MOST_STEPS, 1_000_000)
             ((version,),) = db.execute("PRAGMA user_version")
             if version != VERSION:
                 raise ValueError(f"records {OtherVersionError(version)}")
@@ -174,6 +180,10 @@ def _opened(path: Path) -> Store:
             # A trigger, a check, a default or an index of another would be run when the records are opened.
             if other := there ^ _our_schema():
                 raise ValueError("the {} {} is not ours".format(*min(other)))
+            # Pages that are there several times over would be counted for hours, in one instruction.
+            ((state,),) = db.execute("PRAGMA quick_check(1)")
+            if state != "ok":
+                raise ValueError(f"damaged records: {state}")
             for name in TABLES & {name for _, name, *_ in there}:
                 ((rows,),) = db.execute(f"SELECT count(*) FROM {name}")
                 if rows > (most := MOST_REPLAYS if name == "replay" else MOST_ROWS):

@@ -152,6 +152,22 @@ def test_what_would_not_be_taken_in_is_told_when_it_is_written(tmp_path: Path, m
         read_backup(player_data(tmp_path / "to"), (tmp_path / "all.zip").read_bytes())
 
 
+def test_records_whose_pages_lead_in_circles_are_refused(tmp_path: Path) -> None:
+    filled(tmp_path / "from")
+    records = tmp_path / "from" / "records.sqlite"
+    with closing(sqlite3.connect(records)) as db:
+        db.execute("PRAGMA writable_schema = ON")
+        db.execute(
+            "UPDATE sqlite_master SET rootpage = (SELECT rootpage FROM sqlite_master WHERE name = 'replay')"
+            " WHERE name = 'death'"
+        )
+        db.commit()
+    with ZipFile(tmp_path / "all.zip", "w") as archive:
+        archive.write(records, "records.sqlite")
+    with pytest.raises(FileError, match="damaged records: "):
+        read_backup(player_data(tmp_path / "to"), (tmp_path / "all.zip").read_bytes())
+
+
 def test_names_that_are_one_file_on_some_system_stand_beside_each_other(tmp_path: Path) -> None:
     backup = filled(tmp_path / "from")
     with ZipFile(backup, "a") as archive:

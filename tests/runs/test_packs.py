@@ -84,6 +84,15 @@ def test_two_levels_of_one_place_are_named(pack: Path) -> None:
     assert "00-4-other.txt: the place 00-4 is that of 00-4-locksmith.txt too" in findings(pack)
 
 
+def test_a_link_in_a_pack_is_no_part_of_it(pack: Path, tmp_path: Path) -> None:
+    (tmp_path / "secret.txt").write_text("secret")
+    (pack / "01-9-readme.txt").symlink_to(tmp_path / "secret.txt")
+    assert "01-9-readme.txt" not in Pack(pack).files.names
+    shutil.rmtree(pack / "certificates")
+    (pack / "certificates").symlink_to(tmp_path)
+    assert not [name for name in Pack(pack).files.names if "secret" in name]
+
+
 def test_certificates_are_run(pack: Path) -> None:
     certificates = pack / "certificates"
     change(pack / "00-1-mind-the-gap.txt", "@", ".")

@@ -87,6 +87,17 @@ def test_a_repository_in_the_folder_starts_no_command(inside: str, tmp_path: Pat
     assert mark.exists()
 
 
+def test_no_name_outside_the_folder_is_told(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+    (tmp_path / "outside").mkdir()
+    (tmp_path / "outside" / "secret-name.txt").write_text("x")
+    (runs / "inner").symlink_to(tmp_path / "outside")
+    (runs / "one.txt").symlink_to(tmp_path / "outside" / "secret-name.txt")
+    _, told = board(runs, levels, "--json", str(tmp_path / "board.json"))
+    assert "secret-name" not in told + (tmp_path / "board.json").read_text("utf-8")
+    assert "inner: a link; put the file itself here" in told
+    assert "one.txt: a link; put the file itself here" in told
+
+
 def test_the_board_asks_no_other_program() -> None:
     for path in Path("ninja_game/web/board").glob("*.py"):
         assert "subprocess" not in path.read_text("utf-8")

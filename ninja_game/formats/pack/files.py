@@ -42,7 +42,9 @@ class PackFiles:
             self._texts = pack_texts(path)
             self.names = tuple(sorted(self._texts))
         elif path.is_dir():
-            inside = [*files_in(path), *(f"{CERTIFICATES}/{name}" for name in files_in(path / CERTIFICATES))]
+            # A link in somebody's pack may lead to a file that is not theirs.
+            below = [] if (path / CERTIFICATES).is_symlink() else files_in(path / CERTIFICATES, follow_links=False)
+            inside = [*files_in(path, follow_links=False), *(f"{CERTIFICATES}/{name}" for name in below)]
             self.names = tuple(sorted(inside))
         else:
             self._open_zip(read_bytes(path))
