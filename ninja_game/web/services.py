@@ -113,7 +113,11 @@ class PageServices:
             yield None
         with TemporaryDirectory() as folder:
             path = Path(folder) / Path(name).name
-            path.write_bytes(bytes(data))
+            try:
+                path.write_bytes(bytes(data))
+            except (OSError, ValueError):
+                yield json.dumps({"unreadable": f"{name!a:.200}: no file can have this name"})
+                return
             for found in recordings_in([path]):
                 if isinstance(found, Unreadable):
                     yield json.dumps({"unreadable": found.message})

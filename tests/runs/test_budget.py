@@ -221,6 +221,12 @@ def test_a_page_pauses_between_small_slices_of_a_run(tmp_path: Path, ticks_run: 
     assert max(slices) * tick_cost(crowd) <= TURN_WORK
 
 
+@pytest.mark.parametrize("name", ["", ".", "..", "a\0b", "\ud800", "x" * 300])
+def test_a_page_says_which_names_no_file_can_have(name: str) -> None:
+    (text,) = filter(None, PageServices.__new__(PageServices).verdicts(name, b"x"))
+    assert "no file can have this name" in json.loads(text)["unreadable"]
+
+
 def test_a_level_whose_pictures_would_hold_a_page_is_opened_on_a_desktop_only(monkeypatch: pytest.MonkeyPatch) -> None:
     Simulation(heavy_level(3000), memory="plain")
     monkeypatch.setattr(memories, "_MOST_TICK_COST", PAGE_TICK_COST)

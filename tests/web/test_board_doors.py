@@ -178,7 +178,15 @@ def test_a_broken_ledger_is_named_and_stays(broken: str, option: str, tmp_path: 
 
 
 @pytest.mark.parametrize(
-    "text", ['{"version": 1, "runs": [], "rejected": []}', "", '{"version": 2, "runs": {}}', "[1]"]
+    "text",
+    [
+        '{"version": 1, "runs": [], "rejected": []}',
+        "",
+        '{"version": 2, "runs": {}}',
+        "[1]",
+        '{"version": 2, "runs": "", "rejected": []}',
+        '{"version": 2, "runs": [], "rejected": {}}',
+    ],
 )
 def test_another_file_is_not_taken_for_a_ledger(text: str, tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
     data = put(tmp_path, JSON, text)

@@ -75,6 +75,8 @@ def read_board(path: Path, now: datetime) -> tuple[Rows, Rows]:
 
 def _rows(path: Path, part: str, rows: list[dict[str, Any]], now: datetime) -> Rows:
     """The rows of a part of a board by file and record. Raises FormatError for one that is not as they are written."""
+    if not isinstance(rows, list):
+        raise FormatError(f"{part!r} is of the wrong type", str(path), expected="a list of rows")
     found: Rows = {}
     for number, row in enumerate(rows, 1):
         place = f"row {number} of {part!r}"
