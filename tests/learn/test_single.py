@@ -46,7 +46,7 @@ def checked(env: NinjaEnv) -> None:
         check_env(env)
 
 
-@pytest.mark.parametrize("name", the_rest_is_slow(ENVIRONMENTS, 1))
+@pytest.mark.parametrize("name", the_rest_is_slow([*ENVIRONMENTS], 1))
 def test_gymnasium_finds_nothing_wrong_with_any_id(name: str) -> None:
     checked(made(name))
 
