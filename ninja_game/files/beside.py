@@ -41,10 +41,15 @@ def known_files(known: dict[str, Beside], *, no_more: bool) -> Iterator[None]:
         _KNOWN.reset(token)
 
 
+PLACE = "link"
+"""What the text of a link is called; a file of that name in the current folder is another one."""
+
+
 def has_folder(file: str) -> bool:
     """Whether the text of that name lies in a folder; one of a link does not."""
     known = _KNOWN.get()
-    return bool(known and known[1] and known[0]) or os.path.isfile(file)  # noqa: PTH113 - fails on no name
+    sent = bool(known and known[1] and known[0])
+    return sent or (file != PLACE and os.path.isfile(file))  # noqa: PTH113 - fails on no name
 
 
 def read_beside(file: str, name: str) -> Beside:

@@ -6,8 +6,9 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from ninja_game.errors import LevelError, ReplayError
+from ninja_game.files.beside import PLACE
 from ninja_game.files.reading import SUFFIXES, read_text, text_files
-from ninja_game.formats.links.fragment import PLACE, is_link
+from ninja_game.formats.links.fragment import is_link
 from ninja_game.formats.links.making import linked_texts
 from ninja_game.formats.named_level import NamedLevel, parse_levels
 from ninja_game.formats.pack.files import PackFiles, is_pack

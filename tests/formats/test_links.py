@@ -17,6 +17,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from ninja_game.errors import FormatError, LinkError, NinjaGameError
+from ninja_game.files.beside import PLACE, has_folder
 from ninja_game.files.user_folder import bundled_levels, bundled_replays, data_folder
 from ninja_game.formats.links.fragment import (
     MOST_BYTES,
@@ -274,3 +275,13 @@ def test_any_bytes_in_a_sound_link_give_only_errors_of_ours(data: bytes, kind: s
             reader(link)
         except NinjaGameError:
             continue
+
+
+def test_a_file_that_is_called_as_links_are_gives_them_no_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "link").write_text("anything")
+    (tmp_path / "run.tas").write_text("30,R\n")
+    assert has_folder("run.tas")
+    assert not has_folder(PLACE)

@@ -12,6 +12,7 @@ from typing import Literal
 from urllib.parse import unquote
 
 from ninja_game.errors import LinkError
+from ninja_game.files.beside import PLACE
 from ninja_game.files.reading import decoded
 
 Kind = Literal["level", "pack", "replay"]
@@ -19,9 +20,6 @@ KINDS: tuple[Kind, ...] = ("level", "pack", "replay")
 
 VERSION = 1
 """Raw deflate (RFC 1951) of the text in UTF-8 behind four bytes of CRC-32, in base64url without padding."""
-
-PLACE = "link"
-"""What errors call a link where others have the name of a file."""
 
 MOST_CHARACTERS = 2 * 2**20
 """Of a link: what browsers take."""

@@ -8,8 +8,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from ninja_game.errors import FormatError, LinkError
+from ninja_game.files.beside import PLACE
 from ninja_game.formats.ascii.writer import write_ascii_level
-from ninja_game.formats.links.fragment import PLACE, Kind, Link, read_link, write_link
+from ninja_game.formats.links.fragment import Kind, Link, read_link, write_link
 from ninja_game.formats.n14.level_file import write_level_file
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording, parse_replays, record_of

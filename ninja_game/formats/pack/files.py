@@ -8,9 +8,10 @@ from pathlib import Path, PurePosixPath
 from zipfile import ZipFile, ZipInfo
 
 from ninja_game.errors import FileError
+from ninja_game.files.beside import PLACE
 from ninja_game.files.reading import MAX_BYTES, decoded, files_in, read_bytes
 from ninja_game.files.zips import open_zip, unpacked
-from ninja_game.formats.links.fragment import PLACE, is_link, link_kind
+from ninja_game.formats.links.fragment import is_link, link_kind
 from ninja_game.formats.links.making import pack_link, pack_texts
 
 INDEX, PARS, CERTIFICATES = "pack.toml", "pars.toml", "certificates"
