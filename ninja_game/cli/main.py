@@ -241,6 +241,9 @@ def main() -> NoReturn:
     try:
         cli.main(prog_name="ninja-game")
     finally:
+        # An interrupt within a text run by `exec` makes `python -m` end by the signal, whatever its exit code:
+        # the next text run makes Python forget it.
+        exec("")  # noqa: S102
         leave_signals()
 
 
