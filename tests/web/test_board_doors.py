@@ -10,6 +10,7 @@ import re
 import shutil
 import subprocess
 import zlib
+from dataclasses import replace
 from itertools import takewhile
 from pathlib import Path
 from unittest.mock import Mock
@@ -330,6 +331,18 @@ def test_a_near_copy_makes_no_next_one_a_players_own(tmp_path: Path) -> None:
     ]  # fmt: skip
 
 
+def test_an_own_detour_first_makes_no_near_copy_an_own_run(tmp_path: Path) -> None:
+    """Eve's first run, there and back and then Ann's inputs, is near to no other; her second is Ann's with a change."""
+    (recording,) = load_replays(next(path for path in bundled_replays() if path.name.startswith("01-4")))
+    inputs = recording.inputs
+    detour = bytes([2] * 40 + [0] * 30 + [1] * 40 + [0] * 40)
+    changed = inputs[:293] + b"\0" + inputs[294:]
+    for number, (author, keys) in enumerate([("Ann", inputs), ("Eve", detour + inputs), ("Eve", changed)]):
+        put(tmp_path, f"runs/{number}.txt", write_replay(record_replay(recording.level, keys, author=author)))
+    found = judge(tmp_path / "runs", published_levels(data_folder("levels")), jobs=1)
+    assert [(run.player, bool(run.remark)) for run in found.runs] == [("Ann", False), ("Eve", False), ("Eve", True)]
+
+
 def test_a_table_of_edits_and_honest_pairs_is_as_the_page_says() -> None:
     require_reference()
     pairs, _ = near_copies.honest_pairs(60)
@@ -366,5 +379,6 @@ def test_few_of_many_runs_are_aligned(monkeypatch: pytest.MonkeyPatch) -> None:
     course = course_of(inputs, run_level(recording.level, inputs))
     aligned = Mock(return_value=10**6)
     monkeypatch.setattr("ninja_game.web.board.copies.edit_distance", aligned)
-    nearest(course, [course] * 500)
+    other = replace(course, presses=0, places=frozenset())
+    assert nearest(course, [other] * 500) is None
     assert aligned.call_count == ALIGNED

@@ -30,14 +30,14 @@ ALIGNED = 4
 class Course:
     """What is compared of a run.
 
-    ``keys``: those down in each tick; ``strokes``: spans of the same keys with their ticks and their number among
-    equal ones; ``presses``: each press and release, as 16 times its tick and what changed; ``places``: where the ninja
-    was, in whole pixels, x + 10^6 y.
+    ``keys``: those down in each tick; ``strokes``: spans of the same keys, each as its number among equal ones, 2^20
+    times its keys and 2^24 times its ticks; ``presses``: bits of the keys pressed and of those released, eight a tick;
+    ``places``: where the ninja was, in whole pixels, x + 10^6 y.
     """
 
     keys: bytes
-    strokes: frozenset[tuple[int, int, int]]
-    presses: frozenset[int]
+    strokes: frozenset[int]
+    presses: int
     places: frozenset[float]
 
     def inputs_shared(self, other: Course) -> int:
@@ -48,35 +48,34 @@ class Course:
 
     def presses_shared(self, other: Course) -> int:
         """How many presses and releases are at the ticks of the other's; 0 where too few are."""
-        if len(self.presses) < FEWEST_PRESSES:
+        needed = max(FEWEST_PRESSES, SAME_PRESSES * other.presses.bit_count())
+        if self.presses.bit_count() < needed:
             return 0
-        shifts = range(-16 * SHIFTED, 16 * SHIFTED + 1, 16)
-        shared = max(len({each + shift for each in other.presses} & self.presses) for shift in shifts)
-        return shared if shared >= max(FEWEST_PRESSES, SAME_PRESSES * len(other.presses)) else 0
+        later = self.presses << 8 * SHIFTED
+        shared = max((other.presses << 8 * shift & later).bit_count() for shift in range(2 * SHIFTED + 1))
+        return shared if shared >= needed else 0
 
     def places_shared(self, other: Course) -> int:
         """How many places are on the other's path; 0 where too few are."""
+        needed = ON_PATH * len(self.places)
+        if len(other.places) < needed or len(self.strokes) < FEWEST_STROKES:
+            return 0
         shared = len(self.places & other.places)
-        return shared if shared >= ON_PATH * len(self.places) and len(self.strokes) >= FEWEST_STROKES else 0
+        return shared if shared >= needed else 0
 
 
 def course_of(inputs: bytes, run: RunResult) -> Course:
     """The course of a run with such inputs."""
     keys = bytes(each & KEYS_DOWN for each in inputs)
-    met: Counter[tuple[int, int]] = Counter()
+    met: Counter[int] = Counter()
     strokes = []
     for down, ticks in groupby(keys):
-        stroke = down, sum(1 for _ in ticks)
+        stroke = down + 16 * len(list(ticks)) << 20
         met[stroke] += 1
-        strokes.append((*stroke, met[stroke]))
-    presses = {
-        16 * tick + 2 * key + bool(down & key)
-        for tick, (before, down) in enumerate(pairwise(keys))
-        for key in (1, 2, 4)
-        if (before ^ down) & key
-    }
+        strokes.append(stroke + met[stroke])
+    presses = bytes(down & ~before | (before & ~down) << 4 for before, down in pairwise(keys))
     x, y = run.positions.round().T
-    return Course(keys, frozenset(strokes), frozenset(presses), frozenset((x + 1e6 * y).tolist()))
+    return Course(keys, frozenset(strokes), int.from_bytes(presses, "little"), frozenset((x + 1e6 * y).tolist()))
 
 
 def nearest(course: Course, earlier: Sequence[Course]) -> tuple[int, str] | None:
@@ -87,10 +86,12 @@ def nearest(course: Course, earlier: Sequence[Course]) -> tuple[int, str] | None
             places = len(course.places)
             found.append((shared / places, -index, f"{shared} of the {places} places on its way are those of"))
         if shared := course.presses_shared(other):
-            presses = len(other.presses)
+            presses = other.presses.bit_count()
             words = f"{shared} of {presses} presses and releases are at the ticks of"
             found.append((shared / presses, -index, words))
-    for index in nlargest(ALIGNED, range(len(earlier)), key=lambda each: len(course.strokes & earlier[each].strokes)):
+    # Aligning is slow: only where nothing else tells.
+    rest = () if found else range(len(earlier))
+    for index in nlargest(ALIGNED, rest, key=lambda each: len(course.strokes & earlier[each].strokes)):
         if shared := course.inputs_shared(earlier[index]):
             ticks = len(course.keys)
             found.append((shared / ticks, -index, f"{shared} of its {ticks} ticks have the inputs of"))

@@ -182,20 +182,27 @@ def _remarked(runs: list[Run]) -> list[Run]:
         return runs
     found: list[Run] = []
     earlier: list[tuple[Run, Course]] = []
-    near: set[Key] = set()
     for run in runs:
         inputs = run.replay.playback(run.tick + 1)
         course = course_of(inputs, run_level(run.entry.named.level, inputs))
-        others = [each for each in earlier if each[0].player != run.player]
-        # A player's near copies do not make the next one the player's own.
-        own = [its for other, its in earlier if other.player == run.player and other.key not in near]
-        closest = None if nearest(course, own) else nearest(course, [its for _, its in others])
-        earlier.append((run, course))
-        if closest:
-            near.add(run.key)
-            other = others[closest[0]][0]
-            said = f"{closest[1]} the run by {other.player} in {other.file}"
+        if near := _near_to_another(run.player, course, earlier):
+            other, how = near
+            said = f"{how} the run by {other.player} in {other.file}"
             found.append(replace(run, remark="; ".join(filter(None, (said, run.remark)))))
         else:
             found.append(run)
+        earlier.append((run, course))
     return found
+
+
+def _near_to_another(player: str, course: Course, earlier: list[tuple[Run, Course]]) -> tuple[Run, str] | None:
+    """The earlier run by another player that a run is near to, and how; None where the player's own were before it."""
+    until = len(earlier)
+    while True:
+        others = [(index, its) for index, (run, its) in enumerate(earlier[:until]) if run.player != player]
+        closest = nearest(course, [its for _, its in others])
+        if closest is None:
+            return None
+        until = others[closest[0]][0]
+        if nearest(course, [its for run, its in earlier[:until] if run.player == player]) is None:
+            return earlier[until][0], closest[1]
