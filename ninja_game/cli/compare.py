@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import json
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,6 +12,7 @@ import click
 
 from ninja_game.cli.run_options import budget_option, choose, heartbeat, level_given, level_option
 from ninja_game.cli.splits import draw, format_option, picture_option, titles
+from ninja_game.cli.terminal import data_output
 
 if TYPE_CHECKING:
     from ninja_game.formats.recording import Recording
@@ -58,7 +58,7 @@ def compare(
         leads = {"splits": list(map(_cells, found.splits)), "places": list(map(_cells, found.places))}
         click.echo(json.dumps({**parts, "columns": COLUMNS, **leads}))
     elif form == "csv":
-        writer = csv.writer(sys.stdout, lineterminator="\n")
+        writer = csv.writer(data_output(), lineterminator="\n")
         writer.writerows([COLUMNS, *map(_cells, [*found.splits, *found.places])])
     else:
         _show(found, ours, theirs)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ninja_game.cli.run_options import LevelPath, budget_option, level_given, level_option, with_progress
+from ninja_game.cli.terminal import data_output
 from ninja_game.errors import FileError, LevelError
 from ninja_game.files.tree import Tree
 from ninja_game.formats.links.fragment import is_link
@@ -106,7 +107,7 @@ class Output:
     def write(self, text: str) -> None:
         """Write one file, or to the terminal."""
         if self.target == STANDARD_STREAM:
-            click.echo(text, nl=False, color=True)  # else a pipe loses what looks like a colour
+            click.echo(text, data_output(), nl=False, color=True)  # else a pipe loses what looks like a colour
         else:
             self._put([(Path(self.target), text)])
 

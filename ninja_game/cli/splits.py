@@ -13,6 +13,7 @@ import click
 
 from ninja_game.cli.main import complain
 from ninja_game.cli.run_options import budget_option, level_given, level_option, with_progress
+from ninja_game.cli.terminal import data_output
 from ninja_game.files.shown_text import shown_text
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
@@ -202,7 +203,7 @@ def _as_json(runs: Sequence[RunSplits], rows: Sequence[SplitRow]) -> dict[str, A
 
 def _write_csv(tables: Sequence[Table]) -> None:
     """All tables as one, a line for each split of each run."""
-    writer = csv.writer(sys.stdout, lineterminator="\n")
+    writer = csv.writer(data_output(), lineterminator="\n")
     writer.writerow(COLUMNS)
     for runs, rows in tables:
         for row in rows:

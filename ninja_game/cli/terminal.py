@@ -17,19 +17,28 @@ _OURS = {
 }
 """What our own output does besides printing; a name has passed ``shown_text`` and holds none of it."""
 
+_DATA = re.compile(r"(\n|\t)")
+
 
 class Terminal(io.TextIOWrapper):
     """A terminal that shows every other control character as its escape."""
 
     def __init__(self, stream: TextIO, ours: re.Pattern[str]) -> None:
         super().__init__(stream.buffer, stream.encoding, "backslashreplace", line_buffering=True)
-        self._ours = ours
+        self.ours = ours
 
     def write(self, text: str) -> int:
         """Write it; the number of characters in ``text``."""
-        for place, part in enumerate(self._ours.split(text)):
+        for place, part in enumerate(self.ours.split(text)):
             super().write(part if place % 2 or part.isprintable() else "".join(map(shown_character, part)))
         return len(text)
+
+
+def data_output() -> TextIO:
+    """Standard output for what files hold: from now on a terminal shows colours, too, as their escapes."""
+    if isinstance(sys.stdout, Terminal):
+        sys.stdout.ours = _DATA
+    return sys.stdout
 
 
 def guard_terminal() -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import json
 import re
-import sys
 from collections.abc import Iterator, Sequence
 from functools import partial
 from pathlib import Path
@@ -23,6 +22,7 @@ from ninja_game.cli.run_options import (
     memory_option,
     with_progress,
 )
+from ninja_game.cli.terminal import data_output
 from ninja_game.files.shown_text import shown_text
 
 if TYPE_CHECKING:
@@ -196,7 +196,7 @@ def _write(traces: Traces, output: Path | None, files: Sequence[Path]) -> None:
 
     runs = (traced.trace for traced in traces)
     if output is None:
-        write_csv(runs, sys.stdout)
+        write_csv(runs, data_output())
     elif output.suffix == ".npz":
         write_atomically(output, partial(write_npz, runs), keep=files)
     else:
