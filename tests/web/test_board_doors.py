@@ -245,14 +245,16 @@ def test_runs_that_lie_below_old_pages_are_safe(tmp_path: Path) -> None:
 # --- whose a run is ---
 
 
-@pytest.mark.parametrize("name", ["ann", "ANN", "A\u200bnn", "\uff21\uff4e\uff4e", " Ann\t", "An\u2060n", "Ann\ufe0f"])
+@pytest.mark.parametrize(
+    "name", ["ann", "ANN", "A\u200bnn", "\uff21\uff4e\uff4e", " Ann\t", "An\u2060n", "Ann\ufe0f", "Ann\U0001d159"]
+)
 def test_a_name_is_one_player_however_it_is_typed(name: str) -> None:
     players = Players()
     assert players.meet("Ann") == ("Ann", "")
     assert players.meet(name) == ("Ann", "")
 
 
-@pytest.mark.parametrize("name", ["\u0410nn", "\u0391nn", "\u00c1nn"])
+@pytest.mark.parametrize("name", ["\u0410nn", "\u0391nn", "\u00c1nn", "\u1d00nn", "Ann\u0489"])
 def test_a_name_that_looks_like_another_is_told_and_not_merged(name: str) -> None:
     players = Players()
     players.meet("Ann")
@@ -261,7 +263,13 @@ def test_a_name_that_looks_like_another_is_told_and_not_merged(name: str) -> Non
     assert folded(player) != folded("Ann")
 
 
-@pytest.mark.parametrize("name, told", [("P\u0430ul", True), ("Paul \u0418\u0432\u0430\u043d", False)])
+SCRIPTS = {
+    "P\u0430ul": True, "J\u0585hn": True, "\u13abohn": True, "\u2ca2aul": True, "\ua4d0ob": True,
+    "Paul \u0418\u0432\u0430\u043d": False, "\u02bbOkina": False, "Ken\u592a\u90ce": False, "\u00aann": False,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name, told", SCRIPTS.items())
 def test_words_of_mixed_scripts_are_told(name: str, told: bool) -> None:
     assert bool(Players().meet(name)[1]) == told
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import unicodedata
 from dataclasses import dataclass, field
 
@@ -15,7 +16,11 @@ _LATIN = str.maketrans(
 )
 """Letters that look like a Latin one: Cyrillic, Greek, and those that a font draws alike."""
 
-_TOLD_APART = frozenset({"LATIN", "CYRILLIC", "GREEK"})
+_LATIN_FORM = re.compile(r"LATIN LETTER SMALL CAPITAL ([A-Z])|LATIN SMALL LETTER (ALPHA|DOTLESS J|SCRIPT G)")
+"""Names of Latin letters with the shape of a plain one."""
+
+_WRITTEN_TOGETHER = frozenset({"CJK", "HIRAGANA", "KATAKANA", "KATAKANA-HIRAGANA", "HANGUL", "BOPOMOFO", "LATIN"})
+"""Scripts that may stand in one word: none of their letters look like those of another."""
 
 
 def player_named(author: str) -> str:
@@ -44,15 +49,23 @@ def look(player: str) -> str:
     >>> look("\u0410nn") == look("Ann") == look("\u00c1nn"), look("Bill") == look("Bi1I")
     (True, True)
     """
-    plain = "".join(letter for letter in unicodedata.normalize("NFKD", player) if not unicodedata.combining(letter))
+    letters = unicodedata.normalize("NFKD", player)
+    plain = "".join(_plain(letter) for letter in letters if not unicodedata.category(letter).startswith("M"))
     return folded(plain.translate(_LATIN)).replace("rn", "m").replace("vv", "w")
+
+
+def _plain(letter: str) -> str:
+    """A letter with the shape of a plain Latin one as that."""
+    form = _LATIN_FORM.fullmatch(unicodedata.name(letter, ""))
+    return (form[1] or form[2].split()[-1][0]) if form else letter
 
 
 def mixed_word(player: str) -> bool:
     """Whether a word of a name has letters of scripts that look alike."""
-    for word in player.split():
-        scripts = {unicodedata.name(letter, "").partition(" ")[0] for letter in word if letter.isalpha()}
-        if len(scripts & _TOLD_APART) > 1:
+    for word in player_named(player).split():
+        letters = [letter for letter in word if letter.isalpha() and unicodedata.category(letter) != "Lm"]
+        scripts = {unicodedata.name(letter, "").partition(" ")[0] for letter in letters}
+        if len(scripts) > 1 and not scripts <= _WRITTEN_TOGETHER:
             return True
     return False
 
