@@ -17,7 +17,7 @@ _BLANKS = re.compile(r"\s{2,}")
 INVISIBLE = re.compile(
     "[\u034f\u115f\u1160\u17b4\u17b5\u180b-\u180f\u2065\u2800\u3164\ufe00-\ufe0f\uffa0\U0001d159\U000e0000-\U000e0fff]"
 )
-"""What is printable and not seen, besides format characters (Cf): fillers, variation selectors, blank Braille, notes."""
+"""What is printable and not seen, besides format characters (Cf): fillers, variation selectors, blank signs."""
 _NOWHERE = '/\\:*?"<>|'
 _RESERVED = re.compile(r"(con|prn|aux|nul|conin\$|conout\$|(com|lpt)[1-9¹²³]) *(\..*)?", re.IGNORECASE | re.DOTALL)
 """Names that mean devices on Windows, whatever their suffix."""

@@ -43,6 +43,7 @@ from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.pack.files import PackFiles, is_pack
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import write_replay
+from ninja_game.runs.recording_reader import texts_in
 from ninja_game.runs.verify import verify_recording
 from tests.support.reference import levels as levels_of_reference, recordings, require_reference
 
@@ -285,3 +286,14 @@ def test_a_file_that_is_called_as_links_are_gives_them_no_folder(
     (tmp_path / "run.tas").write_text("30,R\n")
     assert has_folder("run.tas")
     assert not has_folder(PLACE)
+
+
+@pytest.mark.parametrize("name", ["z#replay=1.AAAA.txt", "a #level=1.AAAA.txt", "#replay=1.AAAA.txt"])
+def test_a_file_with_the_name_of_a_link_is_read_in_its_folder(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path(name).write_text(bundled_replays()[0].read_text("utf-8"))
+    assert list(texts_in([Path()])) == [(name, Path(name).read_text(), False)]
+    assert is_link(name) == name.startswith("#")
+    assert is_link(Path(f"https://example.org/{name}"))

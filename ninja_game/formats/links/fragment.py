@@ -32,6 +32,7 @@ MOST_TEXTS = 9
 
 _PART = re.compile(r"(level|pack|replay)=([0-9]{1,4})\.([A-Za-z0-9_-]*)")
 _STEM = re.compile(r"[0-9a-f]{16}")
+_ADDRESS = re.compile(r"[a-z]{2,}:/", re.IGNORECASE)
 _AROUND = "\0 \t\r\n.,;:!?)>]}\"'"
 """What people and programs write behind a link."""
 
@@ -47,10 +48,15 @@ class Link:
 def link_kind(text: str | Path) -> Kind | None:
     """What a text, or a path made of it, is meant to be a link of, sound or not; None for no link of ours.
 
-    >>> link_kind("https://example.org/game/#pack=1.abc"), link_kind("levels/level=1.txt")
+    A link begins with its # or holds an address before it: a file may have any other name.
+
+    >>> link_kind("https://example.org/game/#pack=1.abc"), link_kind("levels/a#level=1.txt")
     ('pack', None)
     """
-    fragment = unquote("".join(str(text).split()).partition("#")[2])
+    before, _, fragment = "".join(str(text).split()).partition("#")
+    if before.strip(_AROUND + "<([") and not _ADDRESS.search(before):
+        return None
+    fragment = unquote(fragment)
     return next((kind for kind in KINDS if fragment.startswith(f"{kind}=")), None)
 
 
