@@ -107,7 +107,7 @@ def board(
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     from ninja_game.files.user_folder import data_folder
     from ninja_game.files.writing import check_output, write_atomically
-    from ninja_game.web.board.pages import BoardPages, check_site
+    from ninja_game.web.board.pages import BoardPages, check_ledger, check_site
     from ninja_game.web.board.ranking import Ranking
     from ninja_game.web.board.report import board_text, changes, dates_of, plain, read_board, summary
     from ninja_game.web.board.runs import judge
@@ -117,6 +117,7 @@ def board(
         check_site(site, folder)
     if data:
         check_output(data, keep=[folder])
+        check_ledger(data, folder)
     now = datetime.now(UTC)
     ledger = check or data
     before = read_board(ledger, now) if ledger and ledger.exists() else ({}, {})

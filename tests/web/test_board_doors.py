@@ -235,6 +235,13 @@ def test_the_pages_are_not_written_into_the_runs(out: str, tmp_path: Path, level
     assert sorted(tmp_path.rglob("*")) == before
 
 
+def test_a_ledger_is_not_written_where_it_would_be_a_run(tmp_path: Path, levels: Path) -> None:  # noqa: F811
+    put(tmp_path, "runs/ann.txt", replay(author="Ann"))
+    code, text = board(tmp_path / "runs", levels, "--json", str(tmp_path / "runs" / "new.txt"))
+    assert (code, "the board would be read as a run" in text) == (2, True), text
+    assert not (tmp_path / "runs" / "new.txt").exists()
+
+
 def test_runs_that_lie_below_old_pages_are_safe(tmp_path: Path) -> None:
     (tmp_path / "board" / "levels").mkdir(parents=True)
     with pytest.raises(Exception, match="the runs are read there"):

@@ -8,6 +8,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from ninja_game.errors import FileError
+from ninja_game.files.reading import SUFFIXES
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.pack.pars import MARGINS
 from ninja_game.player.catalogue import Entry
@@ -43,6 +44,12 @@ def check_site(out: Path, folder: Path) -> None:
         if _is_in(written, folder) or _is_in(folder, written):
             what = f"the pages would be written into {written.name!r}, and the runs are read there"
             raise FileError(what, str(out), found=str(folder), hint="choose another folder for the pages")
+
+
+def check_ledger(data: Path, folder: Path) -> None:
+    """Raise FileError where the ledger would be read as a run the next time."""
+    if _is_in(data, folder) and data.name.lower().endswith(SUFFIXES):
+        raise FileError("the board would be read as a run", str(data), hint="choose a name that ends in .json")
 
 
 def _is_in(path: Path, folder: Path) -> bool:
