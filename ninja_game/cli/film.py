@@ -8,8 +8,7 @@ from pathlib import Path
 
 import click
 
-from ninja_game.cli.run_options import InputPath, heartbeat, level_given, level_option
-from ninja_game.cli.windows import pixels
+from ninja_game.cli.run_options import InputPath, Pixels, heartbeat, level_given, level_option
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
@@ -24,17 +23,13 @@ from ninja_game.formats.links.fragment import is_link
     "replay's name and .gif]",
 )  # fmt: skip
 @click.option("--record", type=click.IntRange(min=0), default=0, help="Which recording of the file, counted from 0.")
-@click.option(
-    "--size", metavar="WIDTHxHEIGHT", default="528x400", show_default=True, help="Size of the pictures in px."
-)
+@click.option("--size", type=Pixels(), default="528x400", show_default=True, help="Size of the pictures in px.")
 @click.option("--speed", type=click.FloatRange(0.05, 16), default=1.0, show_default=True, help="1 is the game's speed.")
 @click.option("--from", "first", type=click.IntRange(min=0), default=0, help="First picture: after this many ticks.")
 @click.option(
-    "--to",
-    "last",
-    type=click.IntRange(min=0),
+    "--to", "last", type=click.IntRange(min=0),
     help="Last picture. [default: a second after the end; at most 20,000 pictures]",
-)
+)  # fmt: skip
 @click.option(
     "--ghost", "ghosts", multiple=True, metavar="FILE", type=InputPath(dir_okay=False),
     help="Show the runs of this file on the same level as ghosts; may be given several times.",
@@ -42,7 +37,7 @@ from ninja_game.formats.links.fragment import is_link
 @click.option("--keys", is_flag=True, help="Show the keys that are down.")
 @level_option
 def film(
-    replay: Path, output: Path | None, record: int, size: str, speed: float, first: int, last: int | None,
+    replay: Path, output: Path | None, record: int, size: tuple[int, int], speed: float, first: int, last: int | None,
     ghosts: Sequence[Path], keys: bool, level_path: Path | None,
 ) -> None:  # fmt: skip
     """Write a film of a recording: a GIF, a WebM, or a folder of pictures.
@@ -69,14 +64,10 @@ def film(
     others = [run for file in ghosts for run in load_replays(file, level=level)]
     if any(run.level != recordings[record].level for run in others):
         raise click.UsageError("--ghost: a run of another level")
-    width_and_height = pixels(size)
-
     os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
-    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     from ninja_game.play.replay.film import Film, write_film
 
-    ghost_runs = tuple(others)
-    film = Film(recordings[record], width_and_height, speed, ghosts=ghost_runs, keys=keys, first=first, last=last)
+    film = Film(recordings[record], size, speed, ghosts=tuple(others), keys=keys, first=first, last=last)
     progress = "looking for the end of the run"
 
     def report(made: int) -> bool:

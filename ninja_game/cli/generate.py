@@ -8,6 +8,7 @@ from random import SystemRandom
 import click
 
 from ninja_game.cli import solver_options as options
+from ninja_game.files.user_folder import free_path
 
 
 @click.command()
@@ -57,7 +58,7 @@ def generate(
     if made is None:
         click.echo(f"seed {seed} gives no level of difficulty {difficulty} that can be passed; try another one")
         ctx.exit(options.NOT_FOUND)
-    output = output or _free(made.name)
+    output = output or free_path(Path(), made.name.lower().replace(" ", "-"), ".txt")
     write_atomically(output, made.text)
     if replay:
         save_replay(replay, named_run(made.run, name=made.name, author=made.author, level_author=made.author))
@@ -65,10 +66,3 @@ def generate(
         f"{output}: {made.name}, seed {seed}, difficulty {made.difficulty:.1f}, "
         f"certified in {options.time_text(made.run.end_tick)}"
     )
-
-
-def _free(name: str) -> Path:
-    """A path in the current folder that nothing has yet, named after a level."""
-    stem = name.lower().replace(" ", "-")
-    names = (f"{stem}{number}.txt" for number in ("", *(f"-{count}" for count in range(2, 10_000))))
-    return next(path for path in map(Path, names) if not path.exists())

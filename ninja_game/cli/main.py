@@ -65,6 +65,7 @@ MODULES = {
     **dict.fromkeys(("play", "edit", "tas", "lab"), "windows"),
     **dict.fromkeys(("solve", "improve"), "search"),
     **dict.fromkeys(("site", "board"), "web"),
+    "compare": "splits",
 }
 """Modules of ``ninja_game.cli`` that hold several commands; any other command is in a module of its name."""
 
@@ -234,6 +235,7 @@ def main() -> NoReturn:
     if sys.argv[1:]:
         # A shell that completes words gives none to the program itself.
         os.environ.pop("_NINJA_GAME_COMPLETE", None)
+    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     # Nothing here multiplies matrices; where memory is short, the threads of that library would wait for ever.
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
     # NumPy, which some commands import before Numba is set up, may fail by them.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -105,17 +106,28 @@ def _png_name(ctx: click.Context, param: click.Parameter, value: str | None) -> 
     return value
 
 
+class Pixels(click.ParamType):  # type: ignore[type-arg, unused-ignore]
+    """``WIDTHxHEIGHT`` as two numbers."""
+
+    name = "WIDTHxHEIGHT"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[int, int]:
+        """Width and height; usage error for anything else."""
+        if isinstance(value, tuple):
+            return value
+        width, _, height = value.lower().partition("x")
+        if not all(re.fullmatch("[1-9][0-9]{1,4}", part) and int(part) <= 16384 for part in (width, height)):
+            raise click.UsageError(f"--size is {value!r}; expected WIDTHxHEIGHT in px, e.g. 1584x1200")
+        return int(width), int(height)
+
+
 def window_options(command: Callable[..., T]) -> Callable[..., T]:
     """The options of commands that open a window: its size in px, how many pictures, where the last one goes."""
+    png = click.Path(dir_okay=False)
     for option in (
-        click.option(
-            "--screenshot",
-            type=click.Path(dir_okay=False),
-            callback=_png_name,
-            help="Write the last picture to this PNG file.",
-        ),
+        click.option("--screenshot", type=png, callback=_png_name, help="Write the last picture to this PNG file."),
         click.option("--frames", type=click.IntRange(1, 10**9), help="Exit after this many pictures."),
-        click.option("--size", metavar="WIDTHxHEIGHT", help="Size of the window in px, e.g. 1584x1200."),
+        click.option("--size", type=Pixels(), help="Size of the window in px, e.g. 1584x1200."),
     ):
         command = option(command)
     return command

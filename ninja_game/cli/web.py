@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -36,7 +35,6 @@ def site(out: Path | None, pyodide: Path | None, serve: bool, port: int) -> None
     """
     if out is None and not serve:
         raise click.UsageError("name the folder OUT, or give --serve")
-    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     from platformdirs import user_cache_path
 
     from ninja_game.files.user_folder import data_folder
@@ -104,7 +102,6 @@ def board(
       ninja-game board replays/ --check board.json
       ninja-game board replays/ --levels my-pack/ --site public/
     """
-    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     from ninja_game.files.user_folder import data_folder
     from ninja_game.files.writing import check_output, write_atomically
     from ninja_game.web.board.pages import BoardPages, check_ledger, check_site

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import os
-import re
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
@@ -38,15 +36,14 @@ if TYPE_CHECKING:
 @click.pass_context
 def play(
     ctx: click.Context,
+    /,
     level: Path | None,
     record: int,
     body: Literal["circle", "box"],
     practice: bool,
     replay: Path | None,
     level_path: Path | None,
-    size: str | None,
-    frames: int | None,
-    screenshot: str | None,
+    **window: Any,
 ) -> None:
     """Play a level in a window.
 
@@ -71,31 +68,10 @@ def play(
     if level_path is not None and replay is None:
         raise click.UsageError("--level is the level of what --replay names")
     path = next((str(each) for each in (level, level_path) if each is not None), None)
-    window = pixels(size) if size else None
-
-    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     from ninja_game.play.main import main
 
-    code = main(
-        path,
-        body=body,
-        size=window,
-        replay_path=str(replay) if replay is not None else None,
-        practice=practice,
-        frames=frames,
-        screenshot=screenshot,
-        record=record,
-    )
-    ctx.exit(code)
-
-
-def pixels(size: str) -> tuple[int, int]:
-    """Width and height from ``WIDTHxHEIGHT``."""
-    width, _, height = size.lower().partition("x")
-    digits = re.compile("[1-9][0-9]{1,4}")
-    if not all(digits.fullmatch(part) and int(part) <= 16384 for part in (width, height)):
-        raise click.UsageError(f"--size is {size!r}; expected WIDTHxHEIGHT in px, e.g. 1584x1200")
-    return int(width), int(height)
+    replay_path = str(replay) if replay is not None else None
+    ctx.exit(main(path, body=body, replay_path=replay_path, practice=practice, record=record, **window))
 
 
 @click.command()
@@ -103,9 +79,7 @@ def pixels(size: str) -> tuple[int, int]:
 @click.option("--record", type=click.IntRange(0, 10**6), default=0, help="This level of the file, counted from 0.")
 @window_options
 @click.pass_context
-def edit(
-    ctx: click.Context, level: Path | None, record: int, size: str | None, frames: int | None, screenshot: str | None
-) -> None:
+def edit(ctx: click.Context, /, level: Path | None, record: int, **window: Any) -> None:
     """Make a level, or change one, in a window.
 
     LEVEL is a file of levels, or the name of one of the game's own; without it an empty level. A readable level is
@@ -120,15 +94,13 @@ def edit(
     from ninja_game.editor.files import Source, open_source
     from ninja_game.files.user_folder import is_bundled
 
-    window = pixels(size) if size else None
     source = open_source(level, record) if level is not None else None
     if source is not None and source.path is not None and is_bundled(source.path):
         source = Source(source.draft)
-    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     from ninja_game.play.editor.screen import EditorScreen
     from ninja_game.play.main import run_app
 
-    ctx.exit(run_app(lambda app: EditorScreen(app, source), size=window, frames=frames, screenshot=screenshot))
+    ctx.exit(run_app(lambda app: EditorScreen(app, source), **window))
 
 
 @click.command()
@@ -143,8 +115,8 @@ def edit(
 @window_options
 @click.pass_context
 def tas(
-    ctx: click.Context, file: Path, record: int | None, level_path: Path | None, against: tuple[Path, ...],
-    tick: int, size: str | None, frames: int | None, screenshot: str | None,
+    ctx: click.Context, /, file: Path, record: int | None, level_path: Path | None, against: tuple[Path, ...],
+    tick: int, **window: Any,
 ) -> None:  # fmt: skip
     """Edit a run tick by tick, in a window.
 
@@ -162,10 +134,8 @@ def tas(
     """
     from ninja_game.tas.files import open_run, runs_of_level
 
-    window = pixels(size) if size else None
     opened = open_run(file, record=record, level=level_given(level_path))
     others = [run for path in against for run in runs_of_level(path, opened.recording)]
-    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     from ninja_game.play.main import run_app
     from ninja_game.play.tas.opening import OpeningScreen
     from ninja_game.play.tas.screen import TasScreen
@@ -177,9 +147,9 @@ def tas(
 
     def opening(app: App) -> Screen:
         # So many pictures are pictures of the TAS editor.
-        return editor(app) if frames is not None else OpeningScreen(app, opened.recording, lambda: editor(app))
+        return editor(app) if window["frames"] else OpeningScreen(app, opened.recording, lambda: editor(app))
 
-    ctx.exit(run_app(opening, size=window, frames=frames, screenshot=screenshot))
+    ctx.exit(run_app(opening, **window))
 
 
 FIGURES = ("cells", "edges", "projection", "grids", "nine-cells", "pairs", "bullets", "rays", "drones", "tick")
@@ -193,14 +163,7 @@ FIGURES = ("cells", "edges", "projection", "grids", "nine-cells", "pairs", "bull
     help="Open no window: write the figure to this .png file, or its demonstration to this .gif file.",
 )  # fmt: skip
 @click.pass_context
-def lab(
-    ctx: click.Context,
-    figure: str | None,
-    size: str | None,
-    frames: int | None,
-    screenshot: str | None,
-    output: Path | None,
-) -> None:
+def lab(ctx: click.Context, /, figure: str | None, output: Path | None, **window: Any) -> None:
     """Drag, paint and watch: ten figures about how the world works.
 
     FIGURE is the one that is shown first: cells, edges, projection, grids, nine-cells, pairs, bullets, rays, drones or
@@ -214,8 +177,6 @@ def lab(
     """
     if output is not None and figure is None:
         raise click.UsageError("--output needs a FIGURE")
-    window = pixels(size) if size else None
-    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     if output is not None and figure is not None:
         from ninja_game.play.lab.screen import export_figure
 
@@ -224,4 +185,4 @@ def lab(
     from ninja_game.play.lab.screen import LabScreen
     from ninja_game.play.main import run_app
 
-    ctx.exit(run_app(lambda app: LabScreen(app, figure or ""), size=window, frames=frames, screenshot=screenshot))
+    ctx.exit(run_app(lambda app: LabScreen(app, figure or ""), **window))

@@ -31,7 +31,6 @@ NOT_SHOWN = {
     "ui/widgets.py: Widget.draw": "its widgets do",
     "replay/paths.py: _draw_speeds": "of the pictures that `compare` writes",
     "tas/roll/part.py: RollMouse._paint": "paints keys with the mouse, not a picture",
-    "view/overlays.py: _draw_box": "of ninjas with a box as their body",
     "view/overlays.py: _paint_edges": "kept from the first picture on; test_pictures.py shows it",
     "view/overlays.py: _paint_grid": "kept from the first picture on; test_pictures.py shows it",
 }

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pygame
 
-from ninja_game.errors import NinjaGameError
+from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.formats.links.making import replay_link
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
@@ -22,8 +22,9 @@ from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.view.overlays import Overlays
 from ninja_game.player.attempt import Attempt
+from ninja_game.player.catalogue import Entry
 from ninja_game.player.level_context import LevelContext, Navigation
-from ninja_game.player.playthrough import EpisodeRun
+from ninja_game.player.playthrough import EpisodeRun, LevelRun
 from ninja_game.player.saving import keep_replay
 from ninja_game.sim.inputs import JUMP_HELD
 
@@ -210,6 +211,16 @@ class LevelScreen(Screen):
         for rect in written:
             view.also_covered(rect)
         return None if changed is None else changed + written
+
+
+def play_level(app: App, entry: Entry, *, practice: bool = False) -> str:
+    """Play a level by itself; why that is impossible, or ''."""
+    run = LevelRun(app.player, entry, practice_mode=practice or app.settings.practice)
+    try:
+        app.push(LevelScreen(app, run))
+    except LevelError as error:
+        return error.what
+    return ""
 
 
 PhaseActions = dict[str, Callable[[LevelScreen], None]]

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pygame
 
-from ninja_game.errors import LevelError, NinjaGameError
+from ninja_game.errors import NinjaGameError
 from ninja_game.files.reading import read_bytes
 from ninja_game.files.shown_text import name_problem
 from ninja_game.files.tree import Tree
@@ -17,7 +17,7 @@ from ninja_game.formats.load import load_levels
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.input.bindings import InputEvent
-from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text, where_from
 from ninja_game.play.ui.list_view import ListView
@@ -26,7 +26,6 @@ from ninja_game.play.ui.theme import Area, Theme, unreadable
 from ninja_game.play.ui.widgets import Button, Choice, Widget
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.marks import Mark
-from ninja_game.player.playthrough import LevelRun
 from ninja_game.player.records import SavedReplay, seconds_text
 
 ROW = 54
@@ -161,15 +160,8 @@ class Browser(ThumbnailScreen):
 
     def play(self, index: int, *, practice: bool = False) -> None:
         """Play a level of the list."""
-        if index >= len(self.shown):
-            return
-        run = LevelRun(self.player, self.shown[index], practice_mode=practice or self.player.settings.practice)
-        try:
-            screen = LevelScreen(self.app, run)
-        except LevelError as error:
-            self.message = error.what
-            return
-        self.app.push(screen)
+        if index < len(self.shown):
+            self.message = play_level(self.app, self.shown[index], practice=practice)
 
     def _change(self) -> None:
         if self._edit is not None and self.selected is not None:

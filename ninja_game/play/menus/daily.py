@@ -10,16 +10,14 @@ from threading import Event
 import pygame
 
 from ninja_game.backend.memories import choose_memory
-from ninja_game.errors import LevelError
 from ninja_game.files.user_folder import LEVELS
 from ninja_game.generator import daily
 from ninja_game.play.app import App
-from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, draw_pars, time_and_par, tries_text
 from ninja_game.play.ui.theme import wrapped
 from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.playthrough import LevelRun
 from ninja_game.player.records import seconds_text
 from ninja_game.runtime import require_desktop, run_in_background
 
@@ -121,13 +119,8 @@ class DailyScreen(ThumbnailScreen):
             self.redraw = True
 
     def _play(self, *, practice: bool = False) -> None:
-        if self.entry is None:
-            return
-        run = LevelRun(self.player, self.entry, practice_mode=practice or self.player.settings.practice)
-        try:
-            self.app.push(LevelScreen(self.app, run))
-        except LevelError as error:
-            self.message = error.what
+        if self.entry is not None:
+            self.message = play_level(self.app, self.entry, practice=practice)
             self.redraw = True
 
     def draw_frame(self, surface: pygame.Surface) -> None:

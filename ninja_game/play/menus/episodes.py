@@ -10,7 +10,7 @@ from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.input.bindings import InputEvent
-from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.level.screen import LevelScreen, play_level
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, time_and_par, tries_text
 from ninja_game.play.ui.list_view import BAR, ListView
@@ -18,7 +18,7 @@ from ninja_game.play.ui.theme import Area, Theme, unreadable
 from ninja_game.play.ui.widgets import MEDALS, Choice, Widget, draw_all_gold, draw_medal
 from ninja_game.player.catalogue import Episode, EpisodeSet
 from ninja_game.player.marks import Mark, has_all_gold, tally, worst_medal
-from ninja_game.player.playthrough import EpisodeRun, LevelRun
+from ninja_game.player.playthrough import EpisodeRun
 from ninja_game.player.progress import CHEATED, LOCKED
 from ninja_game.player.records import seconds_text
 
@@ -218,9 +218,7 @@ class EpisodeGrid(ThumbnailScreen):
 
     def _trial(self, index: int) -> None:
         if self.episode is not None:
-            entry = self.episode.levels[index]
-            run = LevelRun(self.player, entry, practice_mode=self.player.settings.practice)
-            self.app.push(LevelScreen(self.app, run))
+            self.problem = play_level(self.app, self.episode.levels[index]) or self.problem
 
     # --- picture ---
 

@@ -93,26 +93,17 @@ class MainMenu(MenuScreen):
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
         changed = self.attract.draw(surface, whole=self.redraw)
-        canvas, theme = self.app.canvas, self.app.theme
+        theme, palette = self.app.theme, self.app.theme.palette
         x, y, w, h = self.panel
         rect = theme.window(surface, x, y, w, h)
         theme.text(surface, TITLE, x + w / 2, y + 22, size=40, align="centre", bold=True)
-        theme.text(
-            surface, f"version {__version__}", x + w / 2, y + 68, size=9, colour=theme.palette.faint, align="centre"
-        )
+        theme.text(surface, f"version {__version__}", x + w / 2, y + 68, size=9, colour=palette.faint, align="centre")
         self.draw_widgets(surface)
-        foot = canvas.rect(0, HEIGHT - 24, WIDTH, 24)
-        self._draw_foot(surface)
+        foot = theme.canvas.fill_rect(surface, palette.tile, 0, HEIGHT - 24, WIDTH, 24)
+        hint = theme.fit(self.focus.hint if self.focus else "", WIDTH - 40, 10.5)
+        theme.text(surface, hint, WIDTH / 2, HEIGHT - 18, size=10.5, colour=palette.on_tile, align="centre")
         written = [rect.inflate(4, 4), foot]
         if self.attract.view is not None:
             for each in written:
                 self.attract.view.also_covered(each)
         return None if changed is None else changed + written
-
-    def _draw_foot(self, surface: pygame.Surface) -> None:
-        canvas, theme, palette = self.app.canvas, self.app.theme, self.app.theme.palette
-        text = self.focus.hint if self.focus else ""
-        canvas.fill_rect(surface, palette.tile, 0, HEIGHT - 24, WIDTH, 24)
-        theme.text(
-            surface, text, WIDTH / 2, HEIGHT - 18, size=10.5, colour=palette.on_tile, align="centre", width=WIDTH - 40
-        )

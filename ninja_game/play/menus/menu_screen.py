@@ -152,16 +152,14 @@ class MenuScreen(Screen):
         if dy:
             others = [widget for widget in others if _aside(focus, widget, dx) == 0]
         ahead = [widget for widget in others if _ahead(focus, widget, dx, dy) > 0]
-        if ahead:
+
+        def distance(widget: Widget) -> float:
             # Of several that are equally near the one whose upper edges are most alike: the first of a page.
-            self.focus_on(
-                min(
-                    ahead,
-                    key=lambda w: (
-                        _ahead(focus, w, dx, dy) + 3 * _aside(focus, w, dx) + 0.01 * abs(w.area[1] - focus.area[1])
-                    ),
-                )
-            )
+            edges = abs(widget.area[1] - focus.area[1])
+            return _ahead(focus, widget, dx, dy) + 3 * _aside(focus, widget, dx) + 0.01 * edges
+
+        if ahead:
+            self.focus_on(min(ahead, key=distance))
         elif others and dy:
             self.focus_on(max(others, key=lambda w: -dy * w.centre[1]))
 

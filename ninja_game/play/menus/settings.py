@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 import pygame
 
@@ -39,34 +40,6 @@ def clash(first: str, second: str) -> bool:
 def input_label(device: str, name: str) -> str:
     """What an input is called. ``device``: "keys" or "pad"."""
     return key_label(name) if device == "keys" else pad_label(name)
-
-
-class Conflict(Menu):
-    """An input that other actions have already: the player says what becomes of it.
-
-    To leave it comes first, so that a hasty key does no harm.
-    """
-
-    def __init__(self, table: BindingTable, action: str, slot: int, name: str, others: Sequence[str]) -> None:
-        labels = " and ".join(ACTIONS[other].label for other in others)
-        rows: list[Row] = [
-            CANCEL, (f"Only {ACTIONS[action].label}", self._take, ""), ("Use it for both", self._share, "")
-        ]  # fmt: skip
-        super().__init__(table.screen.app, f"{input_label(table.device, name)} already means {labels}", rows)
-        self.table = table
-        self.action = action
-        self.slot = slot
-        self.name = name
-        self.others = others
-
-    def _take(self) -> None:
-        """The others lose it."""
-        for other in self.others:
-            self.table.bind(other, tuple(each for each in self.table.inputs(other) if each != self.name))
-        self._share()
-
-    def _share(self) -> None:
-        self.table.put(self.action, self.slot, self.name)
 
 
 class Capture(Screen):
@@ -150,16 +123,15 @@ class BindingTable(ListView):
 
     def inputs(self, action: str) -> tuple[str, ...]:
         """The names of the inputs that an action has now."""
-        changed = getattr(self.screen.player.settings, self.device)
-        default = ACTIONS[action].keys if self.device == "keys" else ACTIONS[action].pad
-        return tuple(changed.get(action, default))
+        return tuple(getattr(self.screen.player.settings, self.device).get(action, self._default(action)))
+
+    def _default(self, action: str) -> tuple[str, ...]:
+        return ACTIONS[action].keys if self.device == "keys" else ACTIONS[action].pad
 
     def bind(self, action: str, inputs: tuple[str, ...]) -> None:
         """Give an action other inputs; where they are the default ones nothing is stored."""
-        changed = dict(getattr(self.screen.player.settings, self.device))
-        default = ACTIONS[action].keys if self.device == "keys" else ACTIONS[action].pad
-        changed[action] = inputs
-        if inputs == default:
+        changed = {**getattr(self.screen.player.settings, self.device), action: inputs}
+        if inputs == self._default(action):
             del changed[action]
         self.screen.change(**{self.device: changed})
 
@@ -192,12 +164,24 @@ class BindingTable(ListView):
         self.screen.app.push(Capture(self, self.actions[index], self.slot))
 
     def taken(self, action: str, slot: int, name: str) -> None:
-        """An input was pressed for an action: use it, unless other actions have it; then the player chooses."""
+        """An input was pressed for an action: use it, unless other actions have it; then the player chooses.
+
+        To leave it comes first, so that a hasty key does no harm.
+        """
         others = [other for other in ACTIONS if name in self.inputs(other) and clash(action, other)]
-        if others:
-            self.screen.app.push(Conflict(self, action, slot, name, others))
-        else:
-            self.put(action, slot, name)
+        share = partial(self.put, action, slot, name)
+
+        def take() -> None:
+            for other in others:
+                self.bind(other, tuple(each for each in self.inputs(other) if each != name))
+            share()
+
+        if not others:
+            share()
+            return
+        labels = " and ".join(ACTIONS[other].label for other in others)
+        rows: list[Row] = [CANCEL, (f"Only {ACTIONS[action].label}", take, ""), ("Use it for both", share, "")]
+        self.screen.app.push(Menu(self.screen.app, f"{input_label(self.device, name)} already means {labels}", rows))
 
     def put(self, action: str, slot: int, name: str) -> None:
         """Put an input in its place; twice in one row is once."""

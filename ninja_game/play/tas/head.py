@@ -29,16 +29,8 @@ class Head(TasPart):
         unsaved = f"{opened}{where}, to be saved as a new file" if opened else "no file yet"
         file = session.file.path.name if session.file.path else unsaved
         author = f" - {session.about.author}" if session.about.author else ""
-        title = theme.text(
-            surface,
-            f"{session.about.name}{author}",
-            8,
-            6,
-            size=13,
-            bold=True,
-            colour=palette.on_tile,
-            width=right / 2 - 62,
-        )
+        name = f"{session.about.name}{author}"
+        title = theme.text(surface, name, 8, 6, size=13, bold=True, colour=palette.on_tile, width=right / 2 - 62)
         x = title.right / theme.canvas.scale + 12
         saved = "" if not session.file.path and session.is_saved else ", saved" if session.is_saved else ", not saved"
         state = session.journal.problem or file + saved
@@ -57,14 +49,8 @@ class Foot(TasPart):
         """Cursor, selection, the run's length, the hint."""
         editor = self.editor
         beside = editor.chosen, len(editor.others), editor.ghosts
-        return (
-            editor.cursor,
-            editor.selection,
-            len(editor.track),
-            editor.session.timeline.simulated_until,
-            editor.hint,
-            beside,
-        )
+        run = len(editor.track), editor.session.timeline.simulated_until
+        return editor.cursor, editor.selection, run, editor.hint, beside
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         editor, palette, (_, y, w, _) = self.editor, theme.palette, self.area
@@ -78,13 +64,5 @@ class Foot(TasPart):
         text = f"tick {editor.cursor} of {len(editor.track)}{selected}{known}{beside}"
         theme.text(surface, text, 8, y + 5, size=9.5, colour=palette.on_tile)
         hint = editor.hint or "Click L R J to change keys; Enter: take over; F: search; F1: help"
-        theme.text(
-            surface,
-            hint,
-            w - 8,
-            y + 5,
-            size=9.5,
-            colour=palette.on_tile,
-            align="right",
-            width=w - 28 - theme.width(text, 9.5),
-        )
+        room = w - 28 - theme.width(text, 9.5)
+        theme.text(surface, hint, w - 8, y + 5, size=9.5, colour=palette.on_tile, align="right", width=room)

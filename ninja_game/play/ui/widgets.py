@@ -106,20 +106,10 @@ class Button(Widget):
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         self.draw_base(surface, theme, focused=focused)
-        x, y, w, h = self.area
         colour = theme.palette.text if self.enabled else theme.palette.faint
-        middle, top = x + w / 2, y + (h - self.size) / 2
-        theme.text(
-            surface,
-            self.text,
-            middle,
-            top,
-            size=self.size,
-            colour=colour,
-            align="centre",
-            bold=focused,
-            width=w - 2 * PAD,
-        )
+        text = theme.fit(self.text, self.area[2] - 2 * PAD, self.size, bold=focused)
+        x, y = self.centre
+        theme.text(surface, text, x, y - self.size / 2, size=self.size, colour=colour, align="centre", bold=focused)
 
 
 class Choice(Widget):

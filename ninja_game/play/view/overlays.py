@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import pygame
@@ -21,10 +21,8 @@ from ninja_game.sim.rules import INTERESTING, OFF, RADIUS, STRIDE
 from ninja_game.sim.states import AUTOMATIC, WEAPON_ZAP
 from ninja_game.simulation import Simulation
 
-HIT_BOXES, GRID, EDGES, RAYS, CELLS = (
-    "overlay_hitboxes", "overlay_grid", "overlay_edges", "overlay_rays", "overlay_cells",
-)  # fmt: skip
-OVERLAY_ACTIONS = (HIT_BOXES, GRID, EDGES, RAYS, CELLS)
+OVERLAY_ACTIONS = ("overlay_hitboxes", "overlay_grid", "overlay_edges", "overlay_rays", "overlay_cells")
+HIT_BOXES, GRID, EDGES, RAYS, CELLS = OVERLAY_ACTIONS
 
 
 class Overlays:
@@ -157,27 +155,19 @@ def _looks(o: Object) -> bool:
     return o.kind in {TURRET, LAUNCHER} or (o.kind == DRONE and o.weapon != WEAPON_ZAP)
 
 
-def _draw_circle(target: DrawTarget, shape: HitShape, colour: pygame.Color) -> pygame.Rect:
-    centre = target.canvas.point(shape.x, shape.y)
-    return pygame.draw.aacircle(target.surface, colour, centre, max(1, round(shape.half * target.canvas.scale)), 1)
-
-
-def _draw_box(target: DrawTarget, shape: HitShape, colour: pygame.Color) -> pygame.Rect:
-    half = shape.half
-    return target.canvas.frame_rect(target.surface, colour, shape.x - half, shape.y - half, 2 * half, 2 * half, 0.5)
-
-
-_FORMS: dict[bool, Callable[[DrawTarget, HitShape, pygame.Color], pygame.Rect]] = {True: _draw_circle, False: _draw_box}
-
-
 def _draw_shape(target: DrawTarget, shape: HitShape) -> None:
-    colour = target.palette.bad if shape.lethal else target.palette.switch
+    canvas, palette, half = target.canvas, target.palette, shape.half
+    colour = palette.good if shape.ninja else palette.bad if shape.lethal else palette.switch
     if shape.ninja:
-        colour = target.palette.good
-        a, b = (shape.x, shape.y), (shape.x + 6 * shape.vx, shape.y + 6 * shape.vy)
-        target.line(colour, *a, *b)
-    if -50 < shape.x < 850 and -50 < shape.y < 650:
-        target.covered.append(_FORMS[shape.round](target, shape, colour).inflate(2, 2))
+        target.line(colour, shape.x, shape.y, shape.x + 6 * shape.vx, shape.y + 6 * shape.vy)
+    if not (-50 < shape.x < 850 and -50 < shape.y < 650):
+        return
+    if shape.round:
+        centre, radius = canvas.point(shape.x, shape.y), max(1, round(half * canvas.scale))
+        rect = pygame.draw.aacircle(target.surface, colour, centre, radius, 1)
+    else:
+        rect = canvas.frame_rect(target.surface, colour, shape.x - half, shape.y - half, 2 * half, 2 * half, 0.5)
+    target.covered.append(rect.inflate(2, 2))
 
 
 @dataclass(frozen=True)
@@ -205,7 +195,8 @@ def hit_shapes(world: World) -> Iterator[HitShape]:
         if o.in_grid or (o.kind == SWITCH and not world.objects[o.partner].is_open):
             kind, half = KIND_OF[o.kind], _half(o)
             if half is not None:
-                deadly = kind.by_touch and not _unarmed(o)
+                # Drones with a weapon do not hurt by touch.
+                deadly = kind.by_touch and (o.kind != DRONE or o.weapon == WEAPON_ZAP)
                 yield HitShape(o.x, o.y, max(half, _SMALLEST), kind.disc is not None, deadly)
     n = world.ninja
     yield HitShape(n.x, n.y, rules.RADIUS, not n.box, ninja=True, vx=n.x - n.prev_x, vy=n.y - n.prev_y)
@@ -216,8 +207,3 @@ def _half(o: Object) -> float | None:
         return rules.DOOR_SWITCH_RADIUS
     kind = KIND_OF[o.kind]
     return kind.box if kind.disc is None else kind.disc
-
-
-def _unarmed(o: Object) -> bool:
-    """Drones with a weapon do not hurt by touch."""
-    return o.kind == DRONE and o.weapon != 0

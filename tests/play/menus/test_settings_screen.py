@@ -6,7 +6,8 @@ import pytest
 
 from ninja_game.play.input.bindings import ACTIONS
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.settings import PAGES, SLOTS, Conflict, SettingsScreen, clash
+from ninja_game.play.menus.panels import Menu
+from ninja_game.play.menus.settings import PAGES, SLOTS, SettingsScreen, clash
 from ninja_game.play.ui.widgets import Slider
 from tests.support.menu_driver import MenuDriver
 
@@ -76,7 +77,7 @@ def test_taken_key_asks_what_becomes_of_it(
 ) -> None:
     driver.settings_page("Keyboard")
     driver.press("down", "down", "return", "r")
-    question = driver.shown(Conflict)
+    question = driver.shown(Menu)
     assert ACTIONS["retry"].label in question.title
     driver.press(*presses)
     assert driver.top() is screen

@@ -345,12 +345,9 @@ class SearchTab(Tab):
 
     def render_key(self) -> tuple[object, ...]:
         """Span, what is wanted, how the search stands, its results."""
-        results = self.results
-        state = (
-            (results.status, results.running, results.behind, self.editor.track, *map(id, self.found))
-            if results
-            else ()
-        )
+        results, state = self.results, tuple[object, ...]()
+        if results:
+            state = (results.status, results.running, results.behind, self.editor.track, *map(id, self.found))
         return self.span, self.editor.selection, self.order, self.rest, self.goal.text, self.list.over, state
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:

@@ -230,16 +230,9 @@ class ValuesTab(Tab):
         """Run, cursor, selection, what is watched, what is shown of it."""
         editor = self.editor
         plotted = tuple((each, each.plotted) for each in self.watched)
-        shown = self.window.first, self.window.last
-        return (
-            editor.track,
-            editor.session.timeline.simulated_until,
-            editor.cursor,
-            editor.selection,
-            plotted,
-            shown,
-            self.list.over,
-        )
+        shown = self.window.first, self.window.last, self.list.over
+        run = editor.track, editor.session.timeline.simulated_until
+        return run, editor.cursor, editor.selection, plotted, shown
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)

@@ -106,16 +106,8 @@ class Effects:
             return
         self._skid_count = self.rng.randrange(2)
         if n.state == states.SKIDDING and abs(vx) > 0.4:
-            self.add(
-                "dust",
-                n.x - n.floor_x * 10,
-                n.y - n.floor_y * 10,
-                -vx * 2.2,
-                -3 - abs(vx),
-                life=32,
-                size=0.8,
-                rear=True,
-            )
+            x, y = n.x - n.floor_x * 10, n.y - n.floor_y * 10
+            self.add("dust", x, y, -vx * 2.2, -3 - abs(vx), life=32, size=0.8, rear=True)
         elif n.state == states.SLIDING and abs(vy) > 0.3:
             y = n.y + self.rng.uniform(-8, 8)
             self.add("dust", n.x - n.wall_x * 10, y, n.wall_x * 4, -vy * 3, life=32, size=0.7, rear=True)

@@ -36,15 +36,8 @@ def thwump(s: Sketch, p: Palette, mood: int, flicker: int) -> None:
     for side in (-1, 1):
         s.box(p.bright, side * 3.9 - 2.2, -4.6, 4.4, 4.4)
         s.box(p.outline, side * 3.9 - 1.0, -2.6, 2.0, 2.4)
-        s.polygon(
-            mixed(p.dark, p.outline, 0.5),
-            [
-                (side * 6.8, -6.2),
-                (side * 1.2, -6.2 + 1.8 - 0.3 * mood),
-                (side * 1.2, -4.6 + (2.2 - lid)),
-                (side * 6.8, -4.8),
-            ],
-        )
+        upper, lower = (side * 1.2, -6.2 + 1.8 - 0.3 * mood), (side * 1.2, -4.6 + (2.2 - lid))
+        s.polygon(mixed(p.dark, p.outline, 0.5), [(side * 6.8, -6.2), upper, lower, (side * 6.8, -4.8)])
     s.box(p.outline, -9, 5.2, 18, 3.8)
     s.box(p.electric, -8.3, 6.2, 16.6, 2.8)
     bump = 1.0 if flicker % 2 else -1.0
