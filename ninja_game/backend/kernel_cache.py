@@ -2,7 +2,8 @@
 
 A kernel's file is named after a digest of all the code and constants that went into it (``code_digest``), wherever it
 lies: an edit of any rule is another file. Numba's own cache looks at the file of the entry point alone, and falls back
-to folders beside the sources, so it is not used.
+to folders beside the sources, so it is not used. A release's wheel has kernels for any processor of its family
+(``SHIPPED``), under the names that they have on this machine; where one of these fits, nothing is compiled.
 
 Two processes that need the same kernel at the same time compile it once: the second one waits and reads the file.
 """
@@ -11,12 +12,12 @@ from __future__ import annotations
 
 import os
 import pickle
-import sys
 import time
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from functools import cache
 from hashlib import sha256
+from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
 from typing import Any
 from uuid import uuid4
@@ -24,8 +25,14 @@ from uuid import uuid4
 from ninja_game.backend.numba_import import say_once
 from ninja_game.errors import FileError
 from ninja_game.files.locking import LOCK_SUFFIX, hold
-from ninja_game.files.user_folder import chosen_folder
+from ninja_game.files.user_folder import PACKAGE, chosen_folder
 from ninja_game.sim.memory.code_digest import OPTIONS, code_digest
+
+SHIPPED = PACKAGE / "data" / "kernels"
+"""Machine code that came with the installation; a checkout has none."""
+
+GENERIC = ("generic", "")
+"""The processor that it is made for, as Numba names one: any of the family, with no features beyond."""
 
 KEPT_FILES = 200
 """How many compiled kernels stay in the cache folder: the newest, some ten versions of all."""
@@ -44,14 +51,15 @@ def kernel_name(entry: Callable[..., Any], checked: bool) -> str:
     """How the names of an entry point's files begin; Numba is not imported for it."""
     from importlib.metadata import version
 
-    versions = [version(package) for package in ("numba", "numpy")]
-    digest = code_digest(entry, f"{sys.version} {versions} {OPTIONS} checked={checked}")
+    # Kernels hold no code of NumPy's, only the layout of its arrays; its patches change none of that.
+    versions = version("numba"), *version("numpy").split(".")[:2]
+    digest = code_digest(entry, f"{EXTENSION_SUFFIXES[0]} {versions} {OPTIONS} checked={checked}")
     return f"{entry.__name__}-{digest[:32]}"
 
 
 def are_kept(entries: Iterable[Callable[..., Any]], checked: bool) -> bool:
-    """Whether the cache folder has machine code of all these entry points."""
-    kept = {path.stem.rpartition("-")[0] for path in cache_folder().glob("*.code")}
+    """Whether there is machine code of all these entry points."""
+    kept = {path.stem.rpartition("-")[0] for folder in (SHIPPED, cache_folder()) for path in folder.glob("*.code")}
     return kept >= {kernel_name(entry, checked) for entry in entries}
 
 
@@ -113,15 +121,16 @@ class KernelCache:
         self.cache_path = str(folder)
         self._held: dict[Path, int] = {}
 
-    def _file(self, signature: Any, codegen: Any) -> Path:
-        about = sha256(f"{signature} {codegen.magic_tuple()}".encode()).hexdigest()
-        return self.folder / f"{self.name}-{about[:16]}.code"
+    def _file(self, signature: Any, processor: tuple[str, ...]) -> str:
+        about = sha256(f"{signature} {processor}".encode()).hexdigest()
+        return f"{self.name}-{about[:16]}.code"
 
     def load_overload(self, signature: Any, context: Any) -> Any:
         """The kernel for these types; None if it is not there or damaged, and no other process is making it."""
         context.refresh()
-        path = self._file(signature, context.codegen())
-        found = _read(path, context)
+        system, *processor = context.codegen().magic_tuple()
+        path = self.folder / self._file(signature, (system, *processor))
+        found = _read(path, context) or _read(SHIPPED / self._file(signature, (system, *GENERIC)), context)
         if found is None:
             while before_compiling:
                 before_compiling.pop()()
@@ -150,7 +159,7 @@ class KernelCache:
 
     def save_overload(self, signature: Any, result: Any) -> None:
         """Write a kernel, whole or not at all."""
-        path = self._file(signature, result.codegen)
+        path = self.folder / self._file(signature, result.codegen.magic_tuple())
         try:
             self._write(path, result)
         finally:
