@@ -26,6 +26,9 @@ TURN_WORK = 15_000
 PLAIN_WORK = 3_000_000
 """Work that the plain memory does in one to two seconds, as long as it takes to load compiled kernels."""
 
+DATASET_MIB = 100
+"""Of the observations of demonstrations: arrays that are made of them take four times as much memory."""
+
 NO_LIMIT = 2**63
 """The budget of what the player played here."""
 

@@ -24,7 +24,7 @@ FIXED = {"NUMBA_DEBUGINFO": "0", "NUMBA_ENABLE_PROFILING": "0"}
 """Settings that would follow from variables of other programs (VS_PROFILER)."""
 
 _CONFIG, _CONFIG_FILE = "numba.core.config", ".numba_config.yaml"
-_FOREIGN = ("NUMBA_", "NPY_", "LLVMLITE_")
+_FOREIGN = ("NUMBA_", "NUMPY_", "NPY_", "LLVMLITE_")
 
 
 class _ConfigLoader(SourceFileLoader):
@@ -53,15 +53,19 @@ def say_once(message: str) -> None:
     sys.stderr.write(f"ninja-game: {message}\n")
 
 
+def remove_foreign_settings() -> None:
+    """Take what NumPy, llvmlite and Numba would read out of the environment, for worker processes too."""
+    for name in [name for name in os.environ if name.startswith(_FOREIGN) and name not in HONOURED]:
+        del os.environ[name]
+
+
 def import_numba() -> Any:
     """Numba, with its settings as they are by default; one thread at a time may call this.
 
-    Variables that NumPy, llvmlite and Numba would read are taken out of the environment, for worker processes too.
     Raises ImportError where Numba was imported before and its settings cannot be set back.
     """
     imported_before = "numba" in sys.modules
-    for name in [name for name in os.environ if name.startswith(_FOREIGN) and name not in HONOURED]:
-        del os.environ[name]
+    remove_foreign_settings()
     finder = _ConfigFinder()
     sys.meta_path.insert(0, finder)
     try:

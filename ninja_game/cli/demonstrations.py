@@ -8,6 +8,7 @@ from typing import Any
 
 import click
 
+from ninja_game.budget import DATASET_MIB
 from ninja_game.cli.main import complain
 from ninja_game.cli.run_options import level_given, level_option, memory_option, with_progress
 
@@ -26,7 +27,7 @@ from ninja_game.cli.run_options import level_given, level_option, memory_option,
     help="An action as a number from 0 to 5, or as three keys, each up or down.",
 )  # fmt: skip
 @click.option(
-    "--megabytes", type=click.IntRange(1, 10**6), default=100, show_default=True,
+    "--megabytes", type=click.IntRange(1, 10**6), default=DATASET_MIB, show_default=True,
     help="The most that all observations may take; making arrays of them takes four times as much memory.",
 )  # fmt: skip
 @level_option

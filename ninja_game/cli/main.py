@@ -17,6 +17,7 @@ from typing import Any, NoReturn
 import click
 
 from ninja_game import __version__
+from ninja_game.backend.numba_import import remove_foreign_settings
 from ninja_game.cli.terminal import guard_terminal
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.reading import keep_inputs
@@ -237,9 +238,8 @@ def main() -> NoReturn:
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     # Nothing here multiplies matrices; where memory is short, the threads of that library would wait for ever.
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
-    # NumPy, which some commands import before Numba is set up, reads these and may fail.
-    for name in [name for name in os.environ if name.startswith(("NPY_", "NUMPY_"))]:
-        del os.environ[name]
+    # NumPy, which some commands import before Numba is set up, may fail by them.
+    remove_foreign_settings()
     try:
         cli.main(prog_name="ninja-game")
     finally:

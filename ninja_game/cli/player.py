@@ -9,6 +9,7 @@ from pathlib import Path
 
 import click
 
+from ninja_game.cli.run_options import heartbeat
 from ninja_game.errors import FileError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.player.player_data import PlayerData
@@ -46,7 +47,7 @@ def take_in(file: Path) -> None:
     from ninja_game.files.reading import read_bytes
     from ninja_game.player.backup import MOST_BYTES, read_backup
 
-    with _player() as player:
+    with _player() as player, heartbeat(lambda: "runs the replays of the backup again"):
         for line in read_backup(player, read_bytes(file, MOST_BYTES)):
             click.echo(shown_text(line))
 

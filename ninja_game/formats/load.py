@@ -18,12 +18,14 @@ from ninja_game.sim.level import Level
 __all__ = ["NamedLevel", "Recording", "load_level", "load_levels", "load_replays", "parse_level", "texts_of"]
 
 
-def texts_of(path: Path | str) -> Iterator[tuple[str, str]]:
+def texts_of(path: Path | str, *, named: bool = True) -> Iterator[tuple[str, str]]:
     """The name and the text of a file, of each file in a folder, or of what a link of levels or replays carries.
+
+    ``named``: by a person, who may mean a link; a file that was found is one, whatever its name.
 
     Raises FileError, LinkError; OSError for a file that cannot be opened.
     """
-    if is_link(path):
+    if named and is_link(path):
         yield from ((PLACE, text) for text in linked_texts(path, "level", "replay"))
     else:
         yield from ((str(file), read_text(file)) for file in text_files(Path(path)))

@@ -19,6 +19,7 @@ import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.budget import DATASET_MIB
 from ninja_game.errors import ArgumentError, BudgetError, MissingExtraError, NinjaGameError
 from ninja_game.files.user_folder import how_to_install
 from ninja_game.files.writing import write_atomically
@@ -28,9 +29,6 @@ from ninja_game.learn.observations.observation import Observed
 from ninja_game.learn.single import NinjaEnv
 from ninja_game.runs.run import run_level
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, KEYS_DOWN
-
-MOST_MEGABYTES = 100
-"""Of observations: the arrays that are made of them take four times as much memory."""
 
 _BOTH = KEY_LEFT + KEY_RIGHT
 _ACTION_OF_KEYS = np.array(
@@ -62,7 +60,7 @@ class Demonstration:
     gold: int
 
 
-def demonstration(recording: Recording, *, most_bytes: int = MOST_MEGABYTES * 2**20, **settings: Any) -> Demonstration:
+def demonstration(recording: Recording, *, most_bytes: int = DATASET_MIB * 2**20, **settings: Any) -> Demonstration:
     """What an environment makes of a recording. ``settings``: of ``NinjaEnv``, but level, body, frame skip, time limit.
 
     An environment presses jump when its key goes down; N also has recordings that press it again while it is down. If

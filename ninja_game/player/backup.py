@@ -11,7 +11,7 @@ import io
 import json
 import re
 import sqlite3
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, closing, suppress
 from dataclasses import replace
 from functools import cache, partial
@@ -22,7 +22,7 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from ninja_game.budget import PAGE_BUDGET
 from ninja_game.errors import DAMAGED, FileError, NinjaGameError
-from ninja_game.files.reading import files_in, read_bytes
+from ninja_game.files.reading import SUFFIXES, files_in, read_bytes
 from ninja_game.files.shown_text import MAX_SHOWN, name_key, name_problem, shown_text
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import EDITING, EXPORTS, LEVELS, RECORDS, REPLAYS, SETTINGS, quarantine
@@ -34,9 +34,10 @@ from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import is_place
 from ninja_game.player.records import Records, level_score
+from ninja_game.player.settings import read_settings
 from ninja_game.player.statistics import KILLERS
 from ninja_game.player.store import Store
-from ninja_game.player.store.schema import SCHEMA, TABLES, VERSION, OtherVersionError
+from ninja_game.player.store.schema import SCHEMA, TABLES, VERSION, OtherVersionError, bounded
 from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.memory.interface import BODIES
 
@@ -46,11 +47,20 @@ MOST_FILES, MOST_BYTES = 4096, 256 * 2**20
 MOST_REPLAYS, MOST_ROWS = 5_000, 100_000
 """Of its records: replays, and rows of any other table."""
 
-FOLDERS = (LEVELS, REPLAYS, EXPORTS, EDITING)
-"""What a backup holds of the player's folder besides the settings and the records."""
+BRANCHES = ".branches.json"
+"""Suffix of a file beside a run: its branches in the TAS editor."""
 
-MOST_STEPS = 100
-"""Millions of instructions of SQLite to look through the records: a second or two; most take one."""
+FOLDERS = {
+    LEVELS: (*SUFFIXES, ".zip"),
+    REPLAYS: (*SUFFIXES, BRANCHES),
+    EXPORTS: (*SUFFIXES, ".gif", ".png", ".webm"),
+    EDITING: (".json",),
+}
+"""What a backup holds of the player's folder besides the settings and the records: files with these suffixes. A system
+does something by itself with others, such as a ``desktop.ini``."""
+
+MOST_OF_LEVELS = 16 * 2**20
+"""Bytes of all levels of the replays: each is read, and its replay run again."""
 
 MOST_OF_DRAFT, MOST_OF_LEVEL = 2**20, 2**20
 """Bytes of a level under edit, and of the level of a replay."""
@@ -105,7 +115,7 @@ def _own_files(folder: Path) -> Iterator[str]:
     """The names of the files that go along, but the records."""
     yield from (name for name in files_in(folder) if name == SETTINGS)
     for part in FOLDERS:
-        yield from (f"{part}/{name}" for name in files_in(folder / part) if part != EDITING or name.endswith(".json"))
+        yield from (f"{part}/{name}" for name in files_in(folder / part))
 
 
 def _problem(name: str, size: int = 0) -> str:
@@ -113,9 +123,9 @@ def _problem(name: str, size: int = 0) -> str:
     folder, _, file = name.rpartition("/")
     if name in {SETTINGS, RECORDS}:
         return ""
-    if folder == EDITING and (size > MOST_OF_DRAFT or not file.endswith(".json")):
+    if folder == EDITING and size > MOST_OF_DRAFT:
         return "no level under edit"
-    if folder not in FOLDERS or file.startswith("."):
+    if not file.lower().endswith(FOLDERS.get(folder, ())) or file.startswith("."):
         return "no file of a player's"
     return name_problem(file)
 
@@ -139,6 +149,10 @@ def read_backup(player: PlayerData, data: bytes) -> list[str]:
             raise FileError("this is not a backup of a player's data", found=shown_text(str(error))) from None
         with closing(store.connection):
             replays, taken = _take(player, store, files)
+        if SETTINGS in taken:
+            (settings := path.with_name(SETTINGS)).write_bytes(files[SETTINGS])
+            site = read_settings(settings)[0].site
+            left_out += [f"links lead to {site or 'no page'} now"] * (site != player.settings.site)
     return [f"{replays} new replays in the records", f"{len(taken)} new files", *taken, *left_out, *store.messages]
 
 
@@ -169,10 +183,7 @@ def _without_home(autosave: bytes) -> bytes:
 def _opened(path: Path) -> Store:
     """The records of a backup. Raises ValueError where they hold too much, or a trigger, which would do something."""
     try:
-        with closing(sqlite3.connect(path)) as db:
-            # A damaged file may lead in circles; what is interrupted is an error of it.
-            steps = count(1)
-            db.set_progress_handler(lambda: next(steps) > MOST_STEPS, 1_000_000)
+        with closing(sqlite3.connect(path)) as db, bounded(db):
             ((version,),) = db.execute("PRAGMA user_version")
             if version != VERSION:
                 raise ValueError(f"records {OtherVersionError(version)}")
@@ -188,12 +199,15 @@ def _opened(path: Path) -> Store:
                 ((rows,),) = db.execute(f"SELECT count(*) FROM {name}")
                 if rows > (most := MOST_REPLAYS if name == "replay" else MOST_ROWS):
                     raise ValueError(f"{rows:,} rows in the table {name}, of which at most {most:,} are accepted")
-            lengths = "max(length(CAST(level_text AS BLOB))), sum(length(inputs))"
-            ((longest, ticks),) = db.execute(f"SELECT {lengths} FROM replay")
-            if (longest or 0) > MOST_OF_LEVEL:
+            level = "length(CAST(level_text AS BLOB))"
+            lengths = f"coalesce(max({level}), 0), total({level}), total(length(inputs))"
+            ((longest, levels, ticks),) = db.execute(f"SELECT {lengths} FROM replay")
+            if longest > MOST_OF_LEVEL:
                 raise ValueError(f"a level of {longest:,} bytes, of which at most {MOST_OF_LEVEL:,} are accepted")
-            if (ticks or 0) > MOST_TICKS:
-                raise ValueError(f"replays of {ticks:,} ticks, of which at most {MOST_TICKS:,} are accepted")
+            if levels > MOST_OF_LEVELS:
+                raise ValueError(f"levels of {levels:,.0f} bytes, of which at most {MOST_OF_LEVELS:,} are accepted")
+            if ticks > MOST_TICKS:
+                raise ValueError(f"replays of {ticks:,.0f} ticks, of which at most {MOST_TICKS:,} are accepted")
         store = Store(path)
     except sqlite3.Error as error:
         raise ValueError(str(error)) from None
@@ -218,8 +232,8 @@ def _take(player: PlayerData, store: Store, files: dict[str, bytes]) -> tuple[in
     with ExitStack() as undo:
         with player.store.change() as db:
             replays = _merge(player, store, db)
-            paths = map(PurePosixPath, files)
-            taken = [str(path) for path in paths if opened(path.parent).takes(path, files[str(path)], undo)]
+            paths = map(PurePosixPath, sorted(files, key=lambda name: name.endswith(BRANCHES)))
+            taken = [str(path) for path in paths if opened(path.parent).takes(path, files, undo)]
         undo.pop_all()
     return replays, taken
 
@@ -239,8 +253,14 @@ class _Folder:
             return _without_home(content) if self._tree.root.name == EDITING else content
         return b"\0"
 
-    def takes(self, name: PurePosixPath, content: bytes, undo: ExitStack) -> bool:
-        """Put a file there if it is not there yet; whether it was not. ``undo``: gets what takes it back."""
+    def takes(self, name: PurePosixPath, files: Mapping[str, bytes], undo: ExitStack) -> bool:
+        """Put one of the files there if it is not there yet; whether it was not. ``undo``: gets what takes it back."""
+        content = files[str(name)]
+        if name.name.endswith(BRANCHES):
+            # They belong to a run of the same backup, which may have another name here.
+            run = name.with_name(name.name.removesuffix(BRANCHES))
+            if self._content(self._names.get(name_key(run.name), "")) != files.get(str(run), b""):
+                return False
         for number in count(1):
             new = name.with_stem(f"{name.stem}-{number}").name if number > 1 else name.name
             there = self._names.get(name_key(new))
@@ -284,7 +304,8 @@ def _replay(theirs: Records, number: int, memory: str) -> Replay | None:
     replay = theirs.replay(number)
     try:
         if replay and replay.level and replay.level_digest == level_digest(replay.level):
-            (recording,) = parse_replays(write_replay(replay))
+            level = replay.level
+            (recording,) = parse_replays(write_replay(replace(replay, level=None)), level=level)
             if not (problems := verify_recording(recording, memory, budget=PAGE_BUDGET).problems):
                 return replace(replay, name=replay.name[:MAX_SHOWN], author=replay.author[:MAX_SHOWN])
             theirs.store.report(f"A replay in the records does not do what it says ({problems[0]}).")

@@ -6,6 +6,7 @@ import hashlib
 import sqlite3
 from collections.abc import Iterable, Sequence
 from datetime import UTC, datetime
+from functools import lru_cache
 from typing import NamedTuple
 
 from ninja_game.errors import NinjaGameError
@@ -42,6 +43,9 @@ class SavedReplay(NamedTuple):
 
 _SAVED = ", ".join(f"replay.{name}" for name in SavedReplay._fields)
 _SAVED_KINDS = (int, str, str, str, str, str, int, int, int, str, int, int)
+
+_level = lru_cache(16)(parse_level_string)
+"""A level by its text: replays of one level often stand near each other."""
 
 _WHOLE = (
     "level, level_text, name, player, body, outcome, final_tick, gold, score, digest, inputs, made_at, kept, practice"
@@ -95,7 +99,7 @@ class Records:
             try:
                 return Replay(
                     inputs=inputs, final_tick=final_tick, outcome=outcome, gold=gold, digest=digest, name=name,
-                    author=player, body=body, level_digest=level, level=parse_level_string(text),
+                    author=player, body=body, level_digest=level, level=_level(text),
                     practice=bool(practice),
                 )  # fmt: skip
             except NinjaGameError as error:

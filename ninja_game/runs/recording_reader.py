@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
 from ninja_game.errors import BudgetError, LevelError, NinjaGameError
-from ninja_game.files.reading import LeftOut, files_below, read_text
+from ninja_game.files.reading import LeftOut, files_below
 from ninja_game.formats.ascii.reader import is_ascii_level
 from ninja_game.formats.links.fragment import is_link
 from ninja_game.formats.load import texts_of
@@ -39,26 +39,19 @@ def texts_in(paths: Iterable[Path]) -> Iterator[tuple[str, str, bool] | Unreadab
     """Name and text of every file in files, folders and links, and whether the caller named it; one at a time."""
     for path in paths:
         if is_link(path) or not path.is_dir():
-            yield from _texts_of(path, texts_of, named=True)
+            yield from _texts_of(path, named=True)
             continue
         empty = True
         for file in files_below(path):
             empty = False
-            yield from [Unreadable(str(file))] if isinstance(file, LeftOut) else _texts_of(file, _own_text, named=False)
+            yield from [Unreadable(str(file))] if isinstance(file, LeftOut) else _texts_of(file, named=False)
         if empty:
             yield Unreadable(f"{path}: no recordings here")
 
 
-def _own_text(path: Path) -> list[tuple[str, str]]:
-    """The text of a file that was found, whatever it is called."""
-    return [(str(path), read_text(path))]
-
-
-def _texts_of(
-    path: Path, read: Callable[[Path], Iterable[tuple[str, str]]], *, named: bool
-) -> Iterator[tuple[str, str, bool] | Unreadable]:
+def _texts_of(path: Path, *, named: bool) -> Iterator[tuple[str, str, bool] | Unreadable]:
     try:
-        yield from ((file, text, named) for file, text in read(path))
+        yield from ((file, text, named) for file, text in texts_of(path, named=named))
     except NinjaGameError as error:
         yield Unreadable(str(error))
     except OSError as error:

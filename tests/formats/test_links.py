@@ -297,3 +297,9 @@ def test_a_file_with_the_name_of_a_link_is_read_in_its_folder(
     assert list(texts_in([Path()])) == [(name, Path(name).read_text(), False)]
     assert is_link(name) == name.startswith("#")
     assert is_link(Path(f"https://example.org/{name}"))
+
+
+def test_a_long_text_is_told_from_a_link_in_time_of_its_length() -> None:
+    start = time.process_time()
+    assert not is_link("not " * 10**6)
+    assert time.process_time() - start < 20

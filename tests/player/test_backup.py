@@ -25,6 +25,7 @@ from ninja_game.player.backup import MOST_REPLAYS, MOST_ROWS, _Folder, read_back
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.playthrough import LevelRun
 from ninja_game.player.saving import keep_replay
+from ninja_game.player.store import schema
 from tests.support.level_maker import ROOM
 from tests.support.players import deadly_level, entry, episode, played, player_data, short_level
 
@@ -168,6 +169,17 @@ def test_records_whose_pages_lead_in_circles_are_refused(tmp_path: Path) -> None
         read_backup(player_data(tmp_path / "to"), (tmp_path / "all.zip").read_bytes())
 
 
+def test_own_records_whose_pages_lead_in_circles_are_put_aside(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    endless = "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT max(i) FROM n"
+    filled(tmp_path)
+    looks = iter([endless])
+    monkeypatch.setattr(schema, "MOST_STEPS", 1)
+    monkeypatch.setattr(schema, "_check_tables", lambda db: db.execute(next(looks, "SELECT 1")).fetchall())
+    data = player_data(tmp_path)
+    assert not data.records.replays()
+    assert "damaged (its pages lead in circles)" in "".join(data.messages)
+
+
 def test_names_that_are_one_file_on_some_system_stand_beside_each_other(tmp_path: Path) -> None:
     backup = filled(tmp_path / "from")
     with ZipFile(backup, "a") as archive:
@@ -255,6 +267,7 @@ def with_records(backup: Path, *statements: str) -> bytes:
 
 
 NOTHING = "NULL, '', '', '', '', '', '', 0, 0, 0, '', '', '', 1, 0"
+NOTHING_OF_A_MEGABYTE = NOTHING.replace("''", "hex(zeroblob(500000))", 2).replace("hex(zeroblob(500000))", "''", 1)
 COUNTING = "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < {}) "
 
 
@@ -269,6 +282,7 @@ COUNTING = "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHER
         ("CREATE VIEW saved AS SELECT * FROM replay", "the view saved is not ours"),
         ("CREATE TABLE more (a)", "the table more is not ours"),
         ("UPDATE replay SET level_text = level_text || hex(zeroblob(600000))", "a level of"),
+        (f"INSERT INTO replay {COUNTING.format(20)} SELECT {NOTHING_OF_A_MEGABYTE} FROM n", "levels of"),
         ("UPDATE replay SET inputs = zeroblob(2000000)", "replays of"),
         ("PRAGMA user_version = 99", "a game that is newer"),
         ("PRAGMA user_version = 4", "a game that is older"),
@@ -307,6 +321,36 @@ def test_what_replays_claim_and_do_not_do_is_left_out(tmp_path: Path) -> None:
     assert here.store.connection.execute("SELECT DISTINCT player FROM replay WHERE player = 'eve'").fetchall() == []
     assert here.records.episode_best(episode().key) is None
     assert [best.gold for best in here.records.level_bests("circle").values()] != [1000]
+
+
+@pytest.mark.parametrize("name", ["levels/desktop.ini", "replays/a.lnk", "exports/b.bat", "levels/x.txt.lock"])
+def test_a_file_that_a_system_may_start_is_left_out(name: str, tmp_path: Path) -> None:
+    backup = filled(tmp_path / "from")
+    with ZipFile(backup, "a") as archive:
+        archive.writestr(name, "untrusted")
+    lines = read_backup(player_data(tmp_path / "to"), backup.read_bytes())
+    assert f"left out: {name}: no file of a player's" in lines
+    assert not (tmp_path / "to" / name).exists()
+
+
+def test_branches_come_with_their_run_alone(tmp_path: Path) -> None:
+    backup = filled(tmp_path / "from")
+    here = player_data(tmp_path / "to")
+    (tmp_path / "to" / "replays" / "mine.txt").write_text("my run")
+    with ZipFile(backup, "a") as archive:
+        for name in ("mine.txt", "mine.txt.branches.json", "new.txt", "new.txt.branches.json", "no.txt.branches.json"):
+            archive.writestr(f"replays/{name}", "theirs")
+    read_backup(here, backup.read_bytes())
+    there = {path.name for path in (tmp_path / "to" / "replays").iterdir()}
+    assert there == {"mine.txt", "mine-2.txt", "new.txt", "new.txt.branches.json"}
+
+
+def test_an_address_for_links_that_changes_is_told(tmp_path: Path) -> None:
+    data = player_data(tmp_path / "from")
+    data.change_settings(data.settings.changed(site="https://other.example/"))
+    write_backup(data, tmp_path / "all.zip")
+    lines = read_backup(player_data(tmp_path / "to"), (tmp_path / "all.zip").read_bytes())
+    assert "links lead to https://other.example/ now" in lines
 
 
 def test_a_level_under_edit_that_is_none_or_too_large_is_left_out(tmp_path: Path) -> None:

@@ -138,6 +138,7 @@ def server(tmp_path: Path) -> ThreadingHTTPServer:
     (tmp_path / "a.wasm").write_bytes(b"\0asm")
     (tmp_path / "manifest.webmanifest").write_text("{}")
     (tmp_path / "empty").mkdir()
+    (tmp_path / "link.txt").symlink_to(Path(__file__))
     server = site_server(tmp_path, 0)
     threading.Thread(target=server.serve_forever, daemon=True).start()
     return server
@@ -149,9 +150,10 @@ def test_the_local_server_names_the_kinds_of_files_and_lists_nothing(server: Thr
         for name, kind in (("a.wasm", "application/wasm"), ("manifest.webmanifest", "application/manifest+json")):
             with urllib.request.urlopen(f"{address}/{name}") as answer:
                 assert (answer.headers["Content-Type"], answer.headers["Cache-Control"]) == (kind, "no-cache")
-        with pytest.raises(urllib.error.HTTPError, match="404") as refused:
-            urllib.request.urlopen(f"{address}/empty/")
-        refused.value.close()
+        for name in ("empty/", "%00", "link.txt"):
+            with pytest.raises(urllib.error.HTTPError, match="404") as refused:
+                urllib.request.urlopen(f"{address}/{name}")
+            refused.value.close()
         with pytest.raises(NinjaGameError, match="--port"):
             site_server(Path(), server.server_port)
     finally:

@@ -25,7 +25,7 @@ from ninja_game.files.shown_text import file_stem, shown_text
 from ninja_game.files.user_folder import RECORDS
 from ninja_game.formats.ascii.reader import parse_ascii_level, write_ascii_level
 from ninja_game.formats.ascii.writer import same_record
-from ninja_game.formats.links.fragment import read_link, watched, write_link
+from ninja_game.formats.links.fragment import is_link, read_link, watched, write_link
 from ninja_game.formats.links.making import recordings_of as watched_recordings
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.n14.demo import parse_demo, write_demo
@@ -213,7 +213,8 @@ def _pack(pack: Pack) -> None:
 def _link(text: str) -> None:
     watched(text)
     kind = read_link(text).kind
-    _pack(Pack(Path(text))) if kind == "pack" else load_replays(text) if kind == "replay" else load_levels(text)
+    link = text if is_link(text) else f"#{text.partition('#')[2]}"
+    _pack(Pack(Path(link))) if kind == "pack" else load_replays(link) if kind == "replay" else load_levels(link)
 
 
 def _settings(path: Path) -> None:

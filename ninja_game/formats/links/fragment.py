@@ -32,7 +32,7 @@ MOST_TEXTS = 9
 
 _PART = re.compile(r"(level|pack|replay)=([0-9]{1,4})\.([A-Za-z0-9_-]*)")
 _STEM = re.compile(r"[0-9a-f]{16}")
-_ADDRESS = re.compile(r"[a-z]{2,}:/", re.IGNORECASE)
+_ADDRESS = re.compile(r"[a-z]{2}:/", re.IGNORECASE)
 _AROUND = "\0 \t\r\n.,;:!?)>]}\"'"
 """What people and programs write behind a link."""
 

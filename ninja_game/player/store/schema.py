@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import sqlite3
-from contextlib import closing
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from itertools import count
 from pathlib import Path
 from urllib.parse import quote
 
@@ -15,6 +17,9 @@ OPENING_SECONDS = 1.0
 
 MOST_CELL_BYTES = 2**26
 """Of a value, and of a row; SQLite itself makes values of a gigabyte where a file asks for it."""
+
+MOST_STEPS = 30
+"""Millions of instructions of SQLite to look through a file: some four seconds; the records of years take one."""
 
 _WRITE_VERSION = 18
 """Place of the byte in a file's header that is 1 or 2 where SQLite may write it."""
@@ -110,8 +115,9 @@ def open_database(name: str, source: Path | None = None, seconds: float = OPENIN
         connection.text_factory = _text
         if source is not None:
             _copy(source, connection)
-        _check_file(connection, name)
-        _check_tables(connection)
+        with bounded(connection):
+            _check_file(connection, name)
+            _check_tables(connection)
         if connection.execute("PRAGMA journal_mode").fetchone()[0] != "wal":
             connection.execute("PRAGMA journal_mode = WAL")
         connection.execute("PRAGMA synchronous = FULL")
@@ -126,6 +132,21 @@ def open_database(name: str, source: Path | None = None, seconds: float = OPENIN
         connection.close()
         raise
     return connection
+
+
+@contextmanager
+def bounded(connection: sqlite3.Connection) -> Iterator[None]:
+    """Let what is asked of a file end, whatever its pages say. Raises sqlite3.DatabaseError where it would not."""
+    steps = count(1)
+    connection.set_progress_handler(lambda: next(steps) > MOST_STEPS, 1_000_000)
+    try:
+        yield
+    except sqlite3.OperationalError as error:
+        if error.sqlite_errorcode == sqlite3.SQLITE_INTERRUPT:
+            raise sqlite3.DatabaseError("its pages lead in circles") from None
+        raise
+    finally:
+        connection.set_progress_handler(None, 0)
 
 
 def copy_in_memory(path: Path) -> sqlite3.Connection:

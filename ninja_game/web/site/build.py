@@ -7,6 +7,7 @@ import hashlib
 import io
 import json
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
@@ -175,6 +176,14 @@ class _Handler(SimpleHTTPRequestHandler):
         self.send_header("Cache-Control", "no-cache")
         self.send_header("X-Content-Type-Options", "nosniff")
         super().end_headers()
+
+    def send_head(self) -> Any:
+        """The file that is asked for; 404 for one behind a link to elsewhere, and for a name that no file can have."""
+        with suppress(ValueError, OSError):
+            if Path(self.translate_path(self.path)).resolve().is_relative_to(Path(self.directory).resolve()):
+                return super().send_head()
+        self.send_error(404)
+        return None
 
     def list_directory(self, path: Any) -> None:  # noqa: ARG002 - the base class names it
         """Say that there is nothing."""
