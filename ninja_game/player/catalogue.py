@@ -5,7 +5,7 @@ Levels of a pack that no episode has are single levels.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
@@ -213,23 +213,9 @@ class Catalogue:
         stamp = state.st_mtime_ns, state.st_size
         known = self._read.get(file)
         if known is None or known.stamp != stamp:
-            before = len(self.problems)
-            entries = [Entry(level, "yours") for level in self._load([file])]
-            known = self._read[file] = _ReadFile(stamp, entries, self.problems[before:])
-        else:
-            self.problems += known.problems
+            known = self._read[file] = _read(file, stamp)
+        self.problems += known.problems
         return known.entries
-
-    def _load(self, files: Iterable[Path]) -> list[NamedLevel]:
-        found: list[NamedLevel] = []
-        for file in files:
-            try:
-                found += load_levels(file)
-            except NinjaGameError as error:
-                self.problems.append(str(error))
-            except OSError as error:
-                self.problems.append(f"{file.name}: {error.strerror}")
-        return found
 
 
 def _stamp(path: Path) -> list[tuple[str, int, int]]:
@@ -248,3 +234,12 @@ class _ReadFile(NamedTuple):
     stamp: tuple[int, int]
     entries: list[Entry]
     problems: list[str]
+
+
+def _read(file: Path, stamp: tuple[int, int]) -> _ReadFile:
+    try:
+        return _ReadFile(stamp, [Entry(level, "yours") for level in load_levels(file)], [])
+    except NinjaGameError as error:
+        return _ReadFile(stamp, [], [str(error)])
+    except OSError as error:
+        return _ReadFile(stamp, [], [f"{file.name}: {error.strerror}"])

@@ -9,8 +9,7 @@ import pytest
 
 from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.ui.glyphs import GLYPHS
-from ninja_game.play.ui.lettering import Lettering
-from ninja_game.play.ui.stroke_font import StrokeFont, glyph
+from ninja_game.play.ui.lettering import Lettering, StrokeFont, glyph
 from ninja_game.play.ui.theme import CLASSIC, Theme, wrapped
 
 

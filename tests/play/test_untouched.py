@@ -11,7 +11,7 @@ from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.view.level_view import LevelView, OffscreenContext
 from ninja_game.play.view.overlays import OVERLAY_ACTIONS
-from ninja_game.player.level_context import GhostRun
+from ninja_game.player.playthrough import GhostRun
 from ninja_game.simulation import Simulation
 from tests.support.own_pack import PACK
 from tests.support.scripted import frames, level_run, press, release, scripted_app

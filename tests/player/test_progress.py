@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from ninja_game.player.level_context import Navigation
-from ninja_game.player.playthrough import EpisodeRun, LevelRun
+from ninja_game.player.playthrough import EpisodeRun, LevelRun, Navigation
 from ninja_game.player.progress import CHEATED, LOCKED, UNLOCKED, Progress, complete_columns, new_unlocks
 from ninja_game.player.statistics import SELF
 from ninja_game.player.store import Store

@@ -11,8 +11,7 @@ from ninja_game.play.input.bindings import Bindings
 from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.level_context import GhostRun
-from ninja_game.player.playthrough import LevelRun
+from ninja_game.player.playthrough import GhostRun, LevelRun
 from ninja_game.sim import kinds
 from ninja_game.sim.level import Level, ObjectSpec
 

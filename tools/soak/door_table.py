@@ -40,7 +40,7 @@ from ninja_game.formats.recording import parse_replays, record_of
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.formats.tas_lines import write_celeste, write_libtas
 from ninja_game.levels.warnings import level_warnings
-from ninja_game.play.ui.stroke_font import StrokeFont
+from ninja_game.play.ui.lettering import StrokeFont
 from ninja_game.play.ui.text_entry import EditedText
 from ninja_game.player.backup import read_backup
 from ninja_game.player.player_data import PlayerData

@@ -18,9 +18,9 @@ from ninja_game.files.user_folder import LEVELS, free_path
 from ninja_game.formats.ascii.writer import HEADER_KEYS
 from ninja_game.play.app import App
 from ninja_game.play.editor.controls import COMMANDS
-from ninja_game.play.editor.marks import finding_points
 from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.session import EditorSession
+from ninja_game.play.editor.sheet import finding_points
 from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.editor.view import EditorView
 from ninja_game.play.menus.browser import LevelChoice

@@ -9,7 +9,7 @@ from ninja_game.play.app import App
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.level_context import GhostRun, LevelContext, Navigation
+from ninja_game.player.playthrough import GhostRun, LevelContext, Navigation
 from ninja_game.sim.level import Level
 
 Left = Callable[[bytes], object]

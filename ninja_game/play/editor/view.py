@@ -13,10 +13,9 @@ from ninja_game.editor.specs import BODY, SWITCH, carried, points
 from ninja_game.editor.stamp import CellArea, area_between, nearest
 from ninja_game.editor.tools import PICK_REACH, EditorTools
 from ninja_game.play.app import App
-from ninja_game.play.editor.marks import GRIDS, MIDDLE, Grid, finding_points, level_marks
 from ninja_game.play.editor.palette_view import tile_icon
 from ninja_game.play.editor.session import EditorSession
-from ninja_game.play.editor.sheet import LevelSheet, joined
+from ninja_game.play.editor.sheet import GRIDS, MIDDLE, Grid, LevelSheet, finding_points, joined, level_marks
 from ninja_game.play.ui.canvas import Canvas, Colour, Point
 from ninja_game.play.ui.theme import Area, Palette, Theme
 from ninja_game.play.ui.widgets import Widget

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import tomllib
 from collections.abc import Callable, Iterable, Sequence
-from functools import cache
+from functools import cache, partial
 from itertools import product
 from math import atan2, cos, pi, sin
 from pathlib import Path
@@ -245,6 +245,8 @@ class Stage:
 Control = Callable[[Area], Widget]
 """Makes a widget in an area."""
 
+Span = tuple[float, float, float]
+
 Value = TypeVar("Value")
 
 
@@ -299,6 +301,15 @@ class Figure:
         """Sliders and choices, at most four."""
         return ()
 
+    def choice(self, text: str, options: Sequence[tuple[str, object]], name: str) -> Control:
+        """A control that sets an attribute to one of several values."""
+        return lambda area: Choice(area, text, options, partial(getattr, self, name), partial(setattr, self, name))
+
+    def slider(self, text: str, span: Span, name: str, show: Callable[[float], str] = "{:.0f}".format) -> Control:
+        """A control that sets an attribute to a number; ``span``: least, greatest, step."""
+        get, put = partial(getattr, self, name), partial(setattr, self, name)
+        return lambda area: Slider(area, text, span, get, put, show=show)
+
     def drag(self, x: float, y: float) -> None:
         """The mouse is at a point of the world with its button down: the handle goes there, within what is seen."""
         left, top, zoom = self.view
@@ -337,23 +348,3 @@ ELSEWHERE = "ninja 700,500px"
 def room_world(rows: Sequence[str], objects: Sequence[str] = ()) -> tuple[TileMap, World]:
     """A world of the plain memory: a room in the upper left corner, solid all around, the ninja elsewhere."""
     return load_plain(room_level(rows, [*objects, ELSEWHERE]), box=False)
-
-
-def choice(text: str, options: Sequence[tuple[str, object]], figure: object, name: str) -> Control:
-    """A control that sets an attribute of a figure to one of several values."""
-    return lambda area: Choice(
-        area, text, options, lambda: getattr(figure, name), lambda value: setattr(figure, name, value)
-    )
-
-
-def slider(
-    text: str,
-    span: tuple[float, float, float],
-    figure: object,
-    name: str,
-    show: Callable[[float], str] = "{:.0f}".format,
-) -> Control:
-    """A control that sets an attribute of a figure to a number: least, greatest, step."""
-    return lambda area: Slider(
-        area, text, span, lambda: getattr(figure, name), lambda value: setattr(figure, name, value), show=show
-    )

@@ -11,7 +11,13 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.play.app import App
 from ninja_game.play.clock import RunClock
 from ninja_game.play.lab.figure import FIGURE, Figure, Sheet
-from ninja_game.play.lab.figures.catalogue import FIGURES
+from ninja_game.play.lab.figures.cells import CellsTouched, NineCells
+from ninja_game.play.lab.figures.drones import WalkingEnemies
+from ninja_game.play.lab.figures.edges import EdgeStates
+from ninja_game.play.lab.figures.grids import Bullets, FiveCells, LooseGrid
+from ninja_game.play.lab.figures.one_tick import OneTick
+from ninja_game.play.lab.figures.projection import Projection
+from ninja_game.play.lab.figures.rays import RayCast
 from ninja_game.play.menus.menu_screen import DIRECTIONS, MenuScreen
 from ninja_game.play.replay.film import write_gif
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
@@ -197,3 +203,13 @@ def export_figure(name: str, path: Path, *, scale: float = 1.0) -> None:
         write_gif(pictures, FILM_TICKS, path, size, 1.0, palette)
     else:
         raise NinjaGameError(f"{path}: a figure is written as .png or .gif")
+
+
+FIGURES: dict[str, type[Figure]] = {
+    figure.name: figure
+    for figure in (
+        CellsTouched, EdgeStates, Projection, LooseGrid, NineCells, FiveCells, Bullets, RayCast, WalkingEnemies,
+        OneTick,
+    )
+}  # fmt: skip
+"""By the name that the command line has for each."""

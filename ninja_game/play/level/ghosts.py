@@ -11,7 +11,7 @@ from ninja_game.play.replay.playback import Playback
 from ninja_game.play.ui.canvas import Point
 from ninja_game.play.ui.theme import Palette
 from ninja_game.play.view.ninja.ninja_animation import NinjaAnimation
-from ninja_game.player.level_context import GhostRun
+from ninja_game.player.playthrough import GhostRun
 from ninja_game.sim.level import Level
 from ninja_game.sim.states import CELEBRATING, DEAD
 from ninja_game.simulation import Body, Simulation

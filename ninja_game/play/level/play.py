@@ -11,7 +11,7 @@ from ninja_game.play.level.ghosts import Ghost
 from ninja_game.play.replay.playback import Playback
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.player.attempt import Attempt, Moment
-from ninja_game.player.level_context import LevelContext
+from ninja_game.player.playthrough import LevelContext
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.rules import LIFETIME
 

@@ -23,8 +23,7 @@ from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.view.overlays import Overlays
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.level_context import LevelContext, Navigation
-from ninja_game.player.playthrough import EpisodeRun, LevelRun
+from ninja_game.player.playthrough import EpisodeRun, LevelContext, LevelRun, Navigation
 from ninja_game.player.saving import keep_replay
 from ninja_game.sim.inputs import JUMP_HELD
 

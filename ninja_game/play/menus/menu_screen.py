@@ -9,8 +9,7 @@ import pygame
 
 from ninja_game.play.app import App, Screen
 from ninja_game.play.input.bindings import InputEvent
-from ninja_game.play.input.held import HeldKey
-from ninja_game.play.input.keys import scancode_of
+from ninja_game.play.input.keys import HeldKey, scancode_of
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.text_entry import TextEntry

@@ -24,7 +24,7 @@ from ninja_game.play.level.hud import Hud
 from ninja_game.play.replay.playback import Playback
 from ninja_game.play.ui.theme import ROLES, Palette, mixed, palette_named
 from ninja_game.play.view.level_view import LevelView, OffscreenContext
-from ninja_game.player.level_context import GhostRun
+from ninja_game.player.playthrough import GhostRun
 from ninja_game.player.settings import Settings
 from ninja_game.runtime import require_desktop, run_in_background
 from ninja_game.sim.rules import TICKS_PER_SECOND

@@ -21,7 +21,7 @@ from ninja_game.play.replay.film import FilmJob
 from ninja_game.play.replay.playback import Playback, ReplayBar
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.overlays import Overlays
-from ninja_game.player.level_context import GhostRun
+from ninja_game.player.playthrough import GhostRun
 from ninja_game.sim.rules import TICK_MS, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 

@@ -15,7 +15,7 @@ from ninja_game.errors import FileError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.tree import Tree
 from ninja_game.play.ui.glyphs import CAP
-from ninja_game.play.ui.stroke_font import SPACING, WEIGHTS, glyph
+from ninja_game.play.ui.lettering import SPACING, WEIGHTS, glyph
 from ninja_game.play.ui.theme import PALETTES, Palette, mixed
 from ninja_game.play.window import icon
 

@@ -15,7 +15,6 @@ from PIL import Image
 from ninja_game.cli import windows
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.lab.figure import FIGURE, Figure, room_world
-from ninja_game.play.lab.figures.catalogue import FIGURES
 from ninja_game.play.lab.figures.cells import CellsTouched, NineCells
 from ninja_game.play.lab.figures.drones import WalkingEnemies
 from ninja_game.play.lab.figures.edges import STATES, EdgeStates
@@ -23,7 +22,7 @@ from ninja_game.play.lab.figures.grids import Bullets, FiveCells, LooseGrid
 from ninja_game.play.lab.figures.one_tick import PHASES, PLAYED, OneTick
 from ninja_game.play.lab.figures.projection import PUSH, Projection
 from ninja_game.play.lab.figures.rays import RayCast
-from ninja_game.play.lab.screen import FILM_TICKS, FigureArea, LabScreen, export_figure, figure_pictures
+from ninja_game.play.lab.screen import FIGURES, FILM_TICKS, FigureArea, LabScreen, export_figure, figure_pictures
 from ninja_game.play.menus.help import room_level
 from ninja_game.sim.collision.box import collide_box
 from ninja_game.sim.collision.circle import collide_circle

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ninja_game.play.lab.figure import CORNER, Control, Figure, Sheet, choice, room_world, watch
+from ninja_game.play.lab.figure import CORNER, Control, Figure, Sheet, room_world, watch
 from ninja_game.play.view.overlays import hit_shapes, touched_cells
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, COLUMN, EXISTS, ROW
 from ninja_game.sim.events import EVENT_NAMES
@@ -25,7 +25,7 @@ class CellsTouched(Figure):
     box = False
 
     def controls(self) -> Sequence[Control]:
-        return [choice("Body", BODIES, self, "box")]
+        return [self.choice("Body", BODIES, "box")]
 
     @property
     def cell(self) -> int:

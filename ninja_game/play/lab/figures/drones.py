@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from ninja_game.formats.ascii.legend import DIRECTION_WORDS
 from ninja_game.formats.ascii.object_forms import MOVEMENTS
-from ninja_game.play.lab.figure import ELSEWHERE, Control, Figure, FigureSetting, Sheet, Stage, choice
+from ninja_game.play.lab.figure import ELSEWHERE, Control, Figure, FigureSetting, Sheet, Stage
 from ninja_game.play.lab.figures.edges import STATES
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, NEIGHBOUR_OFFSET, UNIT_X, UNIT_Y
 from ninja_game.sim.grid import cell_at
@@ -33,7 +33,7 @@ class WalkingEnemies(Figure):
         self.decided: dict[int, tuple[int, int, int]] = {}
 
     def controls(self) -> Sequence[Control]:
-        return [choice("Movement", [(name.replace("-", " "), name) for name in MOVEMENTS], self, "movement")]
+        return [self.choice("Movement", [(name.replace("-", " "), name) for name in MOVEMENTS], "movement")]
 
     def _of_kind(self, kind: int) -> list[Object]:
         world = self.stage.world

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from ninja_game.editor.brush import tile_name
 from ninja_game.formats.ascii.legend import TILE_CHARS
-from ninja_game.play.lab.figure import Control, Figure, FigureSetting, Sheet, choice, room_world, slider
+from ninja_game.play.lab.figure import Control, Figure, FigureSetting, Sheet, room_world
 from ninja_game.sim.collision.tiles import (
     CENTRE_X,
     CENTRE_Y,
@@ -56,9 +56,9 @@ class EdgeStates(Figure):
     def controls(self) -> Sequence[Control]:
         """The tile to paint, the side to explain, the door."""
         return [
-            slider("Tile to paint", (0, 33, 1), self, "tile", lambda number: tile_name(int(number))),
-            choice("Side", SIDES, self, "side"),
-            choice("Door", (("closed", False), ("open", True)), self, "is_open"),
+            self.slider("Tile to paint", (0, 33, 1), "tile", lambda number: tile_name(int(number))),
+            self.choice("Side", SIDES, "side"),
+            self.choice("Door", (("closed", False), ("open", True)), "is_open"),
         ]
 
     def press(self, x: float, y: float) -> None:

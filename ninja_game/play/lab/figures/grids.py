@@ -9,7 +9,7 @@ from itertools import combinations, pairwise
 from random import Random
 from typing import NamedTuple
 
-from ninja_game.play.lab.figure import FIELD, FIGURE, Control, Figure, FigureSetting, Sheet, choice, slider
+from ninja_game.play.lab.figure import FIELD, FIGURE, Control, Figure, FigureSetting, Sheet
 from ninja_game.sim.grid import cell_at, grid_insert, grid_move
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import World
@@ -145,9 +145,9 @@ class LooseGrid(Figure):
 
     def controls(self) -> Sequence[Control]:
         return [
-            slider("Objects", (10, 400, 10), self, "count"),
-            slider("Radius, px", (2, 11, 1), self, "radius"),
-            choice("Plot", (("changes", 0), ("tests", 1)), self, "plot"),
+            self.slider("Objects", (10, 400, 10), "count"),
+            self.slider("Radius, px", (2, 11, 1), "radius"),
+            self.choice("Plot", (("changes", 0), ("tests", 1)), "plot"),
         ]
 
     def demonstrate(self, tick: int) -> None:
@@ -230,7 +230,7 @@ class FiveCells(Figure):
         self.truth = {(a.slot, b.slot) for a, b in combinations(objects, 2) if self.crowd.meet(a, b)}
 
     def controls(self) -> Sequence[Control]:
-        return [slider("Objects", (10, 200, 10), self, "count"), slider("Tests a tick", (1, 40, 1), self, "speed")]
+        return [self.slider("Objects", (10, 200, 10), "count"), self.slider("Tests a tick", (1, 40, 1), "speed")]
 
     def demonstrate(self, tick: int) -> None:
         if self.done and tick % 80 == 0:
@@ -292,8 +292,8 @@ class Bullets(Figure):
 
     def controls(self) -> Sequence[Control]:
         return [
-            slider("Bullets", (100, 3000, 100), self, "count"),
-            choice("Filed too", (("no", False), ("yes", True)), self, "filed"),
+            self.slider("Bullets", (100, 3000, 100), "count"),
+            self.choice("Filed too", (("no", False), ("yes", True)), "filed"),
         ]
 
     def demonstrate(self, tick: int) -> None:

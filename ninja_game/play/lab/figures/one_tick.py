@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ninja_game.play.lab.figure import Call, Control, Figure, Sheet, Stage, choice, slider
+from ninja_game.play.lab.figure import Call, Control, Figure, Sheet, Stage
 from ninja_game.play.menus.help import strokes
 from ninja_game.play.view.overlays import touched_cells
 from ninja_game.sim.collision.tiles import EXISTS
@@ -55,7 +55,7 @@ class OneTick(Figure):
         self.at = 0.0
 
     def controls(self) -> Sequence[Control]:
-        return [choice("Keys", KEYS, self, "keys"), slider("Calls a second", (1, 400, 1), self, "speed")]
+        return [self.choice("Keys", KEYS, "keys"), self.slider("Calls a second", (1, 400, 1), "speed")]
 
     def press(self, x: float, y: float) -> None:
         self._forward(1)

@@ -8,18 +8,7 @@ from typing import NamedTuple
 
 from ninja_game.editor.brush import tile_name
 from ninja_game.formats.ascii.legend import TILE_CHARS
-from ninja_game.play.lab.figure import (
-    Call,
-    Control,
-    Figure,
-    FigureSetting,
-    Sheet,
-    View,
-    choice,
-    room_world,
-    slider,
-    watch,
-)
+from ninja_game.play.lab.figure import Call, Control, Figure, FigureSetting, Sheet, View, room_world, watch
 from ninja_game.play.lab.figures.cells import BODIES
 from ninja_game.play.ui.canvas import Point
 from ninja_game.sim.collision.box import collide_box
@@ -83,8 +72,8 @@ class Projection(Figure):
 
     def controls(self) -> Sequence[Control]:
         return [
-            slider("Tile", (1, 33, 1), self, "tile", lambda number: tile_name(int(number))),
-            choice("Body", BODIES, self, "box"),
+            self.slider("Tile", (1, 33, 1), "tile", lambda number: tile_name(int(number))),
+            self.choice("Body", BODIES, "box"),
         ]
 
     def demonstrate(self, tick: int) -> None:

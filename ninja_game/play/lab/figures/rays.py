@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import dist
 
-from ninja_game.play.lab.figure import Control, Figure, Sheet, choice, room_world, values_of, watch
+from ninja_game.play.lab.figure import Control, Figure, Sheet, room_world, values_of, watch
 from ninja_game.play.ui.canvas import Point
 from ninja_game.sim.collision.rays import cast, ray_circle, ray_tiles, sees
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS
@@ -29,7 +29,7 @@ class RayCast(Figure):
         self.world.ninja.x, self.world.ninja.y = NINJA
 
     def controls(self) -> Sequence[Control]:
-        return [choice("Arrows move", (("the end", "end"), ("the start", "start")), self, "moves")]
+        return [self.choice("Arrows move", (("the end", "end"), ("the start", "start")), "moves")]
 
     def press(self, x: float, y: float) -> None:
         self.moves = "start" if dist((x, y), (self.from_x, self.from_y)) < dist((x, y), (self.x, self.y)) else "end"

@@ -9,9 +9,8 @@ import pygame
 
 from ninja_game.play.ui.canvas import Point
 from ninja_game.play.ui.theme import mixed
-from ninja_game.play.view.ninja.dances import DANCES
 from ninja_game.play.view.ninja.figure import HEAD, band_ends, ninja_sprite, paint_arm, paint_leg
-from ninja_game.play.view.ninja.pose import CYCLE, SKID, SLIDE, STAND, Pose, air_pose, run_pose
+from ninja_game.play.view.ninja.pose import CYCLE, DANCES, SKID, SLIDE, STAND, Pose, air_pose, run_pose
 from ninja_game.play.view.ninja.ragdoll import PELVIS, SHOULDER, TRUNK, Ragdoll
 from ninja_game.play.view.sprites.drawing import DrawTarget, is_near
 from ninja_game.play.view.sprites.sketch import Sketch
