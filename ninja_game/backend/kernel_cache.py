@@ -12,6 +12,8 @@ from __future__ import annotations
 
 import os
 import pickle
+import re
+import stat
 import time
 from collections.abc import Callable, Iterable
 from contextlib import suppress
@@ -25,6 +27,7 @@ from uuid import uuid4
 from ninja_game.backend.numba_import import say_once
 from ninja_game.errors import FileError
 from ninja_game.files.locking import LOCK_SUFFIX, hold
+from ninja_game.files.reading import open_regular
 from ninja_game.files.user_folder import PACKAGE, chosen_folder
 from ninja_game.sim.memory.code_digest import OPTIONS, code_digest
 
@@ -39,6 +42,8 @@ KEPT_FILES = 200
 
 PATIENCE = 120
 """Seconds to wait for a process that compiles the same kernel; then this one compiles it too."""
+
+_KERNEL = re.compile(r"[a-z_]+-[0-9a-f]{32}-[0-9a-f]{16}\.code")
 
 COMPILES_AGAIN = "; it works, but compiles again in the next process"
 
@@ -59,7 +64,12 @@ def kernel_name(entry: Callable[..., Any], checked: bool) -> str:
 
 def are_kept(entries: Iterable[Callable[..., Any]], checked: bool) -> bool:
     """Whether there is machine code of all these entry points."""
-    kept = {path.stem.rpartition("-")[0] for folder in (SHIPPED, cache_folder()) for path in folder.glob("*.code")}
+    kept = {
+        path.stem.rpartition("-")[0]
+        for folder in (SHIPPED, cache_folder())
+        for path in folder.glob("*.code")
+        if path.is_file()
+    }
     return kept >= {kernel_name(entry, checked) for entry in entries}
 
 
@@ -99,13 +109,16 @@ def _system_folder() -> Path:
 
 
 def forget_old_code(folder: Path) -> None:
-    """Remove all but the newest files of a cache folder; what cannot be removed stays."""
-    try:
-        files = sorted(folder.glob("*.code"), key=lambda path: path.stat().st_mtime, reverse=True)
-        for path in files[KEPT_FILES:]:
+    """Remove all but the newest kernels of a cache folder; what cannot be removed stays."""
+    dated = []
+    for path in folder.glob("*.code"):
+        with suppress(OSError):
+            about = path.lstat()
+            if _KERNEL.fullmatch(path.name) and stat.S_ISREG(about.st_mode):
+                dated.append((about.st_mtime, path))
+    for _, path in sorted(dated, reverse=True)[KEPT_FILES:]:
+        with suppress(OSError):
             path.unlink()
-    except OSError:
-        return
 
 
 class KernelCache:
@@ -194,7 +207,8 @@ def _read(path: Path, context: Any) -> Any:
 
     rebuild: Any = CompileResult._rebuild  # noqa: SLF001 - as Numba's own caches do
     try:
-        data = path.read_bytes()
+        with open_regular(path) as file:
+            data = file.read()
         if sha256(data[32:]).digest() == data[:32]:
             return rebuild(context, *pickle.loads(data[32:]))  # noqa: S301 - our own file
     except Exception:  # noqa: BLE001 - whatever a damaged file leads to: it is compiled and written again
