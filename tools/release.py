@@ -187,7 +187,7 @@ def bump(version: str) -> None:
 def main(words: Sequence[str] | None = None) -> None:
     """Build, and try what was built."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--out", type=Path, default=ROOT / "dist", help="a folder that is made anew (./dist)")
+    parser.add_argument("--out", type=Path, default=ROOT / "dist", help="this folder is replaced (./dist)")
     parser.add_argument("--bump", metavar="VERSION", help="set the next version, and build nothing")
     parser.add_argument("--only", choices=["wheels", "archive", "site"], help="this part, without trials")
     options = parser.parse_args(words)
