@@ -10,12 +10,12 @@ from pathlib import Path
 from ninja_game.errors import LevelError, ReplayError
 from ninja_game.files.beside import read_beside
 from ninja_game.formats.ascii.places import shown
-from ninja_game.formats.ascii.reader import is_ascii_level, parse_ascii_level
+from ninja_game.formats.ascii.reader import parse_ascii_level
+from ninja_game.formats.forms import Form, form_of
 from ninja_game.formats.lines import numbered_lines
-from ninja_game.formats.n14.level_file import MARKER, LevelRecord, read_level_file
+from ninja_game.formats.n14.level_file import LevelRecord, read_level_file
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, tidy_level_string
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay
-from ninja_game.formats.tas_lines import is_tas_text
 from ninja_game.sim.level import TILES, Level
 
 # What the object half of an in-game string is made of, numbers that no object can have included.
@@ -27,7 +27,7 @@ _TILE = re.compile(r"[0-Q]")
 class NamedLevel:
     """A level with what its file says about it; only our readable files say what a level ``teaches``.
 
-    ``form``: "ascii", "string", "file" or "replay", the format it was found in; ``record`` (from 0) and ``line`` (from
+    ``form``: the format it was found in; ``record`` (from 0) and ``line`` (from
     1): where in ``file``.
     """
 
@@ -38,7 +38,7 @@ class NamedLevel:
     file: str
     record: int = 0
     line: int = 1
-    form: str = "file"
+    form: Form = "file"
     teaches: str = ""
 
     @property
@@ -49,15 +49,16 @@ class NamedLevel:
 
 def parse_levels(text: str, *, file: str = "") -> list[NamedLevel]:
     """All levels in a text of any format. Raises LevelError or ReplayError."""
-    if is_replay(text):
+    form = form_of(text)
+    if form == "replay":
         replay = parse_replay(text, file=file)
         level, name = level_of_replay(replay, file), replay.level_name or replay.name
-        return [NamedLevel(name, replay.level_author, "", level, file, form="replay")]
-    if is_ascii_level(text):
+        return [NamedLevel(name, replay.level_author, "", level, file, form=form)]
+    if form == "ascii":
         read = parse_ascii_level(text, file=file)
         name = read.name or Path(file).stem
-        return [NamedLevel(name, read.author, read.comment, read.level, file, form="ascii", teaches=read.teaches)]
-    if is_level_file(text):
+        return [NamedLevel(name, read.author, read.comment, read.level, file, form=form, teaches=read.teaches)]
+    if form == "file":
         levels = [_named(record, file) for record in read_level_file(text, file=file) if record.level]
         if not levels:
             raise LevelError("recordings without their levels", file, hint="give the level file")
@@ -74,14 +75,6 @@ def _named(record: LevelRecord, file: str) -> NamedLevel:
     """A level file's record with its level read."""
     level = parse_level_string(record.level, file=file, line=record.line)
     return NamedLevel(record.name, record.author, record.comment, level, file, record.number, record.line)
-
-
-def is_level_file(text: str) -> bool:
-    """Whether a text is a level file or replay text of N."""
-    if MARKER in text or ("#" in text and "$" in text):
-        return True
-    # Labels and comments of CelesteTAS begin with # too; N's own texts have | in them.
-    return text.lstrip().startswith("#") and ("|" in text or not is_tas_text(text))
 
 
 def _level_strings(text: str, file: str) -> Iterator[tuple[int, str]]:

@@ -6,26 +6,22 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Literal
 
 from ninja_game.errors import DemoError, ReplayError
-from ninja_game.formats.ascii.reader import is_ascii_level
+from ninja_game.formats.forms import Form, form_of
 from ninja_game.formats.n14.demo import parse_demo, write_demo
-from ninja_game.formats.n14.level_file import LevelRecord, is_demo, read_level_file
+from ninja_game.formats.n14.level_file import LevelRecord, read_level_file
 from ninja_game.formats.n14.level_string import parse_level_string, write_level_string
-from ninja_game.formats.named_level import is_level_file, level_of_replay
+from ninja_game.formats.named_level import level_of_replay
 from ninja_game.formats.replay.input_text import included_beside, read_inputs
-from ninja_game.formats.replay.text import Replay, is_replay, parse_replay
-from ninja_game.formats.tas_lines import in_our_notation, is_tas_text
+from ninja_game.formats.replay.text import Replay, parse_replay
+from ninja_game.formats.tas_lines import in_our_notation
 from ninja_game.sim.inputs import Demo, fitted_demo
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import Body
 
 MOST_LEGACY_TICKS = 20_000_000
 """Of one file: a demo of an older version is packed so that each character can be 400 ticks."""
-
-Form = Literal["replay", "file", "inputs"]
-"""What a recording was read from: a replay of ours, a record of N, inputs in another tool's notation."""
 
 
 @dataclass(frozen=True)
@@ -101,13 +97,8 @@ def record_of(recording: Recording) -> LevelRecord:
 
 def holds_recordings(text: str) -> bool:
     """Whether there are recordings in a text, readable or not. Raises LevelError for a broken level file."""
-    if is_replay(text):
-        return True
-    if is_ascii_level(text):
-        return False
-    if is_level_file(text):
-        return any(record.demo for record in read_level_file(text))
-    return is_demo("".join(text.split())) or is_tas_text(text)
+    form = form_of(text)
+    return any(record.demo for record in read_level_file(text)) if form == "file" else form not in {"ascii", "string"}
 
 
 def parse_replays(text: str, *, file: str = "", level: Level | None = None, changed: bool = False) -> list[Recording]:
@@ -115,16 +106,17 @@ def parse_replays(text: str, *, file: str = "", level: Level | None = None, chan
 
     Raises ReplayError, DemoError or LevelError.
     """
-    if is_replay(text):
-        replay = parse_replay(text, file=file, level=level)
-        return [Recording(level_of_replay(replay, file, level, changed=changed), replay, file=file)]
-    if not is_ascii_level(text) and is_level_file(text):
-        return _read_recordings(read_level_file(text, file=file), file, level)
-    if is_demo("".join(text.split())):
-        record = LevelRecord(Path(file).stem, "", "", "", "".join(text.split()), line=1)
-        return _read_recordings([record], file, level)
-    if is_tas_text(text):
-        return [_recording_of_lines(text, file, level)]
+    match form_of(text):
+        case "replay":
+            replay = parse_replay(text, file=file, level=level)
+            return [Recording(level_of_replay(replay, file, level, changed=changed), replay, file=file)]
+        case "file":
+            return _read_recordings(read_level_file(text, file=file), file, level)
+        case "demo":
+            record = LevelRecord(Path(file).stem, "", "", "", "".join(text.split()), line=1)
+            return _read_recordings([record], file, level)
+        case "inputs":
+            return [_recording_of_lines(text, file, level)]
     raise ReplayError(
         "no recording", file, 1, found=repr(text[:40]), expected="a replay of ours or $name#author#comment#level#demo#"
     )

@@ -11,11 +11,12 @@ from ninja_game.errors import ReplayError
 from ninja_game.formats.ascii.legend import legend_text
 from ninja_game.formats.ascii.reader import is_ascii_level
 from ninja_game.formats.ascii.writer import RULER
+from ninja_game.formats.forms import form_of
 from ninja_game.formats.n14.level_file import LevelRecord, read_level_file, write_level_file
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
-from ninja_game.formats.named_level import NamedLevel, is_level_file, parse_levels
+from ninja_game.formats.named_level import NamedLevel, parse_levels
 from ninja_game.formats.recording import Recording, holds_recordings, parse_replays, record_of
-from ninja_game.formats.replay.text import RULES_VERSION, Replay, is_replay, write_replay
+from ninja_game.formats.replay.text import RULES_VERSION, Replay, write_replay
 from ninja_game.formats.tas_lines import write_celeste, write_libtas
 from ninja_game.runs.recording_reader import named_errors
 from ninja_game.runs.run import record_replay
@@ -91,7 +92,7 @@ def level_file_text(texts: Iterable[tuple[str, str]], level: Level | None = None
 
 
 def _records(text: str, file: str, level: Level | None) -> Iterator[LevelRecord]:
-    if is_level_file(text) and not is_replay(text) and not is_ascii_level(text):
+    if form_of(text) == "file":
         given = write_level_string(level, exact=True) if level else ""
         return (replace(record, level=record.level or given) for record in read_level_file(text, file=file))
     if holds_recordings(text):

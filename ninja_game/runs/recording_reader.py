@@ -11,12 +11,12 @@ from pathlib import Path
 
 from ninja_game.errors import BudgetError, LevelError, NinjaGameError
 from ninja_game.files.reading import LeftOut, files_below
-from ninja_game.formats.ascii.reader import is_ascii_level
+from ninja_game.formats.forms import form_of
 from ninja_game.formats.links.fragment import is_link
 from ninja_game.formats.load import texts_of
 from ninja_game.formats.n14.level_file import LevelRecord, read_level_file
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.formats.named_level import is_level_file, parse_levels
+from ninja_game.formats.named_level import parse_levels
 from ninja_game.formats.recording import Recording, parse_replays, recording_of
 from ninja_game.formats.replay.text import is_replay
 from ninja_game.sim.level import Level
@@ -74,7 +74,7 @@ def recordings_in(paths: Iterable[Path], level: Level | None = None) -> Iterator
 
 def records_of(text: str, file: str = "") -> list[LevelRecord]:
     """The records of a file of recordings of N; none for any other file, and for one that cannot be read."""
-    if is_replay(text) or is_ascii_level(text) or not is_level_file(text):
+    if form_of(text) != "file":
         return []
     try:
         records = read_level_file(text, file=file)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import pytest
 from hypothesis import given, strategies as st
 
@@ -224,7 +226,7 @@ def test_level_files_read_back_equal(written: list[LevelRecord], userdata: bool)
 
 
 LONG = "n" * 1001
-LONG_NAMES = {
+LONG_NAMES: dict[str, Callable[[], object]] = {
     "record": lambda: read_level_file(f"${LONG}#a#c#{LEVEL}#"),
     "replay": lambda: parse_replay(write_replay(record_replay(parse_level_string(LEVEL), b"\2", name=LONG))),
     "ascii": lambda: parse_ascii_level(f"ninja-game level 1\nname: {LONG}\n|@" + "." * 30 + "|"),

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, strategies as st
 
 from ninja_game import ReplayError, parse_level
+from ninja_game.formats.forms import form_of
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.formats.named_level import is_level_file
 from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.input_runs import Marker
 from ninja_game.formats.replay.input_text import read_inputs
@@ -90,7 +90,7 @@ def test_celeste_lines_that_begin_with_a_label_are_no_record_of_n() -> None:
         (recording,) = parse_replays(text, level=level)
         assert len(recording.replay.inputs) >= 30
     for demo in ("##3:801#", "##902:35791394|\n35791394#"):
-        assert is_level_file(demo)
+        assert form_of(demo) == "file"
 
 
 CELESTE = """\ufeffconsole load 1
