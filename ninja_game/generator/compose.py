@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from ninja_game.generator.gold import lay_gold
 from ninja_game.generator.layouts import LAYOUTS, frame
-from ninja_game.generator.obstacles import place_enemies, place_fixtures, place_mines
+from ninja_game.generator.obstacles import MOST_OBJECTS, place_enemies, place_fixtures, place_mines
 from ninja_game.generator.scene import MIDDLE, Board, Cell, Scene, mirrored, spec, steps_from
 from ninja_game.generator.shaping import chosen_style
 from ninja_game.levels.warnings import level_findings
@@ -84,7 +84,7 @@ def _worth(stops: Sequence[Cell], empty: set[Cell], far: float) -> float | None:
 SOLID = 0.13, 0.37
 SHAPES = 20, 73
 MIRROR = 0.73
-OBJECTS = 50, 88
+OBJECTS = 50, MOST_OBJECTS
 """What levels keep to: shares of the cells, tiles with a shape, objects (the quartiles of N's own levels)."""
 
 

@@ -14,7 +14,7 @@ from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.level import COLUMNS, ROWS, Level
 from ninja_game.sim.loader import grid_tiles
 from ninja_game.sim.memory.schema import TileMap
-from ninja_game.sim.rules import CELL
+from ninja_game.sim.rules import CELL, HALF
 
 COLOURS = dict.fromkeys((kind.number for kind in kinds.KINDS if kind.killer), "bright_red") | {
     kinds.GOLD: "bright_yellow",
@@ -46,7 +46,7 @@ def level_picture(level: Level) -> Text:
             x, y = px - SYMBOL_OF_CHAR[char].dx, py - SYMBOL_OF_CHAR[char].dy
             # A character is half a cell wide; a cell's centre belongs to its left one.
             if CELL <= x <= CELL * (COLUMNS + 1) and CELL <= y <= CELL * (ROWS + 1):
-                column = min(max(round((x - CELL) / 12.0) - 1, 0), columns - 1)
+                column = min(max(round((x - CELL) / HALF) - 1, 0), columns - 1)
                 row = min(int((y - CELL) / CELL), rows - 1)
                 signs[row][column] = (char, COLOURS[record.kind])
     text = Text(no_wrap=True)
@@ -65,6 +65,6 @@ def level_picture(level: Level) -> Text:
 
 def _block(tiles: TileMap, column: int, row: int) -> str:
     """The quarter block for half a cell: each quarter is solid if the middle of it is."""
-    x, y = CELL + 12.0 * column, CELL + CELL * row
+    x, y = CELL + HALF * column, CELL + CELL * row
     quarters = ((3.0, 6.0), (9.0, 6.0), (3.0, 18.0), (9.0, 18.0))
     return QUARTERS[sum(1 << k for k, (dx, dy) in enumerate(quarters) if solid_at(tiles, x + dx, y + dy))]

@@ -15,9 +15,8 @@ from operator import attrgetter
 from typing import Any
 
 from ninja_game.sim.kinds import DRONE, KIND_OF, KINDS
-from ninja_game.sim.memory.declare import fields_of
+from ninja_game.sim.memory.declare import fields_of, scalars_of
 from ninja_game.sim.memory.object_fields import Drone, Object
-from ninja_game.sim.memory.plain import WORLD_SCALARS
 from ninja_game.sim.memory.schema import Ninja, World
 from ninja_game.sim.rules import NAN
 from ninja_game.sim.states import JUMPING, PSEUDO_RANDOM
@@ -29,7 +28,7 @@ OVERWRITTEN = {
 }  # fmt: skip
 """Fields of the ninja that every tick writes before anything reads them."""
 
-_SCALARS = [field for field in WORLD_SCALARS if field.name != "event_count"]
+_SCALARS = [field for field in scalars_of(World) if field.name != "event_count"]
 
 
 class _Reader:

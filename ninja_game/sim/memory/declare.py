@@ -69,6 +69,11 @@ def fields_of(cls: type) -> list[Field]:
     return list(found.values())
 
 
+def scalars_of(cls: type) -> list[Field]:
+    """Its fields that are one number each: no arrays, no structs."""
+    return [field for field in fields_of(cls) if field.length == 0 and isinstance(field.type, str)]
+
+
 def _field(name: str, hint: Any) -> Field:
     """Read one annotation: ``f8``, ``Struct`` or ``Annotated[list[element], length]``."""
     length = 0

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.sim.kinds import KINDS
-from ninja_game.sim.memory.declare import Field, fields_of, getter_of, setter_of
+from ninja_game.sim.memory.declare import Field, fields_of, getter_of, scalars_of, setter_of
 from ninja_game.sim.memory.object_fields import Header, Object
 from ninja_game.sim.memory.schema import Event, Ninja, TileMap, World
 
@@ -88,7 +88,7 @@ STATE_START = WORLD.fields["event_count"][1]  # type: ignore[index]
 OBJECTS_START = WORLD.fields["objects"][1]  # type: ignore[index]
 
 _set_ninja, _set_event, _set_object = (setter_of(fields_of(cls)) for cls in (Ninja, Event, Object))
-_SCALARS = [field.name for field in fields_of(World) if isinstance(field.type, str) and not field.length]
+_SCALARS = [field.name for field in scalars_of(World)]
 _get_ninja, _get_event = getter_of(fields_of(Ninja)), getter_of(fields_of(Event))
 _KIND_FIELDS = {kind.number: [field.name for field in fields_of(kind.fields)] for kind in KINDS}
 _GET_KIND = {kind.number: getter_of(fields_of(kind.fields)) for kind in KINDS}

@@ -7,10 +7,9 @@ from collections.abc import Iterable, Sequence
 from functools import cached_property, partial
 from typing import Any
 
-from ninja_game.sim.collision.tiles import set_edges
 from ninja_game.sim.level import Level
-from ninja_game.sim.loader import grid_tiles, populate, record_table
-from ninja_game.sim.memory.declare import fields_of, getter_of, setter_of
+from ninja_game.sim.loader import grid_tiles, record_table
+from ninja_game.sim.memory.declare import fields_of, getter_of, scalars_of, setter_of
 from ninja_game.sim.memory.interface import (
     TRACED_NUMBERS,
     TRACED_PLACES,
@@ -21,7 +20,7 @@ from ninja_game.sim.memory.interface import (
     TraceRecord,
     Worlds,
 )
-from ninja_game.sim.memory.kernels import kill_ninja, observe_object, run_world, run_worlds, trace_world
+from ninja_game.sim.memory.kernels import kill_ninja, load_world, observe_object, run_world, run_worlds, trace_world
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import MAX_EVENTS, Event, Ninja, TileMap, World
 from ninja_game.sim.world import step
@@ -43,14 +42,11 @@ def load_plain(data: Level, box: bool) -> tuple[TileMap, World]:
     level = tile_map(data)
     w = World()
     w.objects += [Object() for _ in range(table.slots - 1)]
-    set_edges(level, w)
-    populate(level, w, table.kinds, table.counts, table.values)
-    w.ninja.box = int(box)
+    load_world([level], [w], 0, table.kinds, table.counts, table.values, int(box))
     return level, w
 
 
-WORLD_SCALARS = [field for field in fields_of(World) if field.length == 0 and isinstance(field.type, str)]
-_get_scalars, _set_scalars = getter_of(WORLD_SCALARS), setter_of(WORLD_SCALARS)
+_get_scalars, _set_scalars = getter_of(scalars_of(World)), setter_of(scalars_of(World))
 _get_ninja, _set_ninja = getter_of(fields_of(Ninja)), setter_of(fields_of(Ninja))
 _get_object, _set_object = getter_of(fields_of(Object)), setter_of(fields_of(Object))
 _get_event, _set_event = getter_of(fields_of(Event)), setter_of(fields_of(Event))
