@@ -180,6 +180,12 @@ def test_own_records_whose_pages_lead_in_circles_are_put_aside(tmp_path: Path, m
     assert "damaged (its pages lead in circles)" in "".join(data.messages)
 
 
+def test_an_error_without_a_code_of_sqlite_stays_what_it_is() -> None:
+    db, error = sqlite3.connect(":memory:"), sqlite3.OperationalError("Could not decode to UTF-8")
+    with closing(db), pytest.raises(sqlite3.OperationalError, match="decode"), schema.bounded(db):
+        raise error
+
+
 def test_names_that_are_one_file_on_some_system_stand_beside_each_other(tmp_path: Path) -> None:
     backup = filled(tmp_path / "from")
     with ZipFile(backup, "a") as archive:
