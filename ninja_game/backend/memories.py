@@ -1,6 +1,6 @@
 """Which memory to use, and compiled kernels, each made once per process.
 
-Before the first compiled world of a process is loaded, a known run must come out on it as it must (``known_run``).
+Before the first compiled world of a process is loaded, a known run must come out on it as it must (``self_test``).
 
 "auto" is the compiled memory. One run of little work, for which loading Numba would take longer, stays on the plain
 memory. Where its kernels are not in the cache yet, any run begins there, and goes on (``go_on``) on the compiled one
@@ -16,7 +16,7 @@ from importlib.util import find_spec
 from threading import Lock
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from ninja_game.backend.known_run import check_known_run
+from ninja_game.backend.self_test import check_self_test
 from ninja_game.budget import NO_LIMIT, PAGE_TICK_COST, PLAIN_WORK, tick_cost
 from ninja_game.errors import ArgumentError, LevelError, NinjaGameError
 from ninja_game.files.user_folder import how_to_install
@@ -146,7 +146,7 @@ def go_on(worlds: Worlds, memory: str, ticks: int) -> Worlds:
     """Worlds that were opened ``at_once``, or, for so many ticks that it is worth it, copies in the compiled memory.
 
     To be asked between two ticks. While its kernels are being compiled they are the same worlds; where nobody compiles
-    any more, this does. Raises KnownRunError as ``compiled``.
+    any more, this does. Raises SelfTestError as ``compiled``.
     """
     small = ticks * max(map(tick_cost, worlds.levels)) <= PLAIN_WORK
     if small or worlds.name == "compiled" or choose_memory(memory) == "plain":
@@ -183,7 +183,7 @@ def proven_memory(memory: str, work: int = NO_LIMIT) -> str:
 
     "plain", "checked", or JUDGED for one that begins on the plain memory.
 
-    Raises KnownRunError where it does not, and what ``choose_memory`` raises.
+    Raises SelfTestError where it does not, and what ``choose_memory`` raises.
     """
     if begins_plain(memory, work, checked=True):
         _prove_plain()
@@ -196,13 +196,13 @@ def proven_memory(memory: str, work: int = NO_LIMIT) -> str:
 
 @cache
 def _prove_plain() -> None:
-    check_known_run(lambda level, box: PlainWorlds([level], box=box), "plain")
+    check_self_test(lambda level, box: PlainWorlds([level], box=box), "plain")
 
 
 def compiled(entry: Callable[..., R], *, checked: bool = False) -> Callable[..., R]:
     """The compiled twin of an entry point, which takes the same arguments; any thread may ask.
 
-    Raises MemoryUnavailableError without Numba, TypeError for a function that is not an entry point, KnownRunError
+    Raises MemoryUnavailableError without Numba, TypeError for a function that is not an entry point, SelfTestError
     where compiled worlds are not as they must be.
     """
     checked = checked or _ALL_CHECKED
@@ -214,7 +214,7 @@ def compiled(entry: Callable[..., R], *, checked: bool = False) -> Callable[...,
                 from ninja_game.sim.memory.compiled import CompiledWorlds
 
                 try:
-                    check_known_run(lambda level, box: CompiledWorlds(make, [level], box=box), "compiled")
+                    check_self_test(lambda level, box: CompiledWorlds(make, [level], box=box), "compiled")
                 except NinjaGameError:
                     raise
                 except Exception as error:

@@ -80,7 +80,7 @@ def verify_all(
     ``budget``: of each run (``ninja_game.budget``).
 
     Results never depend on who computed them, nor on workers that died meanwhile. Where only some levels count, runs on
-    others are not simulated. Raises ClusterError, FormatError for a file that is not a checkpoint log, KnownRunError
+    others are not simulated. Raises ClusterError, FormatError for a file that is not a checkpoint log, SelfTestError
     and MemoryUnavailableError where nothing can be judged, OSError.
     """
     counting = levels or [level for path in bundled_levels() for level in load_levels(path)]

@@ -103,7 +103,7 @@ def verify_recording(
 
     Raises, naming file and record, LevelError for a level that cannot be played, BudgetError for a run that is not over
     when its ``budget`` of work is (``ninja_game.budget``), OutOfRangeError for a run that leads out
-    of its world, KnownRunError where no run can be judged.
+    of its world, SelfTestError where no run can be judged.
     """
     return drained(verify_in_slices(recording, memory, counting, budget))
 

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from ninja_game.backend import known_run, memories
-from ninja_game.backend.known_run import DIGEST, KnownRunError, known_digest
+from ninja_game.backend import memories, self_test
 from ninja_game.backend.memories import compiled_available, open_worlds, proven_memory
+from ninja_game.backend.self_test import DIGEST, SelfTestError, self_test_digest
 from ninja_game.cli.main import cli
 from ninja_game.errors import FileError
 from ninja_game.runs import verify
@@ -30,17 +30,17 @@ def as_at_the_start(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize("memory", [*BOTH, pytest.param("checked", marks=BOTH[1].marks)])
 def test_the_known_run_has_its_digest_on_every_memory(memory: str) -> None:
     """After a change of a rule that is meant, `python3 tools/dev.py golden` writes the digest again."""
-    assert known_digest(lambda level, box: open_worlds(memory, level, box=box)) == DIGEST
+    assert self_test_digest(lambda level, box: open_worlds(memory, level, box=box)) == DIGEST
 
 
 def test_the_known_run_has_every_kind_of_object() -> None:
-    assert {kind for kind, *_ in known_run._OBJECTS} == set(range(len(VALUE_COUNTS)))
+    assert {kind for kind, *_ in self_test._OBJECTS} == set(range(len(VALUE_COUNTS)))
 
 
 @pytest.mark.usefixtures("as_at_the_start")
 def test_a_broken_rule_is_noticed_before_anything_is_judged(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(tick, "WALL_PROBE", 0.2)
-    with pytest.raises(KnownRunError, match="the plain memory does not compute the world of N here"):
+    with pytest.raises(SelfTestError, match="the plain memory does not compute the world of N here"):
         proven_memory("plain")
 
 
@@ -52,7 +52,7 @@ def test_a_command_that_cannot_be_sure_says_so_and_ends(
 ) -> None:
     if (word, memory) == ("trace", "plain"):
         pytest.skip("nothing is proved for a trace by plain Python")
-    monkeypatch.setattr(known_run, "DIGEST", "0" * 64)
+    monkeypatch.setattr(self_test, "DIGEST", "0" * 64)
     path = write_records(tmp_path / "walk.txt", *[("Walk", WALK, running(WALK_END))] * 3)
     result = CliRunner().invoke(cli, [word, str(path), "--memory", memory])
     assert result.exit_code == 2

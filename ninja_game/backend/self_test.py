@@ -35,24 +35,24 @@ _OBJECTS = (
 """Kind and values of each."""
 
 
-class KnownRunError(NinjaGameError):
+class SelfTestError(NinjaGameError):
     """The known run does not end as it must: nothing that this process computes can be believed."""
 
 
-def check_known_run(open_world: Callable[[Level, bool], Worlds], memory: str) -> None:
-    """Raises KnownRunError unless the known run ends as it must.
+def check_self_test(open_world: Callable[[Level, bool], Worlds], memory: str) -> None:
+    """Raises SelfTestError unless the known run ends as it must.
 
     ``open_world``: a new world in a level, with the box or not; ``memory``: what messages call it.
     """
-    found = known_digest(open_world)
+    found = self_test_digest(open_world)
     if found != DIGEST:
-        raise KnownRunError(
+        raise SelfTestError(
             f"the {memory} memory does not compute the world of N here, so nothing is judged: a known run gives "
             f"{found[:12]}…, expected {DIGEST[:12]}…; empty the folder of compiled code, or choose another --memory"
         )
 
 
-def known_digest(open_world: Callable[[Level, bool], Worlds]) -> str:
+def self_test_digest(open_world: Callable[[Level, bool], Worlds]) -> str:
     """The digest of the known runs: of the ninja's places, and of all that the worlds show at the end."""
     level = Level(tuple(n % 34 * (n % 7 == 0) for n in range(TILES)), tuple(ObjectSpec(k, (*v,)) for k, *v in _OBJECTS))
     digest = sha256()
