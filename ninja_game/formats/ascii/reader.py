@@ -106,10 +106,11 @@ def _read_header(lines: Sequence[Line], problems: Problems) -> dict[str, str]:
             problems.add("unknown header", number, 1, found=shown(key), hint=suggestion(key, HEADER_KEYS))
         elif key in fields:
             problems.add("a header given twice", number, 1, found=shown(key), hint="keep one")
-        elif len(value) > MOST_NAME and key != "comment":
-            problems.add(f"a text of {len(value):,} characters", number, expected=f"at most {MOST_NAME:,}")
         else:
             fields[key] = _header_value(value.strip())
+            if len(fields[key]) > MOST_NAME and key != "comment":
+                what = f"a text of {len(fields[key]):,} characters"
+                problems.add(what, number, found=shown(fields[key]), expected=f"at most {MOST_NAME:,}")
     return fields
 
 

@@ -94,17 +94,17 @@ class Headers:
     def text(self, key: str) -> str:
         """A header's text; one in double quotes is JSON."""
         value = self.raw(key)
+        if value.startswith('"'):
+            try:
+                decoded = json.loads(value)
+            except ValueError:
+                decoded = None
+            if not isinstance(decoded, str):
+                raise self.error(key, f"a broken text in '{key}'", "text, or a JSON string", "close the double quotes")
+            value = decoded
         if len(value) > MOST_NAME:
             raise self.error(key, f"a text of {len(value):,} characters in '{key}'", f"at most {MOST_NAME:,}")
-        if not value.startswith('"'):
-            return value
-        try:
-            decoded = json.loads(value)
-        except ValueError:
-            decoded = None
-        if not isinstance(decoded, str):
-            raise self.error(key, f"a broken text in '{key}'", "text, or a JSON string", "close the double quotes")
-        return decoded
+        return value
 
     def count(self, key: str) -> int:
         """A whole number; 0 without the header."""
