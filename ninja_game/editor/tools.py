@@ -175,7 +175,6 @@ class EditorTools:
         return busy
 
     def pick(self) -> None:
-        """Draw with what is under the pointer."""
         found = nearest(self.draft, *self.pointer, PICK_REACH)
         if found:
             self.pick_up(self.draft.objects[found[0]])
@@ -278,7 +277,6 @@ class EditorTools:
         self.history.change(draft)
 
     def choose(self, parts: frozenset[ObjectPart]) -> None:
-        """Choose these parts of objects."""
         self.finish()
         self.selection = Selection(parts=parts)
 

@@ -88,7 +88,7 @@ def test_looking_only_reads() -> None:
     view = LevelView(sheet, seen, seed=5)
     import pygame
 
-    from ninja_game.play.level.ghosts import Ghost
+    from ninja_game.play.replay.playback import Ghost
 
     surface = pygame.Surface((396, 300))
     view.ghosts = [Ghost(GhostRun("ghost", b""), recording.level, "circle")]

@@ -7,8 +7,7 @@ from random import Random
 
 from ninja_game.play.app import App
 from ninja_game.play.clock import RunClock
-from ninja_game.play.level.ghosts import Ghost
-from ninja_game.play.replay.playback import Playback
+from ninja_game.play.replay.playback import Ghost, Playback
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.player.attempt import Attempt, Moment
 from ninja_game.player.playthrough import LevelContext
@@ -167,7 +166,6 @@ class LevelPlay:
     # --- time ---
 
     def update(self, real_ms: int) -> None:
-        """Let the world go on, if it does."""
         if self.phase is Phase.READY:
             self._wait_for_move()
         elif self.phase is not Phase.PAUSED:

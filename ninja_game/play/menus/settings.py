@@ -256,7 +256,6 @@ class SettingsScreen(MenuScreen):
     # --- changing ---
 
     def change(self, **values: object) -> None:
-        """Take, save and show other values."""
         self.app.change_settings(**values)
 
     def _area(self, place: int) -> tuple[float, float, float, float]:

@@ -19,9 +19,8 @@ from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import export_path, how_to_install
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
-from ninja_game.play.level.ghosts import Ghost
 from ninja_game.play.level.hud import Hud
-from ninja_game.play.replay.playback import Playback
+from ninja_game.play.replay.playback import Ghost, Playback
 from ninja_game.play.ui.theme import ROLES, Palette, mixed, palette_named
 from ninja_game.play.view.level_view import LevelView, OffscreenContext
 from ninja_game.player.playthrough import GhostRun

@@ -15,10 +15,9 @@ from ninja_game.play.app import App, Screen
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.clock import RunClock
 from ninja_game.play.input.bindings import InputEvent
-from ninja_game.play.level.ghosts import Ghost
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.replay.film import FilmJob
-from ninja_game.play.replay.playback import Playback, ReplayBar
+from ninja_game.play.replay.playback import Ghost, Playback, ReplayBar
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.overlays import Overlays
 from ninja_game.player.playthrough import GhostRun
