@@ -281,13 +281,11 @@ class EditorTools:
         self.selection = Selection(parts=parts)
 
     def undo(self) -> bool:
-        """Take the last edit back; whether there was one."""
         self.finish()
         self.selection = Selection()
         return self.history.undo()
 
     def redo(self) -> bool:
-        """Do again what was taken back last; whether there was anything."""
         self.finish()
         self.selection = Selection()
         return self.history.redo()

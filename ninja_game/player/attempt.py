@@ -37,7 +37,6 @@ class Attempt:
         self.restart()
 
     def restart(self) -> None:
-        """Back to the level's start."""
         self.simulation.reset()
         self.lifetime = self.start_lifetime
         self.inputs = bytearray()
@@ -53,7 +52,6 @@ class Attempt:
 
     @property
     def gold(self) -> int:
-        """Pieces of gold collected."""
         return self.simulation.gold
 
     @property
@@ -103,11 +101,9 @@ class Attempt:
     # --- practice ---
 
     def save(self) -> Moment:
-        """This moment, to come back to."""
         return self.simulation.save(), bytes(self.inputs), self.lifetime, self.ended_tick
 
     def restore(self, moment: Moment) -> None:
-        """Go back to a saved moment."""
         state, inputs, self.lifetime, self.ended_tick = moment
         self.simulation.restore(state)
         self.inputs[:] = inputs

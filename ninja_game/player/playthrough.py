@@ -163,7 +163,6 @@ class LevelRun(LevelContext):
 
     @property
     def leads_on(self) -> bool:
-        """No: it begins again."""
         return False
 
     def passed(self, attempt: Attempt) -> list[str]:
@@ -191,7 +190,6 @@ class FileRun(LevelRun):
 
     @property
     def leads_on(self) -> bool:
-        """Whether the file holds other levels."""
         return len(self._levels) > 1
 
     def advance(self) -> Navigation:
@@ -243,7 +241,6 @@ class EpisodeRun(LevelContext):
 
     @property
     def is_last(self) -> bool:
-        """Whether the present level is the episode's last."""
         return self.position == len(self.episode.levels) - 1
 
     def passed(self, attempt: Attempt) -> list[str]:

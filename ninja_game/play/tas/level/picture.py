@@ -220,7 +220,6 @@ class LevelPicture:
         return self._view.object_animation.ninja_place(fraction) if self._view is not None else (0.0, 0.0)
 
     def follow(self, ghosts: list[RunGhost]) -> None:
-        """Have other runs go along."""
         if self._view is not None and self._view.ghosts != ghosts:
             self._view.ghosts = ghosts
             for ghost in ghosts:

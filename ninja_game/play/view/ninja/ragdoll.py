@@ -7,7 +7,7 @@ from random import Random
 from typing import NamedTuple
 
 from ninja_game.play.ui.canvas import Point
-from ninja_game.play.view.ninja.pose import Pose
+from ninja_game.play.view.ninja.figure import Pose
 from ninja_game.sim import kinds
 from ninja_game.sim.collision import tiles
 from ninja_game.sim.grid import cell_at
