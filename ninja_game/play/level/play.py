@@ -85,7 +85,7 @@ class LevelPlay:
         self.notices: list[str] = []
         self.aim = self.context.aim()
         runs = self.context.ghosts()
-        if [run.inputs for run in runs] != [ghost.inputs for ghost in self.ghosts]:
+        if runs != [ghost.inputs for ghost in self.ghosts]:
             self.ghosts = [Ghost(run, self.context.level, self.context.body) for run in runs]
             self.view.ghosts = self.ghosts
         self.view.on_seek()

@@ -6,7 +6,6 @@ import re
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import pygame
@@ -48,9 +47,9 @@ class Page:
     shows: tuple[str, ...]
 
 
-def read_pages(path: Path | None = None) -> list[Page]:
-    """The pages of the bundled file, or of another. Raises LevelError naming the page that is wrong."""
-    path = path or data_folder("assets") / PAGES_FILE
+def read_pages() -> list[Page]:
+    """The pages of the bundled file. Raises LevelError naming the page that is wrong."""
+    path = data_folder("assets") / PAGES_FILE
     tables = tomllib.loads(path.read_text("utf-8"))["page"]
     return [_page(table, str(path)) for table in tables]
 

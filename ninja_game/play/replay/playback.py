@@ -10,7 +10,6 @@ from ninja_game.budget import TURN_WORK, tick_cost
 from ninja_game.play.ui.canvas import Canvas, Point
 from ninja_game.play.ui.theme import Palette, Theme, mixed
 from ninja_game.play.view.ninja.ninja_animation import NinjaAnimation
-from ninja_game.player.playthrough import GhostRun
 from ninja_game.runs.save_states import SPACING, SaveStates
 from ninja_game.sim.inputs import MAX_TICKS
 from ninja_game.sim.level import Level
@@ -142,12 +141,10 @@ class Ghost:
     ``alone``: only when it is told to.
     """
 
-    def __init__(self, run: GhostRun, level: Level, body: Body, *, alone: bool = True) -> None:
-        self.label = run.label
-        self.inputs = run.inputs
-        self._colour = run.colour
+    def __init__(self, inputs: bytes, level: Level, body: Body, *, alone: bool = True) -> None:
+        self.inputs = inputs
         self.simulation = Simulation(level, body=body)
-        self._playback = Playback(self.simulation, run.inputs, spacing=0)
+        self._playback = Playback(self.simulation, inputs, spacing=0)
         self.ninja_animation = NinjaAnimation(self.simulation.world, Random(1))  # noqa: S311 - presentation
         self._before = self._now = self._place()
         self._turn = max(1, TURN_WORK // tick_cost(level)) if alone else 0
@@ -198,5 +195,4 @@ class Ghost:
         return bx + (x - bx) * fraction, by + (y - by) * fraction
 
     def colour(self, palette: Palette) -> pygame.Color:
-        """Its own colour, or the palette's for ghosts."""
-        return pygame.Color(self._colour) if self._colour else palette.ghost
+        return palette.ghost
