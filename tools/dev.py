@@ -12,6 +12,7 @@ usage: python3 tools/dev.py COMMAND ...
   golden           write the golden files of the tests again, after a change of the rules that is meant
   change-rules     test the tests: break the rules one at a time and tell which breaks no test notices
   accept-pictures  record the screens and pictures of the tests again, after a change of the looks that is meant
+  release          build and try what a release has, into dist/: docs/releasing.md; `release --help` lists options
   docs             draw the pictures of docs/ again
   tool             any script of tools/, listed in docs/tools.md: `tool soak.kills --kills 10`
   clean            remove .venv, caches and build products
@@ -46,7 +47,12 @@ MADE = (".pytest_cache", ".mypy_cache", ".ruff_cache", ".import_linter_cache", "
 DEVELOPMENT = ("cluster", "dev", "fast", "film", "learn", "minari", "plots", "train")
 USES = {"play": (), "film": ("film",), "verify": ("cluster", "fast"), "demonstrations": ("fast", "learn", "minari")}
 """The extras that commands of the game use; those that are not here may use Numba."""
-PROGRAMS = {"benchmark": ("benchmarks",), "golden": ("tools.golden",), "change-rules": ("tools.breaks", "--rules")}
+PROGRAMS = {
+    "benchmark": ("benchmarks",),
+    "golden": ("tools.golden",),
+    "release": ("tools.release",),
+    "change-rules": ("tools.breaks", "--rules"),
+}
 DRAWINGS = ("draw.how_it_works", "draw.screens", "draw.settings_page")
 PICTURE_TESTS = ("tests/play/test_recorded_screens.py", "tests/play/test_pictures.py", "tests/play/test_sound.py")
 LINT = (("ruff", "check"), ("ruff", "format", "--check"), ("mypy",), ("lint-imports",))

@@ -39,7 +39,8 @@ def start() -> None:
     with suppress(OSError, FileError):
         folder = cache_folder()
         folder.mkdir(parents=True, exist_ok=True)
-        command = [sys.executable, "-m", "ninja_game", "compile", "--background"]
+        program = [sys.executable] if getattr(sys, "frozen", False) else [sys.executable, "-m", "ninja_game"]
+        command = [*program, "compile", "--background"]
         _STARTED.append(
             subprocess.Popen(  # noqa: S603 - this program itself
                 command, stdin=quiet, stdout=quiet, stderr=quiet, cwd=folder, env=environment, start_new_session=True,

@@ -2,7 +2,8 @@
 
 A kernel's file is named after a digest of all the code and constants that went into it (``code_digest``), wherever it
 lies: an edit of any rule is another file. Numba's own cache looks at the file of the entry point alone, and falls back
-to folders beside the sources, so it is not used.
+to folders beside the sources, so it is not used. A release's wheel has kernels for any processor of its family
+(``SHIPPED``), under the names that they have on this machine; where one of these fits, nothing is compiled.
 
 Two processes that need the same kernel at the same time compile it once: the second one waits and reads the file.
 """
@@ -11,12 +12,14 @@ from __future__ import annotations
 
 import os
 import pickle
-import sys
+import re
+import stat
 import time
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from functools import cache
 from hashlib import sha256
+from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
 from typing import Any
 from uuid import uuid4
@@ -24,14 +27,23 @@ from uuid import uuid4
 from ninja_game.backend.numba_import import say_once
 from ninja_game.errors import FileError
 from ninja_game.files.locking import LOCK_SUFFIX, hold
-from ninja_game.files.user_folder import chosen_folder
+from ninja_game.files.reading import open_regular
+from ninja_game.files.user_folder import PACKAGE, chosen_folder
 from ninja_game.sim.memory.code_digest import OPTIONS, code_digest
+
+SHIPPED = PACKAGE / "data" / "kernels"
+"""Machine code that came with the installation; a checkout has none."""
+
+GENERIC = ("generic", "")
+"""The processor that it is made for, as Numba names one: any of the family, with no features beyond."""
 
 KEPT_FILES = 200
 """How many compiled kernels stay in the cache folder: the newest, some ten versions of all."""
 
 PATIENCE = 120
 """Seconds to wait for a process that compiles the same kernel; then this one compiles it too."""
+
+_KERNEL = re.compile(r"[a-z_]+-[0-9a-f]{32}-[0-9a-f]{16}\.code")
 
 COMPILES_AGAIN = "; it works, but compiles again in the next process"
 
@@ -44,14 +56,20 @@ def kernel_name(entry: Callable[..., Any], checked: bool) -> str:
     """How the names of an entry point's files begin; Numba is not imported for it."""
     from importlib.metadata import version
 
-    versions = [version(package) for package in ("numba", "numpy")]
-    digest = code_digest(entry, f"{sys.version} {versions} {OPTIONS} checked={checked}")
+    # Kernels hold no code of NumPy's, only the layout of its arrays; its patches change none of that.
+    versions = version("numba"), *version("numpy").split(".")[:2]
+    digest = code_digest(entry, f"{EXTENSION_SUFFIXES[0]} {versions} {OPTIONS} checked={checked}")
     return f"{entry.__name__}-{digest[:32]}"
 
 
 def are_kept(entries: Iterable[Callable[..., Any]], checked: bool) -> bool:
-    """Whether the cache folder has machine code of all these entry points."""
-    kept = {path.stem.rpartition("-")[0] for path in cache_folder().glob("*.code")}
+    """Whether there is machine code of all these entry points."""
+    kept = {
+        path.stem.rpartition("-")[0]
+        for folder in (SHIPPED, cache_folder())
+        for path in folder.glob("*.code")
+        if path.is_file()
+    }
     return kept >= {kernel_name(entry, checked) for entry in entries}
 
 
@@ -91,13 +109,16 @@ def _system_folder() -> Path:
 
 
 def forget_old_code(folder: Path) -> None:
-    """Remove all but the newest files of a cache folder; what cannot be removed stays."""
-    try:
-        files = sorted(folder.glob("*.code"), key=lambda path: path.stat().st_mtime, reverse=True)
-        for path in files[KEPT_FILES:]:
+    """Remove all but the newest kernels of a cache folder; what cannot be removed stays."""
+    dated = []
+    for path in folder.glob("*.code"):
+        with suppress(OSError):
+            about = path.lstat()
+            if _KERNEL.fullmatch(path.name) and stat.S_ISREG(about.st_mode):
+                dated.append((about.st_mtime, path))
+    for _, path in sorted(dated, reverse=True)[KEPT_FILES:]:
+        with suppress(OSError):
             path.unlink()
-    except OSError:
-        return
 
 
 class KernelCache:
@@ -113,15 +134,16 @@ class KernelCache:
         self.cache_path = str(folder)
         self._held: dict[Path, int] = {}
 
-    def _file(self, signature: Any, codegen: Any) -> Path:
-        about = sha256(f"{signature} {codegen.magic_tuple()}".encode()).hexdigest()
-        return self.folder / f"{self.name}-{about[:16]}.code"
+    def _file(self, signature: Any, processor: tuple[str, ...]) -> str:
+        about = sha256(f"{signature} {processor}".encode()).hexdigest()
+        return f"{self.name}-{about[:16]}.code"
 
     def load_overload(self, signature: Any, context: Any) -> Any:
         """The kernel for these types; None if it is not there or damaged, and no other process is making it."""
         context.refresh()
-        path = self._file(signature, context.codegen())
-        found = _read(path, context)
+        system, *processor = context.codegen().magic_tuple()
+        path = self.folder / self._file(signature, (system, *processor))
+        found = _read(path, context) or _read(SHIPPED / self._file(signature, (system, *GENERIC)), context)
         if found is None:
             while before_compiling:
                 before_compiling.pop()()
@@ -150,7 +172,7 @@ class KernelCache:
 
     def save_overload(self, signature: Any, result: Any) -> None:
         """Write a kernel, whole or not at all."""
-        path = self._file(signature, result.codegen)
+        path = self.folder / self._file(signature, result.codegen.magic_tuple())
         try:
             self._write(path, result)
         finally:
@@ -185,7 +207,8 @@ def _read(path: Path, context: Any) -> Any:
 
     rebuild: Any = CompileResult._rebuild  # noqa: SLF001 - as Numba's own caches do
     try:
-        data = path.read_bytes()
+        with open_regular(path) as file:
+            data = file.read()
         if sha256(data[32:]).digest() == data[:32]:
             return rebuild(context, *pickle.loads(data[32:]))  # noqa: S301 - our own file
     except Exception:  # noqa: BLE001 - whatever a damaged file leads to: it is compiled and written again

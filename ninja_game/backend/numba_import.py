@@ -11,9 +11,9 @@ import os
 import sys
 from collections.abc import Sequence
 from functools import cache
-from importlib.abc import MetaPathFinder
-from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
-from types import CodeType
+from importlib.abc import Loader, MetaPathFinder
+from importlib.machinery import ModuleSpec
+from types import ModuleType
 from typing import Any
 from warnings import catch_warnings, simplefilter
 
@@ -27,23 +27,31 @@ _CONFIG, _CONFIG_FILE = "numba.core.config", ".numba_config.yaml"
 _FOREIGN = ("NUMBA_", "NUMPY_", "NPY_", "LLVMLITE_")
 
 
-class _ConfigLoader(SourceFileLoader):
-    """Loads Numba's module of settings with no name of a file in it."""
+class _ConfigLoader(Loader):
+    """Loads Numba's module of settings with no name of a file in it; ``finds``: the loader that finds its code."""
 
-    def get_code(self, fullname: str) -> CodeType | None:
-        code = super().get_code(fullname)
-        if code is None:
-            return None
-        return code.replace(co_consts=tuple("" if value == _CONFIG_FILE else value for value in code.co_consts))
+    def __init__(self, finds: Any) -> None:
+        self._finds = finds
+
+    def exec_module(self, module: ModuleType) -> None:
+        code = self._finds.get_code(_CONFIG)
+        exec(  # noqa: S102 - as every loader does
+            code.replace(co_consts=tuple("" if value == _CONFIG_FILE else value for value in code.co_consts)),
+            vars(module),
+        )
 
 
 class _ConfigFinder(MetaPathFinder):
     """Finds that module, and no other."""
 
     def find_spec(self, fullname: str, path: Sequence[str] | None, target: Any = None) -> ModuleSpec | None:
-        spec = PathFinder.find_spec(fullname, path, target) if fullname == _CONFIG else None
-        if spec and spec.origin:
-            spec.loader = _ConfigLoader(fullname, spec.origin)
+        if fullname != _CONFIG:
+            return None
+        # A program without a Python has a finder of its own.
+        found = (each.find_spec(fullname, path, target) for each in sys.meta_path if each is not self)
+        spec = next(filter(None, found), None)
+        if spec:
+            spec.loader = _ConfigLoader(spec.loader)
         return spec
 
 

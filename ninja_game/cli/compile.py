@@ -48,12 +48,12 @@ def compile(background: bool) -> None:  # noqa: A001 - the name of the command
         while (handle := hold_work()) is None:
             time.sleep(EVERY)
     try:
-        _compile(quiet=background)
+        compile_everything(quiet=background)
     finally:
         os.close(handle)
 
 
-def _compile(*, quiet: bool) -> None:
+def compile_everything(*, quiet: bool) -> None:
     """Do a little of all work that needs kernels, most wanted first. Raises NinjaGameError where nothing is kept."""
     from ninja_game.backend.kernel_cache import are_kept, cache_folder
     from ninja_game.errors import NinjaGameError

@@ -79,7 +79,9 @@ def splits(
     # A run that costs too much ends the command: a table without it would be wrong.
     all_runs = list(with_progress((run_splits(each, events, budget) for each in [*best, *found]), "run"))
     bests, runs = all_runs[: len(best)], all_runs[len(best) :]
-    groups = {run.level_digest: [other for other in runs if other.level_digest == run.level_digest] for run in runs}
+    groups: dict[str, list[RunSplits]] = {}
+    for run in runs:
+        groups.setdefault(run.level_digest, []).append(run)
     if not groups:
         raise click.UsageError(f"{', '.join(map(str, files))}: no recordings here")
     if bests and bests[0].level_digest not in groups:

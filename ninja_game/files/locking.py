@@ -15,6 +15,8 @@ Found = TypeVar("Found")
 LOCK_SUFFIX = ".lock"
 """Of the file that a program holds as long as it keeps another one."""
 
+_OWN_FILE = os.O_CREAT | os.O_RDWR | getattr(os, "O_NOFOLLOW", 0)
+
 if sys.platform == "win32":
     import msvcrt
 
@@ -36,7 +38,7 @@ def locked(path: Path, seconds: float) -> Iterator[None]:
     where the place has no locks, the block goes on without: a missing lock must not keep anyone from playing.
     """
     try:
-        handle = os.open(path.with_name(f".{path.name}.lock"), os.O_CREAT | os.O_RDWR, 0o666)
+        handle = os.open(path.with_name(f".{path.name}.lock"), _OWN_FILE, 0o666)
     except (OSError, ValueError):
         yield
         return
@@ -69,7 +71,7 @@ def hold(path: Path) -> int | None:
 
     The system frees it when a process dies, however it dies. Raises OSError for a place without files.
     """
-    handle = os.open(path, os.O_CREAT | os.O_RDWR, 0o666)
+    handle = os.open(path, _OWN_FILE, 0o666)
     if lock(handle):
         return handle
     os.close(handle)

@@ -5,6 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+MOST_NAME = 1000
+"""Characters of the name of a level, a run or an author: tables repeat it in every row."""
+
 Line = tuple[int, str]
 """A line with its number, from 1."""
 

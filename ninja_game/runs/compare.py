@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -66,7 +67,7 @@ class RunSplits:
         """Ticks run."""
         return len(self.positions)
 
-    @property
+    @cached_property
     def level_digest(self) -> str:
         """The digest of the level: only runs of one level have a table together."""
         return level_digest(self.recording.level)

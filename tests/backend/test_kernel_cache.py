@@ -68,6 +68,26 @@ def test_damaged_code_is_compiled_anew_without_a_word(damage: str, tmp_path: Pat
 
 
 @needs_numba
+def test_code_that_came_with_the_installation_is_used_where_it_is_for_any_processor(tmp_path: Path) -> None:
+    fixed = "from ninja_game.backend.numba_import import FIXED; FIXED['NUMBA_CPU_NAME'] = {!r}"
+    folder = str(tmp_path / "all")
+    shipped = f"from ninja_game.backend import kernel_cache; kernel_cache.SHIPPED = kernel_cache.Path({folder!r})"
+    assert run(tmp_path / "all", first=fixed.format("generic")) == ("compiles\n7\n", "")
+    assert run(tmp_path / "own", first=shipped) == ("7\n", "")
+    assert run(tmp_path / "own", first=shipped, factor=5) == ("compiles\n16\n", "")
+    assert run(tmp_path / "own") == ("compiles\n7\n", "")
+
+
+@needs_numba
+def test_a_pipe_with_the_name_of_a_kernel_holds_up_nobody(tmp_path: Path) -> None:
+    run(tmp_path)
+    (file,) = tmp_path.iterdir()
+    file.unlink()
+    os.mkfifo(file)
+    assert run(tmp_path) == ("compiles\n7\n", "")
+
+
+@needs_numba
 def test_where_nothing_can_be_written_it_works_and_says_so_once(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     out, errors = run(tmp_path / "file" / "cache")
@@ -166,11 +186,16 @@ def test_machine_code_is_another_if_a_named_tuple_has_its_fields_in_another_orde
 
 
 def test_only_the_newest_files_are_kept(tmp_path: Path) -> None:
+    kernel = f"run_world-{'0' * 32}-{{:016}}.code"
     for age in range(KEPT_FILES + 3):
-        (tmp_path / f"v{age}.code").touch()
-        os.utime(tmp_path / f"v{age}.code", (1_000_000 - age, 1_000_000 - age))
+        (tmp_path / kernel.format(age)).touch()
+        os.utime(tmp_path / kernel.format(age), (1_000_000 - age, 1_000_000 - age))
+    (tmp_path / "notes.code").touch()
+    os.utime(tmp_path / "notes.code", (0, 0))
+    (tmp_path / kernel.format(999)).symlink_to(tmp_path / "nothing")
     forget_old_code(tmp_path)
-    assert {path.name for path in tmp_path.iterdir()} == {f"v{age}.code" for age in range(KEPT_FILES)}
+    kept = {kernel.format(age) for age in (*range(KEPT_FILES), 999)}
+    assert {path.name for path in tmp_path.iterdir()} == kept | {"notes.code"}
     forget_old_code(tmp_path / "nothing")
 
 

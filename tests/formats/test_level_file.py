@@ -5,9 +5,12 @@ from __future__ import annotations
 import pytest
 from hypothesis import given, strategies as st
 
-from ninja_game.errors import LevelError
+from ninja_game.errors import FormatError, LevelError
+from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.n14.level_file import LevelRecord, read_level_file, write_level_file
 from ninja_game.formats.n14.level_string import parse_level_string, write_level_string
+from ninja_game.formats.replay.text import parse_replay, write_replay
+from ninja_game.runs.run import record_replay
 from ninja_game.sim.kinds import FLOOR_GUARD, NINJA
 from tests.support.strategies import demos, proper_levels, words
 
@@ -218,3 +221,17 @@ def test_level_files_read_back_equal(written: list[LevelRecord], userdata: bool)
     assert [(r.name, r.author, r.comment, r.level, r.demo) for r in read] == [
         (r.name, r.author, r.comment, r.level, r.demo) for r in written
     ]
+
+
+LONG = "n" * 1001
+LONG_NAMES = {
+    "record": lambda: read_level_file(f"${LONG}#a#c#{LEVEL}#"),
+    "replay": lambda: parse_replay(write_replay(record_replay(parse_level_string(LEVEL), b"\2", name=LONG))),
+    "ascii": lambda: parse_ascii_level(f"ninja-game level 1\nname: {LONG}\n|@" + "." * 30 + "|"),
+}
+
+
+@pytest.mark.parametrize("kind", LONG_NAMES)
+def test_a_name_that_tables_would_repeat_for_ever_is_refused(kind: str) -> None:
+    with pytest.raises(FormatError, match=r"1,00[12] characters"):
+        LONG_NAMES[kind]()

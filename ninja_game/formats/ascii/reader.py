@@ -12,7 +12,7 @@ from ninja_game.formats.ascii.picture import ROW_END, ROW_START, read_picture
 from ninja_game.formats.ascii.places import shown
 from ninja_game.formats.ascii.problems import Problems
 from ninja_game.formats.ascii.writer import HEADER_KEYS, MAGIC, VERSION, write_ascii_level
-from ninja_game.formats.lines import UNCOMMENTED, Line, numbered_lines
+from ninja_game.formats.lines import MOST_NAME, UNCOMMENTED, Line, numbered_lines
 from ninja_game.sim.level import Level
 
 __all__ = ["AsciiLevel", "is_ascii_level", "parse_ascii_level", "write_ascii_level"]
@@ -106,6 +106,8 @@ def _read_header(lines: Sequence[Line], problems: Problems) -> dict[str, str]:
             problems.add("unknown header", number, 1, found=shown(key), hint=suggestion(key, HEADER_KEYS))
         elif key in fields:
             problems.add("a header given twice", number, 1, found=shown(key), hint="keep one")
+        elif len(value) > MOST_NAME and key != "comment":
+            problems.add(f"a text of {len(value):,} characters", number, expected=f"at most {MOST_NAME:,}")
         else:
             fields[key] = _header_value(value.strip())
     return fields

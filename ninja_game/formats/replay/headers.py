@@ -11,7 +11,7 @@ from typing import NamedTuple, TypeVar
 
 from ninja_game.errors import ReplayError
 from ninja_game.formats.ascii.reader import parse_ascii_level
-from ninja_game.formats.lines import Line
+from ninja_game.formats.lines import MOST_NAME, Line
 from ninja_game.formats.numbers import NAN, parse_number
 from ninja_game.sim.level import Level
 
@@ -94,6 +94,8 @@ class Headers:
     def text(self, key: str) -> str:
         """A header's text; one in double quotes is JSON."""
         value = self.raw(key)
+        if len(value) > MOST_NAME:
+            raise self.error(key, f"a text of {len(value):,} characters in '{key}'", f"at most {MOST_NAME:,}")
         if not value.startswith('"'):
             return value
         try:
