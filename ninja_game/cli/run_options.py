@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from difflib import get_close_matches
+from functools import partial
 from pathlib import Path
 from threading import Event, Thread
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -175,7 +176,7 @@ def with_progress(items: Iterable[T], label: str) -> Iterator[T]:
             yield item
             if advance is None and time.monotonic() - start > PATIENCE:
                 over.set()
-                advance = stack.enter_context(_Counter(f"{label}s", number))
+                advance = stack.enter_context(_counter(f"{label}s", number))
             elif advance:
                 advance()
 
@@ -216,22 +217,13 @@ class ProgressLog:
             click.echo(f"ninja-game: {now - self.start:,.0f} s: {text}", err=True)
 
 
-class _Counter:
-    """A line on stderr that counts; called once an item."""
+@contextmanager
+def _counter(label: str, done: int) -> Iterator[Callable[[], object]]:
+    """A line on stderr that counts; gives what is called once an item."""
+    from rich.console import Console
+    from rich.progress import MofNCompleteColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
-    def __init__(self, label: str, done: int) -> None:
-        from rich.console import Console
-        from rich.progress import MofNCompleteColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
-
-        columns = (SpinnerColumn(), TextColumn(label), MofNCompleteColumn(), TimeElapsedColumn())
-        self.progress = Progress(
-            *columns, console=Console(stderr=True), transient=True, redirect_stdout=sys.stdout.isatty()
-        )
-        self.task = self.progress.add_task(label, total=None, completed=done)
-
-    def __enter__(self) -> Callable[[], object]:
-        self.progress.start()
-        return lambda: self.progress.advance(self.task)
-
-    def __exit__(self, *_: object) -> None:
-        self.progress.stop()
+    columns = (SpinnerColumn(), TextColumn(label), MofNCompleteColumn(), TimeElapsedColumn())
+    stderr, shared = Console(stderr=True), sys.stdout.isatty()
+    with Progress(*columns, console=stderr, transient=True, redirect_stdout=shared) as progress:
+        yield partial(progress.advance, progress.add_task(label, total=None, completed=done))

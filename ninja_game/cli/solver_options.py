@@ -107,16 +107,13 @@ class ShownProgress:
         self._show = show
 
     def __call__(self, progress: Progress) -> None:
-        """Show how the search stands."""
         self.last = progress
         self._show(progress_text(progress))
 
     def say(self, text: str) -> None:
-        """Show a line as it is."""
         self._show(text)
 
     def of_level(self, name: str, progress: Progress) -> None:
-        """Show how one of several searches stands."""
         self._show(f"{shown_text(name)}: {progress_text(progress)}")
 
 

@@ -26,19 +26,8 @@ WIDTH = 160
 """Width of a table in a pipe, characters."""
 
 COLUMNS = (
-    "level_digest",
-    "file",
-    "record",
-    "name",
-    "event",
-    "object",
-    "number",
-    "x",
-    "y",
-    "tick",
-    "behind",
-    "best_segment",
-)
+    "level_digest", "file", "record", "name", "event", "object", "number", "x", "y", "tick", "behind", "best_segment",
+)  # fmt: skip
 
 format_option = click.option(
     "--format", "form", type=click.Choice(["text", "json", "csv"]), default="text", show_default=True,

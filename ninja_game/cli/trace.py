@@ -91,7 +91,10 @@ def trace(
     """
     if ticks is not None and after is not None:
         raise click.UsageError("--ticks and --after cannot be used together")
-    _check_output(digests, against, against_record, output)
+    if against_record is not None and not against:
+        raise click.UsageError("--against-record needs --against")
+    if digests + bool(against) + bool(output) > 1:
+        raise click.UsageError("--digests, --against and --output cannot be used together")
     table = not digests and not against
     options = {
         "level": level_given(level_path), "jobs": jobs, "ticks": ticks, "after": after or 0, "memory": memory,
@@ -111,14 +114,6 @@ def trace(
         there_is_no = "recordings here" if record is None else f"record {record}"
         raise click.UsageError(f"{', '.join(map(str, files))}: no {there_is_no}")
     ctx.exit(2 if traces.unreadable else 1 if different else 0)
-
-
-def _check_output(digests: bool, against: Path | None, against_record: int | None, output: Path | None) -> None:
-    """Usage error for options that ask for more than one sort of output."""
-    if against_record is not None and not against:
-        raise click.UsageError("--against-record needs --against")
-    if digests + bool(against) + bool(output) > 1:
-        raise click.UsageError("--digests, --against and --output cannot be used together")
 
 
 class Traces:

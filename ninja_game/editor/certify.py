@@ -15,7 +15,6 @@ from ninja_game.runs.run import run_level
 from ninja_game.runtime import NewestJob
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
-from ninja_game.simulation import Body
 
 if TYPE_CHECKING:
     from ninja_game.formats.replay.text import Replay
@@ -29,10 +28,10 @@ Route = tuple[tuple[float, float], ...]
 """Where the ninja was after each tick, px."""
 
 
-def route_of(level: Level, inputs: bytes, body: Body = "circle") -> Route:
+def route_of(level: Level, inputs: bytes) -> Route:
     """The ninja's route to the end of the run or of the inputs; () where it cannot be played, or costs too much."""
     try:
-        return tuple(iter_unpack("<2d", run_level(level, inputs, body=body, memory="plain").places))
+        return tuple(iter_unpack("<2d", run_level(level, inputs, memory="plain").places))
     except (BudgetError, LevelError):
         return ()
 

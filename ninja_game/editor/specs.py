@@ -51,7 +51,6 @@ _SIDES = ("right", "bottom", "left", "top")
 
 
 def properties(spec: ObjectSpec) -> dict[str, Property]:
-    """The properties that a spec has."""
     return PROPERTIES.get(spec.kind, {}) if well_formed(spec) else {}
 
 
@@ -63,7 +62,6 @@ def word(spec: ObjectSpec, name: str) -> str:
 
 
 def with_word(spec: ObjectSpec, name: str, text: str) -> ObjectSpec:
-    """A spec with another word for a property."""
     values = list(spec.values)
     slots, words = properties(spec)[name]
     for slot, value in zip(slots, words[text], strict=True):

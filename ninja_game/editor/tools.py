@@ -175,7 +175,6 @@ class EditorTools:
         return busy
 
     def pick(self) -> None:
-        """Draw with what is under the pointer."""
         found = nearest(self.draft, *self.pointer, PICK_REACH)
         if found:
             self.pick_up(self.draft.objects[found[0]])
@@ -278,18 +277,15 @@ class EditorTools:
         self.history.change(draft)
 
     def choose(self, parts: frozenset[ObjectPart]) -> None:
-        """Choose these parts of objects."""
         self.finish()
         self.selection = Selection(parts=parts)
 
     def undo(self) -> bool:
-        """Take the last edit back; whether there was one."""
         self.finish()
         self.selection = Selection()
         return self.history.undo()
 
     def redo(self) -> bool:
-        """Do again what was taken back last; whether there was anything."""
         self.finish()
         self.selection = Selection()
         return self.history.redo()

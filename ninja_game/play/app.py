@@ -238,15 +238,12 @@ class App:
 
     @property
     def top(self) -> Screen:
-        """The screen that gets the events."""
         return self.stack.top
 
     def push(self, screen: Screen) -> None:
-        """Cover the top screen by another."""
         self.stack.push(screen)
 
     def replace(self, screen: Screen) -> None:
-        """Put another screen in the top one's place."""
         self.stack.replace(screen)
 
     def pop(self) -> None:
@@ -411,7 +408,6 @@ class BossScreen(Screen):
         pygame.display.set_caption(TITLE)
 
     def handle(self, event: InputEvent) -> None:
-        """The key for leaving ends the program."""
         if "quit" in event.pressed:
             self.app.quit()
 

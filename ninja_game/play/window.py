@@ -112,8 +112,7 @@ def fitting_size(wished: tuple[int, int] = (0, 0)) -> tuple[int, int]:
 
 def icon(size: int, *, corner: float = 1 / 6) -> pygame.Surface:
     """The running ninja, as the game draws it. ``size``: px; ``corner``: radius of the corners, as a share of it."""
-    from ninja_game.play.view.ninja.figure import ninja_sprite
-    from ninja_game.play.view.ninja.pose import run_pose
+    from ninja_game.play.view.ninja.figure import ninja_sprite, run_pose
 
     palette = PALETTES["classic"]
     picture = pygame.Surface((size, size), pygame.SRCALPHA)

@@ -10,7 +10,7 @@ from ninja_game.formats.replay.text import Replay
 from ninja_game.player.records import level_score
 from ninja_game.player.statistics import SELF, killer_of
 from ninja_game.runs.run import record_replay
-from ninja_game.sim.inputs import MAX_DEMO_TICKS, Demo, pressed
+from ninja_game.sim.inputs import pressed
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.sim.states import CELEBRATING, DEAD, EXPLOSIVE, FALL, HARD_BULLET
@@ -37,7 +37,6 @@ class Attempt:
         self.restart()
 
     def restart(self) -> None:
-        """Back to the level's start."""
         self.simulation.reset()
         self.lifetime = self.start_lifetime
         self.inputs = bytearray()
@@ -53,7 +52,6 @@ class Attempt:
 
     @property
     def gold(self) -> int:
-        """Pieces of gold collected."""
         return self.simulation.gold
 
     @property
@@ -103,11 +101,9 @@ class Attempt:
     # --- practice ---
 
     def save(self) -> Moment:
-        """This moment, to come back to."""
         return self.simulation.save(), bytes(self.inputs), self.lifetime, self.ended_tick
 
     def restore(self, moment: Moment) -> None:
-        """Go back to a saved moment."""
         state, inputs, self.lifetime, self.ended_tick = moment
         self.simulation.restore(state)
         self.inputs[:] = inputs
@@ -127,12 +123,6 @@ class Attempt:
         self.assisted = True
 
     # --- recordings ---
-
-    def demo(self) -> Demo:
-        """The recording in N's form: of a death, or of more than N records, it claims one tick less (game.md §4)."""
-        inputs = bytes(self.inputs[:MAX_DEMO_TICKS])
-        closed = self.outcome == "dead" or len(self.inputs) > MAX_DEMO_TICKS
-        return Demo(inputs, max(0, len(inputs) - closed))
 
     def replay(self, name: str = "", author: str = "") -> Replay:
         """The recording in our form: run again from its inputs, so that it holds what really comes of them."""

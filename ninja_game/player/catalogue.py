@@ -70,7 +70,6 @@ class Episode:
 
     @property
     def column(self) -> int:
-        """Its column in the grid."""
         return self.number // EPISODES_PER_COLUMN
 
     def title(self, level: int) -> str:

@@ -62,7 +62,6 @@ class PlayerData:
 
     @cached_property
     def records(self) -> Records:
-        """Personal bests and replays."""
         return Records(self.store)
 
     @property
@@ -83,17 +82,14 @@ class PlayerData:
 
     @cached_property
     def marks(self) -> Marks:
-        """The fastest run and the most gold of each level."""
         return Marks(self.store)
 
     @cached_property
     def statistics(self) -> Statistics:
-        """Deaths and time played."""
         return Statistics(self.store)
 
     @property
     def replay_folder(self) -> Path:
-        """Where replay files of the player's are."""
         return self.folder / REPLAYS
 
     @property

@@ -8,7 +8,7 @@ from __future__ import annotations
 import stat
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import Enum
 from functools import partial
 from pathlib import Path
@@ -29,17 +29,6 @@ from ninja_game.player.store import Work
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.simulation import Body, Simulation
-
-YOUR_BEST = "your best"
-
-
-@dataclass(frozen=True)
-class GhostRun:
-    """A recording that runs along: ``inputs``, one byte per tick as in demos; ``colour`` "#rrggbb" or the palette's."""
-
-    label: str
-    inputs: bytes
-    colour: str = ""
 
 
 class Navigation(Enum):
@@ -64,7 +53,7 @@ class LevelContext:
         self.practice_mode = practice_mode
         self.lifetime = LIFETIME
         self.notices: list[str] = []
-        self._ghosts: tuple[tuple[str, int], list[GhostRun]] = ("", -1), []
+        self._ghosts: tuple[tuple[str, int], list[bytes]] = ("", -1), []
 
     @property
     def leads_on(self) -> bool:
@@ -96,13 +85,13 @@ class LevelContext:
         """Whether the keys are explained at its start: to a player who has passed no level yet."""
         return not self.data.statistics.played().passes
 
-    def ghosts(self) -> list[GhostRun]:
-        """The personal best; read again only when there is another one, since every retry asks."""
+    def ghosts(self) -> list[bytes]:
+        """The inputs of the personal best; read again only when there is another one, since every retry asks."""
         best = self.data.records.level_best(self.entry.digest, self.body)
         wanted = self.entry.digest, best.id if best else -1
         if wanted != self._ghosts[0]:
             replay = self.data.records.replay(best.id) if best else None
-            self._ghosts = wanted, [GhostRun(YOUR_BEST, replay.inputs)] if replay else []
+            self._ghosts = wanted, [replay.inputs] if replay else []
         return self._ghosts[1]
 
     def passed(self, attempt: Attempt) -> list[str]:
@@ -163,7 +152,6 @@ class LevelRun(LevelContext):
 
     @property
     def leads_on(self) -> bool:
-        """No: it begins again."""
         return False
 
     def passed(self, attempt: Attempt) -> list[str]:
@@ -191,7 +179,6 @@ class FileRun(LevelRun):
 
     @property
     def leads_on(self) -> bool:
-        """Whether the file holds other levels."""
         return len(self._levels) > 1
 
     def advance(self) -> Navigation:
@@ -214,11 +201,11 @@ class EpisodeRun(LevelContext):
     ``legitimate``: neither practice nor a "cheated" episode; else nothing is a best and only "reached" moves on.
     """
 
-    def __init__(self, data: PlayerData, episode: Episode, *, practice_mode: bool = False, position: int = 0) -> None:
-        super().__init__(data, episode.levels[position], practice_mode=practice_mode)
+    def __init__(self, data: PlayerData, episode: Episode, *, practice_mode: bool = False) -> None:
+        super().__init__(data, episode.levels[0], practice_mode=practice_mode)
         self.episode = episode
-        self.position = position
-        self.legitimate = not practice_mode and position == 0 and data.episode_state(episode) == UNLOCKED
+        self.position = 0
+        self.legitimate = not practice_mode and data.episode_state(episode) == UNLOCKED
         self.score = 0
         self._passed: Attempt | None = None
         self._replays: list[Replay] = []
@@ -243,7 +230,6 @@ class EpisodeRun(LevelContext):
 
     @property
     def is_last(self) -> bool:
-        """Whether the present level is the episode's last."""
         return self.position == len(self.episode.levels) - 1
 
     def passed(self, attempt: Attempt) -> list[str]:

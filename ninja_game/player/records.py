@@ -145,13 +145,9 @@ class Records:
 
     def episode_best(self, key: str, body: str = "circle") -> EpisodeBest | None:
         """The personal best of an episode, by its key."""
-        which = (key, body)
-        ids = self.store.rows(
-            "SELECT replay FROM episode_replay WHERE episode = ? AND body = ? ORDER BY place", which, [int]
-        )
-        rows = self.store.rows(
-            "SELECT score, made_at FROM episode_best WHERE episode = ? AND body = ?", which, [int, str]
-        )
+        which, where = (key, body), "WHERE episode = ? AND body = ?"
+        ids = self.store.rows(f"SELECT replay FROM episode_replay {where} ORDER BY place", which, [int])
+        rows = self.store.rows(f"SELECT score, made_at FROM episode_best {where}", which, [int, str])
         return EpisodeBest(rows[0][0], tuple(number for (number,) in ids), rows[0][1]) if rows else None
 
     def episode_passed(self, key: str, score: int, replays: Sequence[Replay]) -> bool:
@@ -161,15 +157,11 @@ class Records:
             best = self.episode_best(key, body)
             if best is not None and best.score >= score:
                 return False
-            db.execute(
-                "REPLACE INTO episode_best (episode, body, score, made_at) VALUES (?, ?, ?, ?)",
-                (key, body, score, now_text()),
-            )
+            row = key, body, score, now_text()
+            db.execute("REPLACE INTO episode_best (episode, body, score, made_at) VALUES (?, ?, ?, ?)", row)
             db.execute("DELETE FROM episode_replay WHERE episode = ? AND body = ?", (key, body))
-            db.executemany(
-                "INSERT INTO episode_replay (episode, body, place, replay) VALUES (?, ?, ?, ?)",
-                [(key, body, place, self._insert(db, replay, kept=False)) for place, replay in enumerate(replays)],
-            )
+            rows = [(key, body, place, self._insert(db, replay, kept=False)) for place, replay in enumerate(replays)]
+            db.executemany("INSERT INTO episode_replay (episode, body, place, replay) VALUES (?, ?, ?, ?)", rows)
             db.execute(_DROP_UNNEEDED)
         return True
 

@@ -123,6 +123,11 @@ def _is_bindings(value: Any) -> bool:
     )
 
 
+def _bindings(what: str, example: str) -> Rule:
+    expected = f"lists of names of {what}, such as jump = {example}"
+    return Rule("", _is_bindings, expected, f"{what} of each action that has others than the default ones")
+
+
 RULES = {
     "palette": Rule("look", _is_word, "the name of a palette, such as 'classic'", "colours of the picture"),
     "ninja_colour": Rule(
@@ -157,18 +162,8 @@ RULES = {
         "address of the page with the game to which links lead",
     ),
     "dead_zone": Rule("pad", _is_share, "a number from 0.05 to 0.95", "share of a stick's way that counts as rest"),
-    "keys": Rule(
-        "",
-        _is_bindings,
-        "lists of names of keys, such as jump = ['z', 'lshift']",
-        "keys of each action that has others than the default ones",
-    ),
-    "pad": Rule(
-        "",
-        _is_bindings,
-        "lists of names of buttons, such as jump = ['a']",
-        "buttons of each action that has others than the default ones",
-    ),
+    "keys": _bindings("keys", "['z', 'lshift']"),
+    "pad": _bindings("buttons", "['a']"),
 }
 """By setting. Bindings are tables of their own: ``[keys]`` and ``[pad-buttons]``."""
 

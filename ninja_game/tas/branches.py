@@ -120,7 +120,6 @@ def branches_of_json(kept: dict[str, Any]) -> Branches:
 
 
 def branch_as_json(branch: Branch) -> dict[str, Any]:
-    """A branch as JSON can say it."""
     return {
         "name": branch.name, "parent": branch.parent, "end": branch.end, "outcome": branch.outcome,
         "gold": branch.gold, **track_as_json(branch.track),

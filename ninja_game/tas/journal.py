@@ -30,7 +30,7 @@ from ninja_game.tas.branches import (
     track_of_json,
 )
 from ninja_game.tas.files import OpenedRun, RunFile, run_file_of
-from ninja_game.tas.input_track import InputTrack
+from ninja_game.tas.input_track import InputTrack, first_difference
 
 FOLDER, SUFFIX = "tas", ".jsonl"
 """In the player's folder."""
@@ -42,15 +42,10 @@ def edit_as_json(old: InputTrack, new: InputTrack) -> dict[str, Any]:
     ``sum``: of the new track, so that a damaged edit is noticed.
     """
     at = old.first_difference(new)
-    tail = _same_at_the_end(old.inputs[at:], new.inputs[at:])
+    tail = first_difference(old.inputs[at:][::-1], new.inputs[at:][::-1])
     keys = new.inputs[at : len(new) - tail]
     change: dict[str, Any] = {"at": at, "to": len(old) - tail, "keys": keys.hex()[1::2], "sum": _sum(new)}
     return change if old.markers == new.markers else change | {"markers": [list(each) for each in new.markers]}
-
-
-def _same_at_the_end(ours: bytes, theirs: bytes) -> int:
-    """How many bytes at the end are the same."""
-    return InputTrack(ours[::-1]).first_difference(InputTrack(theirs[::-1]))
 
 
 def _sum(track: InputTrack) -> int:

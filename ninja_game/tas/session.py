@@ -104,11 +104,9 @@ class Session:
         self._stroke_noted = False
 
     def undo(self) -> bool:
-        """Take the last edit back; whether there was one."""
         return self._step(self.history.undo)
 
     def redo(self) -> bool:
-        """Do again what was taken back last; whether there was anything."""
         return self._step(self.history.redo)
 
     def _step(self, step: Callable[[], bool]) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from random import Random
 
-from ninja_game.play.view.ninja.pose import STAND
+from ninja_game.play.view.ninja.figure import STAND
 from ninja_game.play.view.ninja.ragdoll import STICKS, Ragdoll
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.level import Level, ObjectSpec

@@ -11,7 +11,6 @@ from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.view.level_view import LevelView, OffscreenContext
 from ninja_game.play.view.overlays import OVERLAY_ACTIONS
-from ninja_game.player.playthrough import GhostRun
 from ninja_game.simulation import Simulation
 from tests.support.own_pack import PACK
 from tests.support.scripted import frames, level_run, press, release, scripted_app
@@ -40,7 +39,7 @@ def test_a_run_with_everything_on_is_the_bare_run(path: Path, monkeypatch: pytes
     inputs = recording.inputs
     with scripted_app((396, 300), palette="safe-dark", show_keys=True) as (app, controls):
         run = level_run(app, recording.level)
-        monkeypatch.setattr(run, "ghosts", lambda: [GhostRun("half", inputs[: len(inputs) // 2])])
+        monkeypatch.setattr(run, "ghosts", lambda: [inputs[: len(inputs) // 2]])
         screen = LevelScreen(app, run)
         screen.overlays.on = set(OVERLAY_ACTIONS)
         screen.play.view.ghosts = [*screen.play.view.ghosts]
@@ -88,10 +87,10 @@ def test_looking_only_reads() -> None:
     view = LevelView(sheet, seen, seed=5)
     import pygame
 
-    from ninja_game.play.level.ghosts import Ghost
+    from ninja_game.play.replay.playback import Ghost
 
     surface = pygame.Surface((396, 300))
-    view.ghosts = [Ghost(GhostRun("ghost", b""), recording.level, "circle")]
+    view.ghosts = [Ghost(b"", recording.level, "circle")]
     for keys in recording.inputs:
         bare.step_keys(keys)
         seen.step_keys(keys)

@@ -21,8 +21,19 @@ import pygame
 from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.ui.theme import PALETTES, Palette, Theme
 from ninja_game.play.view.effects import particles
-from ninja_game.play.view.ninja.figure import ninja_sprite
-from ninja_game.play.view.ninja.pose import DANCES, FALL, FLOAT, LEAP, RISE, SKID, SLIDE, STAND, Pose, run_pose
+from ninja_game.play.view.ninja.figure import (
+    DANCES,
+    FALL,
+    FLOAT,
+    LEAP,
+    RISE,
+    SKID,
+    SLIDE,
+    STAND,
+    Pose,
+    ninja_sprite,
+    run_pose,
+)
 from ninja_game.play.view.sprites import moving_sprites as moving, static_sprites as static
 from ninja_game.play.view.sprites.drawing import SpriteBook, SpriteKey
 from tests.support.game_screens import run_tour

@@ -11,7 +11,7 @@ from ninja_game.play.input.bindings import Bindings
 from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.playthrough import GhostRun, LevelRun
+from ninja_game.player.playthrough import LevelRun
 from ninja_game.sim import kinds
 from ninja_game.sim.level import Level, ObjectSpec
 
@@ -67,9 +67,9 @@ class Restless(Bindings):
 class BusyRun(LevelRun):
     """A level with a ghost."""
 
-    def ghosts(self) -> list[GhostRun]:
+    def ghosts(self) -> list[bytes]:
         """One that runs to and fro."""
-        return [GhostRun("busy", bytes(2 if k % 90 < 60 else 1 for k in range(600)))]
+        return [bytes(2 if k % 90 < 60 else 1 for k in range(600))]
 
 
 def busy_screen(app: App, level: Level | None = None) -> LevelScreen:

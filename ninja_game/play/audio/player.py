@@ -67,7 +67,8 @@ class AudioPlayer(AudioOutput):
         self._machines: list[Object] = []
         self._corpse_at = 0.0
         self.works = _open_mixer()
-        self.preload(path.stem for path in sorted(folder.glob("*.wav")))
+        for path in sorted(folder.glob("*.wav")):
+            self._sound(path.stem)
 
     # --- what is heard ---
 
@@ -135,7 +136,7 @@ class AudioPlayer(AudioOutput):
         channel.set_volume(level * self.volume * self.loop_volume / LOUDEST**2)
 
     def _sound(self, name: str) -> pygame.mixer.Sound | None:
-        """A sound, read when it is first asked for; None if it is missing or cannot be played."""
+        """A sound, read once; None if it is missing or cannot be played."""
         if not self.works:
             return None
         if name not in self._sounds:
@@ -144,11 +145,6 @@ class AudioPlayer(AudioOutput):
             except (pygame.error, OSError):
                 self._sounds[name] = None
         return self._sounds[name]
-
-    def preload(self, names: Iterable[str]) -> None:
-        """Read sounds before they are needed."""
-        for name in names:
-            self._sound(name)
 
 
 def _has_loop(o: Object) -> bool:

@@ -38,11 +38,6 @@ Tiles: 1 to 8 choose a shape, Q W A S its solid corner, E is full, D empty. Obje
 W A S D turn them. Without a mouse: arrows move the pointer, Space draws, Shift and arrows move what is selected."""
 
 
-def help_page(app: App) -> HelpPage:
-    """What one has to know to begin, and all commands."""
-    return HelpPage(app, "The editor", _WORDS, COMMANDS)
-
-
 NAMELESS = "My level"
 """What a level is called if its maker gives it no name."""
 
@@ -71,7 +66,7 @@ class EditorCommands(DocumentCommands):
     def _table(self) -> dict[str, Action]:
         tools, view = self.session.tools, self.view
         return {
-            "help": lambda: self.app.push(help_page(self.app)), "menu": self.menu,
+            "help": lambda: self.app.push(HelpPage(self.app, "The editor", _WORDS, COMMANDS)), "menu": self.menu,
             "test": self.test, "test_here": lambda: self.test(here=True), "certify": self.certify,
             "save": self.save, "save_as": self.save_as, "open": self.open, "new": self.new, "about": self.about,
             "undo": tools.undo, "redo": tools.redo,

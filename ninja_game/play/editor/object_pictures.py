@@ -13,8 +13,7 @@ from ninja_game.editor.specs import BODY, points, word
 from ninja_game.errors import LevelError
 from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.ui.theme import Palette
-from ninja_game.play.view.ninja.figure import REACH, paint_figure
-from ninja_game.play.view.ninja.pose import STAND
+from ninja_game.play.view.ninja.figure import REACH, STAND, paint_figure
 from ninja_game.play.view.sprites import static_sprites
 from ninja_game.play.view.sprites.drawing import DrawTarget, SpriteBook, SpriteKey, drawing, is_near
 from ninja_game.play.view.sprites.moving_sprites import draw_moving

@@ -118,24 +118,16 @@ _BUTTONS = (
 class ToolButton(Button):
     """A button of a command, accented while the command is in force."""
 
-    def __init__(
-        self,
-        area: Area,
-        name: str,
-        text: str,
-        run: Callable[[str], object],
-        tools: EditorTools,
-        grid: Callable[[], str],
-    ) -> None:
+    def __init__(self, area: Area, name: str, text: str, run: Callable[[str], object], view: EditorView) -> None:
         super().__init__(area, text, lambda: run(name), hint=TABLE.hint(name), size=9)
-        self.name, self.tools, self.grid = name, tools, grid
+        self.name, self.view = name, view
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
-        tools, (x, y, w, h) = self.tools, self.area
+        tools, (x, y, w, h) = self.view.session.tools, self.area
         lit = self.name == tools.tool or (self.name == "symmetry" and tools.symmetry != "off")
         theme.row(surface, self.area, chosen=lit, focused=lit, radius=3)
         self.enabled = {"undo": tools.history.can_undo, "redo": tools.history.can_redo}.get(self.name, True)
-        text = self.text.format(symmetry=tools.symmetry, grid=self.grid(), snap=tools.snap)
+        text = self.text.format(symmetry=tools.symmetry, grid=self.view.grid.name, snap=tools.snap)
         colour = theme.palette.text if self.enabled else theme.palette.faint
         theme.text(
             surface, text, x + w / 2, y + (h - 9) / 2, size=9, colour=colour, align="centre", bold=lit or focused
@@ -171,7 +163,7 @@ class Toolbar(EditorPart):
         x, buttons = 6.0, []
         for name, text, width, gap in _BUTTONS:
             area = (x, TOP, width, TALL)
-            buttons.append(ToolButton(area, name, text, run, self.session.tools, lambda: view.grid.name))
+            buttons.append(ToolButton(area, name, text, run, view))
             x += width + GAP + gap
         self.widgets = buttons
 

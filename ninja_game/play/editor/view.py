@@ -176,7 +176,6 @@ class EditorView(Part):
     # --- the mouse ---
 
     def press(self, *, erase: bool = False, pick: bool = False, add: bool = False) -> None:
-        """A button goes down at the pointer."""
         self._held = True
         self.session.tools.press(erase=erase, pick=pick, add=add)
 

@@ -217,7 +217,6 @@ def _ready_hint(key: KeyName, *, practice_mode: bool, show_tutorial: bool) -> st
 
 
 def _cause_of_death(play: LevelPlay) -> str:
-    """What happened, in a few words."""
     if play.attempt.own_hand:
         return "You gave up."
     if play.killer != SELF:

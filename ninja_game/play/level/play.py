@@ -7,8 +7,7 @@ from random import Random
 
 from ninja_game.play.app import App
 from ninja_game.play.clock import RunClock
-from ninja_game.play.level.ghosts import Ghost
-from ninja_game.play.replay.playback import Playback
+from ninja_game.play.replay.playback import Ghost, Playback
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.player.attempt import Attempt, Moment
 from ninja_game.player.playthrough import LevelContext
@@ -86,7 +85,7 @@ class LevelPlay:
         self.notices: list[str] = []
         self.aim = self.context.aim()
         runs = self.context.ghosts()
-        if [run.inputs for run in runs] != [ghost.inputs for ghost in self.ghosts]:
+        if runs != [ghost.inputs for ghost in self.ghosts]:
             self.ghosts = [Ghost(run, self.context.level, self.context.body) for run in runs]
             self.view.ghosts = self.ghosts
         self.view.on_seek()
@@ -167,7 +166,6 @@ class LevelPlay:
     # --- time ---
 
     def update(self, real_ms: int) -> None:
-        """Let the world go on, if it does."""
         if self.phase is Phase.READY:
             self._wait_for_move()
         elif self.phase is not Phase.PAUSED:

@@ -159,7 +159,6 @@ class Browser(ThumbnailScreen):
     # --- go ---
 
     def play(self, index: int, *, practice: bool = False) -> None:
-        """Play a level of the list."""
         if index < len(self.shown):
             self.message = play_level(self.app, self.shown[index], practice=practice)
 
@@ -168,7 +167,6 @@ class Browser(ThumbnailScreen):
             self._edit(self.selected)
 
     def _copy_link(self) -> None:
-        """The selected level as a link, in the clipboard."""
         if self.selected is not None:
             copy_level_link(self.app, self.selected.named, self.selected.title)
 
@@ -246,7 +244,6 @@ class LevelChoice(Browser):
         return [*self.choosers(), Button((SIDE, 470, SIDE_WIDTH, 32), "Edit", lambda: self.play(self.list.index))]
 
     def play(self, index: int, *, practice: bool = False) -> None:
-        """Choose a level of the list."""
         if index < len(self.shown):
             self.app.pop()
             self._choose(self.shown[index])

@@ -80,15 +80,10 @@ class Cells(ListView):
             return False
         return used
 
-    def click(self, x: float, y: float) -> bool:
-        """Choose what is clicked, unless there is nothing."""
-        index = self._index_at(x, y)
-        return index is not None and self.numbers[index] >= 0 and super().click(x, y)
-
-    def hover(self, x: float, y: float) -> bool:
-        """The mouse is over it: select what is there, unless there is nothing."""
-        index = self._index_at(x, y)
-        return index is not None and self.numbers[index] >= 0 and super().hover(x, y)
+    def _index_at(self, x: float, y: float) -> int | None:
+        """The cell at a point that holds an episode."""
+        index = super()._index_at(x, y)
+        return index if index is not None and self.numbers[index] >= 0 else None
 
 
 def draw_look(surface: pygame.Surface, theme: Theme, look: str, area: Area) -> None:

@@ -6,7 +6,7 @@ import re
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
+from typing import Any
 
 import pygame
 
@@ -47,26 +47,19 @@ class Page:
     shows: tuple[str, ...]
 
 
-def read_pages(path: Path | None = None) -> list[Page]:
-    """The pages of the bundled file, or of another. Raises LevelError naming the page that is wrong."""
-    path = path or data_folder("assets") / PAGES_FILE
+def read_pages() -> list[Page]:
+    """The pages of the bundled file. Raises LevelError naming the page that is wrong."""
+    path = data_folder("assets") / PAGES_FILE
     tables = tomllib.loads(path.read_text("utf-8"))["page"]
     return [_page(table, str(path)) for table in tables]
 
 
-def _page(table: dict[str, object], file: str) -> Page:
-    title = str(table["title"])
-    room = str(table["room"]).strip("\n").split("\n")
-    objects = table.get("objects", [])
-    assert isinstance(objects, list)  # noqa: S101 - our own file, read by a test
+def _page(table: dict[str, Any], file: str) -> Page:
     try:
-        level = room_level(room, objects)
+        level = room_level(table["room"].strip("\n").split("\n"), table.get("objects", []))
     except LevelError as error:
-        raise LevelError(f"the page {title!r}: {error}", file) from error
-    text, shows = table["text"], table["shows"]
-    assert isinstance(text, list)  # noqa: S101 - as above
-    assert isinstance(shows, list)  # noqa: S101 - as above
-    return Page(title, tuple(text), level, strokes(str(table["keys"])), tuple(shows))
+        raise LevelError(f"the page {table['title']!r}: {error}", file) from error
+    return Page(table["title"], tuple(table["text"]), level, strokes(table["keys"]), tuple(table["shows"]))
 
 
 def room_level(room: Sequence[str], objects: Sequence[str]) -> Level:

@@ -124,11 +124,11 @@ REST_TICKS = 130
 class Attract:
     """Plays replays for ever in a shuffled order, silently. ``shown``: how many were begun."""
 
-    def __init__(self, app: App, *, seed: int | None = None) -> None:
+    def __init__(self, app: App) -> None:
         self.app = app
         self.shown = 0
         self._clock = RunClock()
-        self._rng = Random(seed)  # noqa: S311 - the order is no secret
+        self._rng = Random()  # noqa: S311 - the order is no secret
         self._order = self._shuffled()
         self._playback: Playback | None = None
         self._until = 0

@@ -189,7 +189,6 @@ class MenuScreen(Screen):
             self._dragged = None
 
     def _at(self, x: float, y: float) -> Widget | None:
-        """The widget under a point."""
         return next((widget for widget in self.widgets if widget.focusable and widget.contains(x, y)), None)
 
     # --- time and picture ---

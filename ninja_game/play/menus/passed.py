@@ -46,7 +46,6 @@ class EpisodePassed(ThumbnailScreen):
             self._play(EpisodeRun(self.player, self.next_episode, practice_mode=practice_mode))
 
     def watch(self) -> None:
-        """The replays of the episode's best run."""
         best = self.player.records.episode_best(self.run.episode.key)
         if best is not None:
             watch(self.app, [self.player.records.replay(number) for number in best.replays])

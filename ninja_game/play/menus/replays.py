@@ -10,8 +10,7 @@ import pygame
 
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.reading import LeftOut, files_below
-from ninja_game.files.user_folder import bundled_replays, export_path
-from ninja_game.files.writing import write_atomically
+from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.links.making import recording_link, replay_link
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
@@ -117,19 +116,12 @@ class ReplaysScreen(MenuScreen):
             super().handle(event)
 
     def _export(self, row: ReplayRow) -> None:
-        """Write a replay into the player's folder of exports."""
         source = row.source
         replay = source.replay if isinstance(source, Recording) else self.player.records.replay(source.id)
         if replay is None:
-            self.message = "Only replays of this game can be saved as text"
+            self.app.notify("Only replays of this game can be saved as text")
         else:
-            try:
-                file = export_path(self.player.folder, row.text, ".replay.txt")
-                write_atomically(file, write_replay(replay))
-                self.message = f"Saved as {file}"
-            except (OSError, NinjaGameError) as error:
-                self.message = str(error)
-        self.redraw = True
+            self.app.write_export(row.text, ".replay.txt", write_replay(replay))
 
     def _copy_link(self, row: ReplayRow) -> None:
         def make() -> str:

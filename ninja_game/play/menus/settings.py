@@ -96,17 +96,14 @@ def binding_widgets(screen: SettingsScreen, device: str) -> list[Widget]:
         Button((216, 478, 260, 30), "Reset to defaults", lambda: screen.change(**{device: {}})),
     ]
     if device == "pad":
-        widgets.append(_dead_zone(screen))
+        pads = screen.app.controls.pads.count
+        zone = Slider(
+            (216, 514, 540, 30), "Dead zone of sticks", (0.05, 0.95, 0.05), lambda: screen.player.settings.dead_zone,
+            lambda value: screen.change(dead_zone=round(value, 2)), show=lambda value: f"{100 * value:.0f} %",
+            hint=f"{pads} gamepads are plugged in" if pads != 1 else "One gamepad is plugged in",
+        )  # fmt: skip
+        widgets.append(zone)
     return widgets
-
-
-def _dead_zone(screen: SettingsScreen) -> Slider:
-    pads = screen.app.controls.pads.count
-    return Slider(
-        (216, 514, 540, 30), "Dead zone of sticks", (0.05, 0.95, 0.05), lambda: screen.player.settings.dead_zone,
-        lambda value: screen.change(dead_zone=round(value, 2)), show=lambda value: f"{100 * value:.0f} %",
-        hint=f"{pads} gamepads are plugged in" if pads != 1 else "One gamepad is plugged in",
-    )  # fmt: skip
 
 
 class BindingTable(ListView):
@@ -256,7 +253,6 @@ class SettingsScreen(MenuScreen):
     # --- changing ---
 
     def change(self, **values: object) -> None:
-        """Take, save and show other values."""
         self.app.change_settings(**values)
 
     def _area(self, place: int) -> tuple[float, float, float, float]:

@@ -9,7 +9,6 @@ from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
 from pathlib import Path
-from threading import Thread
 from typing import Any
 
 import pygame
@@ -19,12 +18,10 @@ from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import export_path, how_to_install
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
-from ninja_game.play.level.ghosts import Ghost
 from ninja_game.play.level.hud import Hud
-from ninja_game.play.replay.playback import Playback
+from ninja_game.play.replay.playback import Ghost, Playback
 from ninja_game.play.ui.theme import ROLES, Palette, mixed, palette_named
 from ninja_game.play.view.level_view import LevelView, OffscreenContext
-from ninja_game.player.playthrough import GhostRun
 from ninja_game.player.settings import Settings
 from ninja_game.runtime import require_desktop, run_in_background
 from ninja_game.sim.rules import TICKS_PER_SECOND
@@ -81,7 +78,7 @@ def film_pictures(film: Film) -> Iterator[pygame.Surface]:
     moments = film.moments
     playback = Playback(Simulation(film.run.level, body=film.run.body), film.run.inputs, spacing=0)
     view = LevelView(context, playback.simulation)
-    view.ghosts = [Ghost(GhostRun(other.title, other.inputs), other.level, other.body) for other in film.ghosts]
+    view.ghosts = [Ghost(other.inputs, other.level, other.body) for other in film.ghosts]
     surface = pygame.Surface(film.size)
     hud = Hud(context.theme)
     for tick in range(moments.stop):
@@ -232,9 +229,6 @@ class FilmJob:
         self._wanted = True
         self.done = False
         self.result = ""
-        self._thread: Thread
-
-    def start(self) -> None:
         self._thread = run_in_background(self._make, self._fail)
 
     def cancel(self) -> None:

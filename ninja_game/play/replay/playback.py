@@ -1,15 +1,20 @@
-"""Recorded inputs played on a level: tick by tick, or to any of their moments."""
+"""Recorded inputs played on a level: tick by tick, or to any of their moments; and as ghosts, beside another run."""
 
 from __future__ import annotations
 
+from random import Random
+
 import pygame
 
-from ninja_game.budget import tick_cost
-from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.theme import Theme, mixed
+from ninja_game.budget import TURN_WORK, tick_cost
+from ninja_game.play.ui.canvas import Canvas, Point
+from ninja_game.play.ui.theme import Palette, Theme, mixed
+from ninja_game.play.view.ninja.ninja_animation import NinjaAnimation
 from ninja_game.runs.save_states import SPACING, SaveStates
 from ninja_game.sim.inputs import MAX_TICKS
-from ninja_game.simulation import SaveState, Simulation
+from ninja_game.sim.level import Level
+from ninja_game.sim.states import CELEBRATING, DEAD
+from ninja_game.simulation import Body, SaveState, Simulation
 
 
 class Playback:
@@ -39,11 +44,9 @@ class Playback:
         return self.simulation.tick
 
     def keys_at(self, tick: int) -> int:
-        """The keys of a tick."""
         return self.inputs[tick] if 0 <= tick < len(self.inputs) else 0
 
     def step(self) -> None:
-        """One tick."""
         self.simulation.step_keys(self.keys_at(self.simulation.tick))
         self.note()
 
@@ -127,6 +130,69 @@ class ReplayBar:
 
     @staticmethod
     def write(surface: pygame.Surface, theme: Theme, tick: int, end: int, speed: str) -> pygame.Rect:
-        """Tick and speed as text."""
         text = f"{min(tick, end)} / {end}, {speed}"
         return theme.text(surface, text, 768, 583, size=9, colour=theme.palette.on_tile, align="right")
+
+
+class Ghost:
+    """One recording, ticking along.
+
+    ``behind``: ticks that it lags behind after a leap: it catches up by the work of a turn with each tick. Not
+    ``alone``: only when it is told to.
+    """
+
+    def __init__(self, inputs: bytes, level: Level, body: Body, *, alone: bool = True) -> None:
+        self.inputs = inputs
+        self.simulation = Simulation(level, body=body)
+        self._playback = Playback(self.simulation, inputs, spacing=0)
+        self.ninja_animation = NinjaAnimation(self.simulation.world, Random(1))  # noqa: S311 - presentation
+        self._before = self._now = self._place()
+        self._turn = max(1, TURN_WORK // tick_cost(level)) if alone else 0
+        self.behind = 0
+
+    def _place(self) -> Point:
+        n = self.simulation.world.ninja
+        return n.x, n.y
+
+    @property
+    def over(self) -> bool:
+        """Whether it has reached its end; it then stays where it is."""
+        return self.simulation.world.ninja.state in {DEAD, CELEBRATING}
+
+    def on_tick(self) -> None:
+        self._before = self._now
+        if self.behind:
+            self.behind += 1
+            self.catch_up(self._turn)
+        elif not self.over:
+            self._playback.step()
+            self.ninja_animation.on_tick(self.simulation.world)
+            self._now = self._place()
+
+    def on_seek(self, tick: int) -> None:
+        """Be where the recording is after that many ticks, or on the way to there."""
+        if tick < self.simulation.tick or self.over:
+            self._playback.seek(0)
+        self.behind = tick - self.simulation.tick
+        self.catch_up(self._turn)
+
+    def catch_up(self, most: int) -> int:
+        """Go on after a leap for this many ticks at most; how many it was."""
+        before = self.simulation.tick
+        ticks = min(self.behind, most)
+        self.behind -= ticks
+        while ticks and not self.over:
+            self._playback.step()
+            ticks -= 1
+        if self.over:
+            self.behind = 0
+        self.ninja_animation.reset(self.simulation.world)
+        self._before = self._now = self._place()
+        return self.simulation.tick - before
+
+    def place(self, fraction: float) -> Point:
+        (bx, by), (x, y) = self._before, self._now
+        return bx + (x - bx) * fraction, by + (y - by) * fraction
+
+    def colour(self, palette: Palette) -> pygame.Color:
+        return palette.ghost

@@ -15,13 +15,11 @@ from ninja_game.play.app import App, Screen
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.clock import RunClock
 from ninja_game.play.input.bindings import InputEvent
-from ninja_game.play.level.ghosts import Ghost
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.replay.film import FilmJob
-from ninja_game.play.replay.playback import Playback, ReplayBar
+from ninja_game.play.replay.playback import Ghost, Playback, ReplayBar
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.overlays import Overlays
-from ninja_game.player.playthrough import GhostRun
 from ninja_game.sim.rules import TICK_MS, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 
@@ -73,9 +71,7 @@ class ReplayScreen(Screen):
         self.view = LevelView(self.app, self.playback.simulation)
         self.view.overlays = self.overlays
         others = [other for other in self.runs if other is not run and other.level == run.level]
-        self.ghosts = [
-            Ghost(GhostRun(other.title, other.inputs), other.level, other.body, alone=False) for other in others[:8]
-        ]
+        self.ghosts = [Ghost(other.inputs, other.level, other.body, alone=False) for other in others[:8]]
         self.view.ghosts = self.ghosts
         self.paused = False
         self.still_ms = _STILL_MS
@@ -248,7 +244,6 @@ class ReplayScreen(Screen):
         """Make a film of this run among the player's exports."""
         if self.export is None:
             self.export = FilmJob(self.run, self.app.settings, self.app.player.folder)
-            self.export.start()
 
     def copy_link(self) -> None:
         copy_link(self.app, lambda: replay_link([_with_claims(self.run)]), title=self.run.title)

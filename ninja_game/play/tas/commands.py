@@ -54,7 +54,6 @@ class RunCommands(DocumentCommands):
         return {"menu": self.menu, "help": self.help, "save": self.save, "save_as": self.save_as}
 
     def help(self) -> None:
-        """All commands on one page."""
         self.app.push(HelpPage(self.app, "The TAS editor", HELP, COMMANDS))
 
     def menu(self) -> None:
@@ -117,12 +116,10 @@ class RunCommands(DocumentCommands):
         self.editor.attempt(lambda: self.app.notify(keep_replay(self.app.player, replay_of_track(about, track))))
 
     def copy_link(self) -> None:
-        """The run as a link, in the clipboard."""
         about, track = self.session.about, self.session.track
         copy_link(self.app, lambda: replay_link([replay_of_track(about, track)]), title=self.session.name)
 
     def watch(self) -> None:
-        """The run in the replay viewer."""
         self.app.push(ReplayScreen(self.app, [self.session.recording()], editable=False))
 
     # --- what was not saved ---

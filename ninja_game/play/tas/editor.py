@@ -79,7 +79,6 @@ class TasEditor:
         return len(self.session.timeline) - 1
 
     def show_tab(self, name: str) -> None:
-        """Show the tab of this name."""
         self.tab = name
 
     def go(self, tick: int, *, select: bool = False) -> None:

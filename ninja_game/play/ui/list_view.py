@@ -48,7 +48,6 @@ class ListView(Widget):
 
     @property
     def lines(self) -> int:
-        """How many lines of cells there are."""
         return -(-self.count // self.columns)
 
     def _select(self, index: int) -> None:
@@ -87,7 +86,6 @@ class ListView(Widget):
         return True
 
     def row_area(self, index: int) -> Area:
-        """Where a cell is shown."""
         x, y, w, _ = self.area
         line, column = divmod(index, self.columns)
         width = (w - BAR - 4) / self.columns
@@ -107,7 +105,7 @@ class ListView(Widget):
         if index is not None:
             self._select(index)
             self.choose(index)
-        return True
+        return index is not None
 
     def hover(self, x: float, y: float) -> bool:
         """The mouse is over it: select what is there; whether that changed anything."""

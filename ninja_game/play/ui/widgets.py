@@ -33,7 +33,6 @@ class Widget:
         return x + w / 2, y + h / 2
 
     def contains(self, x: float, y: float) -> bool:
-        """Whether a point lies in it."""
         return inside(self.area, x, y)
 
     def confirm(self) -> bool:

@@ -58,7 +58,6 @@ class Part:
         self.area = area
 
     def contains(self, x: float, y: float) -> bool:
-        """Whether a point lies in it."""
         return inside(self.area, x, y)
 
     def draw(self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool) -> list[pygame.Rect]:

@@ -84,18 +84,8 @@ MARK = ".ninja-game-pages"
 """A file in a folder of pages, which says that they may be replaced."""
 
 _INK_ROLES = (
-    "background",
-    "tile",
-    "text",
-    "on_tile",
-    "panel",
-    "panel_edge",
-    "accent",
-    "good",
-    "bad",
-    "gold",
-    "gold_light",
-)
+    "background", "tile", "text", "on_tile", "panel", "panel_edge", "accent", "good", "bad", "gold", "gold_light",
+)  # fmt: skip
 _FAINT = 0.35
 """How far small text goes from the palette's ink to its faint one: enough contrast for small letters."""
 _FRAME = 0.4

@@ -168,15 +168,15 @@ def _episodes(shown: PublishedLevels) -> Mapping[str, str]:
     return {f"{number:02d}": f"{number}: {each.name}" for number, each in sorted(shown.levels.episodes.items())}
 
 
-def search(episodes: Mapping[str, str], *, sorts: Sequence[tuple[str, str]] = SORT_ORDERS) -> Markup:
+def search(episodes: Mapping[str, str]) -> Markup:
     """The search above a list; without a script it does not show."""
-    options = [tag("option", name, value=value) for value, name in sorts]
+    options = [tag("option", name, value=value) for value, name in SORT_ORDERS]
     chosen = [tag("option", name, value=value) for value, name in episodes.items()]
     select = tag("label", "Episode ", tag("select", tag("option", "all", value=""), *chosen, name="episode"))
     sort = tag("label", "Sort ", tag("select", *options, name="sort"))
     field = tag("label", "Search ", tag("input", type="search", name="words", autocomplete="off"))
     found = tag("p", role="status", class_="found")
-    fields = (field, select if episodes else None, sort if sorts else None, found)
+    fields = (field, select if episodes else None, sort, found)
     return tag("form", *fields, class_="search", role="search", hidden=True)
 
 

@@ -67,7 +67,6 @@ class NineCells(Figure):
     def reset(self) -> None:
         super().reset()
         self.tiles, self.world = room_world(self.room, self.objects)
-        self.asked = self.touched = 0
 
     def objects_asked(self) -> tuple[list[int], list[str]]:
         """The slots of the notified objects, in order, and the events that follow; the world stays as it is."""

@@ -54,7 +54,6 @@ class EdgeStates(Figure):
         return next(slot for slot in range(1, self.world.slots_used) if self.world.objects[slot].edge_1)
 
     def controls(self) -> Sequence[Control]:
-        """The tile to paint, the side to explain, the door."""
         return [
             self.slider("Tile to paint", (0, 33, 1), "tile", lambda number: tile_name(int(number))),
             self.choice("Side", SIDES, "side"),

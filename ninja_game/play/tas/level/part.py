@@ -145,7 +145,6 @@ class LevelPart(TasPart):
         return False
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
-        """Going along the run, looking closer."""
         self._pointer.handle_mouse(event, x, y)
         return True
 

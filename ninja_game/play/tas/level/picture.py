@@ -61,7 +61,6 @@ class Camera:
         self._look_at(window, x - (px[0] - window[0] / 2) / scale, y - (px[1] - window[1] / 2) / scale)
 
     def move(self, window: tuple[int, int], dx: float, dy: float) -> None:
-        """Move the picture by this many px."""
         scale = self.canvas(window).scale
         self._look_at(window, self.centre[0] - dx / scale, self.centre[1] - dy / scale)
 
@@ -160,12 +159,10 @@ class CachedWorldSimulation(Simulation):
         return self._copy
 
     def step_keys(self, keys: int) -> None:
-        """Advance one tick with these keys."""
         self._copy = None
         super().step_keys(keys)
 
     def restore(self, state: SaveState) -> None:
-        """Go back to a saved moment."""
         self._copy = None
         super().restore(state)
 
@@ -223,7 +220,6 @@ class LevelPicture:
         return self._view.object_animation.ninja_place(fraction) if self._view is not None else (0.0, 0.0)
 
     def follow(self, ghosts: list[RunGhost]) -> None:
-        """Have other runs go along."""
         if self._view is not None and self._view.ghosts != ghosts:
             self._view.ghosts = ghosts
             for ghost in ghosts:

@@ -66,11 +66,9 @@ class RollCommands:
         return end if self._editor.cursor < end else self._editor.last_tick
 
     def select_all(self) -> None:
-        """Select all ticks that have keys."""
         self._editor.select(0, len(self._editor.track))
 
     def ask_where(self) -> None:
-        """Ask for a tick or a marker's name, and go there."""
         editor = self._editor
         editor.app.push(
             FormPanel(editor.app, "Go to", [("Tick or name", "", 100)], "Go", lambda texts: self.go_to(texts[0]))
@@ -136,7 +134,6 @@ class RollCommands:
         self._editor.edit_selected(lambda track: track.replaced(first, first, bytes(last - first)))
 
     def remove(self) -> None:
-        """Take the selected ticks out."""
         first, last = self._filled()
         if first >= last:
             self._editor.app.notify(BEHIND)
@@ -187,7 +184,6 @@ class RollCommands:
             self._editor.app.notify(BEHIND)
 
     def cut(self) -> None:
-        """Copy the selected ticks and take them out."""
         self.copy()
         first, last = self._filled()
         if first < last:

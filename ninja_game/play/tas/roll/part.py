@@ -68,7 +68,6 @@ class Roll(TasPart):
         self._followed = self.editor.cursor
 
     def choose_columns(self) -> None:
-        """Ask which columns are shown."""
 
         def switch(name: str) -> None:
             self.hidden = self.hidden ^ {name}
@@ -109,7 +108,6 @@ class Roll(TasPart):
         theme.canvas.frame_rect(surface, palette.panel_edge, *self.area)
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
-        """Painting, selecting, scrolling."""
         return self.pointer.handle_mouse(event, *self.editor.theme.canvas.point(x, y))
 
     def update(self, real_ms: int) -> None:

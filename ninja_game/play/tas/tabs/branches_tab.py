@@ -74,13 +74,11 @@ class BranchesTab(Tab):
         app.push(FormPanel(app, "Keep the run as a branch", [("its name", name, LONGEST)], "Keep", kept))
 
     def checkout(self) -> None:
-        """Go on from the chosen branch."""
         number = self.chosen
         if number is not None:
             self.editor.attempt(lambda: self.editor.session.checkout_branch(number))
 
     def compare(self) -> None:
-        """Show the lead over the chosen branch."""
         if self.chosen is not None:
             self.editor.against = self.branches.all[self.chosen].track
             self.editor.show_tab("Lead")

@@ -33,7 +33,6 @@ class TickRange:
 
     @property
     def is_whole(self) -> bool:
-        """Whether all ticks are shown."""
         return self.first <= 0 and self.last >= self.length
 
     def x(self, tick: float) -> float:

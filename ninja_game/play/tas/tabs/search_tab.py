@@ -81,7 +81,6 @@ class SpanResults:
 
     @property
     def running(self) -> bool:
-        """Whether it still searches."""
         return not self.search.done
 
     def stop(self) -> None:

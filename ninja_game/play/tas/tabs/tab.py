@@ -87,7 +87,6 @@ class TabStrip(TasPart):
         return {"next_tab": self.show_next}
 
     def show_next(self) -> None:
-        """Show the tab after the one that is shown."""
         names = [tab.name for tab in self.tabs]
         self.editor.show_tab(names[(names.index(self.editor.tab) + 1) % len(names)])
 
@@ -152,7 +151,6 @@ class EntryField(TextEntry):
 
 
 def put_in_a_row(x: float, y: float, buttons: Sequence[Button], widths: Sequence[float]) -> None:
-    """Put buttons side by side."""
     for button, width in zip(buttons, widths, strict=True):
         button.area = x, y, width, 17
         x += width + 4

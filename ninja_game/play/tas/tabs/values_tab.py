@@ -190,7 +190,6 @@ class ValuesTab(Tab):
         self._few_lanes(self.watched[-1])
 
     def remove(self) -> None:
-        """Watch the chosen value no more."""
         del self.watched[self.list.index : self.list.index + 1]
         self._keep()
 

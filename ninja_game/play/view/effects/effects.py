@@ -56,14 +56,12 @@ class Effects:
         variant = self.rng.randrange(6)
         self.particles.add(Particle(kind, x, y, dx, dy, life / 3, size, variant, self.now), rear=rear)
 
-    def spread(
-        self, kind: str, x: float, y: float, count: int, reach: float, *, life: float = 20, size: float = 1
-    ) -> None:
+    def spread(self, kind: str, x: float, y: float, count: int, reach: float, *, life: float) -> None:
         """Some in random directions, 40 to 100 % of ``reach`` px far."""
         for _ in range(count):
             angle = self.rng.uniform(0, 2 * pi)
             far = reach * self.rng.uniform(0.4, 1.0)
-            self.add(kind, x, y, far * cos(angle), far * sin(angle), life=life, size=size)
+            self.add(kind, x, y, far * cos(angle), far * sin(angle), life=life)
 
     def puffs(self, x: float, y: float, nx: float, ny: float, angle: float, length: float) -> None:
         """Four puffs of dust from a surface with normal (nx, ny), to alternating sides."""

@@ -9,8 +9,21 @@ import pygame
 
 from ninja_game.play.ui.canvas import Point
 from ninja_game.play.ui.theme import mixed
-from ninja_game.play.view.ninja.figure import HEAD, band_ends, ninja_sprite, paint_arm, paint_leg
-from ninja_game.play.view.ninja.pose import CYCLE, DANCES, SKID, SLIDE, STAND, Pose, air_pose, run_pose
+from ninja_game.play.view.ninja.figure import (
+    CYCLE,
+    DANCES,
+    HEAD,
+    SKID,
+    SLIDE,
+    STAND,
+    Pose,
+    air_pose,
+    band_ends,
+    ninja_sprite,
+    paint_arm,
+    paint_leg,
+    run_pose,
+)
 from ninja_game.play.view.ninja.ragdoll import PELVIS, SHOULDER, TRUNK, Ragdoll
 from ninja_game.play.view.sprites.drawing import DrawTarget, is_near
 from ninja_game.play.view.sprites.sketch import Sketch
@@ -55,7 +68,6 @@ class NinjaAnimation:
             self.facing = 1 if n.x > n.prev_x else -1
 
     def on_tick(self, world: World) -> None:
-        """Follow a tick."""
         n = world.ninja
         if n.state == DEAD:
             self.state = DEAD

@@ -7,7 +7,7 @@ from random import Random
 from typing import NamedTuple
 
 from ninja_game.play.ui.canvas import Point
-from ninja_game.play.view.ninja.pose import Pose
+from ninja_game.play.view.ninja.figure import Pose
 from ninja_game.sim import kinds
 from ninja_game.sim.collision import tiles
 from ninja_game.sim.grid import cell_at
@@ -122,11 +122,10 @@ class Ragdoll:
             if k == TRUNK:
                 sticks.append(stick)
                 continue
-            joint = self.particles[stick.first]
+            joint, end = self.particles[stick.first], self.particles[stick.second]
             vx, vy = self.rng.uniform(-4, 4), -self.rng.uniform(4, 8)
-            for end in (stick.second,):
-                self.particles[end].ox -= vx
-                self.particles[end].oy -= vy
+            end.ox -= vx
+            end.oy -= vy
             loose = VerletParticle(joint.x, joint.y, joint.x - joint.ox + vx, joint.y - joint.oy + vy, 2.0, 0.99)
             self.particles.append(loose)
             sticks.append(stick._replace(first=len(self.particles) - 1, share=0.5))
@@ -233,19 +232,14 @@ def _square(o: Object, box: Box, half: float, kick: float) -> Iterator[tuple[flo
     ox, oy = half + box.half - abs(dx), half + box.half - abs(dy)
     if ox <= 0 or oy <= 0:
         return
-    live = kick
     if oy < ox:
-        sign = -1.0 if dy < 0 else 1.0
-        box.y += sign * oy
-        if o.kind == kinds.THWUMP:
-            live = kick if sign == o.face_y else 0.0
-        yield 0.0, sign, live
+        nx, ny = 0.0, -1.0 if dy < 0 else 1.0
+        box.y += ny * oy
     else:
-        sign = -1.0 if dx < 0 else 1.0
-        box.x += sign * ox
-        if o.kind == kinds.THWUMP:
-            live = kick if sign == o.face_x else 0.0
-        yield sign, 0.0, live
+        nx, ny = -1.0 if dx < 0 else 1.0, 0.0
+        box.x += nx * ox
+    # Of a thwump only the side on which it falls is live.
+    yield nx, ny, kick if o.kind != kinds.THWUMP or (nx, ny) == (o.face_x, o.face_y) else 0.0
 
 
 def _pad(o: Object, box: Box) -> Iterator[tuple[float, float, float]]:

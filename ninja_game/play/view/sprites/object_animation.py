@@ -108,7 +108,6 @@ class ObjectAnimation:
         return bx + (x - bx) * fraction, by + (y - by) * fraction
 
     def ninja_place(self, fraction: float) -> Place:
-        """Where to draw the ninja."""
         (bx, by), (x, y) = self.ninja_before, self.ninja_now
         return bx + (x - bx) * fraction, by + (y - by) * fraction
 

@@ -9,8 +9,7 @@ import pygame
 from ninja_game.errors import LevelError
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.play.ui.theme import PALETTES, Palette
-from ninja_game.play.view.ninja.figure import ninja_sprite
-from ninja_game.play.view.ninja.pose import STAND
+from ninja_game.play.view.ninja.figure import STAND, ninja_sprite
 from ninja_game.play.view.sprites.backdrop import Backdrop
 from ninja_game.play.view.sprites.drawing import DrawTarget, SpriteBook
 from ninja_game.play.view.sprites.moving_sprites import draw_moving

@@ -31,26 +31,21 @@ def polygon(surface: Surface, color: Any, points: Sequence[Any]) -> Rect:
     return _clipped(surface, min(xs), min(ys), max(xs) + 1, max(ys) + 1)
 
 
-def circle(surface: Surface, color: Any, center: Any, radius: float, width: int = 0) -> Rect:
+def circle(surface: Surface, color: Any, center: Any, radius: float, width: int = 0, smooth: int = 0) -> Rect:
+    """``smooth``: 1 for a smooth one, whose middle and edge lie half a px further."""
     x, y, r = int(center[0]), int(center[1]), int(radius)
     if r < 1:
         return make(x, y, 0, 0)
+    place = x + smooth / 2, y + smooth / 2, r + smooth / 2
     if 0 < width < r:
-        surface.entries().extend((RING, packed(color), x, y, r, width))
+        surface.entries().extend((RING, packed(color), *place, width))
     else:
-        surface.entries().extend((DISC, packed(color), x, y, r))
-    return _clipped(surface, x - r, y - r, x + r, y + r)
+        surface.entries().extend((DISC, packed(color), *place))
+    return _clipped(surface, x - r, y - r, x + r + smooth, y + r + smooth)
 
 
 def aacircle(surface: Surface, color: Any, center: Any, radius: float, width: int = 0) -> Rect:
-    x, y, r = int(center[0]), int(center[1]), int(radius)
-    if r < 1:
-        return make(x, y, 0, 0)
-    if 0 < width < r:
-        surface.entries().extend((RING, packed(color), x + 0.5, y + 0.5, r + 0.5, width))
-    else:
-        surface.entries().extend((DISC, packed(color), x + 0.5, y + 0.5, r + 0.5))
-    return _clipped(surface, x - r, y - r, x + r + 1, y + r + 1)
+    return circle(surface, color, center, radius, width, smooth=1)
 
 
 def rect(surface: Surface, color: Any, rect: Any, width: int = 0, border_radius: int = 0) -> Rect:
