@@ -105,7 +105,7 @@ def require(memory: str) -> None:
         pytest.skip("the program, or Numba, is not installed")
 
 
-@pytest.mark.parametrize("text", the_rest_is_slow(YAML, 2))
+@pytest.mark.parametrize("text", the_rest_is_slow(YAML, 1))
 def test_a_file_of_settings_in_the_current_folder_has_no_power(text: str, runs: Path, tmp_path: Path) -> None:
     require("compiled")
     (tmp_path / ".numba_config.yaml").write_text(text)
@@ -113,7 +113,7 @@ def test_a_file_of_settings_in_the_current_folder_has_no_power(text: str, runs: 
     assert [path.name for path in tmp_path.iterdir()] == [".numba_config.yaml"]
 
 
-@pytest.mark.parametrize("settings", the_rest_is_slow(NUMBA, 3))
+@pytest.mark.parametrize("settings", the_rest_is_slow(NUMBA, 1))
 def test_variables_that_compilers_and_libraries_read_have_no_power(
     settings: dict[str, str], runs: Path, tmp_path: Path
 ) -> None:
@@ -123,7 +123,7 @@ def test_variables_that_compilers_and_libraries_read_have_no_power(
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("settings", the_rest_is_slow(PLAIN, 3))
+@pytest.mark.parametrize("settings", the_rest_is_slow(PLAIN, 2))
 def test_variables_of_python_and_of_the_language_have_no_power(
     settings: dict[str, str], runs: Path, tmp_path: Path
 ) -> None:

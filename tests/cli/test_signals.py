@@ -26,7 +26,7 @@ def work(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return make_work(tmp_path_factory.mktemp("work"))
 
 
-@pytest.mark.parametrize("name", the_rest_is_slow([*COMMANDS], 4))
+@pytest.mark.parametrize("name", the_rest_is_slow([*COMMANDS], 2))
 def test_sigterm_ends_a_command_with_all_its_processes(name: str, work: Path) -> None:
     if not compiled_available() and "memory plain" not in COMMANDS[name]:
         pytest.skip("Numba is not installed")
@@ -34,14 +34,14 @@ def test_sigterm_ends_a_command_with_all_its_processes(name: str, work: Path) ->
     assert (code, left) == (143, [])
 
 
-@pytest.mark.parametrize("name", ["verify on processes", "verify in one process", "trace"])
+@pytest.mark.parametrize("name", the_rest_is_slow(["verify on processes", "verify in one process", "trace"], 1))
 def test_interrupt_ends_a_command_with_all_its_processes(name: str, work: Path) -> None:
     code, _, left = ended(COMMANDS[name], signal.SIGINT, 1.5, work, settled=True)
     assert (code, left) == (130, [])
 
 
 @pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
-@pytest.mark.parametrize("name", ["solve", "improve", "search"])
+@pytest.mark.parametrize("name", the_rest_is_slow(["search", "solve", "improve"], 1))
 def test_a_command_that_still_compiles_ends_too(
     name: str, work: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -24,6 +24,7 @@ from ninja_game.tas.watch import exit_distance, parse_watch
 from tests.support.memories import BOTH
 from tests.support.own_pack import PACK
 from tests.support.samples import WALK
+from tests.support.slow import the_rest_is_slow
 
 WALKED = parse_level_string(WALK)
 RUNS = {
@@ -134,7 +135,7 @@ def test_save_states_are_thinned_and_never_far_apart() -> None:
     assert len(states) <= save_states.MOST_STATES
 
 
-@pytest.mark.parametrize("name", RUNS)
+@pytest.mark.parametrize("name", the_rest_is_slow([*RUNS], 1))
 @pytest.mark.parametrize("memory", BOTH)
 def test_watched_values_are_those_of_a_search(name: str, memory: str) -> None:
     recording = RUNS[name]

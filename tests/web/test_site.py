@@ -21,6 +21,7 @@ from ninja_game.cli.main import cli
 from ninja_game.errors import FileError, NinjaGameError
 from ninja_game.web.site import build, pyodide_files
 from ninja_game.web.site.build import site_server
+from tests.support.slow import the_rest_is_slow
 
 
 @pytest.fixture
@@ -64,7 +65,7 @@ def test_the_same_files_give_the_same_site_and_old_ones_go(pyodide: Path, tmp_pa
     assert (tmp_path / "outside.txt").exists()
 
 
-@pytest.mark.parametrize("place", ["pyodide", "licences/MPL-2.0.txt", "index.html", build.MARK])
+@pytest.mark.parametrize("place", the_rest_is_slow(["index.html", "licences/MPL-2.0.txt", "pyodide", build.MARK], 1))
 def test_nothing_is_written_or_removed_through_a_link(place: str, pyodide: Path, tmp_path: Path) -> None:
     out, outside = tmp_path / "out", tmp_path / "outside"
     build.build_site(out, pyodide, tmp_path)
