@@ -14,9 +14,13 @@ from ninja_game.sim.collision.tiles import set_edges
 from ninja_game.sim.death import kill
 from ninja_game.sim.loader import populate
 from ninja_game.sim.memory.declare import entry_point
+from ninja_game.sim.memory.interface import TRACED_NUMBERS, TRACED_PLACES
 from ninja_game.sim.memory.schema import MAX_EVENTS, TileMap, World
 from ninja_game.sim.traces import is_switched, place_of, status_of
 from ninja_game.sim.world import step
+
+PLACES, NUMBERS = len(TRACED_PLACES), len(TRACED_NUMBERS)
+"""Of a tick in a trace."""
 
 
 @entry_point
@@ -123,20 +127,21 @@ def trace_world(
     count = len(slots)
     for tick in range(len(inputs)):
         step(level, w, int(inputs[tick]))
-        ninja[7 * tick] = canonical(n.x)
-        ninja[7 * tick + 1] = canonical(n.y)
-        ninja[7 * tick + 2] = canonical(n.prev_x)
-        ninja[7 * tick + 3] = canonical(n.prev_y)
-        ninja[7 * tick + 4] = canonical(n.wall_x)
-        ninja[7 * tick + 5] = canonical(n.floor_x)
-        ninja[7 * tick + 6] = canonical(n.floor_y)
-        numbers[7 * tick] = n.state
-        numbers[7 * tick + 1] = w.gold
-        numbers[7 * tick + 2] = n.jump_timer
-        numbers[7 * tick + 3] = n.in_air
-        numbers[7 * tick + 4] = n.near_wall
-        numbers[7 * tick + 5] = n.floor_contacts
-        numbers[7 * tick + 6] = w.outcome
+        place, fact = PLACES * tick, NUMBERS * tick
+        ninja[place] = canonical(n.x)
+        ninja[place + 1] = canonical(n.y)
+        ninja[place + 2] = canonical(n.prev_x)
+        ninja[place + 3] = canonical(n.prev_y)
+        ninja[place + 4] = canonical(n.wall_x)
+        ninja[place + 5] = canonical(n.floor_x)
+        ninja[place + 6] = canonical(n.floor_y)
+        numbers[fact] = n.state
+        numbers[fact + 1] = w.gold
+        numbers[fact + 2] = n.jump_timer
+        numbers[fact + 3] = n.in_air
+        numbers[fact + 4] = n.near_wall
+        numbers[fact + 5] = n.floor_contacts
+        numbers[fact + 6] = w.outcome
         for k in range(count):
             row = tick * count + k
             x, y = place_of(w, slots[k])
