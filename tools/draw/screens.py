@@ -54,7 +54,7 @@ def editor_picture(folder: Path) -> pygame.Surface:
 
 def menu_picture(folder: Path) -> pygame.Surface:
     """The main menu, over the attract mode, which begins with a level at random."""
-    with patch("ninja_game.play.menus.main_menu.Random", lambda _: Random(1)):
+    with patch("ninja_game.play.menus.main_menu.Random", lambda: Random(1)):
         driver = MenuDriver(folder)
     driver.frames(80)
     return driver.app.surface.copy()
