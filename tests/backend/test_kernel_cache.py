@@ -153,6 +153,7 @@ def test_numba_switched_off_is_numba_missing(tmp_path: Path) -> None:
     assert (out, "MemoryUnavailableError" in errors) == ("", True)
 
 
+@pytest.mark.slow
 @needs_numba
 def test_checked_kernels_refuse_an_index_out_of_range_and_are_kept_apart(tmp_path: Path) -> None:
     run(tmp_path)

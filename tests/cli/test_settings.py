@@ -131,7 +131,7 @@ def test_variables_of_python_and_of_the_language_have_no_power(
     assert judged(runs, "plain", tmp_path, settings) == ordinary(runs, "plain")
 
 
-@pytest.mark.parametrize("memory", ["plain", "compiled"])
+@pytest.mark.parametrize("memory", the_rest_is_slow(["plain", "compiled"], 1))
 def test_a_folder_full_of_modules_has_no_power(memory: str, runs: Path, tmp_path: Path) -> None:
     require(memory)
     for name in MODULES:
@@ -150,6 +150,7 @@ def _of_another_processor(folder: Path) -> None:
         (folder / f"{file.name[:-8]}00000.code").write_bytes(b"rubbish")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("change", [_damage, _of_another_processor])
 def test_a_cache_that_is_damaged_or_of_another_processor_has_no_power(
     change: Callable[[Path], None], runs: Path, tmp_path: Path

@@ -36,7 +36,10 @@ SHORTER = {
 """What a command of the page is run with instead, so that a test takes seconds."""
 
 
-@pytest.mark.parametrize("line", COMMANDS)
+TRIED = [pytest.param(line, marks=[pytest.mark.slow] * ("examples.train" in line)) for line in COMMANDS]
+
+
+@pytest.mark.parametrize("line", TRIED)
 def test_a_command_of_the_page_does_what_it_says(line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("MINARI_DATASETS_PATH", str(tmp_path))
     monkeypatch.chdir(tmp_path)
