@@ -17,6 +17,7 @@ import shutil
 import subprocess
 import sys
 import tarfile
+import tempfile
 import time
 import zipfile
 from collections.abc import Callable, Iterable, Sequence
@@ -26,7 +27,9 @@ from pathlib import Path
 from ninja_game import __version__
 from tools.dev import ROOT, program
 
-WORK, SITE = ROOT / "build" / "release", f"ninja-game-{__version__}-site"
+WORK = Path(tempfile.gettempdir()) / "ninja-game-release"
+"""Always the same: compiled code holds the names of its files."""
+SITE = f"ninja-game-{__version__}-site"
 FROZEN = f"ninja-game-{__version__}-{sys.platform}"
 
 KERNELS = """
