@@ -183,7 +183,9 @@ class KernelCache:
 
         pack: Any = dumps
         try:
-            code = pack(result._reduce())  # noqa: SLF001 - as Numba's own caches do
+            # The one text in it lists the types of all lines, with addresses of this process.
+            parts = result._reduce()  # noqa: SLF001 - as Numba's own caches do
+            code = pack(tuple("" if isinstance(part, str) else part for part in parts))
         except Exception as error:  # noqa: BLE001 - whatever another version of Numba does here: it works without
             say_once(f"compiled code cannot be kept ({type(error).__name__}: {error}){COMPILES_AGAIN}")
             return
