@@ -57,13 +57,13 @@ class Release:
     """A release under way: ``source``: a clone of the last commit, ``out``: where its files go."""
 
     def __init__(self, out: Path) -> None:
+        shutil.rmtree(WORK, ignore_errors=True)
         self.source, self.out = WORK / "source", out
         self.epoch = int(self._said("git", "log", "-1", "--format=%ct"))
         self.environment = {
             **os.environ, "SOURCE_DATE_EPOCH": str(self.epoch), "PYTHONHASHSEED": "0", "PYTHONPATH": str(self.source),
             "NINJA_GAME_BACKGROUND_COMPILER": "0", "PYTHONSAFEPATH": "1", "SDL_VIDEODRIVER": "dummy",
         }  # fmt: skip
-        shutil.rmtree(WORK, ignore_errors=True)
         shutil.rmtree(out, ignore_errors=True)
         out.mkdir(parents=True)
         self._said("git", "clone", "-q", "--no-local", str(ROOT), str(self.source))
