@@ -54,7 +54,7 @@ PROGRAMS = {
     "change-rules": ("tools.breaks", "--rules"),
 }
 DRAWINGS = ("draw.how_it_works", "draw.screens", "draw.settings_page")
-PICTURE_TESTS = ("tests/play/test_recorded_screens.py", "tests/play/test_pictures.py", "tests/play/test_sound.py")
+PICTURE_TESTS = tuple(f"tests/play/test_{name}.py" for name in ("recorded_screens", "pictures", "drawings", "sound"))
 LINT = (("ruff", "check"), ("ruff", "format", "--check"), ("mypy",), ("lint-imports",))
 FIX = (("ruff", "check", "--fix"), ("ruff", "format"), *LINT[2:])
 GOOD = "lint: all good"
