@@ -10,6 +10,8 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
+from tests.support.warm_start import WarmStart
+
 # Speed is no business of tests on a loaded machine. The examples are always the same, unless new ones are asked for.
 settings.register_profile(
     "ninja-game",
@@ -30,6 +32,14 @@ os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 
 ROOT = Path(__file__).resolve().parent.parent
 
+COSTLY = ("chromium", "site", "screens", "warm_start")
+"""Fixtures that take seconds to make, once for each worker that needs them."""
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Let one worker do the tests that share what is costly: the first ones, since others take the last from it."""
+    items.sort(key=lambda item: [name not in getattr(item, "fixturenames", ()) for name in COSTLY])
+
 
 @pytest.fixture
 def own_fields() -> Iterator[None]:
@@ -43,6 +53,16 @@ def own_fields() -> Iterator[None]:
 @pytest.fixture(autouse=os.environ.get("OWN_FIELDS") == "1")
 def _own_fields_everywhere(own_fields: None) -> None:
     """With OWN_FIELDS=1 every test runs in that memory."""
+
+
+@pytest.fixture(scope="session")
+def warm_start(tmp_path_factory: pytest.TempPathFactory) -> Iterator[WarmStart]:
+    """Starts programs without the time that loading the game and Numba takes."""
+    if not hasattr(os, "fork"):
+        pytest.skip("this system cannot fork")
+    started = WarmStart(tmp_path_factory.mktemp("warm"))
+    yield started
+    started.close()
 
 
 @pytest.fixture(scope="session")

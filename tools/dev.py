@@ -54,7 +54,13 @@ PROGRAMS = {
     "change-rules": ("tools.breaks", "--rules"),
 }
 DRAWINGS = ("draw.how_it_works", "draw.screens", "draw.settings_page")
-PICTURE_TESTS = ("tests/play/test_recorded_screens.py", "tests/play/test_pictures.py", "tests/play/test_sound.py")
+RECORDED = (
+    "play/test_recorded_screens",
+    "play/test_pictures",
+    "play/test_drawings",
+    "play/test_sound",
+    "web/test_recorded_pages",
+)
 LINT = (("ruff", "check"), ("ruff", "format", "--check"), ("mypy",), ("lint-imports",))
 FIX = (("ruff", "check", "--fix"), ("ruff", "format"), *LINT[2:])
 GOOD = "lint: all good"
@@ -179,7 +185,7 @@ def main(words: Sequence[str]) -> int:
             return run("python", "-m", "pytest", *rest)
         case "accept-pictures", *_:
             os.environ["ACCEPT_PICTURES"] = "1"
-            return run("python", "-m", "pytest", "-q", *PICTURE_TESTS)
+            return run("python", "-m", "pytest", "-q", *(f"tests/{name}.py" for name in RECORDED))
         case "docs", *_:
             return max(run("python", "-m", f"tools.{drawing}") for drawing in DRAWINGS)
         case "tool", script, *rest:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from types import FunctionType
 
@@ -17,6 +18,7 @@ from ninja_game.errors import ArgumentError, FileError
 from ninja_game.sim.memory.kernels import step_world
 from ninja_game.sim.ninja import tick
 from tests.support.slow import the_rest_is_slow
+from tests.support.warm_start import WarmStart
 
 needs_numba = pytest.mark.skipif(not memories.compiled_available(), reason="Numba is not installed")
 
@@ -41,18 +43,30 @@ print(memories.compiled(scaled)(np.array([3]), {count}))
 """
 
 
-def run(
-    folder: Path, factor: int = 2, count: int = 1, first: str = "", after: str = "", **more: str
-) -> tuple[str, str]:
-    """What the program says on stdout and stderr, with its cache in a folder."""
+Run = Callable[..., tuple[str, str]]
+
+
+def cold_run(folder: Path, first: str = "", count: int = 1, after: str = "", **more: str) -> tuple[str, str]:
+    """What the program says where Numba is not loaded yet."""
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(folder), **more}
-    command = [sys.executable, "-c", PROGRAM.format(factor=factor, count=count, first=first, after=after)]
+    command = [sys.executable, "-c", PROGRAM.format(factor=2, count=count, first=first, after=after)]
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     return done.stdout, done.stderr
 
 
+@pytest.fixture
+def run(warm_start: WarmStart) -> Run:
+    """Runs the program, with its cache in a folder; what it says on stdout and stderr."""
+
+    def run(folder: Path, factor: int = 2, count: int = 1, first: str = "", **more: str) -> tuple[str, str]:
+        code = PROGRAM.format(factor=factor, count=count, first=first, after="")
+        return warm_start.run(code, environment={"NUMBA_CACHE_DIR": str(folder), **more})[1:]
+
+    return run
+
+
 @needs_numba
-def test_compiled_code_is_kept_until_a_constant_changes(tmp_path: Path) -> None:
+def test_compiled_code_is_kept_until_a_constant_changes(tmp_path: Path, run: Run) -> None:
     assert run(tmp_path) == ("compiles\n7\n", "")
     assert run(tmp_path) == ("7\n", "")
     assert run(tmp_path, factor=5) == ("compiles\n16\n", "")
@@ -60,7 +74,7 @@ def test_compiled_code_is_kept_until_a_constant_changes(tmp_path: Path) -> None:
 
 @needs_numba
 @pytest.mark.parametrize("damage", the_rest_is_slow(["changed", "empty", "truncated", "garbage"], 1))
-def test_damaged_code_is_compiled_anew_without_a_word(damage: str, tmp_path: Path) -> None:
+def test_damaged_code_is_compiled_anew_without_a_word(damage: str, tmp_path: Path, run: Run) -> None:
     run(tmp_path)
     (file,) = tmp_path.iterdir()
     code = file.read_bytes()
@@ -71,18 +85,18 @@ def test_damaged_code_is_compiled_anew_without_a_word(damage: str, tmp_path: Pat
 
 
 @needs_numba
-def test_code_that_came_with_the_installation_is_used_where_it_is_for_any_processor(tmp_path: Path) -> None:
+def test_code_that_came_with_the_installation_is_used_where_it_is_for_any_processor(tmp_path: Path, run: Run) -> None:
     fixed = "from ninja_game.backend.numba_import import FIXED; FIXED['NUMBA_CPU_NAME'] = {!r}"
     folder = str(tmp_path / "all")
     shipped = f"from ninja_game.backend import kernel_cache; kernel_cache.SHIPPED = kernel_cache.Path({folder!r})"
-    assert run(tmp_path / "all", first=fixed.format("generic")) == ("compiles\n7\n", "")
+    assert cold_run(tmp_path / "all", first=fixed.format("generic")) == ("compiles\n7\n", "")
     assert run(tmp_path / "own", first=shipped) == ("7\n", "")
     assert run(tmp_path / "own") == ("compiles\n7\n", "")
 
 
 @pytest.mark.slow
 @needs_numba
-def test_a_pipe_with_the_name_of_a_kernel_holds_up_nobody(tmp_path: Path) -> None:
+def test_a_pipe_with_the_name_of_a_kernel_holds_up_nobody(tmp_path: Path, run: Run) -> None:
     run(tmp_path)
     (file,) = tmp_path.iterdir()
     file.unlink()
@@ -91,7 +105,7 @@ def test_a_pipe_with_the_name_of_a_kernel_holds_up_nobody(tmp_path: Path) -> Non
 
 
 @needs_numba
-def test_where_nothing_can_be_written_it_works_and_says_so_once(tmp_path: Path) -> None:
+def test_where_nothing_can_be_written_it_works_and_says_so_once(tmp_path: Path, run: Run) -> None:
     (tmp_path / "file").touch()
     out, errors = run(tmp_path / "file" / "cache")
     assert out == "compiles\n7\n"
@@ -110,11 +124,10 @@ def test_where_nothing_can_be_written_it_works_and_says_so_once(tmp_path: Path) 
         ("numba.core.compiler.CompileResult._reduce = lambda self, more: 0", "cannot be kept (TypeError"),
     ],
 )
-def test_another_numba_compiles_without_a_cache(change: str, said: str, tmp_path: Path) -> None:
+def test_another_numba_compiles_without_a_cache(change: str, said: str, tmp_path: Path, run: Run) -> None:
     """Without a private part that only the cache needs, or with another one of its name."""
-    out, errors = run(
-        tmp_path, first=f"from ninja_game.backend.numba_import import *; numba = import_numba(); {change}"
-    )
+    first = f"from ninja_game.backend.numba_import import *; numba = import_numba(); {change}"
+    out, errors = run(tmp_path, first=first)
     assert out == "compiles\n7\n" or (out == "7\n" and "has no" in said)
     assert said in errors
     assert len(errors.splitlines()) == 1
@@ -136,7 +149,7 @@ def test_only_entry_points_become_machine_code_where_numba_has_the_private_parts
     first = (
         f"from ninja_game.backend.numba_import import *; import_numba(); from numba.core import typed_passes; {change}"
     )
-    assert run(tmp_path, first=first, after=LIBRARIES) == (f"compiles\n7\n{library}\n", "")
+    assert cold_run(tmp_path, first=first, after=LIBRARIES) == (f"compiles\n7\n{library}\n", "")
 
 
 @needs_numba
@@ -148,7 +161,9 @@ def test_only_entry_points_become_machine_code_where_numba_has_the_private_parts
         "numba.njit = None",
     ],
 )
-def test_where_numba_compiles_nothing_auto_is_plain_and_says_why(change: str, tmp_path: Path) -> None:
+def test_where_numba_compiles_nothing_auto_is_plain_and_says_why(
+    change: str, tmp_path: Path, warm_start: WarmStart
+) -> None:
     program = (
         f"from ninja_game.backend.numba_import import import_numba\nnumba = import_numba()\n{change}\n"
         "from ninja_game import Batch, Level, ObjectSpec, Simulation\n"
@@ -159,11 +174,9 @@ def test_where_numba_compiles_nothing_auto_is_plain_and_says_why(change: str, tm
         "      proven_memory('auto'), compiled_if_possible(step_world) is step_world)\n"
         "Simulation(level, memory='compiled')"
     )
-    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
-    command = [sys.executable, "-c", program]
-    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
-    assert done.stdout == "plain plain plain plain True\n"
-    first, *rest = done.stderr.splitlines()
+    done = warm_start.run(program, environment={"NUMBA_CACHE_DIR": str(tmp_path)})
+    assert done.out == "plain plain plain plain True\n"
+    first, *rest = done.errors.splitlines()
     assert first.startswith("ninja-game: Numba cannot ")
     assert first.endswith("this is the plain memory, which is slower")
     assert rest[-1].startswith("ninja_game.backend.memories.MemoryUnavailableError: Numba cannot ")
@@ -171,17 +184,17 @@ def test_where_numba_compiles_nothing_auto_is_plain_and_says_why(change: str, tm
 
 @needs_numba
 def test_numba_switched_off_is_numba_missing(tmp_path: Path) -> None:
-    out, errors = run(tmp_path, NUMBA_DISABLE_JIT="1")
+    out, errors = cold_run(tmp_path, NUMBA_DISABLE_JIT="1")
     assert (out, "MemoryUnavailableError" in errors) == ("", True)
 
 
 @pytest.mark.slow
 @needs_numba
-def test_checked_kernels_refuse_an_index_out_of_range_and_are_kept_apart(tmp_path: Path) -> None:
+def test_checked_kernels_refuse_an_index_out_of_range_and_are_kept_apart(tmp_path: Path, run: Run) -> None:
     run(tmp_path)
-    out, errors = run(tmp_path, count=2, NINJA_GAME_CHECKED="1")
+    out, errors = cold_run(tmp_path, count=2, NINJA_GAME_CHECKED="1")
     assert (out, "IndexError" in errors) == ("compiles\n", True)
-    assert run(tmp_path, NINJA_GAME_CHECKED="1") == ("7\n", "")
+    assert cold_run(tmp_path, NINJA_GAME_CHECKED="1") == ("7\n", "")
 
 
 @needs_numba

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import os
 import re
-import subprocess
-import sys
+import select
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 
 from ninja_game.backend.memories import compiled_available
 from tests.support.samples import WALK, WALK_END, replay_of_walk, running, write_records
+from tests.support.warm_start import WarmStart
 
 pty = pytest.importorskip("pty", reason="there are no pseudo-terminals")
 
@@ -54,6 +55,8 @@ BYTES = {"trace", "splits as csv", "compare as csv", "convert", "convert to a le
 
 COMPILED = {"check", "solve"}
 
+PROGRAM = "from ninja_game.__main__ import main; main()"
+
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
@@ -74,28 +77,29 @@ def words_of(name: str, folder: Path) -> list[str]:
     }  # fmt: skip
     if name in COMPILED and not compiled_available():
         pytest.skip("Numba is not installed")
-    return [sys.executable, "-m", "ninja_game", *(files.get(word, word) for word in COMMANDS[name].split())]
+    return [files.get(word, word) for word in COMMANDS[name].split()]
 
 
-def on_a_terminal(words: list[str], folder: Path) -> str:
+def on_a_terminal(start: WarmStart, code: str, words: list[str], folder: Path) -> str:
     """What a program writes to a terminal."""
     ours, its = pty.openpty()
-    with subprocess.Popen(words, cwd=folder, stdin=its, stdout=its, stderr=its, start_new_session=True) as program:
-        os.close(its)
-        text = b""
-        try:
-            while part := os.read(ours, 65536):
-                text += part
-        except OSError:  # so Linux tells that nobody writes any more
-            pass
-        os.close(ours)
-    assert program.returncode != 3, text
+    with ThreadPoolExecutor() as beside:
+        program = beside.submit(start.run, code, words, folder, terminal=os.ttyname(its))
+        text, ended = b"", False
+        while not ended:
+            ended = program.done()
+            while select.select([ours], [], [], 0.02)[0]:
+                text += os.read(ours, 65536)
+    os.close(its)
+    os.close(ours)
+    assert program.result().code != 3, text
+    assert b"Traceback" not in text
     return text.decode()
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_no_name_steers_a_terminal(name: str, folder: Path) -> None:
-    text = on_a_terminal(words_of(name, folder), folder)
+def test_no_name_steers_a_terminal(name: str, folder: Path, warm_start: WarmStart) -> None:
+    text = on_a_terminal(warm_start, PROGRAM, words_of(name, folder), folder)
     assert text
     assert [each for each in OWN.sub("", text) if not each.isprintable()] == []
     assert "\x1b[8m" not in text
@@ -104,16 +108,17 @@ def test_no_name_steers_a_terminal(name: str, folder: Path) -> None:
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_no_name_steers_what_shows_a_pipe_later(name: str, folder: Path) -> None:
-    done = subprocess.run(words_of(name, folder), cwd=folder, capture_output=True, check=False)
-    assert done.returncode != 3, done.stderr
-    shown = done.stderr.decode() + ("" if name in BYTES else done.stdout.decode())
+def test_no_name_steers_what_shows_a_file_later(name: str, folder: Path, warm_start: WarmStart) -> None:
+    done = warm_start.run(PROGRAM, words_of(name, folder), folder)
+    assert done.code != 3, done.errors
+    assert "Traceback" not in done.errors
+    shown = done.errors + ("" if name in BYTES else done.out)
     assert [each for each in shown if not each.isprintable() and each != "\n"] == []
     if name in {"trace", "convert"}:
-        assert NAME.encode() in done.stdout
+        assert NAME in done.out
 
 
-def test_a_program_that_prints_in_a_new_way_is_held_by_the_terminal() -> None:
+def test_a_program_that_prints_in_a_new_way_is_held_by_the_terminal(warm_start: WarmStart) -> None:
     code = f"from ninja_game.cli.terminal import *; guard_terminal(); print({HOSTILE!r}); sys.stderr.write({HOSTILE!r})"
-    shown = on_a_terminal([sys.executable, "-c", code], Path())
+    shown = on_a_terminal(warm_start, code, [], Path.cwd())
     assert shown == "a\\x1b]0;owned\\x07\\x9b2J\\u202e\x1b[8m b\r\na\\x1b]0;owned\\x07\\x9b2J\\u202e\x1b[8m\rb"

@@ -23,8 +23,18 @@ from ninja_game.play.view.sprites.backdrop import Backdrop
 from ninja_game.play.view.sprites.drawing import DrawTarget, SpriteKey
 
 
-def _at(*values: float) -> str:
+def px(*values: float) -> str:
     return ",".join(f"{value:.1f}".removesuffix(".0") for value in values)
+
+
+def role_of(colour: Any, palette: Palette) -> str:
+    """The name of a colour in a palette; a mixed one by its numbers."""
+    found = pygame.Color(colour)
+    alpha = "" if found.a == 255 else f"/{found.a}"
+    for role in ROLES:
+        if getattr(palette, role)[:3] == found[:3]:
+            return role + alpha
+    return f"#{found.r:02x}{found.g:02x}{found.b:02x}{alpha}"
 
 
 def _sprite_name(key: SpriteKey) -> str:
@@ -74,19 +84,19 @@ class DrawLog:
             (Lettering, "draw", self._text),
             (Canvas, "fill_rect", self._fill),
             (Canvas, "frame_rect", self._frame),
-            (Canvas, "line", lambda _, __, c, a, b, w=1: f"line {self._colour(c)} {_at(*a)} to {_at(*b)} width {w:g}"),
-            (Canvas, "circle", lambda _, __, c, at, r, w=0: f"circle {self._colour(c)} {_at(*at)} r {r:g} width {w:g}"),
-            (Canvas, "polygon", lambda _, __, c, at: f"polygon {self._colour(c)} {'  '.join(_at(*p) for p in at)}"),
-            (DrawTarget, "sprite", lambda _, key, x, y: f"sprite {_sprite_name(key)} at {_at(x, y)}"),
-            (DrawTarget, "picture", lambda _, __, x, y: f"figure at {_at(x, y)}"),
+            (Canvas, "line", lambda _, __, c, a, b, w=1: f"line {self._colour(c)} {px(*a)} to {px(*b)} width {w:g}"),
+            (Canvas, "circle", lambda _, __, c, at, r, w=0: f"circle {self._colour(c)} {px(*at)} r {r:g} width {w:g}"),
+            (Canvas, "polygon", lambda _, __, c, at: f"polygon {self._colour(c)} {'  '.join(px(*p) for p in at)}"),
+            (DrawTarget, "sprite", lambda _, key, x, y: f"sprite {_sprite_name(key)} at {px(x, y)}"),
+            (DrawTarget, "picture", lambda _, __, x, y: f"figure at {px(x, y)}"),
             (DrawTarget, "line", self._beam),
-            (DrawTarget, "disc", lambda _, c, x, y, r: f"disc {self._colour(c)} at {_at(x, y)} r {r:g}"),
-            (Thumbnails, "draw", lambda _, __, e, x, y, w: f"thumbnail of {e.title!r} at {_at(x, y)} width {w:g}"),
+            (DrawTarget, "disc", lambda _, c, x, y, r: f"disc {self._colour(c)} at {px(x, y)} r {r:g}"),
+            (Thumbnails, "draw", lambda _, __, e, x, y, w: f"thumbnail of {e.title!r} at {px(x, y)} width {w:g}"),
             (Backdrop, "_place", self._place),
             (Backdrop, "update", self._backdrop),
             (EditorView, "draw", self._view),
-            (Overlay, "_frame", lambda _, area, c: f"frame {self._colour(c)} round cells {_at(*area)}"),
-            (Overlay, "_ghost_tile", lambda _, cell, tile: f"ghost of tile {tile} in cell {_at(*cell)}"),
+            (Overlay, "_frame", lambda _, area, c: f"frame {self._colour(c)} round cells {px(*area)}"),
+            (Overlay, "_ghost_tile", lambda _, cell, tile: f"ghost of tile {tile} in cell {px(*cell)}"),
         ]
 
     def alone(self) -> list[Note]:
@@ -124,12 +134,8 @@ class DrawLog:
             self._lines.append(line)
 
     def _colour(self, colour: Any) -> str:
-        found = pygame.Color(colour)
-        alpha = "" if found.a == 255 else f"/{found.a}"
-        for role in ROLES:
-            if getattr(self._palette, role)[:3] == found[:3]:
-                return role + alpha
-        return f"#{found.r:02x}{found.g:02x}{found.b:02x}{alpha}"
+        assert self._palette
+        return role_of(colour, self._palette)
 
     # --- lines of what has many parameters ---
 
@@ -141,17 +147,17 @@ class DrawLog:
     def _text(self, _: Any, surface: Any, text: str, x: float, y: float, size: float, colour: Any,
               *, align: str = "left", bold: bool = False) -> str:  # fmt: skip
         style = (" bold" if bold else "") + (f" {align}" if align != "left" else "")
-        return f"text {text!r} at {_at(x, y)} size {size:g}{style} {self._colour(colour)}" if surface else ""
+        return f"text {text!r} at {px(x, y)} size {size:g}{style} {self._colour(colour)}" if surface else ""
 
     def _fill(self, _: Any, __: Any, c: Any, x: float, y: float, w: float, h: float, radius: float = 0) -> str:
-        return f"fill {self._colour(c)} {_at(x, y)} {_at(w)} x {_at(h)} radius {radius:g}"
+        return f"fill {self._colour(c)} {px(x, y)} {px(w)} x {px(h)} radius {radius:g}"
 
     def _frame(self, _: Any, __: Any, c: Any, x: float, y: float, w: float, h: float,
                width: float = 1, radius: float = 0) -> str:  # fmt: skip
-        return f"frame {self._colour(c)} {_at(x, y)} {_at(w)} x {_at(h)} width {width:g} radius {radius:g}"
+        return f"frame {self._colour(c)} {px(x, y)} {px(w)} x {px(h)} width {width:g} radius {radius:g}"
 
     def _beam(self, _: Any, c: Any, ax: float, ay: float, bx: float, by: float, width: float = 0) -> str:
-        return f"beam {self._colour(c)} {_at(ax, ay)} to {_at(bx, by)} width {width:.1f}"
+        return f"beam {self._colour(c)} {px(ax, ay)} to {px(bx, by)} width {width:.1f}"
 
     def _place(self, backdrop: Backdrop, slot: int, sprites: Any) -> str:
         self._static.setdefault(backdrop, {})[slot] = list(sprites)
@@ -161,5 +167,5 @@ class DrawLog:
         places: dict[str, list[str]] = {}
         for sprites in self._static.get(backdrop, {}).values():
             for key, x, y in sprites:
-                places.setdefault(_sprite_name(key), []).append(_at(x, y))
+                places.setdefault(_sprite_name(key), []).append(px(x, y))
         return "\n".join(f"static {name} at {'  '.join(where)}" for name, where in places.items())

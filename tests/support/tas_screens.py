@@ -18,7 +18,7 @@ from ninja_game.play.tas.roll.rows import Digits, RowSheet
 from ninja_game.play.tas.tabs.lead_tab import LeadTab
 from ninja_game.play.ui.lettering import Lettering
 from ninja_game.search.formula.task import Found, SpanTask
-from tests.support.draw_log import DrawLog, Note, _at
+from tests.support.draw_log import DrawLog, Note, px
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK
 from tests.support.tas_driver import TasDriver
@@ -28,7 +28,7 @@ RUN = PACK / "certificates" / "00-4-locksmith.exit.replay.txt"
 
 def _points(points: Any) -> str:
     """Where a long line goes: every tenth point and the last one."""
-    found = [_at(*map(round, point)) for point in points]
+    found = [px(*map(round, point)) for point in points]
     return "  ".join([*found[:-1:10], found[-1]]) if found else ""
 
 
@@ -39,11 +39,11 @@ class _Sheet(pygame.Surface):
     colour: Callable[[Any], str]
 
     def fill(self, color: Any, rect: Any = None, *more: Any) -> pygame.Rect:
-        self.note(f"  fill {self.colour(color)} {_at(*rect) if rect else 'all'}")
+        self.note(f"  fill {self.colour(color)} {px(*rect) if rect else 'all'}")
         return super().fill(color, rect, *more)
 
     def blit(self, source: pygame.Surface, dest: Any = (0, 0), *more: Any) -> pygame.Rect:
-        self.note(f"  ground {self.colour(source.get_at((source.width - 1, source.height - 1)))} {_at(*dest)}")
+        self.note(f"  ground {self.colour(source.get_at((source.width - 1, source.height - 1)))} {px(*dest)}")
         return super().blit(source, dest, *more)
 
 
@@ -63,7 +63,7 @@ class TasLog(DrawLog):
             (paths, "draw_path", self._path),
             (RowSheet, "draw", self._rows),
             (RowSheet, "_row", lambda _, row, y: f"row of tick {row.tick} at {y}"),
-            (Digits, "blits", lambda _, text, x, y, c: f"  number {text} up to {_at(x, y)} {self._colour(c)}"),
+            (Digits, "blits", lambda _, text, x, y, c: f"  number {text} up to {px(x, y)} {self._colour(c)}"),
         ]
 
     def alone(self) -> list[Note]:
@@ -79,7 +79,7 @@ class TasLog(DrawLog):
                 return ""
             rest = *rest, *named.values()
             places = _points(rest[1]) if name == "lines" else "  ".join(map(str, rest))
-            return f"{name} {self._colour(color)} from {_at(*surface.get_abs_offset())}: {places}"
+            return f"{name} {self._colour(color)} from {px(*surface.get_abs_offset())}: {places}"
 
         return note
 

@@ -24,8 +24,8 @@ MOST_IN_A_CELL = 9.0
 ALL = scenes(busy_level, BusyRun, Restless)
 
 START = """
-import os
-os.environ["NINJA_GAME_HOME"] = "/player"
+import os, tempfile
+os.environ["NINJA_GAME_HOME"] = tempfile.mkdtemp()
 import boot
 import js
 boot.start(js.host)
@@ -55,7 +55,7 @@ def app(tmp_path_factory: pytest.TempPathFactory) -> Any:
 
 @pytest.fixture(scope="module")
 def page(python: Any) -> Any:
-    """The game in the page."""
+    """The game in the page, with a player as new as the one here: what one did, both did."""
     run_in(python, BUSY, SCENES)
     python.evaluate("text => { python.runPython(text); }", START)
     return python

@@ -1,0 +1,115 @@
+"""Every drawing, shape by shape, against `golden/drawings.txt`: pictures are compared with a tolerance.
+
+`python3 tools/dev.py accept-pictures` writes the file again. Numbers are logical px, colours are roles of the palette.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from dataclasses import replace
+from difflib import unified_diff
+from functools import partial
+from importlib import import_module
+from inspect import signature
+from itertools import product
+from pathlib import Path
+from pkgutil import walk_packages
+from typing import Any
+from unittest.mock import patch
+
+import pygame
+import pytest
+
+from ninja_game import play
+from ninja_game.play.ui.theme import PALETTES, Palette
+from ninja_game.play.view.ninja import figure
+from ninja_game.play.view.ninja.figure import DANCES, Pose, air_pose, paint_figure, run_pose
+from ninja_game.play.view.sprites.drawing import Drawing
+from ninja_game.play.view.sprites.sketch import Sketch
+from tests.support.draw_log import px, role_of
+
+GOLDEN = Path(__file__).parent / "golden" / "drawings.txt"
+CLASSIC = PALETTES["classic"]
+SHAPES = ("polygon", "box", "framed_box", "disc", "ring", "stroke")
+VALUES: dict[str, tuple[Any, ...]] = {
+    **dict.fromkeys(("active", "awake", "chasing", "flicker", "pressed", "seeker", "spin", "used"), (0, 1)),
+    **dict.fromkeys(("mechanism", "mood", "variant"), (0, 1, 2)),
+    **dict.fromkeys(("flame", "look", "weapon"), (0, 1, 2, 3)),
+    "colour": ("ninja",), "heat": (0, 5), "role": ("dust", "smoke"), "step": (0, 3, 7),
+}  # fmt: skip
+"""What the parameters of drawings are, by their names."""
+
+
+def shapes(paint: Callable[..., None], palette: Palette, *values: Any) -> list[str]:
+    """The lines of what is painted with these parameters."""
+    lines: list[str] = []
+
+    def word(value: Any) -> str:
+        if isinstance(value, pygame.Color):
+            return role_of(value, palette)
+        points = [value] if isinstance(value, tuple) else value if isinstance(value, list) else [(value,)]
+        return " ".join(px(*point) for point in points)
+
+    def noted(name: str) -> Callable[..., None]:
+        return lambda _, *given: lines.append(f"  {name} {'  '.join(map(word, given))}")
+
+    with ExitStack() as stack:
+        for name in SHAPES:
+            stack.enter_context(patch.object(Sketch, name, noted(name)))
+        paint(Sketch(1, (0, 0, 0, 0)), palette, *values)
+    return lines
+
+
+def drawings() -> Iterator[tuple[str, Drawing[Any]]]:
+    """All drawings of the front end by name."""
+    for module in walk_packages(play.__path__, "ninja_game.play."):
+        for each in vars(import_module(module.name)).values():
+            if isinstance(each, Drawing) and each.paint.__module__ == module.name:
+                yield each.paint.__name__, each
+
+
+def lines_of_drawings() -> Iterator[str]:
+    marked = replace(CLASSIC, danger_by_shape=True)
+    for name, drawing in sorted(drawings(), key=lambda named: named[0]):
+        yield f"{name} reaches {px(*drawing.extent)}"
+        for values in product(*(VALUES[each] for each in [*signature(drawing.paint).parameters][2:])):
+            plain, by_shape = (shapes(drawing.paint, palette, *values) for palette in (CLASSIC, marked))
+            yield from (f"{name}{values}", *plain)
+            if by_shape != plain:
+                yield from (f"{name}{values}, danger by shape", *by_shape)
+
+
+def painted(pose: Pose, facing: int, velocity: tuple[float, float], *, banded: bool) -> list[str]:
+    paint = partial(paint_figure, colour=CLASSIC.ninja, banded=banded)
+    return shapes(paint, CLASSIC, pose, facing, velocity)
+
+
+def lines_of_the_ninja() -> Iterator[str]:
+    poses = {name: pose for name, pose in vars(figure).items() if isinstance(pose, Pose)}
+    poses |= {f"run {k}/12, {speed} px/tick": run_pose(k / 12, speed) for k in range(12) for speed in (1, 5)}
+    poses |= {f"air {vy} px/tick": air_pose(vy) for vy in (-4, -2.5, -1.5, -0.5, 0, 1, 2, 3)}
+    for number, dance in enumerate(DANCES):
+        for tick in range(0, 60, 4):
+            pose, turn = dance.at(tick)
+            poses[f"dance {number} after {tick} ticks, turned {turn:.1f}"] = pose.placed(-1 if tick % 8 else 1, turn)
+    for name, pose in poses.items():
+        yield f"{name}: {' '.join(px(*joint) for joint in pose)}"
+    for name in ("STAND", "RISE", "HANDSTAND"):
+        for facing, velocity, banded in ((1, (0.0, 0.0), True), (-1, (5.0, -3.0), True), (1, (0.0, 0.0), False)):
+            yield f"{name} facing {facing}, {velocity} px/tick, banded {banded}"
+            yield from painted(poses[name], facing, velocity, banded=banded)
+    yield "all joints in one place"
+    heap = Pose(*[(0.0, 0.0)] * 7)
+    yield from painted(heap, 1, (0.0, 0.0), banded=True)
+
+
+def test_every_drawing_is_as_recorded() -> None:
+    now = [*lines_of_drawings(), *lines_of_the_ninja()]
+    if os.environ.get("ACCEPT_PICTURES"):
+        GOLDEN.write_text("\n".join(now) + "\n", "utf-8")
+    recorded = GOLDEN.read_text("utf-8").splitlines()
+    if now != recorded:
+        lines = unified_diff(recorded, now, "recorded", "now", lineterm="", n=1)
+        pytest.fail("\n".join(["drawings are others; meant? `python3 tools/dev.py accept-pictures`", *lines]))

@@ -1,0 +1,63 @@
+"""Pages of the gallery and of a board, tag by tag, against `golden/pages.txt`.
+
+`python3 tools/dev.py accept-pictures` writes the file again.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+from difflib import unified_diff
+from pathlib import Path
+
+import pytest
+
+from ninja_game.web.board.pages import BoardPages
+from ninja_game.web.board.ranking import Ranking
+from ninja_game.web.board.runs import judge
+from ninja_game.web.pages.gallery import write_gallery
+from ninja_game.web.pages.published import published_levels
+from tests.support.own_pack import PACK
+from tests.support.samples import replay_of_walk
+
+GOLDEN = Path(__file__).parent / "golden" / "pages.txt"
+LONG = re.compile(r'((?: d|content|viewBox)="|#level=)[^"]*')
+"""What is long, and other where a library is."""
+
+
+def board(folder: Path) -> Path:
+    """Runs of two players, a copy of one, a run on a level that does not count, and what is no run."""
+    runs = folder / "runs"
+    shutil.copytree(PACK / "certificates", runs)
+    first, *_ = sorted(runs.glob("*.exit.*"))
+    for path in (Path(shutil.copy(first, runs / "copy.replay.txt")), *runs.glob("01-*")):
+        text = re.sub("^author: .*", "author: Ann", path.read_text("utf-8"), flags=re.MULTILINE)
+        path.write_text(text, "utf-8")
+    (runs / "other-level.replay.txt").write_text(replay_of_walk(), "utf-8")
+    (runs / "notes.txt").write_text("just some notes\n", "utf-8")
+    return runs
+
+
+def lines_of(folder: Path) -> list[str]:
+    """The tags of the lists, a level and a player, each with the text behind it."""
+    lines = []
+    below = [min(folder.glob(f"{name}/*.html"), default=None) for name in ("levels", "players")]
+    for path in filter(None, [*sorted(folder.glob("*.html")), *below]):
+        lines.append(f"=== {path.relative_to(folder.parent)}")
+        lines += LONG.sub(r"\1...", path.read_text("utf-8")).replace("<", "\n<").split("\n")
+    return lines
+
+
+def test_every_page_is_as_recorded(tmp_path: Path) -> None:
+    shown = published_levels(PACK)
+    write_gallery(tmp_path / "site", shown)
+    BoardPages(tmp_path / "site", Ranking(judge(board(tmp_path), shown, jobs=1), shown)).write()
+    now = [line for name in ("gallery", "board") for line in lines_of(tmp_path / "site" / name)]
+    if os.environ.get("ACCEPT_PICTURES"):
+        GOLDEN.parent.mkdir(exist_ok=True)
+        GOLDEN.write_text("\n".join(now) + "\n", "utf-8")
+    recorded = GOLDEN.read_text("utf-8").split("\n")[:-1]
+    if now != recorded:
+        lines = unified_diff(recorded, now, "recorded", "now", lineterm="", n=1)
+        pytest.fail("\n".join(["pages are others; meant? `python3 tools/dev.py accept-pictures`", *lines]))
