@@ -25,6 +25,8 @@ def _make_pipeline() -> type:
 
     base, lowering, library = compiler.CompilerBase, typed_passes.NativeLowering, codegen.JITCodeLibrary
     make_passes: Any = compiler.DefaultPassBuilder.define_nopython_pipeline
+    register: Any = compiler_machinery.register_pass
+    passes: Any = compiler_machinery.PassManager
     for needed in ("finalize", "_raise_if_finalized", "_get_module_for_linking", "_finalize_dynamic_globals"):
         getattr(library, needed)
 
@@ -40,7 +42,7 @@ def _make_pipeline() -> type:
             self._finalize_dynamic_globals()
             self._finalized = True
 
-    @compiler_machinery.register_pass(mutates_CFG=True, analysis_only=False)
+    @register(mutates_CFG=True, analysis_only=False)
     class RuleLowering(lowering):  # type: ignore[misc, valid-type]
         """Turns a typed function into LLVM's code; an entry point also into machine code."""
 
@@ -56,7 +58,7 @@ def _make_pipeline() -> type:
             super().run_pass(state)
             state.flags.no_compile = False
             # A function that is built in, and another one each time: callers find the library by it.
-            stand_in = [].append
+            stand_in: Any = [].append
             state.cr = state.cr._replace(cfunc=stand_in)
             state.targetctx.insert_user_function(stand_in, state.cr.fndesc, [state.library])
             return True
@@ -65,9 +67,8 @@ def _make_pipeline() -> type:
         """Numba's own passes, with another last but one."""
 
         def define_pipelines(self) -> list[Any]:
-            passes = make_passes(self.state)
-            rules = compiler_machinery.PassManager("rules")
-            for each, why in passes.passes:
+            rules = passes("rules")
+            for each, why in make_passes(self.state).passes:
                 rules.add_pass(RuleLowering if each is lowering else each, why)
             rules.finalize()
             return [rules]

@@ -61,9 +61,9 @@ UPDATES = (("update-mime-database", "mime"), ("update-desktop-database", "applic
 @click.command()
 @click.option("--remove", is_flag=True, help="Take it out again.")
 def desktop(remove: bool) -> None:
-    """Put the game into your menu of programs.
+    """Put the game into your menu of programs, with its icon and types of files.
 
-    It has its icon there, and levels (*.level, *.nlevel) and replays (*.replay.txt, *.replay) open by a double click.
+    Levels (*.level, *.nlevel) and replays (*.replay.txt, *.replay) open by a double click.
     For Linux and other systems with freedesktop.org's menus; only for you, below ~/.local/share (XDG_DATA_HOME).
 
     \b
