@@ -96,6 +96,7 @@ def test_a_film_that_cannot_be_made_can_be_tried_again(
 def test_a_daily_level_that_cannot_be_made_says_why(
     driver: MenuDriver, why: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr("ninja_game.generator.daily.take_packed", lambda *_: False)
     monkeypatch.setattr("ninja_game.generator.daily.make_daily", raising(why))
     monkeypatch.setattr("ninja_game.play.menus.daily.choose_memory", lambda _: None)
     screen = driver.open("Daily")

@@ -29,7 +29,7 @@ class _Maker:
     """A thread that makes the level of a day. ``progress``: how it stands; ``problem``: why there is none."""
 
     def __init__(self, levels: Path, day: date) -> None:
-        self.progress = "starting; the first time it compiles, which takes a minute or two"
+        self.progress = "starting"
         self.problem = ""
         self.stop = Event()
         self._thread = run_in_background(lambda: self._run(levels, day), self._fail)
@@ -39,8 +39,11 @@ class _Maker:
         return self._thread.is_alive()
 
     def _run(self, levels: Path, day: date) -> None:
+        if daily.take_packed(levels, day):
+            return
         require_desktop()
         choose_memory("compiled")
+        self.progress = "starting; the first time it compiles, which takes a minute or two"
         if not daily.make_daily(levels, day, report=self._report, stop=self.stop):
             self.problem = "No level could be made for this day."
 

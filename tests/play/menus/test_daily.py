@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from datetime import date
+from datetime import date, timedelta
 from pathlib import Path
 from threading import Event
 from time import monotonic, sleep
@@ -11,6 +11,7 @@ from typing import Self
 import pytest
 
 from ninja_game.backend.memories import compiled_available
+from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.generator import daily
 from ninja_game.play.level.screen import LevelScreen
@@ -24,7 +25,7 @@ if not compiled_available():
 
 from tests.support.golden_generated import SMALL
 
-MADE = daily.make_daily
+MADE, PACKED = daily.make_daily, daily.take_packed
 DAY = date(2026, 11, 23)
 
 
@@ -69,6 +70,29 @@ def test_the_daily_level_is_made_once_played_and_in_the_list_of_levels(making: M
     making.press("escape")
     assert opened(making).entry is not None
     assert (screen.file.read_bytes(), screen.file.stat().st_mtime_ns) == before
+
+
+def test_the_days_that_come_with_the_game_need_no_compiler(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("ninja_game.play.menus.daily.date", Today)
+    monkeypatch.setattr(daily, "take_packed", PACKED)
+    monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")
+    screen = opened(driver)
+    assert screen.entry is not None, screen.message
+    assert screen.entry.pars is not None
+    found = certificate(Pack(screen.file.parent), screen.file.name, "exit")
+    assert found is not None
+    assert found.problems == []
+
+
+def test_all_days_that_come_with_the_game_are_sound() -> None:
+    pack = Pack(data_folder("assets") / daily.PACKED)
+    days = [date.fromisoformat(name.removesuffix(".txt")) for name in pack.levels]
+    assert days == [days[0] + timedelta(number) for number in range(len(days))]
+    assert set(pack.pars) == set(pack.levels)
+    for name in list(pack.levels)[::40]:
+        found = certificate(pack, name, "exit")
+        assert found is not None
+        assert found.problems == []
 
 
 def test_a_second_day_joins_the_first(tmp_path: Path, making: MenuDriver) -> None:
