@@ -159,6 +159,9 @@ def main(words: Sequence[str]) -> int:
     """Exit code of the command that ``words`` name; what follows the name is the command's own."""
     # Nothing in the folder that the user is in may be imported, by what starts here or by what that starts.
     os.environ["PYTHONSAFEPATH"] = "1"
+    if os.environ.pop("PYTHONDONTWRITEBYTECODE", ""):
+        # Tests start Python hundreds of times; without any bytecode each imports everything from its source.
+        os.environ["PYTHONPYCACHEPREFIX"] = str(VENV / "bytecode")
     name, *rest = words or ["--help"]
     if name == "play" or (name == "run" and rest):
         command = [name, *rest] if name == "play" else rest

@@ -37,7 +37,7 @@ from ninja_game.backend.kernel_cache import GENERIC
 from ninja_game.backend.numba_import import FIXED
 from ninja_game.cli.compile import compile_everything
 FIXED.update(zip(("NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES"), GENERIC))
-compile_everything(quiet=False)
+compile_everything(1, quiet=False)
 """
 """Compiles the kernels of all commands for any processor of the family, into NUMBA_CACHE_DIR."""
 

@@ -239,12 +239,13 @@ def _compiler(checked: bool) -> Compiler:
     choose_memory("compiled")
     from ninja_game.backend.kernel_cache import attach_cache
     from ninja_game.backend.numba_import import import_numba
+    from ninja_game.backend.numba_pipeline import make_pipeline
 
     try:
         numba = import_numba()
         from ninja_game.sim.memory.compiler import Compiler
 
-        return Compiler(numba, checked=checked, attach_cache=attach_cache)
+        return Compiler(numba, checked=checked, attach_cache=attach_cache, pipeline=make_pipeline())
     except Exception as error:
         raise _unusable("be loaded", error) from error
 

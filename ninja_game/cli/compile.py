@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 LEVEL = "0" * 713 + "|5^100,566!11^160,564,130,564!0^115,566"
 """What is played meanwhile; machine code does not depend on it."""
 
+MOST_PROCESSES = 2
+"""Each compiles the rules again for what it makes of them; more would only wait for each other."""
+
 EVERY = 0.5
 """Seconds between two looks whether another process is done."""
 
@@ -48,29 +51,40 @@ def compile(background: bool) -> None:  # noqa: A001 - the name of the command
         while (handle := hold_work()) is None:
             time.sleep(EVERY)
     try:
-        compile_everything(quiet=background)
+        compile_everything(min(MOST_PROCESSES, os.cpu_count() or 1), quiet=background)
     finally:
         os.close(handle)
 
 
-def compile_everything(*, quiet: bool) -> None:
-    """Do a little of all work that needs kernels, most wanted first. Raises NinjaGameError where nothing is kept."""
+def compile_everything(processes: int, *, quiet: bool) -> None:
+    """Do a little of all work that needs kernels, most wanted first, in so many processes.
+
+    Raises NinjaGameError where nothing is kept.
+    """
     from ninja_game.backend.kernel_cache import are_kept, cache_folder
     from ninja_game.errors import NinjaGameError
-    from ninja_game.formats.n14.level_string import parse_level_string
+    from ninja_game.runs.workers import in_order, workers
     from ninja_game.sim.memory.kernels import run_world
 
-    level = parse_level_string(LEVEL)
     began = time.monotonic()
-    for number, (name, work) in enumerate(WORK.items(), 1):
-        if not quiet:
-            click.echo(f"{number} of {len(WORK)}: {name}", err=True)
-        work(level)
-        if number == 1 and not any(are_kept([run_world], checked) for checked in (False, True)):
-            where = cache_folder()
-            raise NinjaGameError(f"compiled code is not kept in {where}: make room there, or let it be written")
+    with workers(processes, processes=processes > 1) as pool:
+        for number, (name, lost) in enumerate(in_order(pool, compile_for, WORK), 1):
+            if lost is not None:
+                raise lost
+            if number == 1 and not any(are_kept([run_world], checked) for checked in (False, True)):
+                where = cache_folder()
+                raise NinjaGameError(f"compiled code is not kept in {where}: make room there, or let it be written")
+            if not quiet:
+                click.echo(f"{number} of {len(WORK)} compiled: {name}", err=True)
     if not quiet:
         click.echo(f"All is compiled, in {time.monotonic() - began:.0f} s: {cache_folder()}")
+
+
+def compile_for(name: str) -> None:
+    """Do a little work of that name: its kernels are in the cache then."""
+    from ninja_game.formats.n14.level_string import parse_level_string
+
+    WORK[name](parse_level_string(LEVEL))
 
 
 def _runs(level: Level) -> None:

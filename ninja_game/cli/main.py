@@ -32,6 +32,7 @@ GROUPS = {
         "player": "Export all data of a player to one file, or import such a file.",
         "film": "Write a film of a recording: a GIF, a WebM, or a folder of pictures.",
         "compile": "Compile the rules for this machine now, so that no other command waits for it.",
+        "desktop": "Put the game into your menu of programs, with its icon and types of files.",
         "link": "Make a link that carries a level, a pack or replays.",
     },
     "levels": {

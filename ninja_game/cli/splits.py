@@ -209,20 +209,16 @@ def _write_csv(tables: Sequence[Table]) -> None:
 
 def draw(picture: Path, level: Level, paths: Sequence[tuple[str, Any]], keep: Sequence[Path]) -> None:
     """Write the picture of runs of one level. Raises ArgumentError where it would replace one of ``keep``, OSError."""
-    import io
     import os
 
     os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
-    import pygame
-
     from ninja_game.files.writing import write_atomically
     from ninja_game.play.replay.paths import paths_picture
     from ninja_game.play.ui.theme import PALETTES
+    from ninja_game.play.window import png_of
 
     surface = paths_picture(level, paths, PALETTES["classic"], 1584)
-    data = io.BytesIO()
-    pygame.image.save(surface, data, "x.png")
-    write_atomically(picture, data.getvalue(), keep=keep)
+    write_atomically(picture, png_of(surface), keep=keep)
     click.echo(f"{picture}: {len(paths)} run{'s' * (len(paths) != 1)}", err=True)
 
 

@@ -77,9 +77,14 @@ class Window:
 
 def save_picture(surface: pygame.Surface, path: Path) -> None:
     """Write a picture as a PNG file. Raises OSError, FileError."""
+    write_atomically(path, png_of(surface))
+
+
+def png_of(surface: pygame.Surface) -> bytes:
+    """A picture as what is in a PNG file."""
     png = io.BytesIO()
     pygame.image.save(surface, png, "picture.png")
-    write_atomically(path, png.getvalue())
+    return png.getvalue()
 
 
 def prepare_sdl() -> None:

@@ -39,16 +39,17 @@ def scaled(numbers: World, count: int) -> int:
     return product(numbers[count - 1], FACTOR) + count
 kernel_cache.before_compiling.append(lambda: print("compiles"))
 print(memories.compiled(scaled)(np.array([3]), {count}))
+{after}
 """
 
 
 Run = Callable[..., tuple[str, str]]
 
 
-def cold_run(folder: Path, first: str = "", count: int = 1, **more: str) -> tuple[str, str]:
+def cold_run(folder: Path, first: str = "", count: int = 1, after: str = "", **more: str) -> tuple[str, str]:
     """What the program says where Numba is not loaded yet."""
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(folder), **more}
-    command = [sys.executable, "-c", PROGRAM.format(factor=2, count=count, first=first)]
+    command = [sys.executable, "-c", PROGRAM.format(factor=2, count=count, first=first, after=after)]
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     return done.stdout, done.stderr
 
@@ -58,7 +59,7 @@ def run(warm_start: WarmStart) -> Run:
     """Runs the program, with its cache in a folder; what it says on stdout and stderr."""
 
     def run(folder: Path, factor: int = 2, count: int = 1, first: str = "", **more: str) -> tuple[str, str]:
-        code = PROGRAM.format(factor=factor, count=count, first=first)
+        code = PROGRAM.format(factor=factor, count=count, first=first, after="")
         return warm_start.run(code, environment={"NUMBA_CACHE_DIR": str(folder), **more})[1:]
 
     return run
@@ -130,6 +131,25 @@ def test_another_numba_compiles_without_a_cache(change: str, said: str, tmp_path
     assert out == "compiles\n7\n" or (out == "7\n" and "has no" in said)
     assert said in errors
     assert len(errors.splitlines()) == 1
+
+
+LIBRARIES = """
+twin = memories._compiler(False)._twin(product)
+print(*(type(made.library).__name__ for made in twin.overloads.values()))
+"""
+
+
+@needs_numba
+@pytest.mark.parametrize(
+    "change, library", [("", "InnerLibrary"), ("del typed_passes.NativeLowering", "JITCodeLibrary")]
+)
+def test_only_entry_points_become_machine_code_where_numba_has_the_private_parts(
+    change: str, library: str, tmp_path: Path
+) -> None:
+    first = (
+        f"from ninja_game.backend.numba_import import *; import_numba(); from numba.core import typed_passes; {change}"
+    )
+    assert cold_run(tmp_path, first=first, after=LIBRARIES) == (f"compiles\n7\n{library}\n", "")
 
 
 @needs_numba

@@ -17,6 +17,8 @@ from ninja_game.files.user_folder import bundled_levels, data_folder
 from ninja_game.signals import Terminated
 from tests.support.samples import WALK, replay_of_walk, running, write_records
 
+RUN = "levels/certificates/00-0-first-steps.exit.replay.txt"
+
 
 def ninja_game(*words: str | Path) -> subprocess.CompletedProcess[str]:
     """The program as a user starts it."""
@@ -43,11 +45,25 @@ def test_help_lists_every_command() -> None:
     assert all(f"\n  {name} " in result.stdout for name in COMMANDS)
 
 
-def test_help_imports_nothing_heavy() -> None:
+@pytest.mark.parametrize(
+    "words, most, without",
+    [
+        ("--help", 170, "numpy numba pygame rich sqlite3"),
+        ("info levels/00-0-first-steps.txt", 330, "numpy numba pygame"),
+        ("play --frames 1", 530, "numpy numba rich"),
+        ("edit --frames 1", 520, "numpy numba rich"),
+        ("lab --frames 1", 490, "numpy numba rich"),
+        (f"tas {RUN} --frames 1", 1150, "rich PIL"),
+    ],
+)
+def test_a_start_imports_only_what_it_needs(words: str, most: int, without: str) -> None:
+    """Modules are counted, since time depends on the machine; what it takes is in docs/performance.md."""
     code = "import atexit, sys, ninja_game.cli.main as m; atexit.register(lambda: print(*sys.modules)); m.main()"
-    loaded = set(subprocess.check_output([sys.executable, "-c", code, "--help"], text=True).split())
+    said = subprocess.check_output([sys.executable, "-c", code, *words.split()], text=True)
+    loaded = said.splitlines()[-1].split()
     assert "click" in loaded
-    assert loaded.isdisjoint({"numpy", "numba", "pygame", "rich"})
+    assert set(loaded).isdisjoint(without.split())
+    assert len(loaded) <= most
 
 
 def test_no_command_shows_help_and_is_wrong_usage() -> None:

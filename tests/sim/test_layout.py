@@ -8,6 +8,7 @@ import pytest
 
 from ninja_game.backend.memories import compiled_available
 from ninja_game.backend.numba_import import import_numba
+from ninja_game.backend.numba_pipeline import make_pipeline
 from ninja_game.sim.events import emit
 from ninja_game.sim.memory.compiled import CompiledWorlds
 from ninja_game.sim.memory.compiler import Compiler
@@ -93,7 +94,9 @@ def test_no_index_is_ever_out_of_range() -> None:
 
 @needs_numba
 def test_checked_kernels_refuse_an_index_out_of_range() -> None:
-    memory = CompiledWorlds(Compiler(import_numba(), checked=True), [crowded_level(0)], box=False)
+    memory = CompiledWorlds(
+        Compiler(import_numba(), checked=True, pipeline=make_pipeline()), [crowded_level(0)], box=False
+    )
     with pytest.raises(IndexError):
         memory.observe(CAPACITY)
 

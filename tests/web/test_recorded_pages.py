@@ -27,7 +27,7 @@ LONG = re.compile(r'((?: d|content|viewBox)="|#level=)[^"]*')
 
 
 def board(folder: Path) -> Path:
-    """Runs of two players, a copy of one, a run on a level that does not count, and what is no run."""
+    """Runs of two players, a copy of one, a run on a level that does not count, and what is not run."""
     runs = folder / "runs"
     shutil.copytree(PACK / "certificates", runs)
     first, *_ = sorted(runs.glob("*.exit.*"))

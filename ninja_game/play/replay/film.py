@@ -22,6 +22,7 @@ from ninja_game.play.level.hud import Hud
 from ninja_game.play.replay.playback import Ghost, Playback
 from ninja_game.play.ui.theme import ROLES, Palette, mixed, palette_named
 from ninja_game.play.view.level_view import LevelView, OffscreenContext
+from ninja_game.play.window import png_of
 from ninja_game.player.settings import Settings
 from ninja_game.runtime import require_desktop, run_in_background
 from ninja_game.sim.rules import TICKS_PER_SECOND
@@ -194,9 +195,7 @@ def write_folder(pictures: Iterator[pygame.Surface], path: Path) -> None:
     """Write pictures into a folder as 00000.png, 00001.png, … Raises OSError."""
     folder = Tree(path)
     for number, picture in enumerate(pictures):
-        png = io.BytesIO()
-        pygame.image.save(picture, png, ".png")
-        folder.write(f"{number:05d}.png", png.getvalue())
+        folder.write(f"{number:05d}.png", png_of(picture))
 
 
 def film_colours(palette: Palette) -> list[int]:

@@ -29,14 +29,23 @@ class Compiler:
     """``compiler(entry_point)`` is its compiled twin, which takes the same arguments.
 
     Nothing is compiled before a twin is called for the first time. ``checked``: raise IndexError for an index out of
-    range, which is silent otherwise. ``attach_cache``: see ``AttachCache``. ``numba``: the module, as
-    ``numba_import`` gives it.
+    range, which is silent otherwise. ``attach_cache``: see ``AttachCache``. ``pipeline``: the passes, as
+    ``numba_pipeline`` gives them. ``numba``: the module, as ``numba_import`` gives it.
     """
 
-    def __init__(self, numba: Any, *, checked: bool = False, attach_cache: AttachCache | None = None) -> None:
+    def __init__(
+        self,
+        numba: Any,
+        *,
+        checked: bool = False,
+        attach_cache: AttachCache | None = None,
+        pipeline: type | None = None,
+    ) -> None:
         jit: Any = numba.njit
         self._checked = checked
         options: dict[str, Any] = {**OPTIONS, "boundscheck": checked}
+        if pipeline is not None:
+            options["pipeline_class"] = pipeline
         self._inner = jit(no_cpython_wrapper=True, no_cfunc_wrapper=True, **options)
         self._outer = jit(**options)
         self._types: Any = numba.types

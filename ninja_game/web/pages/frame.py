@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from html import escape
-from io import BytesIO
 from pathlib import Path
 from typing import TypeAlias
 
@@ -17,7 +16,7 @@ from ninja_game.files.tree import Tree
 from ninja_game.play.ui.glyphs import CAP
 from ninja_game.play.ui.lettering import SPACING, WEIGHTS, glyph
 from ninja_game.play.ui.theme import PALETTES, Palette, mixed
-from ninja_game.play.window import icon
+from ninja_game.play.window import icon, png_of
 
 LONGEST = 400
 """Characters of a text that are shown."""
@@ -171,9 +170,7 @@ def heading(text: str) -> Markup:
 
 def _icon() -> bytes:
     """The game's icon as a PNG."""
-    png = BytesIO()
-    pygame.image.save(icon(_ICON_SIZE), png, ICON)
-    return png.getvalue()
+    return png_of(icon(_ICON_SIZE))
 
 
 def _colours() -> str:

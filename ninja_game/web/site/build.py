@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import gzip
 import hashlib
-import io
 import json
 from collections.abc import Callable, Iterable
 from contextlib import suppress
@@ -90,16 +89,10 @@ def _page() -> dict[str, bytes]:
 
 def _icons() -> dict[str, bytes]:
     """The icons, as the game draws its ninja."""
-    import pygame
+    from ninja_game.play.window import icon, png_of
 
-    from ninja_game.play.window import icon
-
-    icons = {}
-    for name, (size, corner) in (ICONS | {MASKABLE: (512, 0.0)}).items():
-        png = io.BytesIO()
-        pygame.image.save(icon(size, corner=corner), png, "icon.png")
-        icons[name] = png.getvalue()
-    return icons
+    wanted = ICONS | {MASKABLE: (512, 0.0)}
+    return {name: png_of(icon(size, corner=corner)) for name, (size, corner) in wanted.items()}
 
 
 def _licences() -> dict[str, bytes]:
