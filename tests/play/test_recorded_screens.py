@@ -76,6 +76,11 @@ def test_every_function_that_draws_is_shown_by_some_screen(
     assert sorted(missing) == sorted(NOT_SHOWN)
 
 
+def test_what_changes_is_drawn_again(screens: dict[str, str], logs: tuple[DrawLog, TasLog]) -> None:
+    assert screens
+    assert [name for log in logs for name in log.stale] == []
+
+
 def test_recorded_screens_are_those_that_there_are(screens: dict[str, str]) -> None:
     if ACCEPT:
         for path in GOLDEN.glob("*screens/*.txt"):

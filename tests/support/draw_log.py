@@ -1,6 +1,7 @@
 """What is drawn, as lines of text: every text, shape, sprite and picture of one whole redraw, in its order.
 
-Numbers are logical px, colours are roles of the palette. ``DrawLog.called``: the functions of the front end that drew.
+Numbers are logical px, colours are roles of the palette. ``DrawLog.called``: the functions of the front end that drew;
+``DrawLog.stale``: the screens on which something had not been drawn again that had changed.
 """
 
 from __future__ import annotations
@@ -56,6 +57,7 @@ class DrawLog:
 
     def __init__(self) -> None:
         self.called: set[CodeType] = set()
+        self.stale: list[str] = []
         self._depth = 0
         self._lines: list[str] | None = None
         self._palette: Palette | None = None
@@ -67,12 +69,20 @@ class DrawLog:
         self._palette = palette
         lines: list[str] = []
         self._lines = lines
+        try:
+            with self.noting_calls():
+                yield lines
+        finally:
+            self._lines = None
+
+    @contextmanager
+    def noting_calls(self) -> Iterator[None]:
+        """What is called meanwhile is among ``called``."""
         sys.setprofile(self._note_call)
         try:
-            yield lines
+            yield
         finally:
             sys.setprofile(None)
-            self._lines = None
 
     def _note_call(self, frame: FrameType, event: str, _: Any) -> None:
         if event == "call":

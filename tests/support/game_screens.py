@@ -373,6 +373,7 @@ def _daily(driver: MenuDriver) -> Iterator[str]:
         maker = screen._maker
         assert maker is not None
         maker.progress = "level 3 of 8"
+        driver.frames()
         yield "daily-being-made"
         maker.problem = "No level could be made for this day: No space left"
         endless.is_alive = lambda: False
@@ -448,9 +449,15 @@ def screens_as_texts(
     shown: dict[str, str] = {}
 
     def show(driver: MenuDriver, name: str) -> None:
+        with log.noting_calls():
+            driver.app.draw()
+        by_steps = pygame.surfarray.array3d(driver.app.surface).astype(int)
         driver.app.stack.redraw_all()
         with log.recording(driver.app.theme.palette) as lines:
             driver.app.draw()
+        # A line that is cut off may differ by one where it is smoothed.
+        if abs(pygame.surfarray.array3d(driver.app.surface) - by_steps).max() > 3:
+            log.stale.append(name)
         assert name not in shown
         shown[name] = "\n".join(lines).replace(str(folder), "FOLDER").replace(__version__, "VERSION") + "\n"
 
