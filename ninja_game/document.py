@@ -10,7 +10,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Generic, TypeVar
 
-from ninja_game.errors import DAMAGED, FileError, NinjaGameError
+from ninja_game.errors import DAMAGED, FileError, NinjaGameError, reason
 from ninja_game.files.locking import LOCK_SUFFIX, forget, hold, left_behind
 from ninja_game.files.reading import read_bytes
 
@@ -74,7 +74,7 @@ class RecoveryFile:
             yield
             self.problem = ""
         except (OSError, NinjaGameError) as error:
-            self.problem = f"What you edit cannot be kept safe: {getattr(error, 'strerror', '') or error}"
+            self.problem = f"What you edit cannot be kept safe: {reason(error)}"
 
     def close(self, *, keep: bool = False) -> None:
         """End. ``keep``: the copy stays, to be found at the next start."""
@@ -91,7 +91,7 @@ def recovered_from(folder: Path, suffix: str, read: Callable[[Path], Found]) -> 
 
 
 class History(Generic[Draft]):
-    """``draft``: the present one. A *stroke* is several changes that are undone as one, such as a line of tiles."""
+    """Undo and redo. ``draft``: the present one. A *stroke*, such as a line of tiles, is undone as one."""
 
     def __init__(self, draft: Draft) -> None:
         self.draft = draft

@@ -97,7 +97,11 @@ class Release:
         words = ("export", "--quiet", "--locked", "--no-default-groups", "--no-emit-project", "--extra=fast")
         self._said(program("uv"), *words, *(f"--group={group}" for group in groups), "--output-file", str(needs))
         self._said(program("uv"), "venv", "--quiet", "--clear", "--python", sys.executable, str(venv))
-        for what in (("--require-hashes", "-r", str(needs)), ("--no-deps", str(self.wheel()))):
+        # Installers note from where a wheel came, and how old its file was: always the same.
+        wheel = WORK / self.wheel().name
+        shutil.copyfile(self.wheel(), wheel)
+        os.utime(wheel, (self.epoch, self.epoch))
+        for what in (("--require-hashes", "-r", str(needs)), ("--no-deps", str(wheel))):
             python = venv / Path(program("python")).relative_to(ROOT / ".venv")
             self._said(program("uv"), "pip", "install", "--quiet", "--python", str(python), *what)
         return python.parent

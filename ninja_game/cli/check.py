@@ -13,7 +13,7 @@ import click
 from ninja_game.cli import solver_options as options
 from ninja_game.cli.run_options import LevelPath
 from ninja_game.errors import LevelError, NinjaGameError
-from ninja_game.files.shown_text import name_key, shown_text
+from ninja_game.files.shown_text import counted, name_key, shown_text
 from ninja_game.files.tree import Tree
 from ninja_game.files.writing import check_output
 from ninja_game.sim.kinds import DOOR
@@ -132,10 +132,10 @@ class _Tally:
     def lines(self, goals: Mapping[str, int]) -> Iterator[str]:
         """The count in a line, and a line for each goal that some levels lack."""
         first = self.without[next(iter(goals))]
-        counted = f"{self.levels} level{'s' * (self.levels != 1)}"
+        levels = counted(self.levels, "level")
         unplayable = f", {self.broken} cannot be played" if self.broken else ""
         solved = self.levels - len(first) - self.broken
-        yield f"{counted}, {solved} solvable, {len(first)} not solved in the time{unplayable}"
+        yield f"{levels}, {solved} solvable, {len(first)} not solved in the time{unplayable}"
         if "exit" in goals and self.without["exit"] and self.levels > 1:
             yield f"no run to the exit: {', '.join(self.without['exit'])}"
         if "gold" in goals and self.without["gold"] and self.levels > 1:
@@ -146,7 +146,7 @@ def _files(levels: Sequence[NamedLevel], goals: Iterable[str], folder: Path | No
     """Where each level's runs are kept, by goal: ``file.goal.replay.txt``; numbered where that name is given."""
     given: set[str] = set()
     for level in levels:
-        stem = name = f"{Path(level.file).stem}" + (f"-{level.record}" if level.record else "")
+        stem = name = Path(level.file).stem + (f"-{level.record}" if level.record else "")
         number = 1
         while name_key(name) in given:
             number += 1

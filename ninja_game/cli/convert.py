@@ -12,11 +12,13 @@ import click
 from ninja_game.cli.run_options import LevelPath, budget_option, level_given, level_option, with_progress
 from ninja_game.cli.terminal import data_output
 from ninja_game.errors import FileError, LevelError
+from ninja_game.files.shown_text import counted
 from ninja_game.files.tree import Tree
 from ninja_game.formats.links.fragment import is_link
 
 if TYPE_CHECKING:
-    from ninja_game.formats.load import NamedLevel, Recording
+    from ninja_game.formats.named_level import NamedLevel
+    from ninja_game.formats.recording import Recording
 
 RUN_FORMS = {"replay": ".replay.txt", "inputs": ".inputs.txt", "celeste": ".tas", "libtas": ".libtas.txt"}
 """The forms of recordings of which a file holds one, and how it is called."""
@@ -124,7 +126,7 @@ class Output:
         else:
             names = _file_names(found, suffix)
             self._put([(folder / name, text) for name, text in zip(names, texts, strict=True)], Tree(folder))
-            click.echo(f"{len(texts)} file{'s' * (len(texts) != 1)} written to {folder}", err=True)
+            click.echo(f"{counted(len(texts), 'file')} written to {folder}", err=True)
 
     def _put(self, files: Sequence[tuple[Path, str]], tree: Tree | None = None) -> None:
         """Write files, those of a folder into ``tree``. Raises FileError, before any is written, for what must stay."""
@@ -146,7 +148,7 @@ class Output:
 
 
 def _ascii_text(level: NamedLevel, legend: bool) -> str:
-    from ninja_game.formats.ascii.reader import write_ascii_level
+    from ninja_game.formats.ascii.writer import write_ascii_level
 
     return write_ascii_level(
         level.level, name=level.name, author=level.author, comment=level.comment, teaches=level.teaches, legend=legend

@@ -17,6 +17,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from ninja_game.budget import RUN_BUDGET
+from ninja_game.files.shown_text import counted
 
 if TYPE_CHECKING:
     from ninja_game.formats.named_level import NamedLevel
@@ -164,7 +165,7 @@ def with_progress(items: Iterable[T], label: str) -> Iterator[T]:
     """
     if not sys.stderr.isatty():
         done = 0
-        with heartbeat(lambda: f"{done:,} {label}{'s' * (done != 1)} done"):
+        with heartbeat(lambda: f"{counted(done, label)} done"):
             for done, item in enumerate(items, 1):  # noqa: B007 - the line tells it
                 yield item
         return

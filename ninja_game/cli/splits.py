@@ -14,7 +14,7 @@ import click
 from ninja_game.cli.main import complain
 from ninja_game.cli.run_options import budget_option, choose, heartbeat, level_given, level_option, with_progress
 from ninja_game.cli.terminal import data_output
-from ninja_game.files.shown_text import shown_text
+from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
@@ -219,7 +219,7 @@ def draw(picture: Path, level: Level, paths: Sequence[tuple[str, Any]], keep: Se
 
     surface = paths_picture(level, paths, PALETTES["classic"], 1584)
     write_atomically(picture, png_of(surface), keep=keep)
-    click.echo(f"{picture}: {len(paths)} run{'s' * (len(paths) != 1)}", err=True)
+    click.echo(f"{picture}: {counted(len(paths), 'run')}", err=True)
 
 
 COMPARED = ("at", "x", "y", "tick", "other", "ahead")

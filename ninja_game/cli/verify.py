@@ -12,7 +12,7 @@ import click
 
 from ninja_game.cli.main import complain
 from ninja_game.cli.run_options import InputPath, budget_option, jobs_option, with_progress
-from ninja_game.files.shown_text import shown_text
+from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
@@ -148,6 +148,6 @@ def _row(verdict: Verdict) -> str:
 def _summary(totals: Totals) -> str:
     counts = ", ".join(f"{count} {outcome}" for outcome, count in sorted(totals.outcomes.items()))
     total = totals.recordings
-    runs = f"{total} run{'s' * (total != 1)} of {totals.ticks} ticks{': ' * bool(counts)}{counts}"
+    runs = f"{counted(total, 'run')} of {totals.ticks} ticks{': ' * bool(counts)}{counts}"
     text = f"{runs}; {totals.failed or 'none'} failed"
     return text + (f"; {totals.unreadable} unreadable" if totals.unreadable else "")

@@ -6,7 +6,7 @@ from functools import cache
 from itertools import product
 from typing import NamedTuple
 
-from ninja_game.editor.draft import Cell
+from ninja_game.editor.draft import Cell, cell_of
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.collision.tiles import UNIT_X, UNIT_Y
 from ninja_game.sim.memory.schema import TileMap
@@ -44,8 +44,7 @@ class Motion(NamedTuple):
         return a + self.dx, b + self.dy
 
     def cell(self, cell: Cell) -> Cell:
-        x, y = self.point(24.0 * cell[0] + 12.0, 24.0 * cell[1] + 12.0)
-        return int(x // 24), int(y // 24)
+        return cell_of(*self.point(24.0 * cell[0] + 12.0, 24.0 * cell[1] + 12.0))
 
     def direction(self, number: float) -> float:
         """The number of a direction (0 right, 1 down, 2 left, 3 up) then; what is not a direction stays."""

@@ -90,6 +90,12 @@ class EditorTools:
         return self.objects and (self.spec.kind == NINJA or has_switch(self.spec))
 
     @property
+    def effective_tool(self) -> str:
+        """The tool that a press uses: objects are not filled in, and some are put one at a time."""
+        one_by_one = self.tool == "rectangle" and self.draws_one
+        return "brush" if one_by_one or (self.tool == "fill" and self.objects) else self.tool
+
+    @property
     def dragging(self) -> bool:
         """Whether what is chosen follows the pointer."""
         return self._doing == "drag"
@@ -136,12 +142,11 @@ class EditorTools:
             self._begin_to_draw(erase=erase)
 
     def _begin_to_draw(self, *, erase: bool) -> None:
-        if self.tool == "fill" and not self.objects and not erase:
+        if self.effective_tool == "fill" and not erase:
             self._change(Stamp(dict.fromkeys(filled(self.draft, self.cell), self.tile)))
             return
         many = not self.objects or self.spec.kind in (GOLD, MINE)
-        boxed = self.tool == "rectangle" and not self.draws_one
-        drawn = "rectangle" if boxed else "draw" if many else "drop"
+        drawn = "rectangle" if self.effective_tool == "rectangle" else "draw" if many else "drop"
         self._doing = "erase" if erase else drawn
         self.move(*self.pointer)
 

@@ -13,7 +13,7 @@ from contextvars import ContextVar
 from pathlib import Path
 from typing import NamedTuple
 
-from ninja_game.errors import FileError, NinjaGameError
+from ninja_game.errors import FileError, NinjaGameError, reason
 from ninja_game.files.reading import path_below, read_text
 
 
@@ -69,4 +69,4 @@ def _read(file: str, name: str) -> Beside:
     try:
         return Beside(str(path), read_text(path))
     except (OSError, NinjaGameError) as error:
-        return Beside(str(path), problem=str(getattr(error, "strerror", None) or error))
+        return Beside(str(path), problem=reason(error))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from unicodedata import category, normalize
 
 MAX_SHOWN = 200
@@ -21,6 +22,27 @@ INVISIBLE = re.compile(
 _NOWHERE = '/\\:*?"<>|'
 _RESERVED = re.compile(r"(con|prn|aux|nul|conin\$|conout\$|(com|lpt)[1-9¹²³]) *(\..*)?", re.IGNORECASE | re.DOTALL)
 """Names that mean devices on Windows, whatever their suffix."""
+
+
+def counted(number: int, one: str, more: str = "") -> str:
+    """A number with its noun.
+
+    >>> counted(1, "try", "tries"), counted(2, "try", "tries"), counted(1200, "tick")
+    ('1 try', '2 tries', '1,200 ticks')
+    """
+    return f"{number:,} {one if number == 1 else more or f'{one}s'}"
+
+
+def unreadable(names: Sequence[str]) -> str:
+    """What to say of files that cannot be read; '' if there are none.
+
+    >>> unreadable(["a.txt"]), unreadable(["a.txt", "b.txt", "c.txt"])
+    ('Cannot be read: a.txt', 'Cannot be read: a.txt and 2 more files')
+    """
+    if not names:
+        return ""
+    more = f" and {counted(len(names) - 1, 'more file')}" if len(names) > 1 else ""
+    return f"Cannot be read: {names[0]}{more}"
 
 
 def shown_text(text: str, longest: int = MAX_SHOWN) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pygame
 
 from ninja_game.editor.draft import Draft
-from ninja_game.errors import NinjaGameError
+from ninja_game.errors import NinjaGameError, reason
 from ninja_game.formats.links.making import level_link
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.play.app import App
@@ -39,7 +39,7 @@ def copy_link(app: App, make: Callable[[], str], *, title: str) -> None:
     try:
         link = make()
     except (NinjaGameError, OSError) as error:
-        app.notify(f"No link: {error}")
+        app.notify(f"No link: {reason(error)}")
         return
     copy_text(app, app.settings.site + link, title=title, suffix=".link.txt")
 

@@ -16,8 +16,8 @@ from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.sim.states import CELEBRATING, DEAD, EXPLOSIVE, FALL, HARD_BULLET
 from ninja_game.simulation import Body, SaveState, Simulation
 
-Moment = tuple[SaveState, bytes, int, int]
-"""A save-state with the recording, the lifetime and the tick of the end."""
+Moment = tuple[SaveState, bytes, int, int, bool]
+"""A save-state with the recording, the lifetime, the tick of the end, whether the player gave up."""
 
 
 class Attempt:
@@ -101,10 +101,10 @@ class Attempt:
     # --- practice ---
 
     def save(self) -> Moment:
-        return self.simulation.save(), bytes(self.inputs), self.lifetime, self.ended_tick
+        return self.simulation.save(), bytes(self.inputs), self.lifetime, self.ended_tick, self.own_hand
 
     def restore(self, moment: Moment) -> None:
-        state, inputs, self.lifetime, self.ended_tick = moment
+        state, inputs, self.lifetime, self.ended_tick, self.own_hand = moment
         self.simulation.restore(state)
         self.inputs[:] = inputs
         self.score = level_score(self.gold, self.ended_tick) if self.outcome == "exit" else 0

@@ -83,7 +83,7 @@ _COUNTS = (
 
 
 def write_backup(player: PlayerData, path: Path) -> list[str]:
-    """Write everything of a player's into a zip; what was left out, and why it could not be taken in, if that is so.
+    """Write everything of a player's into a zip. Messages: what was left out, and if it is too large to be imported.
 
     Raises FileError, OSError, sqlite3.Error.
     """

@@ -23,7 +23,6 @@ from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.player.records import episode_key
-from ninja_game.sim.kinds import GOLD
 
 
 @dataclass(frozen=True)
@@ -46,7 +45,7 @@ class Entry:
     @cached_property
     def all_gold(self) -> int:
         """How many pieces of gold the level has."""
-        return sum(record.kind == GOLD for record in self.named.level.objects)
+        return self.named.level.gold
 
     @property
     def title(self) -> str:

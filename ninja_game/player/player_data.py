@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 from pathlib import Path
 
-from ninja_game.errors import FileError
+from ninja_game.errors import FileError, reason
 from ninja_game.files.user_folder import LEVELS, RECORDS, REPLAYS, SETTINGS, make_user_folder, user_folder
 from ninja_game.files.writing import remove_leftovers
 from ninja_game.player.catalogue import Catalogue, Episode
@@ -108,7 +108,7 @@ class PlayerData:
         try:
             write_changes(self._saved_settings, settings, self.folder / SETTINGS)
         except (OSError, FileError) as error:
-            return f"The settings could not be saved ({getattr(error, 'strerror', '') or error})."
+            return f"The settings could not be saved ({reason(error)})."
         self._saved_settings = settings
         return ""
 

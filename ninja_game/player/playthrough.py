@@ -41,7 +41,7 @@ class Navigation(Enum):
 
 
 class LevelContext:
-    """A level by itself, of a file, of an episode. Its subclasses, in ``playthrough``, say what follows.
+    """A level by itself, of a file, of an episode. Subclasses, below, say what follows.
 
     ``entry``: the level to play now. ``lifetime``: ticks at its start. ``notices``: of what was saved.
     """

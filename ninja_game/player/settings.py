@@ -18,6 +18,18 @@ from ninja_game.files.toml import parse_toml
 from ninja_game.files.user_folder import quarantine
 from ninja_game.files.writing import write_atomically
 
+if TYPE_CHECKING:
+    from tomlkit import TOMLDocument
+
+VERSION = 1
+BINDING_TABLES = {"keys": "keys", "pad": "pad-buttons"}
+
+COMMENT = "Settings of ninja-game. What is missing or wrong here has its default; comments stay."
+MAX_BYTES = 2**16
+"""More than this is not a file of settings; a number of so many digits is read within 0.1 s."""
+
+LOCK_SECONDS = 1.0
+
 DEFAULT_PALETTE = "classic"
 DEFAULT_COLOUR = ""
 """The ninja's colour that comes with the palette."""
@@ -168,19 +180,6 @@ RULES = {
 """By setting. Bindings are tables of their own: ``[keys]`` and ``[pad-buttons]``."""
 
 
-if TYPE_CHECKING:
-    from tomlkit import TOMLDocument
-
-VERSION = 1
-BINDING_TABLES = {"keys": "keys", "pad": "pad-buttons"}
-
-COMMENT = "Settings of ninja-game. What is missing or wrong here has its default; comments stay."
-MAX_BYTES = 2**16
-"""More than this is not a file of settings; a number of so many digits is read within 0.1 s."""
-
-LOCK_SECONDS = 1.0
-
-
 # --- reading ---
 
 
@@ -199,9 +198,8 @@ def read_settings(path: Path) -> tuple[Settings, list[str]]:
         return Settings(), [f"The settings cannot be read ({error.strerror}); the defaults are used."]
     except (FileError, ValueError) as error:
         return Settings(), [f"The settings file is damaged ({shown_text(str(error))}). {_put_aside(path, 'damaged')}"]
-    version = data.get("version", VERSION)
-    if not isinstance(version, int) or version > VERSION:
-        return Settings(), [f"The settings file is from a newer game. {_put_aside(path, 'newer')}"]
+    if data.get("version", VERSION) != VERSION:
+        return Settings(), [f"The settings file is from another version of the game. {_put_aside(path, 'newer')}"]
     return _settings_of(data)
 
 

@@ -8,13 +8,18 @@ from ninja_game.player.store import Store
 from ninja_game.sim.events import DIED
 from ninja_game.sim.kinds import DRONE, KIND_OF, KINDS
 from ninja_game.sim.memory.schema import World
-from ninja_game.sim.states import WEAPON_CHAINGUN, WEAPON_LASER, WEAPON_ZAP
+from ninja_game.sim.states import NO_CAUSE, WEAPON_CHAINGUN, WEAPON_LASER, WEAPON_ZAP
 
 SELF = "player"
 """Falls, being crushed, suicide, time."""
 
 _DRONES = {WEAPON_ZAP: "zap drone", WEAPON_LASER: "laser drone", WEAPON_CHAINGUN: "chaingun drone"}
 KILLERS = (*_DRONES.values(), *(kind.killer for kind in KINDS if kind.killer and kind.number != DRONE), SELF)
+
+
+def cause_of(world: World) -> int:
+    """Of what the ninja died in the world's last tick, as in ``sim.states``; NO_CAUSE where it did not."""
+    return next((event.cause for event in world.events[: world.event_count] if event.kind == DIED), NO_CAUSE)
 
 
 def killer_of(world: World) -> str:

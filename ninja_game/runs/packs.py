@@ -18,7 +18,6 @@ from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.levels.findings import PackFinding, in_pack
 from ninja_game.levels.warnings import level_findings
 from ninja_game.runs.verify import Verdict, verify_recording, with_demands
-from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.level import Level
 
 
@@ -44,7 +43,7 @@ class Certificate:
         if verdict.level_digest != digest:
             return ["it is a run of another level, or the level was changed after it"]
         problems = [str(problem) for problem in verdict.problems]
-        gold = sum(record.kind == GOLD for record in self.level.objects)
+        gold = self.level.gold
         if self.kind == "gold" and verdict.gold < gold:
             problems.append(f"it takes {verdict.gold} of {gold} pieces of gold")
         return problems

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
-from ninja_game.errors import BudgetError, LevelError, NinjaGameError
+from ninja_game.errors import BudgetError, LevelError, NinjaGameError, reason
 from ninja_game.files.reading import LeftOut, files_below
 from ninja_game.formats.forms import form_of
 from ninja_game.formats.links.fragment import is_link
@@ -55,7 +55,7 @@ def _texts_of(path: Path, *, named: bool) -> Iterator[tuple[str, str, bool] | Un
     except NinjaGameError as error:
         yield Unreadable(str(error))
     except OSError as error:
-        yield Unreadable(f"{path}: {error.strerror or error}")
+        yield Unreadable(f"{path}: {reason(error)}")
 
 
 def recordings_in(paths: Iterable[Path], level: Level | None = None) -> Iterator[Recording | Unreadable]:
@@ -110,7 +110,7 @@ def recording_of_text(
         if named or not _holds_levels(text, file):
             yield Unreadable(str(error))
     except OSError as error:
-        yield Unreadable(f"{file}: {error.strerror or error}")
+        yield Unreadable(f"{file}: {reason(error)}")
 
 
 def _holds_levels(text: str, file: str) -> bool:

@@ -20,7 +20,6 @@ from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.search.certificate import UnverifiedRunError, named_run, verified_run
 from ninja_game.search.solve import Progress, Task, solve
-from ninja_game.sim.kinds import GOLD
 
 AUTHOR = "ninja-game check"
 
@@ -87,8 +86,7 @@ def _certify(
 ) -> dict[str, Certified]:
     """Certify a level: one goal after the other; a run that serves another goal better is its run too."""
     found: dict[str, Certified] = {}
-    there = sum(record.kind == GOLD for record in level.level.objects)
-    amounts = {name: there if gold < 0 else gold for name, gold in wanted.goals.items()}
+    amounts = {name: level.level.gold if gold < 0 else gold for name, gold in wanted.goals.items()}
     for name, gold in amounts.items():
         task = Task(level.level, gold=gold, **wanted.task)
         kept = kept_run(level, where[name], task) if where else None

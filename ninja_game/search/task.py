@@ -14,7 +14,6 @@ from threading import Event, Lock
 from ninja_game.formats.replay.text import Replay
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.nodes import Resolution
-from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.level import Level
 from ninja_game.simulation import Body
 
@@ -61,7 +60,7 @@ class Task:
     @property
     def gold_wanted(self) -> int:
         """Pieces of gold that a run must collect."""
-        return sum(record.kind == GOLD for record in self.level.objects) if self.gold < 0 else self.gold
+        return self.level.gold if self.gold < 0 else self.gold
 
     @property
     def work_planned(self) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from ninja_game.sim.kinds import VALUE_COUNTS
+from ninja_game.sim.kinds import GOLD, VALUE_COUNTS
 
 COLUMNS = 31
 ROWS = 23
@@ -60,6 +60,11 @@ class Level:
     def __reduce__(self) -> tuple[type[Level], tuple[tuple[int, ...], tuple[ObjectSpec, ...]]]:
         """Copies and pickles are made again, so that they are as ``__post_init__`` leaves them."""
         return type(self), (self.tiles, self.objects)
+
+    @property
+    def gold(self) -> int:
+        """How many pieces of gold there are."""
+        return sum(record.kind == GOLD for record in self.objects)
 
     def tile(self, column: int, row: int) -> int:
         """Tile id at interior cell ``column`` 1…31, ``row`` 1…23 (indices of the full 33 x 25 grid)."""

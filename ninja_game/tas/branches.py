@@ -91,12 +91,14 @@ class Branches:
         return {**said, "watched": list(self.watched)}
 
     def do(self, change: dict[str, Any]) -> None:
-        """A change as a journal tells it: ``keep``, ``drop``, ``rename``, ``checkout`` or all of it. Raises DAMAGED."""
+        """A change as a journal tells it: one of the words below, or all of it. Raises DAMAGED."""
         if "branches" in change:
             whole = branches_of_json(change)
             self.all, self.current, self.watched = whole.all, whole.current, whole.watched
         elif "keep" in change:
             self.keep(branch_of_json(change["keep"]))
+        elif "watch" in change:
+            self.watched = tuple(map(str, change["watch"]))
         elif "rename" in change:
             self.rename(int(change["rename"]), str(change["name"]))
         elif "checkout" in change:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
@@ -35,7 +35,7 @@ class Session:
         self.moved = opened.moved
         self.history: History[InputTrack] = History(opened.track)
         self.saved = opened.track
-        self._saved_branches = list(opened.branches.all)
+        self._saved_branches = self._kept()
         self.timeline = Timeline(self.about.level, opened.track.inputs, body=self.about.body, memory=memory)
         self.before: Trajectory = EMPTY_TRAJECTORY
         self.before_track = opened.track
@@ -64,7 +64,11 @@ class Session:
     @property
     def is_saved(self) -> bool:
         """Whether the file holds what is here."""
-        return not self._file_differs and self.track == self.saved and self.branches.all == self._saved_branches
+        return not self._file_differs and self.track == self.saved and self._kept() == self._saved_branches
+
+    def _kept(self) -> tuple[list[Branch], tuple[str, ...]]:
+        """What is saved beside the run."""
+        return list(self.branches.all), self.branches.watched
 
     @property
     def has_tail(self) -> bool:
@@ -167,6 +171,11 @@ class Session:
         self.branches.rename(number, name)
         self._note_branches({"rename": number, "name": name})
 
+    def watch(self, formulas: Iterable[str]) -> None:
+        """Keep other watched formulas with the run."""
+        self.branches.watched = tuple(formulas)
+        self._note_branches({"watch": list(self.branches.watched)})
+
     def _note_branches(self, change: dict[str, Any]) -> None:
         self._branches_noted = self.journal.note(change if self._branches_noted else self.branches.as_json())
 
@@ -180,7 +189,7 @@ class Session:
         """Write run and branches. Raises OccupiedError, FileError, OSError as ``save_run`` does, ArgumentError."""
         self.end()
         self.file = save_run(self.about, self.track, self.branches, path, self.file, replacing=replacing)
-        self.saved, self._saved_branches = self.track, list(self.branches.all)
+        self.saved, self._saved_branches = self.track, self._kept()
         self._file_differs = False
         self.journal.begin_again(self._opened())
 

@@ -8,11 +8,13 @@ from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App
+from ninja_game.play.level.hud import cause_of_death
 from ninja_game.play.level.play import DEATH_PAUSE, Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.playthrough import FileRun
 from ninja_game.sim.rules import LIFETIME
+from ninja_game.sim.states import CRUSHED
 from tests.support.scripted import ScriptedControls, frames, open_level, phase_of, play_to_the_end, press, release
 
 
@@ -239,3 +241,15 @@ def test_the_levels_of_a_file_follow_each_other(
         frames(app)
         assert screen.context.title == title
         assert phase_of(screen) is Phase.READY
+
+
+def test_it_says_what_the_ninja_died_of(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
+    app, controls = stage
+    screen = open_level(app, recording)
+    press(controls, "right")
+    frames(app, 3)
+    screen.attempt.simulation.kill(CRUSHED, 0.0, 0.0)
+    screen.play._note_end()
+    frames(app, DEATH_PAUSE + 4)
+    assert screen.play.crushed
+    assert cause_of_death(screen.play) == "You were crushed."

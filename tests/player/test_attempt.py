@@ -85,3 +85,18 @@ def test_a_replay_of_practice_says_so() -> None:
     assert played(short_level(), practice=True).replay().practice
     assert not played(short_level()).replay().practice
     assert "practice: yes" in write_replay(played(short_level(), practice=True).replay())
+
+
+def test_who_gave_up_and_goes_back_has_not_given_up() -> None:
+    attempt = Attempt(short_level(), practice_mode=True)
+    attempt.tick(0)
+    moment = attempt.save()
+    attempt.give_up(0.1, 2.0, -3.0)
+    given_up = attempt.save()
+    attempt.restore(moment)
+    assert not attempt.own_hand
+    attempt.restore(given_up)
+    assert attempt.own_hand
+    attempt.simulation.restore(moment[0])
+    attempt.rewound()
+    assert not attempt.own_hand

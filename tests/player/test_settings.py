@@ -216,3 +216,11 @@ def test_wrong_value_falls_back_alone_and_is_named(tmp_path: Path) -> None:
 def test_changing_to_a_wrong_value_is_refused() -> None:
     with pytest.raises(ValueError, match="0 to 99"):
         Settings().changed(volume=100)
+
+
+def test_an_older_file_is_read_as_it_is_written(tmp_path: Path) -> None:
+    """What would be moved aside at the first change is moved aside at once, and said."""
+    path = tmp_path / "settings.toml"
+    path.write_text("version = 0\n")
+    assert "another version" in read_settings(path)[1][0]
+    assert not path.exists()

@@ -294,7 +294,7 @@ def _editor(driver: MenuDriver) -> Iterator[str]:
     draft = put(
         draft, Stamp({(8, 12): 7, (9, 12): 1, (10, 12): 6, (12, 17): 1}, (*gold, ObjectSpec(MINE, (300.0, 420.0))))
     )
-    screen.commands.edit(Source(draft))
+    screen.session.begin(Source(draft))
     examine(screen)
     driver.frames(3)
     yield "editor"
@@ -320,7 +320,7 @@ def _editor_states(driver: MenuDriver) -> Iterator[str]:
     """Symmetry under the mouse, a certificate and a stale one, a test, the choice of a level, what is not saved."""
     screen = driver.open("Editor")
     assert isinstance(screen, EditorScreen)
-    screen.commands.edit(Source(ROOM))
+    screen.session.begin(Source(ROOM))
     driver.frames(2)
     for name, tile in (("tiles", True), ("objects", False)):
         for symmetry in ("left-right", "both"):

@@ -35,7 +35,7 @@ def editor_picture(folder: Path) -> pygame.Surface:
     maker = Maker(folder, (1188, 900))
     maker.open("Editor")
     editor = maker.editor
-    editor.commands.edit(open_source(Path(copy(PACK / "00-4-locksmith.txt", folder / "levels"))))
+    editor.session.begin(open_source(Path(copy(PACK / "00-4-locksmith.txt", folder / "levels"))))
     run = load_replays(PACK / "certificates" / "00-4-locksmith.exit.replay.txt")[0]
     editor.session.tried(run.level, run.inputs)
     maker.frames()

@@ -58,7 +58,7 @@ def measure_editor(folder: Path, options: argparse.Namespace) -> bool:
     maker.open("Editor")
     places = ((30 + 37 * k % 730, 30 + 53 * k % 540) for k in range(options.objects + 20))
     objects = tuple(placed(OBJECT_TYPES[2 + 7 * k % 15].spec, *place, "quarter") for k, place in enumerate(places))
-    maker.editor.commands.edit(Source(put(ROOM, Stamp({}, objects))))
+    maker.editor.session.begin(Source(put(ROOM, Stamp({}, objects))))
     examine(maker.editor)
     maker.frames(5)
     print(f"{len(maker.draft.objects)} objects")

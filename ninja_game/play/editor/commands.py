@@ -7,12 +7,12 @@ from pathlib import Path
 
 from ninja_game.editor.brush import SNAPS
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.files import SUFFIX, RecoveredDraft, Source, draft_of, new_source, open_source, recovered
+from ninja_game.editor.files import SUFFIX, Source, draft_of, new_source, open_source, recovered
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
 from ninja_game.editor.specs import points
 from ninja_game.editor.stamp import everything
 from ninja_game.editor.tools import TOOLS
-from ninja_game.errors import LevelError, NinjaGameError
+from ninja_game.errors import LevelError, NinjaGameError, reason
 from ninja_game.files.shown_text import file_stem
 from ninja_game.files.user_folder import LEVELS, free_path
 from ninja_game.formats.ascii.writer import HEADER_KEYS
@@ -26,10 +26,11 @@ from ninja_game.play.editor.view import EditorView
 from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.panels import FormPanel, Menu, nothing
+from ninja_game.play.ui.widgets import following
 from ninja_game.play.workspace.document import Action, DocumentCommands
 from ninja_game.player.catalogue import Entry
 
-_WORDS = """\
+HELP = """\
 A first level: draw a floor with the left mouse button. Take the ninja from the objects at the right and click where \
 it begins; take the exit, click where it is, then where its switch is. Test plays the level, Certify lets the solver \
 look for a run, Save (in File) puts it into the menu Levels.
@@ -58,21 +59,20 @@ class EditorCommands(DocumentCommands):
             tools.finish()
             tools.tool = name
         elif name.startswith("snap_"):
-            names = list(SNAPS)
-            tools.snap = names[(names.index(tools.snap) + 1) % len(names)] if name == "snap_next" else name[5:]
+            tools.snap = following(list(SNAPS), tools.snap) if name == "snap_next" else name[5:]
         else:
             self._table()[name]()
 
     def _table(self) -> dict[str, Action]:
         tools, view = self.session.tools, self.view
         return {
-            "help": lambda: self.app.push(HelpPage(self.app, "The editor", _WORDS, COMMANDS)), "menu": self.menu,
+            "help": lambda: self.app.push(HelpPage(self.app, "The editor", HELP, COMMANDS)), "menu": self.menu,
             "test": self.test, "test_here": lambda: self.test(here=True), "certify": self.certify,
             "save": self.save, "save_as": self.save_as, "open": self.open, "new": self.new, "about": self.about,
             "undo": tools.undo, "redo": tools.redo,
             "copy": tools.copy, "cut": tools.cut, "paste": tools.paste,
             "choose_all": self.choose_all, "delete": tools.delete,
-            "next_tool": lambda: self.run(TOOLS[(TOOLS.index(tools.tool) + 1) % len(TOOLS)]),
+            "next_tool": lambda: self.run(following(TOOLS, tools.tool)),
             "swap": lambda: tools.pick_up(tools.tile if tools.objects else tools.spec),
             "mirror": lambda: tools.turn(MIRROR), "flip": lambda: tools.turn(FLIP),
             "turn": lambda: tools.turn(CLOCKWISE), "symmetry": self.next_symmetry, "grid": view.next_grid,
@@ -87,7 +87,7 @@ class EditorCommands(DocumentCommands):
         names = list(SYMMETRIES)
         tools = self.session.tools
         tools.finish()
-        tools.symmetry = names[(names.index(tools.symmetry) + 1) % len(names)]
+        tools.symmetry = following(names, tools.symmetry)
 
     def choose_all(self) -> None:
         tools = self.session.tools
@@ -200,13 +200,9 @@ class EditorCommands(DocumentCommands):
         """Edit a level of the browser: the player's in its file, the game's as a new one."""
         try:
             own = entry.source == "yours" and entry.named.ascii
-            self.edit(open_source(Path(entry.named.file)) if own else Source(draft_of(entry.named)))
+            self.session.begin(open_source(Path(entry.named.file)) if own else Source(draft_of(entry.named)))
         except (NinjaGameError, OSError) as error:
-            self.app.notify(str(error))
-
-    def edit(self, source: Source, found: RecoveredDraft | None = None) -> None:
-        """Edit this level, or one that was found again. Raises FileError for what another window continues with."""
-        self.session.begin(source, found)
+            self.app.notify(reason(error))
 
     def offer_recovered(self) -> None:
         """Ask what to do with a level that was being edited when the program died."""
@@ -214,7 +210,7 @@ class EditorCommands(DocumentCommands):
         if found is not None:
             name = found.draft.name or (found.source.path.name if found.source.path else "a new level")
             about = "As it was at most two seconds before the end"
-            self.ask_about_recovered(name, lambda: self.edit(found.source, found), found.forget, about=about)
+            self.ask_about_recovered(name, lambda: self.session.begin(found.source, found), found.forget, about=about)
 
     def new(self) -> None:
-        self.unless_unsaved(lambda: self.edit(new_source(self.app.settings.name)))
+        self.unless_unsaved(lambda: self.session.begin(new_source(self.app.settings.name)))

@@ -297,8 +297,7 @@ class StatusLine(EditorPart):
         tools = self.session.tools
         if tools.placing_switch:
             return "Click where the switch is; Esc gives up"
-        tool = "brush" if tools.tool == "rectangle" and tools.draws_one else tools.tool
-        return self.view.hint or _TOOL_HINTS[tool]
+        return self.view.hint or _TOOL_HINTS[tools.effective_tool]
 
     def render_key(self) -> tuple[object, ...]:
         return self.session.tools.pointer, self._text()

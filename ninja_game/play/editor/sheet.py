@@ -212,8 +212,10 @@ def line_mark(canvas: Canvas, colour: Colour, a: Point, b: Point, width: float =
 
 
 def route_mark(canvas: Canvas, colour: Colour, route: Route) -> LevelMark:
-    """The route of a run, with a dot at its end."""
+    """The route of a run, as far as it is near the level, with a dot at its end."""
     shown = [point for point in route if is_near(*point)]
+    if len(shown) < 2:
+        return LevelMark(lambda _: None, ())
 
     def draw(target: DrawTarget) -> None:
         places = [target.canvas.exact(*point) for point in shown]
@@ -268,8 +270,7 @@ def level_marks(
                 line = partial(line_mark, canvas, palette.switch, found[SWITCH], found[BODY], 0.8)
                 add(("switch", spec), line)
     for route, colour in routes:
-        if len(route) > 1:
-            add(("route", id(route), str(colour)), partial(route_mark, canvas, colour, route))
+        add(("route", id(route), str(colour)), partial(route_mark, canvas, colour, route))
     for at in signs[:100]:
         add(("sign", at), partial(sign_mark, canvas, palette, at))
     return marks

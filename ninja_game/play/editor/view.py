@@ -18,7 +18,7 @@ from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.sheet import GRIDS, MIDDLE, Grid, LevelSheet, finding_points, joined, level_marks
 from ninja_game.play.ui.canvas import Canvas, Colour, Point
 from ninja_game.play.ui.theme import Area, Palette, Theme
-from ninja_game.play.ui.widgets import Widget
+from ninja_game.play.ui.widgets import Widget, following
 from ninja_game.play.view.sprites.drawing import DrawTarget, drawing, is_near
 from ninja_game.play.view.sprites.sketch import Sketch
 from ninja_game.play.workspace.part import Part
@@ -93,7 +93,7 @@ class Overlay:
         """What a press would do here, and in the images of the symmetry."""
         if tools.placing_switch:
             return
-        draws = tools.tool in ("brush", "rectangle") or (tools.tool == "fill" and not tools.objects)
+        draws = tools.effective_tool in ("brush", "rectangle", "fill")
         motions = (Motion(), *(SYMMETRIES[tools.symmetry] if draws else ()))
         if not draws:
             found = nearest(tools.draft, *tools.pointer, PICK_REACH)
@@ -170,7 +170,7 @@ class EditorView(Part):
         self._marked = ()
 
     def next_grid(self) -> None:
-        self.grid = GRIDS[(GRIDS.index(self.grid) + 1) % len(GRIDS)]
+        self.grid = following(GRIDS, self.grid)
         self.sheet.show_grid(self.grid.lines())
 
     # --- the mouse ---

@@ -192,7 +192,7 @@ MENU_PAD: dict[str, str] = {
 class InputEvent:
     """What an event presses and releases.
 
-    ``raw``: as SDL gave it. ``pressed``, ``released``: actions in play (``actions.ACTIONS``). ``menu``,
+    ``raw``: as SDL gave it. ``pressed``, ``released``: actions in play (``ACTIONS``). ``menu``,
     ``menu_released``: what it means in menus (the values of ``MENU_KEYS``), "" if nothing. ``source``: the input that
     it presses, ("keys", "x") or ("pad", "a"); None for any other event.
     """

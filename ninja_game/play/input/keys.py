@@ -109,7 +109,7 @@ LONGEST_STEP_MS = 50
 
 
 class HeldKey(Generic[T]):
-    """``what``: what the key that is held does, if it is one that repeats; else None."""
+    """A key that repeats while it is held. ``what``: what it does; None where none is held."""
 
     def __init__(self) -> None:
         self.what: T | None = None

@@ -198,7 +198,7 @@ def _hint(play: LevelPlay, key: KeyName) -> str:
     if play.phase is Phase.PASSED:
         return "    ".join(play.notices)
     if play.phase is Phase.DEAD and play.after_end > DEATH_PAUSE:
-        again = f"{_cause_of_death(play)}    {key('confirm')} or {key('jump')}: try again"
+        again = f"{cause_of_death(play)}    {key('confirm')} or {key('jump')}: try again"
         return f"{again}    {key('replay')}: watch it" if play.may_watch else again
     if play.tools.stepping:
         return f"{key('step')}: one tick    {key('confirm')} or any move: go on"
@@ -216,9 +216,11 @@ def _ready_hint(key: KeyName, *, practice_mode: bool, show_tutorial: bool) -> st
     return begin
 
 
-def _cause_of_death(play: LevelPlay) -> str:
+def cause_of_death(play: LevelPlay) -> str:
     if play.attempt.own_hand:
         return "You gave up."
     if play.killer != SELF:
         return f"Killed by a {play.killer}."
+    if play.crushed:
+        return "You were crushed."
     return "Out of time." if play.attempt.lifetime <= 0 else "That was too hard a landing."

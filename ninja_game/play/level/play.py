@@ -11,8 +11,9 @@ from ninja_game.play.replay.playback import Ghost, Playback
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.player.attempt import Attempt, Moment
 from ninja_game.player.playthrough import LevelContext
-from ninja_game.sim.kinds import GOLD
+from ninja_game.player.statistics import cause_of
 from ninja_game.sim.rules import LIFETIME
+from ninja_game.sim.states import CRUSHED
 
 _FILL_SHARE = 0.05
 """Share of what the bar lacks that fills in per picture, at least; always so before play starts."""
@@ -54,9 +55,9 @@ class LevelPlay:
     """One level of a context, tried again and again.
 
     ``view`` shows every tick. ``after_end``: ticks since the exit contact or death; ``killer``: what killed, one of
-    ``statistics.KILLERS``. ``keys``: those of the last tick. ``notices``: what a pass has brought. ``aim``: the next
-    par, while it waits at the start. ``changed``: more than a tick has happened, so that everything has to be drawn
-    again.
+    ``statistics.KILLERS``, ``crushed`` whether by being crushed. ``keys``: those of the last tick. ``notices``: what a
+    pass has brought. ``aim``: the next par, while it waits at the start. ``changed``: more than a tick has happened, so
+    that everything has to be drawn again.
     """
 
     def __init__(self, app: App, context: LevelContext) -> None:
@@ -69,7 +70,7 @@ class LevelPlay:
         )
         self.tools = PracticeTools(self.attempt)
         self.view = LevelView(app, self.attempt.simulation, seed=self.rng.randrange(1 << 30))
-        self.all_gold = sum(record.kind == GOLD for record in context.level.objects)
+        self.all_gold = context.level.gold
         self.show_tutorial = context.show_tutorial
         self.shown_lifetime = 0.0
         self.ghosts: list[Ghost] = []
@@ -81,7 +82,7 @@ class LevelPlay:
         self._held_before = self.app.controls.poll()
         self.keys = 0
         self.after_end = 0
-        self.killer = ""
+        self.killer, self.crushed = "", False
         self.notices: list[str] = []
         self.aim = self.context.aim()
         runs = self.context.ghosts()
@@ -218,6 +219,7 @@ class LevelPlay:
                 self.notices = self.context.passed(self.attempt)
             else:
                 self.killer = self.attempt.killer
+                self.crushed = cause_of(self.attempt.simulation.world) == CRUSHED
                 self.context.died(self.attempt)
         elif self.phase in {Phase.DEAD, Phase.PASSED}:
             self.after_end += 1

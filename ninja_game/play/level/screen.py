@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pygame
 
-from ninja_game.errors import LevelError, NinjaGameError
+from ninja_game.errors import LevelError, NinjaGameError, reason
 from ninja_game.formats.links.making import replay_link
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
@@ -90,7 +90,7 @@ class LevelScreen(Screen):
                 self.app.notify("The level's file has changed: this is the new level")
                 return
         except (NinjaGameError, OSError) as error:
-            self.app.notify(f"The changed level cannot be played: {error}")
+            self.app.notify(f"The changed level cannot be played: {reason(error)}")
         self.play.retry(ignored=ignored)
 
     def retry_by_jump(self) -> None:

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pygame
 
-from ninja_game.errors import NinjaGameError
+from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.reading import read_bytes
-from ninja_game.files.shown_text import name_problem
+from ninja_game.files.shown_text import name_problem, unreadable
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.load import load_levels
@@ -19,10 +19,11 @@ from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.replays import watch
+from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text, where_from
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.text_entry import TextEntry
-from ninja_game.play.ui.theme import Area, Theme, unreadable
+from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Button, Choice, Widget
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.marks import Mark
@@ -86,7 +87,7 @@ class Browser(ThumbnailScreen):
         play = Button((SIDE, 470, 154, 32), "Play", lambda: self.play(self.list.index))
         practice = Button(
             (SIDE + 166, 470, 154, 32), "Practise", lambda: self.play(self.list.index, practice=True),
-            hint="No clock, quick save, rewind, slow motion; no records",
+            hint=PRACTICE_HINT,
         )  # fmt: skip
         change = Button((SIDE + 166, 510, 71, 32), "Edit", self._change, hint="Open it in the editor")
         link = Button((SIDE + 249, 510, 71, 32), "Copy link", self._copy_link, hint="Whoever opens the link plays it")
@@ -116,7 +117,7 @@ class Browser(ThumbnailScreen):
                 self.enter()
                 self.message = ""
         except (NinjaGameError, OSError) as error:
-            self.message = str(error)
+            self.message = reason(error)
         self.redraw = True
 
     # --- which ---
@@ -198,14 +199,14 @@ class Browser(ThumbnailScreen):
         best = self.bests.get(entry.digest)
         text = f"Your best: {seconds_text(best.score)} with {best.gold} gold" if best else "Not passed yet"
         theme.text(surface, text, SIDE, 390, size=12, colour=palette.good if best else palette.faint)
-        if mark := self.marks.get(entry.digest):
+        mark = self.marks.get(entry.digest)
+        if mark:
             time = f"in {seconds_text(mark.fastest)} s"
             theme.text(surface, time, SIDE + SIDE_WIDTH, 390, size=12, colour=palette.good, align="right")
         played = self.player.statistics.played(entry.digest)
         if played.attempts:
             theme.text(surface, tries_text(played), SIDE, 408, size=10.5, colour=palette.faint)
         theme.text(surface, where_from(entry), SIDE, 424, size=10.5, colour=palette.faint, width=SIDE_WIDTH)
-        mark = self.marks.get(entry.digest)
         all_gold_and_medal(surface, theme, entry, mark, SIDE + SIDE_WIDTH - 10, 330)
         draw_pars(surface, theme, entry, mark, SIDE, 443)
 

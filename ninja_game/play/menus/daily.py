@@ -14,6 +14,7 @@ from ninja_game.files.user_folder import LEVELS
 from ninja_game.generator import daily
 from ninja_game.play.app import App
 from ninja_game.play.level.screen import play_level
+from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, draw_pars, time_and_par, tries_text
 from ninja_game.play.ui.theme import wrapped
 from ninja_game.play.ui.widgets import Button, Widget
@@ -69,7 +70,7 @@ class DailyScreen(ThumbnailScreen):
         self.play = Button((SIDE, 390, SIDE_WIDTH, 36), "Play", self._play)
         self.practice = Button(
             (SIDE, 436, SIDE_WIDTH, 36), "Practise", lambda: self._play(practice=True),
-            hint="No clock, quick save, rewind, slow motion; no records",
+            hint=PRACTICE_HINT,
         )  # fmt: skip
 
     @property

@@ -1,4 +1,4 @@
-"""The cells of the grid of episodes: where each stands, and what shows its state."""
+"""The screen of episodes: the grid, its cells, the levels of the selected one."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 
 import pygame
 
+from ninja_game.files.shown_text import unreadable
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
@@ -14,7 +15,7 @@ from ninja_game.play.level.screen import LevelScreen, play_level
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, time_and_par, tries_text
 from ninja_game.play.ui.list_view import BAR, ListView
-from ninja_game.play.ui.theme import Area, Theme, unreadable
+from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import MEDALS, Choice, Widget, draw_all_gold, draw_medal
 from ninja_game.player.catalogue import Episode, EpisodeSet
 from ninja_game.player.marks import Mark, has_all_gold, tally, worst_medal

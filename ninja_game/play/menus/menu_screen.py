@@ -22,6 +22,7 @@ FIRST_REPEAT_MS, REPEAT_MS, TEXT_REPEAT_MS = 350, 70, 40
 """A direction that is held repeats, or a key in a text: when first, and then how often."""
 
 DIRECTIONS = {"left": (-1, 0), "right": (1, 0), "up": (0, -1), "down": (0, 1)}
+MOUSE = (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEWHEEL)
 REPEATING = frozenset({*DIRECTIONS, "page_up", "page_down"})
 
 TITLE_SIZE = 22
@@ -92,7 +93,7 @@ class MenuScreen(Screen):
         return taken
 
     def handle(self, event: InputEvent) -> None:
-        if event.raw.type in (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEWHEEL):
+        if event.raw.type in MOUSE:
             self._handle_mouse(event.raw)
             return
         if event.menu_released and event.menu_released == self._direction.what:

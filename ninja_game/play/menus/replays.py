@@ -10,6 +10,7 @@ import pygame
 
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.reading import LeftOut, files_below
+from ninja_game.files.shown_text import unreadable
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.links.making import recording_link, replay_link
 from ninja_game.formats.load import load_replays
@@ -22,7 +23,7 @@ from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Question
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.ui.list_view import ListView
-from ninja_game.play.ui.theme import Area, Theme, unreadable
+from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Widget
 from ninja_game.player.records import SavedReplay, level_score, seconds_text
 from ninja_game.player.saving import forget_replay

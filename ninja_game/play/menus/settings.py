@@ -1,4 +1,4 @@
-"""Taking a press for an action: the panel that waits for it, and the question if another action has it already."""
+"""The settings: pages of choices, and the tables of keys and buttons."""
 
 from __future__ import annotations
 

@@ -6,9 +6,10 @@ from time import perf_counter
 
 import pygame
 
+from ninja_game.files.shown_text import counted
 from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.ui.theme import Theme, counted
+from ninja_game.play.ui.theme import Theme
 from ninja_game.play.ui.widgets import MEDALS, draw_all_gold, draw_medal
 from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.player.catalogue import Entry

@@ -95,7 +95,7 @@ _LEFT, _WIDTH, _Y = 24.0, 560.0, 588.0
 
 
 class ReplayBar:
-    """``dragging``: the mouse holds it."""
+    """The bar below a replay: a press or a drag seeks. ``dragging``: the mouse holds it."""
 
     def __init__(self) -> None:
         self.dragging = False

@@ -10,7 +10,7 @@ from pathlib import Path
 from time import localtime, strftime
 
 from ninja_game.files.locking import forget
-from ninja_game.files.shown_text import file_stem
+from ninja_game.files.shown_text import counted, file_stem
 from ninja_game.files.user_folder import REPLAYS, free_path, is_bundled
 from ninja_game.formats.links.making import replay_link
 from ninja_game.play.app import App
@@ -173,4 +173,4 @@ def _when(found: RecoveredRun) -> str:
     """How many edits, and when the last one was."""
     count = len(found.tracks)
     last = strftime("%Y-%m-%d %H:%M", localtime(found.file.stat().st_mtime)) if found.file.exists() else "gone"
-    return f"{count} edit{'s' * (count != 1)}, the last {last}"
+    return f"{counted(count, 'edit')}, the last {last}"

@@ -37,8 +37,9 @@ class OtherRun:
 
 
 class TasEditor:
-    """``cursor``: the tick whose row is the present one; the level is shown as it is after that tick.
+    """What all parts of the TAS editor share.
 
+    ``cursor``: the tick whose row is the present one; the level is shown as it is after that tick.
     ``anchor``: where a selection began; None: only the tick under the cursor is selected. ``others``: runs that were
     opened beside this one; ``chosen``: the number of the one that parts are taken from, where there are any.
     ``preview``: a result of a search that is looked at. ``tab``: the name of the tab that is to be shown.

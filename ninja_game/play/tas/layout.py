@@ -95,7 +95,7 @@ _TEXT_SCALES = (80, 90, 100, 110, 125, 140, 160, 180, 200, 240, 280, 320, 400)
 
 
 class Splitters(TasPart):
-    """``layout``: where everything is, once it ``fit``. ``parts``: what is to be placed.
+    """The borders between the parts, which the mouse drags. ``layout``: where everything is, once it ``fit``.
 
     What was dragged, and the size of the letters, are settings.
     """

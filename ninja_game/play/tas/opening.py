@@ -1,4 +1,4 @@
-"""The TAS editor is opened: on a run that is being watched, or behind a picture that says what takes so long."""
+"""Opens the TAS editor, behind a waiting screen where rules must be loaded or compiled first."""
 
 from __future__ import annotations
 

@@ -93,9 +93,10 @@ class ListView(Widget):
 
     def _index_at(self, x: float, y: float) -> int | None:
         left, top, w, _ = self.area
-        column = int((x - left) // ((w - BAR - 4) / self.columns))
-        index = (self.first + int((y - top) // self.cell_height)) * self.columns + column
-        return index if 0 <= column < self.columns and index < self.count else None
+        column, line = int((x - left) // ((w - BAR - 4) / self.columns)), int((y - top) // self.cell_height)
+        index = (self.first + line) * self.columns + column
+        shown = 0 <= column < self.columns and line < self.visible_lines and index < self.count
+        return index if shown else None
 
     def click(self, x: float, y: float) -> bool:
         """Choose what is clicked; on the bar: scroll there."""

@@ -176,7 +176,7 @@ class TextEntry(Widget):
 
 
 class EditedText:
-    """``cursor``: before which character it is; what lies between it and ``anchor`` is selected.
+    """A line of text under edit. ``cursor``: before which character it is; up to ``anchor`` it is selected.
 
     ``longest``: how many characters fit in.
     """

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Sequence
 from dataclasses import dataclass, fields
 
 import pygame
@@ -247,24 +246,3 @@ def _filled(theme: Theme, text: str, width: float, size: float) -> list[str]:
         else:
             lines.append(word)
     return lines
-
-
-def counted(number: int, one: str, more: str) -> str:
-    """A number with its noun.
-
-    >>> counted(1, "try", "tries"), counted(2, "try", "tries")
-    ('1 try', '2 tries')
-    """
-    return f"{number} {one if number == 1 else more}"
-
-
-def unreadable(names: Sequence[str]) -> str:
-    """What to say of files that cannot be read; '' if there are none.
-
-    >>> unreadable(["a.txt"]), unreadable(["a.txt", "b.txt", "c.txt"])
-    ('Cannot be read: a.txt', 'Cannot be read: a.txt and 2 more files')
-    """
-    if not names:
-        return ""
-    more = f" and {counted(len(names) - 1, 'more file', 'more files')}" if len(names) > 1 else ""
-    return f"Cannot be read: {names[0]}{more}"

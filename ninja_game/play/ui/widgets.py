@@ -6,6 +6,7 @@ Positions and sizes are logical px of the 792 x 600 stage. A widget answers ``Tr
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import TypeVar
 
 import pygame
 
@@ -15,6 +16,17 @@ from ninja_game.play.ui.theme import Area, Theme, inside
 PAD = 8
 TEXT = 11
 """Size of ordinary text, px."""
+
+T = TypeVar("T")
+
+
+def following(options: Sequence[T], present: T, by: int = 1) -> T:
+    """The option after the present one, around the end.
+
+    >>> following("abc", "c"), following("abc", "a", -1)
+    ('a', 'c')
+    """
+    return options[(options.index(present) + by) % len(options)]
 
 
 class Widget:

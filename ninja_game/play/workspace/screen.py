@@ -9,13 +9,11 @@ import pygame
 
 from ninja_game.play.app import App
 from ninja_game.play.input.bindings import InputEvent
-from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.menus.menu_screen import MOUSE, MenuScreen
 from ninja_game.play.ui.text_entry import TextEntry
 from ninja_game.play.ui.widgets import Widget
 from ninja_game.play.workspace.commands import CommandTable, HeldCommand
 from ninja_game.play.workspace.part import Part
-
-MOUSE = (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEWHEEL)
 
 
 class WorkspaceScreen(MenuScreen):
@@ -62,7 +60,7 @@ class WorkspaceScreen(MenuScreen):
 
     def enter(self) -> None:
         super().enter()
-        self.focus = self._grabbed = None
+        self.focus = None
         self.await_text()
         self.widgets_changed()
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from ninja_game.errors import NinjaGameError, ReplayError
+from ninja_game.errors import NinjaGameError, ReplayError, reason
 from ninja_game.files.reading import LeftOut, decoded, files_below, read_bytes
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.recording import holds_recordings
@@ -61,7 +61,7 @@ def _sent(path: Path, name: str, levels: Mapping[str, Level]) -> list[Sent]:
     except NinjaGameError as error:
         return [Sent(Chunk(name, problem=str(error).removeprefix(f"{path}: ")))]
     except OSError as error:
-        return [Sent(Chunk(name, problem=error.strerror or str(error)))]
+        return [Sent(Chunk(name, problem=reason(error)))]
     if len(records) > MOST_RECORDS:
         return [Sent(Chunk(name, problem=f"{len(records)} recordings in one file; at most {MOST_RECORDS}"))]
     chunks = [Chunk(name, index, records=(record,)) for index, record in enumerate(records)]

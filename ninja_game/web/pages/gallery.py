@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.files.shown_text import shown_text
+from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.links.making import level_link
 from ninja_game.formats.pack.pars import MARGINS, Pars
 from ninja_game.formats.recording import Recording
@@ -157,7 +157,7 @@ def write_levels(
 def _list(shown: PublishedLevels) -> list[Content]:
     """The list of levels with its search, which only a script makes visible."""
     count = len(shown.entries)
-    lead = f"{shown.name}{f' by {shown.author}' if shown.author else ''}: {count} level{'s' * (count != 1)}."
+    lead = f"{shown.name}{f' by {shown.author}' if shown.author else ''}: {counted(count, 'level')}."
     cards = tag("ul", *(_card(entry, place) for place, entry in enumerate(shown.entries.values())), class_="cards")
     comment = tag("p", shown.comment) if shown.comment else None
     return [tag("p", lead, class_="lead"), comment, search(_episodes(shown)), cards]

@@ -27,6 +27,6 @@ def driver(tmp_path: Path) -> Iterator[Maker]:
 @pytest.fixture(name="room")
 def maker_with_a_room(maker: Maker) -> Maker:
     maker.open("Editor")
-    maker.editor.commands.edit(Source(ROOM))
+    maker.editor.session.begin(Source(ROOM))
     maker.frames()
     return maker

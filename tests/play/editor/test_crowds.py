@@ -50,7 +50,7 @@ def test_what_is_asked_for_in_one_place_looks_as_it_does_in_its_own(monkeypatch:
 
 
 def test_what_is_dragged_goes_to_the_last_place_that_the_mouse_tells_of(room: Maker) -> None:
-    room.editor.commands.edit(Source(put(ROOM, Stamp({}, CROWD))))
+    room.editor.session.begin(Source(put(ROOM, Stamp({}, CROWD))))
     room.frames(3)
     tools = room.editor.session.tools
     tools.tool, tools.snap = "select", "px"

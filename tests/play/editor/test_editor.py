@@ -8,7 +8,7 @@ from time import thread_time
 import pygame
 import pytest
 
-from ninja_game.editor.brush import OBJECT_TYPES, placed
+from ninja_game.editor.brush import OBJECT_TYPES, object_of_type, placed
 from ninja_game.editor.files import Source
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.play.editor.controls import COMMANDS
@@ -17,6 +17,8 @@ from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.input.keys import SCANCODES
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.panels import Menu
+from ninja_game.sim.kinds import NINJA
+from ninja_game.sim.level import ObjectSpec
 from tests.support.level_maker import ROOM, Maker
 
 
@@ -237,7 +239,7 @@ def test_a_frame_of_a_full_level_is_quick(tmp_path: Path) -> None:
         )
         draft = put(ROOM, Stamp({}, objects))
         assert len(draft.objects) >= 495
-        maker.editor.commands.edit(Source(draft))
+        maker.editor.session.begin(Source(draft))
         maker.frames(5)
         times = []
         for k in range(100):
@@ -271,3 +273,24 @@ def test_a_certificate_is_shown_and_gets_stale(room: Maker) -> None:
     assert not certifier.is_stale(room.draft.level)
     room.choose_in_menu("Keep the solver's run")
     assert room.player.records.replays()
+
+
+def test_a_ninja_far_away_leaves_no_route(room: Maker) -> None:
+    far = ObjectSpec(NINJA, (9000.0, 300.0))
+    room.editor.session.tools.load(put(ROOM, Stamp({}, (far,))))
+    room.press("f5")
+    room.frames(4)
+    room.press("escape")
+    room.frames(2)
+    assert isinstance(room.app.top, EditorScreen)
+
+
+def test_objects_are_not_filled_in(room: Maker) -> None:
+    tools = room.editor.session.tools
+    tools.tool, tools.objects = "fill", False
+    assert tools.effective_tool == "fill"
+    before = len(room.draft.objects)
+    tools.pick_up(object_of_type("gold"))
+    assert tools.effective_tool == "brush"
+    room.drag((204, 204))
+    assert len(room.draft.objects) == before + 1

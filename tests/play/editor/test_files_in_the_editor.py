@@ -93,7 +93,7 @@ def test_leaving_asks_about_what_is_not_saved(room: Maker, tmp_path: Path) -> No
 @pytest.mark.parametrize("named", [True, False])
 def test_saving_first_goes_on_with_what_was_asked(maker: Maker, tmp_path: Path, asked: str, *, named: bool) -> None:
     maker.open("Editor")
-    maker.editor.commands.edit(Source(ROOM if named else replace(ROOM, name="")))
+    maker.editor.session.begin(Source(ROOM if named else replace(ROOM, name="")))
     maker.drag((300, 300))
     drawn = maker.draft
     maker.choose_in_menu(asked)

@@ -14,6 +14,7 @@ from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.records import RecordsScreen
 from ninja_game.play.menus.replays import ReplaysScreen
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
+from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.theme import Area
 from ninja_game.play.ui.widgets import Widget
 from ninja_game.simulation import Simulation
@@ -135,3 +136,12 @@ def test_any_name_of_a_level_is_shown(driver: MenuDriver, name: str) -> None:
     driver.frames(3)
     assert driver.app.running
     assert Simulation(browser.shown[0].named.level)
+
+
+def test_a_click_below_the_last_whole_line_chooses_nothing(driver: MenuDriver) -> None:
+    chosen: list[int] = []
+    rows = ListView((0, 0, 100, 84), 19, lambda *_: None, chosen.append)
+    rows.fill(range(9))
+    assert rows.click(10, 70)
+    assert not rows.click(10, 80)
+    assert chosen == [3]

@@ -84,8 +84,9 @@ _BY_PAD = {button: name for button, name in BY_PAD.items() if name in ("step", "
 
 
 class TakeOver:
-    """``on``: the run is taken over. ``waiting``: it begins with the first key. ``still``: tick by tick, or paused.
+    """Playing on by hand from the cursor.
 
+    ``on``: the run is taken over. ``waiting``: it begins with the first key. ``still``: tick by tick, or paused.
     Each tick gets the keys that are down then; all of it is one edit. After an exit or a death nothing is recorded any
     more; it ends when the aftermath has been shown.
     """

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from functools import partial
 
 from ninja_game.errors import ArgumentError, NinjaGameError
+from ninja_game.files.shown_text import counted
 from ninja_game.formats.replay.input_runs import Marker, write_inputs
 from ninja_game.formats.replay.input_text import Inputs
 from ninja_game.play.clipboard import copy_text, pasted_text
@@ -22,7 +23,7 @@ BEHIND = "Nothing here: the run ends earlier"
 
 
 class RollCommands:
-    """``page``: how many rows are seen."""
+    """The commands of the piano roll: cursor, selection, edits of keys. ``page``: how many rows are seen."""
 
     def __init__(self, editor: TasEditor, page: Callable[[], int]) -> None:
         self._editor = editor
@@ -177,7 +178,7 @@ class RollCommands:
         markers = [Marker(tick - first, name) for tick, name in self._editor.track.markers if first <= tick < last]
         text = "\n".join(write_inputs(self._editor.track.inputs[first:last], markers))
         if text:
-            notice = f"{last - first} tick{'s' * (last - first > 1)} copied"
+            notice = f"{counted(last - first, 'tick')} copied"
             title = self._editor.session.about.name or "inputs"
             copy_text(self._editor.app, text, title=title, suffix=".inputs.txt", notice=notice)
         else:
@@ -200,7 +201,7 @@ class RollCommands:
         first, count = editor.selection[0], len(pasted.keys)
         if self._editor.edit_selected(lambda track: _with_pasted(track, first, pasted, between=between)):
             editor.select(first, first + count)
-            editor.app.notify(f"{count} tick{'s' * (count > 1)} pasted")
+            editor.app.notify(f"{counted(count, 'tick')} pasted")
 
     # --- markers ---
 

@@ -262,7 +262,7 @@ class RollMouse:
 
 
 class ScrollBar:
-    """``tick_at`` and ``draw`` measure along the whole run."""
+    """The bar beside the piano roll: the whole run, with its marks. ``tick_at`` and ``draw`` measure along it."""
 
     def __init__(self, editor: TasEditor) -> None:
         self._editor = editor

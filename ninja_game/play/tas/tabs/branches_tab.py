@@ -119,11 +119,7 @@ class BranchesTab(Tab):
         """The names of the columns; the list is a widget."""
         super().paint(surface, theme)
         self.refresh()
-        x, _, w, _ = self.list.row_area(0)
-        y = self.list.area[1]
-        heads = ("Ends in tick", "Gold", "Against the run now")
-        for at, text in ((x + 8, "Branch"), *((x + w - at, text) for at, text in zip(_COLUMNS, heads, strict=True))):
-            theme.text(surface, text, at, y - 13, size=8, colour=theme.palette.faint)
+        self.list.draw_heads(surface, theme, "Branch", ("Ends in tick", "Gold", "Against the run now"), _COLUMNS)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, _: bool) -> None:
         number, depth = self.tree[index]

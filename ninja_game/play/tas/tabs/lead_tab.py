@@ -5,11 +5,12 @@ from __future__ import annotations
 import pygame
 
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.shown_text import counted
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.input_runs import Marker
 from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.tas.tabs.tab import SMALL, UNPLACED, Rows, Tab
-from ninja_game.play.ui.theme import Area, Theme, counted
+from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Choice
 from ninja_game.runtime import NewestJob
 from ninja_game.tas.input_track import InputTrack
@@ -138,14 +139,10 @@ class LeadTab(Tab):
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         """What it comes to, and the names of the columns."""
         super().paint(surface, theme)
-        faint = theme.palette.faint
         x, y, w, _ = self.area
         theme.text(surface, "Against", x + 6, y + 8, size=11)
         theme.text(surface, self.summary, x + 6, y + 26, size=SMALL, width=w - 16)
-        x, _, w, _ = self.list.row_area(0)
-        heads = ("Tick here", "Tick there", "Ahead + or behind -")
-        for at, text in ((x + 8, "Place"), *((x + w - at, text) for at, text in zip(_COLUMNS, heads, strict=True))):
-            theme.text(surface, text, at, y + 41, size=8, colour=faint)
+        self.list.draw_heads(surface, theme, "Place", ("Tick here", "Tick there", "Ahead + or behind -"), _COLUMNS)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, _: bool) -> None:
         if self.table is None or index >= len(self.table.rows):

@@ -12,10 +12,11 @@ import pygame
 
 from ninja_game.batch.thread_pool import cores
 from ninja_game.errors import ArgumentError, NinjaGameError
+from ninja_game.files.shown_text import counted
 from ninja_game.play.menus.panels import Menu
 from ninja_game.play.tas.editor import OtherRun, Span, TasEditor
 from ninja_game.play.tas.tabs.tab import SMALL, UNPLACED, EntryField, Rows, Tab, what_is_wrong
-from ninja_game.play.ui.theme import Area, Theme, counted, wrapped
+from ninja_game.play.ui.theme import Area, Theme, wrapped
 from ninja_game.play.ui.widgets import Button, Choice
 from ninja_game.play.workspace.part import Commands
 from ninja_game.search.formula.background import SpanSearch

@@ -12,7 +12,7 @@ from ninja_game.play.tas.editor import TasEditor, TasPart
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.text_entry import TextEntry
 from ninja_game.play.ui.theme import Area, Theme
-from ninja_game.play.ui.widgets import Button
+from ninja_game.play.ui.widgets import Button, following
 from ninja_game.play.workspace.part import Commands
 from ninja_game.search.formula.language import FormulaError
 
@@ -87,8 +87,7 @@ class TabStrip(TasPart):
         return {"next_tab": self.show_next}
 
     def show_next(self) -> None:
-        names = [tab.name for tab in self.tabs]
-        self.editor.show_tab(names[(names.index(self.editor.tab) + 1) % len(names)])
+        self.editor.show_tab(following([tab.name for tab in self.tabs], self.editor.tab))
 
     @property
     def shown(self) -> Tab:
@@ -122,6 +121,15 @@ class Rows(ListView):
         self.over = -1
         self._keeps = keeps
         self._draw = draw_row
+
+    def draw_heads(
+        self, surface: pygame.Surface, theme: Theme, first: str, heads: Sequence[str], places: Sequence[float]
+    ) -> None:
+        """The names of the columns above the list; ``places``: of all but the first, px from the right of a row."""
+        x, _, w, _ = self.row_area(0)
+        named = [(x + 8, first), *((x + w - place, head) for place, head in zip(places, heads, strict=True))]
+        for at, head in named:
+            theme.text(surface, head, at, self.area[1] - 13, size=8, colour=theme.palette.faint)
 
     def hover(self, x: float, y: float) -> bool:
         """Note what the mouse is over."""

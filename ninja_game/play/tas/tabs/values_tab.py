@@ -195,7 +195,7 @@ class ValuesTab(Tab):
 
     def _keep(self) -> None:
         """The run remembers them when it is saved."""
-        self.editor.session.branches.watched = tuple(each.watch.text for each in self.watched)
+        self.editor.session.watch(each.watch.text for each in self.watched)
         self.list.fill(self.watched)
 
     def show_objects(self) -> None:
