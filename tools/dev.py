@@ -11,7 +11,7 @@ usage: python3 tools/dev.py COMMAND ...
   benchmark        measure how fast the world is on this machine; `benchmark --help` lists options
   golden           write the golden files of the tests again, after a change of the rules that is meant
   change-rules     test the tests: break the rules one at a time and tell which breaks no test notices
-  accept-pictures  record the screens and pictures of the tests again, after a change of the looks that is meant
+  accept-pictures  record the screens, pictures and messages of the tests again, after a change that is meant
   release          build and try what a release has, into dist/: docs/releasing.md; `release --help` lists options
   docs             draw the pictures of docs/ again
   tool             any script of tools/, listed in docs/tools.md: `tool soak.kills --kills 10`
@@ -54,13 +54,6 @@ PROGRAMS = {
     "change-rules": ("tools.breaks", "--rules"),
 }
 DRAWINGS = ("draw.how_it_works", "draw.screens", "draw.settings_page")
-RECORDED = (
-    "play/test_recorded_screens",
-    "play/test_pictures",
-    "play/test_drawings",
-    "play/test_sound",
-    "web/test_recorded_pages",
-)
 LINT = (("ruff", "check"), ("ruff", "format", "--check"), ("mypy",), ("lint-imports",))
 FIX = (("ruff", "check", "--fix"), ("ruff", "format"), *LINT[2:])
 GOOD = "lint: all good"
@@ -185,7 +178,10 @@ def main(words: Sequence[str]) -> int:
             return run("python", "-m", "pytest", *rest)
         case "accept-pictures", *_:
             os.environ["ACCEPT_PICTURES"] = "1"
-            return run("python", "-m", "pytest", "-q", *(f"tests/{name}.py" for name in RECORDED))
+            tests = [
+                path for path in (ROOT / "tests").rglob("test_*.py") if "support.recorded" in path.read_text("utf-8")
+            ]
+            return run("python", "-m", "pytest", "-q", *map(str, sorted(tests)))
         case "docs", *_:
             return max(run("python", "-m", f"tools.{drawing}") for drawing in DRAWINGS)
         case "tool", script, *rest:

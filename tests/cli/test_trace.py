@@ -130,10 +130,16 @@ def test_numpy_file_keeps_every_bit(two: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "words", [("--ticks", "5", "--after", "5"), ("--digests", "-o", "x.csv"), ("--record", "9"), ("--ticks", "0")]
-)
-def test_wrong_usage(words: tuple[str, ...], two: Path) -> None:
+    "words",
+    [
+        ("--ticks", "5", "--after", "5"), ("--record", "9"), ("--ticks", "0"), ("--digests", "-o", "x.csv"),
+        ("--digests", "--against", "two.txt"), ("--against", "two.txt", "-o", "x.csv"),
+    ],
+)  # fmt: skip
+def test_wrong_usage(words: tuple[str, ...], two: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(two.parent)
     assert trace(two, *words).exit_code == 2
+    assert list(two.parent.iterdir()) == [two]
 
 
 def test_against_something_else_names_the_file(two: Path, tmp_path: Path) -> None:

@@ -5,11 +5,9 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from dataclasses import replace
-from difflib import unified_diff
 from functools import partial
 from importlib import import_module
 from inspect import signature
@@ -20,7 +18,6 @@ from typing import Any
 from unittest.mock import patch
 
 import pygame
-import pytest
 
 from ninja_game import play
 from ninja_game.play.ui.theme import PALETTES, Palette
@@ -29,6 +26,7 @@ from ninja_game.play.view.ninja.figure import DANCES, Pose, air_pose, paint_figu
 from ninja_game.play.view.sprites.drawing import Drawing
 from ninja_game.play.view.sprites.sketch import Sketch
 from tests.support.draw_log import px, role_of
+from tests.support.recorded import hold_against
 
 GOLDEN = Path(__file__).parent / "golden" / "drawings.txt"
 CLASSIC = PALETTES["classic"]
@@ -106,10 +104,4 @@ def lines_of_the_ninja() -> Iterator[str]:
 
 
 def test_every_drawing_is_as_recorded() -> None:
-    now = [*lines_of_drawings(), *lines_of_the_ninja()]
-    if os.environ.get("ACCEPT_PICTURES"):
-        GOLDEN.write_text("\n".join(now) + "\n", "utf-8")
-    recorded = GOLDEN.read_text("utf-8").splitlines()
-    if now != recorded:
-        lines = unified_diff(recorded, now, "recorded", "now", lineterm="", n=1)
-        pytest.fail("\n".join(["drawings are others; meant? `python3 tools/dev.py accept-pictures`", *lines]))
+    hold_against(GOLDEN, [*lines_of_drawings(), *lines_of_the_ninja()])

@@ -7,7 +7,6 @@ and look at them. A picture that differs is written beside the accepted one as
 
 from __future__ import annotations
 
-import os
 import re
 from pathlib import Path
 
@@ -26,6 +25,7 @@ from ninja_game.sim.death import kill
 from ninja_game.sim.states import ELECTRIC, EXPLOSIVE
 from ninja_game.simulation import Simulation
 from tests.support.own_pack import PACK
+from tests.support.recorded import ACCEPT
 from tools.draw import how_it_works, screens
 from tools.draw.contact_sheet import THINGS, paint_things
 
@@ -102,7 +102,7 @@ def test_a_scene_looks_as_accepted(name: str) -> None:
     picture = SCENES[name]()
     accepted, new = GOLDEN / f"{name}.png", GOLDEN / f"{name}.new.png"
     new.unlink(missing_ok=True)
-    if os.environ.get("ACCEPT_PICTURES"):
+    if ACCEPT:
         GOLDEN.mkdir(exist_ok=True)
         pygame.image.save(picture, str(accepted))
         return

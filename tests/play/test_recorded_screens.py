@@ -1,15 +1,11 @@
 """Every screen of the game, in all its states, against a recorded list of its texts and draw calls in
 `tests/play/golden/`: `screens`, and `tas-screens` of the TAS editor, which a page has not.
-
-To accept changed screens and pictures run `python3 tools/dev.py accept-pictures` and read the difference with git.
 """
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Iterator
-from difflib import unified_diff
 from pathlib import Path
 from types import CodeType
 
@@ -17,11 +13,11 @@ import pytest
 
 from tests.support.draw_log import DrawLog
 from tests.support.game_screens import screens_as_texts
+from tests.support.recorded import ACCEPT, hold_against
 from tests.support.tas_screens import TasLog, tas_editor, with_rows_once
 from tools import ROOT
 
 GOLDEN = Path(__file__).parent / "golden"
-ACCEPT = bool(os.environ.get("ACCEPT_PICTURES"))
 NAMES = sorted(f"{path.parent.name}/{path.stem}" for path in GOLDEN.glob("*screens/*.txt"))
 DRAWS = re.compile(r"_?(draw|paint)(_|$)")
 NOT_SHOWN = {
@@ -96,8 +92,4 @@ def test_recorded_screens_are_those_that_there_are(screens: dict[str, str]) -> N
 def test_screen_is_drawn_as_recorded(screens: dict[str, str], name: str) -> None:
     if ACCEPT:
         return
-    recorded = (GOLDEN / f"{name}.txt").read_text("utf-8")
-    now = screens.get(name, "")
-    if now != recorded:
-        lines = unified_diff(recorded.splitlines(), now.splitlines(), "recorded", "now", lineterm="", n=1)
-        pytest.fail("\n".join([f"{name} is drawn otherwise; meant? `python3 tools/dev.py accept-pictures`", *lines]))
+    hold_against(GOLDEN / f"{name}.txt", screens.get(name, "").split("\n")[:-1])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import wave
 from collections.abc import Iterator
 from pathlib import Path
@@ -27,6 +26,7 @@ from ninja_game.sim import states
 from ninja_game.sim.events import DIED, EVENT_NAMES
 from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER
 from ninja_game.simulation import Simulation
+from tests.support.recorded import hold_against
 from tools.make_sounds import RATE, RECIPES, samples
 
 FLAT = parse_level_string("0" * 713 + "|5^100,566!0^140,566!11^400,564,500,564")
@@ -110,11 +110,7 @@ def heard(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
 
 
 def test_each_event_sounds_as_accepted(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Write the list again with ACCEPT_PICTURES=1 in the environment."""
-    text = "\n".join(heard(folder, monkeypatch)) + "\n"
-    if os.environ.get("ACCEPT_PICTURES"):
-        SOUNDS.write_text(text, "utf-8")
-    assert text == SOUNDS.read_text("utf-8")
+    hold_against(SOUNDS, [*heard(folder, monkeypatch)])
 
 
 def test_skid_and_slide_follow_the_speed() -> None:

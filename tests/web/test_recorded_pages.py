@@ -5,13 +5,9 @@
 
 from __future__ import annotations
 
-import os
 import re
 import shutil
-from difflib import unified_diff
 from pathlib import Path
-
-import pytest
 
 from ninja_game.web.board.pages import BoardPages
 from ninja_game.web.board.ranking import Ranking
@@ -19,6 +15,7 @@ from ninja_game.web.board.runs import judge
 from ninja_game.web.pages.gallery import write_gallery
 from ninja_game.web.pages.published import published_levels
 from tests.support.own_pack import PACK
+from tests.support.recorded import hold_against
 from tests.support.samples import replay_of_walk
 
 GOLDEN = Path(__file__).parent / "golden" / "pages.txt"
@@ -53,11 +50,4 @@ def test_every_page_is_as_recorded(tmp_path: Path) -> None:
     shown = published_levels(PACK)
     write_gallery(tmp_path / "site", shown)
     BoardPages(tmp_path / "site", Ranking(judge(board(tmp_path), shown, jobs=1), shown)).write()
-    now = [line for name in ("gallery", "board") for line in lines_of(tmp_path / "site" / name)]
-    if os.environ.get("ACCEPT_PICTURES"):
-        GOLDEN.parent.mkdir(exist_ok=True)
-        GOLDEN.write_text("\n".join(now) + "\n", "utf-8")
-    recorded = GOLDEN.read_text("utf-8").split("\n")[:-1]
-    if now != recorded:
-        lines = unified_diff(recorded, now, "recorded", "now", lineterm="", n=1)
-        pytest.fail("\n".join(["pages are others; meant? `python3 tools/dev.py accept-pictures`", *lines]))
+    hold_against(GOLDEN, [line for name in ("gallery", "board") for line in lines_of(tmp_path / "site" / name)])
