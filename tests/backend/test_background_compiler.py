@@ -78,7 +78,7 @@ def test_a_run_that_goes_over_between_any_two_ticks_ends_alike(name: str, compil
     inputs = run.inputs
     expected = run_level(run.level, inputs, memory="plain", digest=True)
     traced = trace_level(run.level, inputs, memory="plain", events=True)
-    for ticks in range(0, expected.ticks, 7):
+    for ticks in range(0, expected.ticks, 23):
         compiler.asked, compiler.ready_after = 0, ticks
         assert run_level(run.level, inputs, digest=True) == expected, ticks
         compiler.asked = 0

@@ -16,6 +16,7 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
 from ninja_game.play.app import App
+from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.replay import playback
 from ninja_game.play.replay.film import Film, write_film
 from ninja_game.play.replay.playback import Playback
@@ -82,6 +83,13 @@ def test_single_ticks_and_seconds_go_both_ways_and_stop() -> None:
             press(key)
             frames(app, 5)
             assert screen.tick == tick
+
+
+def test_a_key_with_two_meanings_has_the_first_one() -> None:
+    with viewer(RUN) as (_, screen):
+        screen.seek(100)
+        screen.handle(InputEvent(pygame.Event(pygame.KEYDOWN), pressed=("pause", "frame_forward")))
+        assert (screen.tick, screen.paused) == (100, True)
 
 
 def test_speed_and_stillness_at_the_start() -> None:

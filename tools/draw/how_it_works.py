@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from xml.sax.saxutils import escape
-
-os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 
 from ninja_game.formats.ascii.legend import TILE_FAMILIES, TILE_OF_CHAR
 from ninja_game.play.lab.screen import export_figure

@@ -12,7 +12,6 @@ edits of each sort are made by keys and mouse at random places of a run of 4,000
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 import tempfile
 import time
@@ -21,8 +20,6 @@ from contextlib import nullcontext
 from pathlib import Path
 from random import Random
 from unittest.mock import patch
-
-os.environ |= {"PYGAME_HIDE_SUPPORT_PROMPT": "1", "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
 
 import pygame
 

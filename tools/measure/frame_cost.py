@@ -8,17 +8,11 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
 import sys
 import tempfile
 import time
 from pathlib import Path
 from random import Random
-
-os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
-if "--display" not in sys.argv:
-    os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
-os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 
 import pygame
 

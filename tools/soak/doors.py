@@ -282,7 +282,6 @@ def main() -> int:
     signal.signal(signal.SIGPROF, _end_hang)
     faulthandler.register(signal.SIGPROF, chain=True)
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, resource.getrlimit(resource.RLIMIT_AS)[1]))
-    os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
     instrumented: Any = nullcontext()
     atheris = _atheris() if options.coverage else None
     if atheris:

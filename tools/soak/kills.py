@@ -378,12 +378,6 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--what", choices=TRIALS, default="records")
     options = parser.parse_args()
-    for name, value in (
-        ("PYGAME_HIDE_SUPPORT_PROMPT", "1"),
-        ("SDL_VIDEODRIVER", "dummy"),
-        ("SDL_AUDIODRIVER", "dummy"),
-    ):
-        os.environ.setdefault(name, value)
     with tempfile.TemporaryDirectory() as folder:
         told, wrong = kill_test(folder=Path(folder), report=True, **vars(options))
     print(*wrong, f"{options.kills} kills, {told} saves and edits, {len(wrong)} things wrong", sep="\n")

@@ -24,6 +24,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from tests.support.stopping import COMMANDS, LIMIT, STARTED, ended, left_by, make_work, start
+from tools import ROOT
 
 CODES = {signal.SIGINT: (130, -signal.SIGINT), signal.SIGTERM: (143, -signal.SIGTERM)}
 """A negative code: the signal came before the program had begun. A shell shows the same number for both."""
@@ -50,7 +51,6 @@ def wrong(name: str, times: int, rng: random.Random, folder: Path) -> Iterator[s
     print(f"{name}: {2 * times} times, ended after {longest:.2f} s at most", flush=True)
 
 
-ROOT = Path(__file__).resolve().parent.parent.parent
 PROGRAMS = (
     [str(Path(sys.executable).with_name("ninja-game"))],
     [sys.executable, "-m", "ninja_game"],
@@ -127,7 +127,6 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as folder:
         make_work(Path(folder), 1500)
         if options.starts:
-            os.environ |= {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
             found = soak_starts(options.names or list(STARTED), options.starts, options.seed, Path(folder))
         for name in () if options.starts else options.names or COMMANDS:
             for report in wrong(name, options.times, random.Random(options.seed), Path(folder)):
