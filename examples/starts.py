@@ -99,6 +99,7 @@ class Starts:
         return rng.choice(len(weights), count, p=weights / weights.sum())
 
     def put(self, worlds: EnvWorlds, which: Numbers, starts: Numbers) -> None:
+        """Have these worlds go on from these starts."""
         worlds.restore(self._saved.save(starts), which)
 
     def note(self, starts: Numbers, passed: NDArray[np.bool_]) -> None:

@@ -32,7 +32,8 @@ PACKED = "daily.zip"
 
 _INDEX = f'name = "Daily levels"\nauthor = "{AUTHOR}"\ncomment = "A level a day, from the date"\n'
 _MONDAY = 2
-_OTHER_SEEDS = 9
+_OTHER_SEEDS, _NEXT_SEED = 9, 10**8
+"""How many more seeds are tried for a day, and how far apart they are: no date has such a number."""
 
 
 def daily_file(levels: Path, day: date) -> Path:
@@ -46,7 +47,7 @@ def daily_difficulty(day: date) -> int:
 
 
 def daily_seed(day: date) -> int:
-    """The date as a number, 20261122 for one."""
+    """The date as a number: 20261122 for 22 November 2026."""
     return day.year * 10_000 + day.month * 100 + day.day
 
 
@@ -73,7 +74,7 @@ def make_daily(levels: Path, day: date, *, report: Callable[[str], None], stop: 
     from ninja_game.generator.generate import generate
 
     for again in range(_OTHER_SEEDS + 1):
-        seed = daily_seed(day) + again * 10**8
+        seed = daily_seed(day) + again * _NEXT_SEED
         made = generate(seed, daily_difficulty(day), report=report, stop=stop)
         if stop.is_set():
             return False

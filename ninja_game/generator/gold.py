@@ -9,6 +9,7 @@ from ninja_game.generator.scene import Cell, Point, Scene, middle, spec, with_mi
 from ninja_game.sim.rules import CELL
 
 LEAST, MOST = 26, 48
+"""Pieces in a level."""
 APART, FROM_KEY = 11.0, 30.0
 """px between pieces, and from ninja, exit and switches."""
 

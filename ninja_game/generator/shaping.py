@@ -17,7 +17,7 @@ OUTER = {"slope": "sawq", "round": "KJIU"}
 INNER = {"slope": "qwas", "round": "uijk"}
 """Tiles in a hollow corner."""
 LONG = {"flat": ("fF", "dD", "rR", "eE"), "steep": ("hH", "gG", "yY", "tT")}
-"""Pairs of tiles of an outer corner, the thin one at the end."""
+"""Tiles of a long slope at an outer corner: the tip, the one behind it."""
 
 
 class Style(NamedTuple):
@@ -72,7 +72,7 @@ def _outer(board: Board, cell: Cell, style: Style) -> Iterator[tuple[Cell, str]]
         if shape in OUTER:
             yield cell, OUTER[shape][number]
             continue
-        thin, thick = LONG[shape][number][0], LONG[shape][number][1]
+        thin, thick = tuple(LONG[shape][number])
         second = (column - dx, row) if shape == "flat" else (column, row - dy)
         # Room for the slope of the other end.
         beyond = [(column - k * dx, row) if shape == "flat" else (column, row - k * dy) for k in (2, 3)]

@@ -14,7 +14,7 @@ import numpy as np
 from ninja_game.backend.memories import open_worlds
 from ninja_game.batch.batch import Indices
 from ninja_game.learn.observations.part import Ragged, Setting, clamp
-from ninja_game.search.heuristics import POINTS, Heuristics, point_at
+from ninja_game.search.heuristics import FARTHEST, POINTS, Heuristics, point_at
 from ninja_game.search.switches import open_bits
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.declare import entry_point, fast
@@ -22,9 +22,6 @@ from ninja_game.sim.rules import WORLD_HEIGHT, WORLD_WIDTH
 
 SPARE_FIELDS = 1024
 """Fields that are kept although no world is in their state; 53 KB each, once made."""
-
-FARTHEST = 20_000.0
-"""Ticks that an unreachable place counts."""
 
 NO_STATE = NO_ROW = -1
 

@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.batch.batch import Indices
-from ninja_game.learn.goal_distance import FARTHEST, GoalDistance
+from ninja_game.learn.goal_distance import GoalDistance
 from ninja_game.learn.rewards import DistanceShaping
+from ninja_game.search.heuristics import FARTHEST
 
 LOWEST = -1.0
 """Of Φ: twice as far as at the start, or farther."""

@@ -100,13 +100,13 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
         """
         self._check_open()
         seed = None if seed is None else checked_seed(seed)
+        options = options or {}
+        if options.keys() - {"level"}:
+            raise ArgumentError(f"options are {sorted(options)}; expected 'level' or none")
         super().reset(seed=seed)
         new_seed = seed is not None or not self._started
         if new_seed:
             self._seed = int(self.np_random.integers(2**63)) if seed is None else seed
-        options = options or {}
-        if options.keys() - {"level"}:
-            raise ArgumentError(f"options are {sorted(options)}; expected 'level' or none")
         level = options.get("level")
         if level is not None and not isinstance(level, int | np.integer) and level not in self.worlds.source.names:
             self.worlds = EnvWorlds(level, 1, threads=1, **self._settings)

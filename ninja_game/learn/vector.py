@@ -72,18 +72,18 @@ class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
     ) -> tuple[Observed, Infos]:
         """Begin new episodes. Raises ArgumentError for seeds, a mask, levels or other options that do not fit."""
         self._refuse_closed()
-        if seed is None or isinstance(seed, int | np.integer):
-            super().reset(seed=None if seed is None else checked_seed(seed))
         options = options or {}
         if options.keys() - {"level", "reset_mask"}:
             raise ArgumentError(f"options are {sorted(options)}; expected 'level', 'reset_mask' or none")
         mask = options.get("reset_mask")
         chosen = np.arange(self.num_envs) if mask is None else np.flatnonzero(self._checked_mask(mask))
+        if seed is None or isinstance(seed, int | np.integer):
+            super().reset(seed=None if seed is None else checked_seed(seed))
         seeds = self._seeds(seed)
-        self._reset_before = True
         self.worlds.reset(
             chosen, seeds=seeds and [seeds[index] for index in chosen.tolist()], levels=options.get("level")
         )
+        self._reset_before = True
         reset = np.zeros(self.num_envs, np.bool_)
         reset[chosen] = True
         return self._shown(), self._infos(reset)

@@ -1,4 +1,4 @@
-"""Worlds as environments: n episodes side by side, for one world or thousands. Both faces for Gymnasium use this.
+"""Worlds as environments: n episodes side by side, for one world or thousands. Both Gymnasium classes use this.
 
 >>> import numpy as np
 >>> from ninja_game import Input, parse_level

@@ -171,7 +171,7 @@ def _verify(asked: Asked, job: Job) -> list[list[Result]]:
 
 
 def _verify_as_text(asked: Asked, job: Job) -> str:
-    """The same on another machine, whose answer is checked when it comes back."""
+    """Verdicts as JSON, for workers of a cluster: the answer is checked when it comes back."""
     return results_as_text(_verify(asked, job))
 
 

@@ -233,7 +233,7 @@ def keep_child(
     parent: int, action: int, played: int, start: Start, arrays: SearchArrays, goal: Goal,
     backed_up: BackedUpHeuristic, resolution: Resolution,
 ) -> None:  # fmt: skip
-    """The same on the way to the exit or to the end of a leg.
+    """Make a node of the scratch world, on the way to the exit or to the end of a leg.
 
     Its ticks to go are those of the switch state's distance field, or of the backed-up heuristic of an earlier search.
     """

@@ -140,6 +140,9 @@ def points_about(x: float, y: float, radius: float) -> list[int]:
 DOOR_COST = 40.0
 """How many times longer a step through a closed door counts where a way through it is imagined."""
 MAX_BITS = 60
+"""Switches, of exits and doors, whose state a search tells apart."""
+FARTHEST = 20_000.0
+"""Ticks that an unreachable place counts where ticks are summed."""
 SWITCH_COST = 3.0
 """How many times longer a step beside a switch counts that is better touched later."""
 

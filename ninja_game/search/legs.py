@@ -14,8 +14,6 @@ from ninja_game.search.nodes import StateWords
 
 MORE_THAN_ANY = 1 << 30
 """More gold than there is: what a leg wants at the exit that is to end elsewhere. And more ticks than a run has."""
-FAR = 20_000.0
-"""Ticks that an unreachable piece counts in a tour."""
 ROLLOUTS = 16
 """Random runs that try whether the end of a leg can be survived. Not tuned."""
 FIELDS_KEPT, MASKS_KEPT = 400, 16

@@ -27,6 +27,7 @@ Indices = NDArray[np.int32]
 CHUNK = 32
 """Words in a chunk."""
 BUCKETS = 1 << 14
+"""Of the open list, by priority: one for each tick, two where a search goes along a run."""
 LARGE_STATE = 10_000
 """Words; the states of all levels of N are smaller."""
 MAX_ENDS = 96

@@ -13,9 +13,8 @@ from functools import partial
 
 import numpy as np
 
-from ninja_game.search.heuristics import UNREACHED, Heuristics, point_at
+from ninja_game.search.heuristics import FARTHEST, UNREACHED, Heuristics, point_at
 from ninja_game.search.legs import (
-    FAR,
     MORE_THAN_ANY,
     ROLLOUTS,
     Checkpoint,
@@ -222,7 +221,9 @@ class Route:
         shut = no_return | ((between >= UNREACHED) & (start < UNREACHED)).any(axis=1)
         names = {piece: k for k, piece in enumerate(left)}
         order = [names[piece] for piece in frontier.tour]
-        tour = short_tour(np.minimum(start, FAR), np.minimum(between, FAR), np.minimum(home, FAR).astype(float), order)
+        tour = short_tour(
+            np.minimum(start, FARTHEST), np.minimum(between, FARTHEST), np.minimum(home, FARTHEST).astype(float), order
+        )
         frontier.tour = [left[k] for k in tour]
         nearest = np.argsort(start, kind="stable").tolist()
         ranks = [min(tour.index(k), nearest.index(k) + 0.5) + 2.5 * frontier.failed[left[k]] for k in range(len(left))]

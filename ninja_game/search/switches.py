@@ -21,11 +21,11 @@ def open_bits(w: World, slots: Any, first: int, last: int) -> int:
 
 @fast
 def open_mask(w: World, slots: Any) -> int:
-    """The same of all slots."""
+    """The switch state over all ``slots``."""
     return open_bits(w, slots, 0, len(slots))
 
 
 @entry_point
 def open_mask_at(worlds: Any, index: int, slots: Any) -> int:
-    """The same of one of some worlds."""
+    """The switch state over all ``slots`` of world ``index``."""
     return open_bits(worlds[index], slots, 0, len(slots))

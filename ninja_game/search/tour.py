@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.search.heuristics import point_at
-from ninja_game.search.legs import FAR, Checkpoint, LegFields, pieces_of
+from ninja_game.search.heuristics import FARTHEST, point_at
+from ninja_game.search.legs import Checkpoint, LegFields, pieces_of
 
 Distances = NDArray[np.float64]
 """Ticks from each stop (row) to each stop (column)."""
@@ -116,20 +116,20 @@ class PieceTicks:
         """Note that a leg did not reach a piece: it counts as farther from now on."""
         row = _last_piece(before)
         known = np.nan_to_num(self._measured[row, piece], nan=0.0)
-        self._measured[row, piece] = min(FAR, max(FAILED, 1.5 * known))
+        self._measured[row, piece] = min(FARTHEST, max(FAILED, 1.5 * known))
 
     def estimate(self, checkpoint: Checkpoint) -> tuple[Distances, Distances, Distances]:
         """Ticks from piece to piece, from a checkpoint to each piece, and from each to the exit."""
         mask, here = checkpoint.mask, point_at(*checkpoint.place)
         fields, points = self._fields.tours(mask), self._fields.points
         by_fields = np.vstack([fields[:-1, points].T, fields[:-1, here]]).astype(float)
-        by_fields = np.minimum(SLOWER * by_fields + TURN, FAR)
+        by_fields = np.minimum(SLOWER * by_fields + TURN, FARTHEST)
         row = _last_piece(checkpoint)
         known = np.vstack([self._measured[:-1], self._measured[row]])
         factors = np.vstack([self._factors[:-1], self._factors[row]])
         ticks = np.where(np.isnan(known), by_fields, known) * factors
         home = SLOWER * np.append(fields[-1, points], fields[-1, here]).astype(float)
-        return ticks[:-1], ticks[-1], np.minimum(home, FAR)
+        return ticks[:-1], ticks[-1], np.minimum(home, FARTHEST)
 
 
 def _last_piece(checkpoint: Checkpoint) -> int:

@@ -11,10 +11,9 @@ from ninja_game import parse_level
 from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import DISCRETE_KEYS
-from ninja_game.learn.goal_distance import FARTHEST
 from ninja_game.learn.rewards import DeathPenalty, DistanceShaping, ExitReward, reward_terms
 from ninja_game.learn.worlds import EnvWorlds
-from ninja_game.search.heuristics import POINTS
+from ninja_game.search.heuristics import FARTHEST, POINTS
 from tests.support.learning import FLOOR, LEVELS, random_actions
 from tests.support.memories import BOTH
 

@@ -139,6 +139,10 @@ def test_calls_out_of_order_are_refused() -> None:
         envs.step([1, 1, 1])
     with pytest.raises(ResetNeeded):
         envs.reset(options={"reset_mask": np.array([True, False, True])})
+    with pytest.raises(ArgumentError):
+        envs.reset(options={"level": "unknown"})
+    with pytest.raises(ResetNeeded):
+        envs.step([1, 1, 1])
     envs.reset()
     envs.close()
     envs.close()

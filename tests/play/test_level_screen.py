@@ -244,9 +244,9 @@ def test_the_levels_of_a_file_follow_each_other(
 
 
 def test_it_says_what_the_ninja_died_of(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
-    app, controls = stage
+    app, _ = stage
     screen = open_level(app, recording)
-    press(controls, "right")
+    press("confirm")
     frames(app, 3)
     screen.attempt.simulation.kill(CRUSHED, 0.0, 0.0)
     screen.play._note_end()

@@ -284,9 +284,9 @@ def test_edits_of_an_empty_run_are_found_again(session: Session, tmp_path: Path)
 
 
 def test_watched_formulas_alone_are_something_to_save(session: Session, tmp_path: Path) -> None:
-    assert session.is_saved
+    before = session.is_saved
     session.watch(["x", "vy > 0"])
-    assert not session.is_saved
+    assert (before, session.is_saved) == (True, False)
     session.close(keep=True)
     (found,) = recovered(tmp_path)
     assert found.branches.watched == ("x", "vy > 0")

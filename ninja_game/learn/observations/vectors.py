@@ -9,8 +9,9 @@ from typing import Any, ClassVar
 import numpy as np
 from gymnasium.spaces import Box
 
-from ninja_game.learn.goal_distance import FARTHEST, point_within
+from ninja_game.learn.goal_distance import point_within
 from ninja_game.learn.observations.part import Part, Ragged, Setting, clamp
+from ninja_game.search.heuristics import FARTHEST
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.kinds import EXIT, GOLD

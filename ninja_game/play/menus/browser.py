@@ -86,9 +86,11 @@ class Browser(ThumbnailScreen):
         """The list first, then what can be done with the selected level."""
         play = Button((SIDE, 470, 154, 32), "Play", lambda: self.play(self.list.index))
         practice = Button(
-            (SIDE + 166, 470, 154, 32), "Practise", lambda: self.play(self.list.index, practice=True),
+            (SIDE + 166, 470, 154, 32),
+            "Practise",
+            lambda: self.play(self.list.index, practice=True),
             hint=PRACTICE_HINT,
-        )  # fmt: skip
+        )
         change = Button((SIDE + 166, 510, 71, 32), "Edit", self._change, hint="Open it in the editor")
         link = Button((SIDE + 249, 510, 71, 32), "Copy link", self._copy_link, hint="Whoever opens the link plays it")
         return [*self.choosers(), play, practice, self.watch_best, *([change] * bool(self._edit)), link]

@@ -69,9 +69,8 @@ class DailyScreen(ThumbnailScreen):
         self._shown = ""
         self.play = Button((SIDE, 390, SIDE_WIDTH, 36), "Play", self._play)
         self.practice = Button(
-            (SIDE, 436, SIDE_WIDTH, 36), "Practise", lambda: self._play(practice=True),
-            hint=PRACTICE_HINT,
-        )  # fmt: skip
+            (SIDE, 436, SIDE_WIDTH, 36), "Practise", lambda: self._play(practice=True), hint=PRACTICE_HINT
+        )
 
     @property
     def file(self) -> Path:
