@@ -187,7 +187,8 @@ class Executed:
             found |= {test for name in named[1].split(", ") for test in self._naming(name)}
         tests: list[str] = []
         total = 0.0
-        for test in sorted(found & self.seconds.keys(), key=self.seconds.__getitem__):
+        executing = (test for test in self.seconds if test in found or test.partition("::")[0] in found)
+        for test in sorted(executing, key=self.seconds.__getitem__):
             total += self.seconds[test]
             if tests and total > BUDGET:
                 break

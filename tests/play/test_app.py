@@ -22,7 +22,7 @@ from ninja_game.player.player_data import PlayerData
 from ninja_game.player.settings import Settings
 from tests.support.menu_driver import MenuDriver
 from tests.support.samples import NO_NINJA
-from tests.support.scripted import frames, press, scripted_app
+from tests.support.scripted import frames, scripted_app, tap
 
 LEVEL = Path(__file__).parent.parent.parent / "levels" / "00-0-first-steps.txt"
 
@@ -34,10 +34,8 @@ def start_level(app: App) -> None:
 def test_full_screen_and_ghost_keys_outlast_a_change_of_settings() -> None:
     with scripted_app() as (app, _):
         start_level(app)
-        press("ghost")
-        frames(app)
-        press("fullscreen")
-        frames(app)
+        tap(app, "ghost")
+        tap(app, "fullscreen")
         app.change_settings(smooth=False)
         assert app.settings.fullscreen
         assert app.window.fullscreen
@@ -95,8 +93,7 @@ def test_a_setting_that_is_changed_is_at_once_as_after_a_new_start(tmp_path: Pat
 def test_level_started_from_the_command_line_has_the_pause_panel() -> None:
     with scripted_app() as (app, _):
         start_level(app)
-        press("confirm")
-        frames(app)
+        tap(app, "confirm")
         pygame.event.post(pygame.Event(pygame.WINDOWFOCUSLOST))
         frames(app)
         assert isinstance(app.top, PausePanel)
@@ -139,8 +136,7 @@ def test_letter_typed_into_a_search_is_no_command(tmp_path: Path) -> None:
 def test_picture_goes_into_the_exports_with_a_notice() -> None:
     with scripted_app() as (app, _):
         start_level(app)
-        press("screenshot")
-        frames(app)
+        tap(app, "screenshot")
         picture = app.player.folder / "exports" / "screenshot-1.png"
         assert pygame.image.load(picture).get_size() == (792, 600)
         assert str(picture) in app.notice
@@ -153,8 +149,7 @@ def test_picture_that_cannot_be_saved_is_a_notice() -> None:
         start_level(app)
         (app.player.folder / "exports").rmdir()
         (app.player.folder / "exports").write_text("in the way")
-        press("screenshot")
-        frames(app)
+        tap(app, "screenshot")
         assert app.notice.startswith("Not written: ")
 
 
@@ -178,8 +173,7 @@ def test_notice_is_drawn_below_the_stage_and_never_for_the_boss() -> None:
         changed.invert()
         assert changed.count()
         assert all(rect.top >= 576 for rect in changed.get_bounding_rects())
-        press("boss")
-        frames(app)
+        tap(app, "boss")
         assert isinstance(app.top, BossScreen)
         hidden = app.surface.copy()
         app.notify("")

@@ -17,20 +17,27 @@ from ninja_game.play.level.hud import hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, Phase
 from ninja_game.play.level.screen import LevelScreen, PausePanel
 from ninja_game.player.playthrough import EpisodeRun, FileRun
-from tests.support.scripted import ScriptedControls, frames, level_run, open_level, phase_of, play_to_the_end, press
+from tests.support.scripted import (
+    ScriptedControls,
+    frames,
+    level_run,
+    open_level,
+    phase_of,
+    play_to_the_end,
+    press,
+    tap,
+)
 
 LONG = "0" * 713 + "|5^100,566!11^400,564,300,564"
 
 
 def test_retry_key_retries_after_a_death_and_never_watches(app: App, recording: Recording) -> None:
     screen = open_level(app, recording)
-    press("confirm")
-    frames(app, 5)
+    tap(app, "confirm", pictures=5)
     screen.attempt.lifetime = 1
     frames(app, DEATH_PAUSE + 5)
     assert phase_of(screen) is Phase.DEAD
-    press("retry")
-    frames(app)
+    tap(app, "retry")
     assert app.top is screen
     assert phase_of(screen) is Phase.READY
 
@@ -44,17 +51,14 @@ def test_jump_retries_after_the_death_message_and_begins_when_pressed_anew(
 ) -> None:
     app, controls = stage
     screen = open_level(app, recording)
-    press("confirm")
-    frames(app, 5)
+    tap(app, "confirm", pictures=5)
     screen.attempt.lifetime = 1
     frames(app, 5)
-    press("jump")
-    frames(app)
+    tap(app, "jump")
     assert phase_of(screen) is Phase.DEAD, "a jump that came too late does not cut the death short"
     frames(app, DEATH_PAUSE)
     controls.held_bits = 4
-    press("jump")
-    frames(app, 5)
+    tap(app, "jump", pictures=5)
     assert phase_of(screen) is Phase.READY
     controls.held_bits = 0
     frames(app)
@@ -66,25 +70,20 @@ def test_jump_retries_after_the_death_message_and_begins_when_pressed_anew(
 @pytest.mark.parametrize("action", ["confirm", "right"])
 def test_time_goes_on_after_single_steps(app: App, recording: Recording, action: str) -> None:
     screen = open_level(app, recording, practice_mode=True)
-    press("confirm")
-    frames(app)
-    press("step")
-    frames(app, 5)
+    tap(app, "confirm")
+    tap(app, "step", pictures=5)
     tick = screen.attempt.simulation.tick
     assert "go on" in hud_view(screen.play).foot[1]
-    press(action)
-    frames(app, 5)
+    tap(app, action, pictures=5)
     assert screen.attempt.simulation.tick > tick
 
 
 def test_escape_before_the_first_move_does_not_end_the_game(app: App, recording: Recording) -> None:
     screen = open_level(app, recording)
-    press("back")
-    frames(app)
+    tap(app, "back")
     panel: Screen = app.top
     assert isinstance(panel, PausePanel)
-    press("back")
-    frames(app)
+    tap(app, "back")
     assert len(app.stack) == 1
     assert phase_of(screen) is Phase.READY
 
@@ -98,17 +97,14 @@ def test_changed_level_file_is_read_again_on_retry(app: App, recording: Recordin
     screen = LevelScreen(app, run)
     app.push(screen)
     file.write_text(both.replace("400,564", "500,564"))
-    press("retry")
-    frames(app)
+    tap(app, "retry")
     assert screen.attempt.simulation.level == screen.context.level == load_levels(str(file))[1].level
     assert "changed" in app.notice
     file.write_text("broken")
-    press("retry")
-    frames(app)
+    tap(app, "retry")
     assert "cannot be played" in app.notice
     assert phase_of(screen) is Phase.READY
-    press("retry")
-    frames(app)
+    tap(app, "retry")
 
 
 def test_locked_records_are_a_notice(
@@ -122,8 +118,7 @@ def test_locked_records_are_a_notice(
         raise sqlite3.OperationalError("database is locked")
 
     monkeypatch.setattr(app.player.records, "keep_replay", locked)
-    press("export")
-    frames(app)
+    tap(app, "export")
     assert "Not saved yet" in app.notice
 
 
@@ -137,8 +132,7 @@ def test_skipping_with_locked_records_goes_on_with_a_notice(
         raise sqlite3.OperationalError("database is locked")
 
     monkeypatch.setattr(app.player.progress, "level_passed", locked)
-    press("skip")
-    frames(app)
+    tap(app, "skip")
     assert run.position == 1
     assert "Not saved yet" in app.notice
 
@@ -157,8 +151,7 @@ def test_a_passed_level_says_what_its_keys_do(
         message = hud_view(screen.play).message
         assert message is not None
         assert words in message[1][-1]
-    press("confirm")
-    frames(app)
+    tap(app, "confirm")
     assert app.top is alone
     assert phase_of(alone) is Phase.READY
 

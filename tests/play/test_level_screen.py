@@ -15,7 +15,7 @@ from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.playthrough import FileRun
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.states import CRUSHED
-from tests.support.scripted import ScriptedControls, frames, open_level, phase_of, play_to_the_end, press, release
+from tests.support.scripted import ScriptedControls, frames, open_level, phase_of, play_to_the_end, press, release, tap
 
 
 def test_a_script_of_the_recording_passes_the_level(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
@@ -35,13 +35,11 @@ def test_passing_makes_a_ghost_for_the_next_try(stage: tuple[App, ScriptedContro
     app, controls = stage
     screen = open_level(app, recording)
     play_to_the_end(app, controls, screen, recording)
-    press("confirm")
-    frames(app)
+    tap(app, "confirm")
     assert screen.phase is Phase.READY
     assert screen.attempt.simulation.tick == 0
     assert len(screen.play.view.ghosts) == 1
-    press("confirm")
-    frames(app, 40)
+    tap(app, "confirm", pictures=40)
     ghost = screen.play.ghosts[0]
     assert ghost.simulation.tick == screen.attempt.simulation.tick == 40
 
@@ -66,8 +64,7 @@ def test_pause_stops_time_and_the_clock_starts_afresh(app: App, recording: Recor
     screen = open_level(app, recording)
     press("confirm")
     frames(app, 10, 33)
-    press("pause")
-    frames(app)
+    tap(app, "pause")
     tick = screen.attempt.simulation.tick
     frames(app, 10, 400)
     assert screen.phase is Phase.PAUSED
@@ -79,8 +76,7 @@ def test_pause_stops_time_and_the_clock_starts_afresh(app: App, recording: Recor
 
 def test_a_stall_counts_as_one_tick(app: App, recording: Recording) -> None:
     screen = open_level(app, recording)
-    press("confirm")
-    frames(app)
+    tap(app, "confirm")
     tick = screen.attempt.simulation.tick
     frames(app, 1, 30_000)
     assert screen.attempt.simulation.tick == tick + 1
@@ -96,8 +92,7 @@ def test_retry_in_play_is_at_once_and_the_world_is_new(
     controls.held_bits = 2
     frames(app, 30)
     controls.held_bits = 0
-    press("retry")
-    frames(app)
+    tap(app, "retry")
     assert screen.phase is Phase.READY
     assert screen.attempt.simulation.digest() == start
     assert not screen.attempt.inputs
@@ -109,8 +104,7 @@ def test_death_goes_on_as_a_corpse_then_offers_retry_and_replay(
     app, controls = stage
     screen = open_level(app, recording)
     controls.held_bits = 2
-    press("confirm")
-    frames(app, 10)
+    tap(app, "confirm", pictures=10)
     screen.attempt.lifetime = 1
     frames(app, 2)
     assert phase_of(screen) is Phase.DEAD
@@ -118,25 +112,20 @@ def test_death_goes_on_as_a_corpse_then_offers_retry_and_replay(
     tick = screen.attempt.simulation.tick
     frames(app, DEATH_PAUSE + 2)
     assert screen.attempt.simulation.tick == tick + DEATH_PAUSE + 2
-    press("replay")
-    frames(app)
+    tap(app, "replay")
     assert isinstance(app.top, ReplayScreen)
-    press("back")
-    frames(app)
-    press("confirm")
-    frames(app)
+    tap(app, "back")
+    tap(app, "confirm")
     assert phase_of(screen) is Phase.PLAY, "the key that is held is meant for the new try"
     assert screen.attempt.outcome == "running"
 
 
 def test_giving_up_has_no_replay(app: App, recording: Recording) -> None:
     screen = open_level(app, recording)
-    press("confirm")
-    frames(app, 3)
+    tap(app, "confirm", pictures=3)
     press("suicide")
     frames(app, DEATH_PAUSE + 3)
-    press("replay")
-    frames(app)
+    tap(app, "replay")
     assert app.top is screen
     assert screen.phase is Phase.DEAD
 
@@ -147,8 +136,7 @@ def test_practice_goes_back_to_a_saved_moment_exactly(
     app, controls = stage
     screen = open_level(app, recording, practice_mode=True)
     controls.script = iter(recording.inputs)
-    press("confirm")
-    frames(app, 60)
+    tap(app, "confirm", pictures=60)
     press("quick_save")
     frames(app, 1, 0)
     saved, played = screen.attempt.simulation.digest(), bytes(screen.attempt.inputs)
@@ -169,8 +157,7 @@ def test_rewind_runs_the_recording_backwards(stage: tuple[App, ScriptedControls]
     for _ in range(80):
         frames(app)
         digests[screen.attempt.simulation.tick] = screen.attempt.simulation.digest()
-    press("rewind")
-    frames(app, 15)
+    tap(app, "rewind", pictures=15)
     release("rewind")
     frames(app, 1, 0)
     tick = screen.attempt.simulation.tick
@@ -181,43 +168,33 @@ def test_rewind_runs_the_recording_backwards(stage: tuple[App, ScriptedControls]
 
 def test_slow_motion_and_single_steps(app: App, recording: Recording) -> None:
     screen = open_level(app, recording, practice_mode=True)
-    press("confirm")
-    frames(app)
-    press("slow")
-    frames(app, 8)
+    tap(app, "confirm")
+    tap(app, "slow", pictures=8)
     assert screen.attempt.simulation.tick == 3, "eight pictures of 25 ms are two slow ticks"
-    press("step")
-    frames(app, 5)
+    tap(app, "step", pictures=5)
     assert screen.attempt.simulation.tick == 4, "time stands still after a step"
 
 
 def test_tools_do_nothing_outside_practice(app: App, recording: Recording) -> None:
     screen = open_level(app, recording)
-    press("confirm")
-    frames(app, 30)
-    press("rewind")
-    frames(app, 5)
+    tap(app, "confirm", pictures=30)
+    tap(app, "rewind", pictures=5)
     assert screen.attempt.simulation.tick == 35
     assert not screen.attempt.assisted
 
 
 def test_the_boss_sees_a_sheet_of_figures(app: App, recording: Recording) -> None:
     screen = open_level(app, recording)
-    press("confirm")
-    frames(app, 20)
+    tap(app, "confirm", pictures=20)
     tick = screen.attempt.simulation.tick
-    press("boss")
-    frames(app, 30)
+    tap(app, "boss", pictures=30)
     assert app.top is not screen
     assert app.surface.get_at((700, 580))[:3] != app.theme.palette.tile[:3]
-    press("boss")
-    frames(app, 2)
+    tap(app, "boss", pictures=2)
     assert app.top is screen
     assert tick <= screen.attempt.simulation.tick <= tick + 2, "time stood still"
-    press("boss")
-    frames(app, 2)
-    press("quit")
-    frames(app)
+    tap(app, "boss", pictures=2)
+    tap(app, "quit")
     assert not app.running
 
 
@@ -233,12 +210,10 @@ def test_the_levels_of_a_file_follow_each_other(
     frames(app)
     file.write_text(file.read_text().replace("#a#", "#b#"))
     for title in ("two", "one"):
-        press("retry")
-        frames(app)
+        tap(app, "retry")
         assert screen.context.entry.named.comment == "b"
         play_to_the_end(app, controls, screen, recording)
-        press("confirm")
-        frames(app)
+        tap(app, "confirm")
         assert screen.context.title == title
         assert phase_of(screen) is Phase.READY
 

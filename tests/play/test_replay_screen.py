@@ -28,7 +28,7 @@ from ninja_game.simulation import Simulation
 from tests.support.heavy import heavy_level
 from tests.support.own_pack import PACK
 from tests.support.page_scenes import settle
-from tests.support.scripted import frames, press, scripted_app
+from tests.support.scripted import frames, press, scripted_app, tap
 
 RUN = load_replays(PACK / "certificates" / "01-2-the-works.exit.replay.txt")[0]
 
@@ -72,16 +72,13 @@ def test_any_tick_sought_is_the_one_of_a_straight_run() -> None:
 def test_single_ticks_and_seconds_go_both_ways_and_stop() -> None:
     with viewer(RUN) as (app, screen):
         screen.seek(100)
-        press("frame_forward")
-        frames(app, 5)
+        tap(app, "frame_forward", pictures=5)
         assert (screen.tick, screen.paused) == (101, True)
         press("frame_back")
-        press("frame_back")
-        frames(app, 5)
+        tap(app, "frame_back", pictures=5)
         assert screen.tick == 99
         for key, tick in (("left", 59), ("right", 99)):
-            press(key)
-            frames(app, 5)
+            tap(app, key, pictures=5)
             assert screen.tick == tick
 
 
@@ -98,8 +95,7 @@ def test_speed_and_stillness_at_the_start() -> None:
         assert screen.tick == 0, "half a second of stillness"
         frames(app, 10)
         assert screen.tick == 10
-        press("faster")
-        frames(app, 11)
+        tap(app, "faster", pictures=11)
         assert SPEEDS[screen.speed] == 2.0
         assert 30 <= screen.tick <= 34
 
@@ -128,8 +124,7 @@ def test_a_key_shows_and_hides_the_others() -> None:
     with scripted_app((396, 300)) as (app, _):
         app.push(ReplayScreen(app, [RUN]))
         for shown in (False, True):
-            press("ghost")
-            frames(app)
+            tap(app, "ghost")
             assert app.settings.show_ghost is shown
 
 
@@ -208,8 +203,7 @@ def test_nothing_of_the_viewer_is_written_over_the_level() -> None:
     with scripted_app() as (app, _):
         screen = ReplayScreen(app, [RUN])
         app.push(screen)
-        press("pause")
-        frames(app, 3)
+        tap(app, "pause", pictures=3)
         with_words = app.surface.copy()
         screen.view.draw(app.surface, 1.0, whole=True)
         changed = pygame.mask.from_threshold(app.surface, (0, 0, 0), (1, 1, 1, 255), with_words)

@@ -13,7 +13,7 @@ from ninja_game.play.view.level_view import LevelView, OffscreenContext
 from ninja_game.play.view.overlays import OVERLAY_ACTIONS
 from ninja_game.simulation import Simulation
 from tests.support.own_pack import PACK
-from tests.support.scripted import frames, level_run, press, release, scripted_app
+from tests.support.scripted import frames, level_run, press, release, scripted_app, tap
 
 REPLAYS = sorted(PACK.glob("certificates/*.replay.txt"))
 AFTER = 60
@@ -68,8 +68,7 @@ def test_rewinding_again_and_again_changes_nothing() -> None:
             tick = screen.attempt.simulation.tick
             controls.script = iter(inputs[tick:])
             frames(app, 37)
-            press("rewind")
-            frames(app, 4)
+            tap(app, "rewind", pictures=4)
             release("rewind")
             frames(app, 1, 0)
             tick = screen.attempt.simulation.tick

@@ -69,6 +69,12 @@ def frames(app: App, count: int = 1, ms: int = 25) -> None:
         app.frame(ms)
 
 
+def tap(app: App, *actions: str, pictures: int = 1) -> None:
+    """Press, and let pictures pass."""
+    press(*actions)
+    frames(app, pictures)
+
+
 def open_level(app: App, recording: Recording, **options: Any) -> LevelScreen:
     screen = LevelScreen(app, level_run(app, recording.level, **options))
     app.push(screen)

@@ -38,16 +38,19 @@ def test_a_break_is_tried_on_the_tests_that_execute_its_line_fastest_first(
     monkeypatch.setattr(breaks, "imports", lambda: {file: set()})
     monkeypatch.setattr(breaks, "tests_near", lambda _: ["near"])
     data = CoverageData(str(tmp_path / "lines"))
-    for test, lines in {"slow": {4, 5}, "fast": {4, 5}, "other": {8}, "": {1, 3, 7}}.items():
+    # A line that a shared fixture executes belongs to all tests of the file.
+    for test, lines in {"slow": {4, 5}, "fast": {4, 5}, "shared": {8}, "": {1, 3, 7}}.items():
         data.set_context(test)
         data.add_lines({file: lines})
     data.write()
     data.close()
-    (tmp_path / "seconds.json").write_text(json.dumps({"slow": 110.0, "fast": 11.0, "other": 1.0}))
+    (tmp_path / "seconds.json").write_text(
+        json.dumps({"slow": 110.0, "fast": 11.0, "shared::two": 2.0, "shared::one": 1.0})
+    )
     executed = breaks.Executed(tmp_path, tmp_path, 1)
     chosen = {source[b.start : b.end]: executed.tests_of(b) for b in breaks.breaks_of(file)}
     assert chosen["x + 1"] == ["fast"]  # the other one would be too long
-    assert chosen["x < LIMIT"] == chosen["3"] == ["other"]
+    assert chosen["x < LIMIT"] == chosen["3"] == ["shared::one", "shared::two"]
     assert executed.tests_of(breaks.Break(file, source.index("def g"), source.index("def g"), "")) == ["near"]
 
 

@@ -159,9 +159,8 @@ def stacked(parts: list[pygame.Surface], background: pygame.Color) -> pygame.Sur
     return sheet
 
 
-def grid(pictures: list[tuple[str, pygame.Surface]], width: int, palette: Palette) -> pygame.Surface:
+def grid(pictures: list[tuple[str, pygame.Surface]], width: int, palette: Palette, columns: int = 3) -> pygame.Surface:
     """Labelled pictures of one size side by side."""
-    columns = 3
     theme = Theme(palette, Canvas((1188, 900)))
     w = (width - MARGIN * (columns + 1)) // columns
     h = w * 25 // 33
@@ -171,7 +170,7 @@ def grid(pictures: list[tuple[str, pygame.Surface]], width: int, palette: Palett
     for k, (label, picture) in enumerate(pictures):
         x, y = MARGIN + k % columns * (w + MARGIN), MARGIN + k // columns * (h + 44)
         sheet.blit(pygame.transform.smoothscale(picture, (w, h)), (x, y))
-        sheet.blit(theme.lettering.rendered(label, 9, palette.faint), (x, y + h + 4))
+        sheet.blit(theme.lettering.rendered(label, 9, palette.faint), (x, y + h + 4), (0, 0, w, 44))
     return sheet
 
 

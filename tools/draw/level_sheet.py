@@ -23,9 +23,9 @@ from ninja_game.play.ui.theme import PALETTES
 from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.runs.run import run_level
 from ninja_game.sim.rules import TICKS_PER_SECOND
+from tools.draw.contact_sheet import MARGIN, grid
 
 ROUTES = {"exit": pygame.Color(220, 40, 40), "gold": pygame.Color(235, 180, 0)}
-CAPTION = 26
 
 
 def route(named: NamedLevel, certificate: Path) -> NDArray[np.float64]:
@@ -52,33 +52,6 @@ def draw_level(named: NamedLevel, width: int, certificates: Path | None) -> tupl
     return picture, ", ".join(words) if words or not certificates else "no certificates"
 
 
-def caption(text: str, width: int) -> pygame.Surface:
-    """Words in the largest type, 22 px at most, in which they are not wider than ``width``."""
-    for size in range(22, 8, -1):
-        drawn = pygame.font.Font(None, size).render(text, True, (230, 230, 230))
-        if drawn.get_width() <= width:
-            break
-    return drawn
-
-
-def sheet(
-    levels: list[NamedLevel], columns: int, width: int, certificates: Path | None, *, named: bool
-) -> pygame.Surface:
-    """All levels in rows of ``columns``, with names below, or numbers where names would tell too much."""
-    pygame.font.init()
-    height = round(width * 25 / 33) + CAPTION
-    rows = -(-len(levels) // columns)
-    picture = pygame.Surface((columns * (width + 8) + 8, rows * (height + 8) + 8))
-    picture.fill((40, 40, 44))
-    for number, level in enumerate(levels):
-        x, y = 8 + number % columns * (width + 8), 8 + number // columns * (height + 8)
-        drawn, words = draw_level(level, width, certificates)
-        picture.blit(drawn, (x, y))
-        text = f"{Path(level.file).stem[:4]} {level.name}: {words}" if named else f"{number + 1}"
-        picture.blit(caption(text, width), (x, y + height - CAPTION + 5))
-    return picture
-
-
 def main(argv: list[str]) -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("levels", nargs="+", type=Path)
@@ -89,10 +62,15 @@ def main(argv: list[str]) -> int:
     parser.add_argument("--without-routes", action="store_true")
     parser.add_argument("--unnamed", action="store_true", help="numbers instead of names, for blind comparisons")
     args = parser.parse_args(argv)
-    levels = [level for path in args.levels for level in load_levels(path)]
     folder = args.certificates or args.levels[0].parent / "certificates"
-    picture = sheet(levels, args.columns, args.width, None if args.without_routes else folder, named=not args.unnamed)
-    pygame.image.save(picture, args.out)
+    pictures: list[tuple[str, pygame.Surface]] = []
+    for level in (level for path in args.levels for level in load_levels(path)):
+        drawn, words = draw_level(level, args.width, None if args.without_routes else folder)
+        named = f"{Path(level.file).stem[:4]} {level.name}: {words}"
+        pictures.append((str(len(pictures) + 1) if args.unnamed else named, drawn))
+    pygame.font.init()
+    width = args.columns * (args.width + MARGIN) + MARGIN
+    pygame.image.save(grid(pictures, width, PALETTES["dark"], args.columns), args.out)
     return 0
 
 

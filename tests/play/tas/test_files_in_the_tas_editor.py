@@ -19,7 +19,7 @@ from ninja_game.tas.journal import FOLDER, recovered
 from tests.play.tas.conftest import RUN
 from tests.support.own_pack import PACK
 from tests.support.samples import WALK, running, write_records
-from tests.support.scripted import frames, press, scripted_app
+from tests.support.scripted import scripted_app, tap
 from tests.support.tas_driver import TasDriver
 
 CTRL, SHIFT = pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT
@@ -204,8 +204,7 @@ def test_edit_in_the_viewer_opens_the_tas_editor(tmp_path: Path) -> None:
         viewer = ReplayScreen(app, [*runs, *other])
         app.push(viewer)
         viewer.seek(5)
-        press("edit")
-        frames(app, 2)
+        tap(app, "edit", pictures=2)
         screen = app.top
         assert isinstance(screen, TasScreen)
         assert (screen.editor.cursor, screen.session.file.path) == (4, None)
@@ -224,8 +223,7 @@ def test_edit_of_a_file_goes_back_into_it(tmp_path: Path) -> None:
             app.push(ReplayScreen(app, load_replays(path)))
             if changed:
                 path.write_text(path.read_text("utf-8").replace("name:", "; mine\nname:"), "utf-8")
-            press("edit")
-            frames(app, 2)
+            tap(app, "edit", pictures=2)
             screen = app.top
             assert isinstance(screen, TasScreen)
             assert screen.session.file.path == (None if changed else path)
