@@ -39,7 +39,7 @@ def advance_worlds(
 
     A world stops at its first exit contact or death, and at ``time_limit`` ticks. Jump is pressed, as at a keyboard,
     where it is held and was not in the tick before. ``weights`` (PAID_EXIT to PAID_TICK): what each is worth;
-    ``rewards`` (worlds) receives the sum. ``facts`` (worlds x OUTCOME to ENDED): EVENTS are those of all these ticks, as
+    ``rewards`` (worlds) receives the sum. ``facts`` (worlds x OUTCOME to ENDED): EVENTS are those of all ticks, as
     bits. ``changed`` (worlds): whether gold was taken or an exit opened; also set where the list of events was full.
     """
     total = 0
