@@ -19,7 +19,7 @@ from ninja_game.learn.worlds import EnvState, EnvWorlds
 from ninja_game.sim.level import Level
 from ninja_game.sim.states import OUTCOME_EXIT, OUTCOME_RUNNING
 
-Numbers = NDArray[np.intp]
+Indices = NDArray[np.intp]
 Actions = NDArray[np.uint8]
 
 SETTINGS: dict[str, Any] = {"observation": StateVector(normalised=False), "frame_skip": 4, "actions": "discrete"}
@@ -113,7 +113,7 @@ def _cells(walkers: EnvWorlds) -> list[int]:
     return cells
 
 
-def _news(walkers: EnvWorlds, seen: dict[int, int]) -> Numbers:
+def _news(walkers: EnvWorlds, seen: dict[int, int]) -> Indices:
     """The worlds that are where none was, or not as early; they are seen from now on."""
     news = []
     ticks = walkers.ticks.tolist()
@@ -140,8 +140,8 @@ class Archive:
         self._leg = np.zeros(size, np.intp)
         self._before: list[int] = []
         self._actions: list[bytes] = []
-        self._walking: Numbers = np.full(1, -1, np.intp)
-        self._since: Numbers = np.zeros(1, np.intp)
+        self._walking: Indices = np.full(1, -1, np.intp)
+        self._since: Indices = np.zeros(1, np.intp)
 
     def choose(self, count: int, rng: np.random.Generator) -> EnvState:
         """The states from which ``count`` walks begin: the most promising moments that were least walked from."""
@@ -155,7 +155,7 @@ class Archive:
         self._since = np.zeros(count, np.intp)
         return self._worlds.save(chosen)
 
-    def add(self, walkers: EnvWorlds, which: Numbers, walk: Actions) -> None:
+    def add(self, walkers: EnvWorlds, which: Indices, walk: Actions) -> None:
         """Remember the moments in which the walkers ``which`` are; ``walk``: their actions, (steps, walkers)."""
         if not which.size:
             return
@@ -184,7 +184,7 @@ class Archive:
     def _score(self) -> NDArray[np.float64]:
         return self._promise + VISIT_WEIGHT * self._visits
 
-    def _room(self, count: int) -> Numbers:
+    def _room(self, count: int) -> Indices:
         """Places for so many moments; the least promising ones give way."""
         if self._used + count <= self._size:
             self._used += count

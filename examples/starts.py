@@ -23,7 +23,7 @@ from ninja_game.learn.worlds import EnvWorlds
 from ninja_game.sim.inputs import KEYS_DOWN
 from ninja_game.sim.level import Level
 
-Numbers = NDArray[np.intp]
+Indices = NDArray[np.intp]
 
 SPACING = 12
 """Ticks between two moments of a run."""
@@ -70,7 +70,7 @@ class Starts:
             following += [min(first + k + 1, first + count - 1) for k in range(count)]
             following[level] = first if count else level
             left[level] = len(run)
-        self.level_of: Numbers = np.array(level_of, np.intp)
+        self.level_of: Indices = np.array(level_of, np.intp)
         self.limits = (PATIENCE * np.array(left)).astype(np.int64) + LEAST_TICKS
         self._next = np.array(following, np.intp)
         self.rates = np.full(len(level_of), 0.5)
@@ -86,7 +86,7 @@ class Starts:
                     self._saved.restore(player.save(), start)
                     start += 1
 
-    def choose(self, count: int, rng: np.random.Generator) -> Numbers:
+    def choose(self, count: int, rng: np.random.Generator) -> Indices:
         """Where ``count`` episodes begin."""
         failing = 1.0 - self.rates
         weights = self.rates * failing + AHEAD * self.rates[self._next] * failing + FLOOR
@@ -98,11 +98,11 @@ class Starts:
         weights *= np.where(self.rates[: self.levels] >= LEARNT, LEARNT_WEIGHT, LEAST_WEIGHT + mean)[self.level_of]
         return rng.choice(len(weights), count, p=weights / weights.sum())
 
-    def put(self, worlds: EnvWorlds, which: Numbers, starts: Numbers) -> None:
+    def put(self, worlds: EnvWorlds, which: Indices, starts: Indices) -> None:
         """Have these worlds go on from these starts."""
         worlds.restore(self._saved.save(starts), which)
 
-    def note(self, starts: Numbers, passed: NDArray[np.bool_]) -> None:
+    def note(self, starts: Indices, passed: NDArray[np.bool_]) -> None:
         """Take note of episodes that have ended: where they began, whether they were passed."""
         episodes = np.bincount(starts, minlength=len(self.rates))
         passes = np.bincount(starts[passed], minlength=len(self.rates))

@@ -48,7 +48,7 @@ class InputPath(click.Path):
 
 
 class LevelPath(InputPath):
-    """The same; or the name of one of the game's own levels, which stands for its file."""
+    """A file or link; or the name of one of the game's own levels, which stands for its file."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """The path; usage error for what is neither there nor a name."""
@@ -159,7 +159,7 @@ def level_given(path: Path | None) -> Level | None:
 
 
 def with_progress(items: Iterable[T], label: str) -> Iterator[T]:
-    """The same items, counted on stderr if they take long: by a bar, or by a line now and then where that is a file.
+    """Items as they pass, counted on stderr if that takes long: by a bar, or by lines where that is a file.
 
     ``label``: what one of them is.
     """

@@ -107,7 +107,7 @@ def verify(
 
 
 def _reported(results: Iterable[Result], report: Path, files: Sequence[Path], stack: ExitStack) -> Iterator[Result]:
-    """The same results, written to a report as they pass."""
+    """Results, written to a report as they pass."""
     from ninja_game.files.writing import open_atomically
     from ninja_game.formats.links.fragment import is_link
     from ninja_game.runs.archive import write_report
@@ -117,7 +117,7 @@ def _reported(results: Iterable[Result], report: Path, files: Sequence[Path], st
 
 
 def _write_table(results: Iterable[Result], out: IO[bytes]) -> Iterator[Result]:
-    """The same results, written as a table as they pass."""
+    """Results, written as a table as they pass."""
     from ninja_game.runs.archive import Totals
     from ninja_game.runs.recording_reader import Unreadable
 

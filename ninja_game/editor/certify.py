@@ -104,7 +104,7 @@ class Certifier:
             self.search.end = "Stopped"
 
     def close(self) -> None:
-        """The same, and give the thread a moment to end."""
+        """Stop, and give the thread a moment to end."""
         self.stop()
         self._job.finish(CLOSING_SECONDS)
 

@@ -58,7 +58,7 @@ class Motion(NamedTuple):
         return _turned_tiles(self[:4])[tile] if tile in TILE_IDS else tile
 
     def about(self, x: float, y: float) -> Motion:
-        """The same about a point instead of the origin."""
+        """This motion about a point instead of the origin."""
         a, b = self.vector(x, y)
         return self._replace(dx=x - a, dy=y - b)
 

@@ -100,5 +100,5 @@ def name_problem(name: str) -> str:
 
 
 def name_key(name: str) -> str:
-    """The same for names that are one file on some system: only case, or how letters are coded, is different."""
+    """A key that names share if they are one file on some system: if only case, or how letters are coded, differs."""
     return normalize("NFC", normalize("NFC", name).casefold())

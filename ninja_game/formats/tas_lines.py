@@ -42,7 +42,7 @@ def is_tas_text(text: str) -> bool:
 
 
 def in_our_notation(text: str, file: str = "") -> Iterator[Line]:
-    """The same lines in the notation of our replays, with their numbers.
+    """The lines of another tool's inputs in the notation of our replays, with their numbers.
 
     Raises ReplayError for keys and commands that a run of the ninja has no use for.
     """

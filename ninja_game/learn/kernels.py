@@ -11,7 +11,7 @@ from ninja_game.sim.memory.schema import MAX_EVENTS
 from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_EXIT
 from ninja_game.sim.world import step
 
-EXIT, DEATH, PIECE, TICK = range(4)
+PAID_EXIT, PAID_DEATH, PAID_PIECE, PAID_TICK = range(4)
 """Columns of what is paid."""
 OUTCOME, TICKS, GOLD, EVENTS, ENDED = range(5)
 """Columns of what is told of each world."""
@@ -38,9 +38,9 @@ def advance_worlds(
     """Run worlds ``which[first:last]``, each with its ``keys`` for ``frame_skip`` ticks; the number of ticks run.
 
     A world stops at its first exit contact or death, and at ``time_limit`` ticks. Jump is pressed, as at a keyboard,
-    where it is held and was not in the tick before. ``weights`` (EXIT to TICK): what each is worth; ``rewards``
-    (worlds) receives the sum. ``facts`` (worlds x OUTCOME to ENDED): EVENTS are those of all these ticks, as bits.
-    ``changed`` (worlds): whether gold was taken or an exit opened; also set where the list of events was full.
+    where it is held and was not in the tick before. ``weights`` (PAID_EXIT to PAID_TICK): what each is worth;
+    ``rewards`` (worlds) receives the sum. ``facts`` (worlds x OUTCOME to ENDED): EVENTS are those of all ticks, as
+    bits. ``changed`` (worlds): whether gold was taken or an exit opened; also set where the list of events was full.
     """
     total = 0
     for k in range(first, last):
@@ -61,11 +61,11 @@ def advance_worlds(
             if w.outcome or w.tick >= time_limit:
                 break
         ticks = w.tick - tick
-        reward = weights[PIECE] * (w.gold - gold) + weights[TICK] * ticks
+        reward = weights[PAID_PIECE] * (w.gold - gold) + weights[PAID_TICK] * ticks
         if w.outcome == OUTCOME_EXIT:
-            reward += weights[EXIT]
+            reward += weights[PAID_EXIT]
         elif w.outcome == OUTCOME_DEAD:
-            reward += weights[DEATH]
+            reward += weights[PAID_DEATH]
         rewards[index] = reward
         facts[index, OUTCOME] = w.outcome
         facts[index, TICKS] = w.tick

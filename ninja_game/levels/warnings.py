@@ -33,7 +33,7 @@ def level_warnings(level: Level) -> list[str]:
 
 
 def level_findings(level: Level) -> list[Finding]:
-    """The same with the places: what concerns the level first, then tiles, then objects."""
+    """What is odd about a level, with the places: first the level as a whole, then tiles, then objects."""
     numbers = [number for number, record in enumerate(level.objects) if makes_object(record)]
     objects = [level.objects[number] for number in numbers]
     if len(objects) >= CAPACITY:

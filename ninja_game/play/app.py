@@ -401,7 +401,7 @@ class BossScreen(Screen):
     """The key that hides the game comes back to it; the key for leaving ends the program."""
 
     def enter(self) -> None:
-        """Also the title of the window is dull."""
+        """Give the window a dull title too."""
         pygame.display.set_caption("Budget")
 
     def leave(self) -> None:

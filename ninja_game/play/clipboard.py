@@ -45,5 +45,5 @@ def copy_link(app: App, make: Callable[[], str], *, title: str) -> None:
 
 
 def copy_level_link(app: App, named: NamedLevel | Draft, title: str) -> None:
-    """The same with the link of a level."""
+    """Put the link of a level into the clipboard."""
     copy_link(app, lambda: level_link(named.level, name=title, author=named.author, comment=named.comment), title=title)

@@ -232,7 +232,7 @@ class Totals:
 
 
 def write_report(results: Iterable[Result], out: IO[bytes]) -> Iterator[Result]:
-    """The same results, written to ``out`` as they pass: one JSON object with ``results`` and ``summary``.
+    """Results, written to ``out`` as they pass: one JSON object with ``results`` and ``summary``.
 
     Nothing in it depends on time, machine or number of workers: equal recordings give equal reports.
     """

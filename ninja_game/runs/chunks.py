@@ -78,7 +78,7 @@ def chunks_in(paths: Iterable[Path]) -> Iterator[Chunk]:
 
 
 def self_contained(chunk: Chunk, level: Level | None = None) -> Chunk:
-    """The same chunk with all files inside that its text takes in; what is wrong with it stays as it is."""
+    """The chunk with all files inside that its text takes in; where something is wrong, as it is."""
     beside: dict[str, Beside] = {}
     if not chunk.records and not chunk.problem:
         with known_files(beside, no_more=False):

@@ -22,7 +22,7 @@ from ninja_game.sim.memory.declare import entry_point, f4, fast, i4, i8, struct,
 from ninja_game.sim.memory.layout import STATE_START, Records, dtype_of, new_worlds, used_bytes
 
 StateWords = NDArray[np.int64]
-Indices = NDArray[np.int32]
+Int32s = NDArray[np.int32]
 
 CHUNK = 32
 """Words in a chunk."""
@@ -154,11 +154,11 @@ class SearchArrays(NamedTuple):
     nodes: Sequence[Node]
     table: Sequence[TableEntry]
     links: Sequence[Link]
-    chunk_next: Indices
-    chunk_index: Indices
+    chunk_next: Int32s
+    chunk_index: Int32s
     chunk_value: StateWords
-    buckets: Indices
-    ends: Indices
+    buckets: Int32s
+    ends: Int32s
     counters: Sequence[Counters]
 
 

@@ -21,7 +21,7 @@ class Input(IntFlag):
 
 
 KEY_LEFT, KEY_RIGHT, JUMP_HELD, JUMP_PRESSED = (int(key) for key in Input)
-"""The same as plain numbers, which rules compile."""
+"""The flags of ``Input`` as plain numbers, which rules compile."""
 
 ALL_KEYS = KEY_LEFT + KEY_RIGHT + JUMP_HELD + JUMP_PRESSED
 KEYS_DOWN = KEY_LEFT + KEY_RIGHT + JUMP_HELD

@@ -94,7 +94,7 @@ def run_file_of(path: Path, digest: str, branches_digest: str) -> RunFile:
 
 
 def open_recording(recording: Recording) -> OpenedRun:
-    """The same of a recording that was loaded already; without a file where that is another one by now."""
+    """Open a recording that was loaded already; without a file where that has changed since."""
     with suppress(NinjaGameError, OSError):
         path = Path(recording.file)
         if path.is_file():

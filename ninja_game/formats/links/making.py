@@ -44,7 +44,7 @@ def replay_link(replays: Iterable[Replay]) -> str:
 
 
 def recording_link(recordings: Iterable[Recording]) -> str:
-    """The same of recordings of any format; one of N stays N's record.
+    """A link of recordings of any format; one of N stays N's record.
 
     Raises LinkError; LevelError or DemoError for what N's record cannot hold.
     """

@@ -203,7 +203,7 @@ def _bad_run(text: str, file: str, line: int, column: int) -> ReplayError:
 
 
 def _in_order(keys: str) -> str:
-    """The same keys as the notation has them: L, R, J, each once, then the mark."""
+    """Keys in the order of the notation: L, R, J, each once, then the mark."""
     mark = "!" if "!" in keys else "-" if "-" in keys else ""
     return ("".join(key for key in "LRJ" if key in keys) or ".") + mark
 

@@ -33,7 +33,7 @@ class Document(Protocol):
         """Write it. Raises OccupiedError where that would replace another file, or one changed by others; OSError."""
 
     def close(self) -> None:
-        """It is left: nothing of it is kept."""
+        """Leave it; what is not saved is discarded."""
 
 
 class DocumentCommands:

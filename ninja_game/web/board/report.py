@@ -52,7 +52,7 @@ def _rejected_data(rejected: Rejected) -> dict[str, Any]:
 
 
 def board_text(judged: ValidatedRuns) -> str:
-    """The same as JSON, a run a line, so that a difference of two reads well."""
+    """A board as JSON, a run a line, so that a difference of two reads well."""
     data = board_data(judged)
     lines = {key: ",\n".join("  " + json.dumps(row) for row in data[key]) for key in ("runs", "rejected")}
     return f'{{"version": {VERSION}, "runs": [\n{lines["runs"]}\n], "rejected": [\n{lines["rejected"]}\n]}}\n'

@@ -21,7 +21,7 @@ UNCHECKED = MAGIC_NUMBER + (1).to_bytes(4, "little") + bytes(8)
 
 
 def without_docstrings(tree: ast.Module) -> ast.Module:
-    """The same module; what a docstring alone was the body of passes."""
+    """A module without its docstrings; a body that was nothing else becomes ``pass``."""
     for node in ast.walk(tree):
         if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)) and ast.get_docstring(
             node, clean=False
@@ -32,7 +32,7 @@ def without_docstrings(tree: ast.Module) -> ast.Module:
 
 
 def without_lines(code: CodeType) -> CodeType:
-    """The same code without line numbers: entries that say so, each for up to eight units of code."""
+    """Code without line numbers: entries that say so, each for up to eight units of code."""
     inner = tuple(without_lines(each) if isinstance(each, CodeType) else each for each in code.co_consts)
     eights, rest = divmod(len(code.co_code) // 2, 8)
     return code.replace(co_consts=inner, co_linetable=b"\xff" * eights + bytes([0xF7 + rest] * (rest > 0)))

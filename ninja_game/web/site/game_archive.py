@@ -105,7 +105,7 @@ def _texts(files: Files) -> Files:
 
 
 def _replaced(files: Files, folder: Path) -> Files:
-    """The same files, but what ``folder`` has as bytecode."""
+    """The files, with bytecode in place of what ``folder`` has as such."""
     made = {f"{name}c": (folder / f"{name}c").read_bytes() for name in _texts(files)}
     return {name: content for name, content in files.items() if not name.endswith(".py")} | made
 

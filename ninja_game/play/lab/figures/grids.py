@@ -140,7 +140,7 @@ class LooseGrid(Figure):
         self.crowd = Crowd(self.count, self.radius)
 
     def resize(self) -> None:
-        """The same objects, as large as is wanted."""
+        """Give the objects the size that is wanted."""
         self.crowd.radius = self.radius
 
     def controls(self) -> Sequence[Control]:

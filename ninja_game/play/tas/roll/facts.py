@@ -30,7 +30,7 @@ class Compared(NamedTuple):
     number: int
 
     def colour(self, palette: Palette) -> pygame.Color:
-        """That of its ghost in the level."""
+        """The colour of its ghost in the level."""
         if self.number == BEFORE:
             return palette.ghost
         return palette.exit if self.number == PREVIEW else colour_of(self.number, palette)

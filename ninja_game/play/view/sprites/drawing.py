@@ -32,11 +32,11 @@ class SpriteKey(NamedTuple):
     alpha: int = 8
 
     def turned(self, degrees: int) -> SpriteKey:
-        """The same, turned clockwise."""
+        """This sprite, turned clockwise."""
         return self._replace(turn=degrees)
 
     def faded(self, alpha: int) -> SpriteKey:
-        """The same, ``alpha`` eighths as solid."""
+        """This sprite, ``alpha`` eighths as solid."""
         return self._replace(alpha=alpha)
 
 
