@@ -15,12 +15,12 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks.game_kernels import count_ticks
 from ninja_game.backend.memories import compiled, compiled_available
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.trace import trace_digests, trace_recording
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.kernels import count_ticks
 from ninja_game.sim.memory.plain import load_plain
 from ninja_game.sim.world import step
 from ninja_game.simulation import Simulation

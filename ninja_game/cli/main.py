@@ -18,7 +18,7 @@ import click
 
 from ninja_game import __version__
 from ninja_game.backend.numba_import import remove_foreign_settings
-from ninja_game.cli.terminal import guard_terminal
+from ninja_game.cli.terminal import BAD_INPUT, guard_terminal
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.reading import keep_inputs
 from ninja_game.files.shown_text import shown_text
@@ -78,9 +78,6 @@ COMPILING = (
 
 IN_PLACE = {"play", "edit", "tas", "lab", "player", "check", "levels", "board", "site"}
 """Those that may replace a file that they have read."""
-
-BAD_INPUT = 2
-"""Exit code for input that cannot be read and for wrong usage."""
 
 INTERNAL_ERROR = 3
 """Exit code for a fault of this program; its traceback is on stderr."""

@@ -13,7 +13,7 @@ import click
 
 from ninja_game.cli.main import complain
 from ninja_game.cli.run_options import budget_option, choose, heartbeat, level_given, level_option, with_progress
-from ninja_game.cli.terminal import data_output
+from ninja_game.cli.terminal import BAD_INPUT, data_output
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
@@ -97,7 +97,7 @@ def splits(
         drawn = tables[0][0]
         paths = list(zip(titles([run.recording for run in drawn]), (run.positions for run in drawn), strict=True))
         draw(picture, drawn[0].recording.level, paths, [*files, *filter(None, [level_path, against])])
-    ctx.exit(2 if unreadable else 0)
+    ctx.exit(BAD_INPUT if unreadable else 0)
 
 
 def readable(files: Iterable[Path], level: Any) -> tuple[list[Recording], int]:

@@ -19,6 +19,9 @@ _OURS = {
 
 _DATA = re.compile(r"(\n|\t)")
 
+BAD_INPUT = 2
+"""Exit code for input that cannot be read and for wrong usage."""
+
 
 class Terminal(io.TextIOWrapper):
     """A terminal that shows every other control character as its escape."""

@@ -22,7 +22,7 @@ from ninja_game.cli.run_options import (
     memory_option,
     with_progress,
 )
-from ninja_game.cli.terminal import data_output
+from ninja_game.cli.terminal import BAD_INPUT, data_output
 from ninja_game.files.shown_text import shown_text
 
 if TYPE_CHECKING:
@@ -113,7 +113,7 @@ def trace(
     if not traces.count and not traces.unreadable:
         there_is_no = "recordings here" if record is None else f"record {record}"
         raise click.UsageError(f"{', '.join(map(str, files))}: no {there_is_no}")
-    ctx.exit(2 if traces.unreadable else 1 if different else 0)
+    ctx.exit(BAD_INPUT if traces.unreadable else 1 if different else 0)
 
 
 class Traces:

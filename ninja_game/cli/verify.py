@@ -12,6 +12,7 @@ import click
 
 from ninja_game.cli.main import complain
 from ninja_game.cli.run_options import InputPath, budget_option, jobs_option, with_progress
+from ninja_game.cli.terminal import BAD_INPUT
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
@@ -103,7 +104,7 @@ def verify(
                 click.echo(_row(result))
     if not as_json:
         click.echo(_summary(totals))
-    ctx.exit(2 if totals.unreadable else FAILED if totals.failed else 0)
+    ctx.exit(BAD_INPUT if totals.unreadable else FAILED if totals.failed else 0)
 
 
 def _reported(results: Iterable[Result], report: Path, files: Sequence[Path], stack: ExitStack) -> Iterator[Result]:

@@ -18,6 +18,9 @@ from ninja_game.sim.states import JUMPING, LAUNCHER_FLIGHT, SLIDING
 
 MIX = 0x2545F4914F6CDD1D
 MAX_SWITCH_STATES = 512
+"""So many can be told apart: nine bits of a key."""
+JUMP_PART = 11
+"""Ticks of a jump that count as the same moment."""
 NOT_MADE, WANTED = -1.0, -2.0
 """What a field has at point 0, outside the world, as long as it is not there."""
 
@@ -50,7 +53,7 @@ def state_class(w: World) -> int:
     if not n.in_air:
         return 0 if not n.jump_held else 1
     if n.state == JUMPING:
-        return 2 + n.jump_timer // 11
+        return 2 + n.jump_timer // JUMP_PART
     if n.state == SLIDING:
         return 5
     return 6 if n.near_wall else 7
@@ -65,7 +68,8 @@ def key_of(w: World, goal: Goal, switch_state: int, gold: int, resolution: Resol
     vx = floor((n.x - n.prev_x + resolution.shift_vx) / resolution.speed) & 255
     vy = floor((n.y - n.prev_y + resolution.shift_vy) / resolution.speed) & 255
     near = near_enemies(w, goal, resolution) if resolution.enemy_cell > 0.0 else 0
-    key = x | y << 9 | vx << 18 | vy << 26 | state_class(w) << 34 | (switch_state & 511) << 37 | (gold & 0xFFFF) << 46
+    state = switch_state & (MAX_SWITCH_STATES - 1)
+    key = x | y << 9 | vx << 18 | vy << 26 | state_class(w) << 34 | state << 37 | (gold & 0xFFFF) << 46
     return int((key ^ near) + 1)
 
 

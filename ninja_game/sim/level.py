@@ -64,7 +64,7 @@ class Level:
     @property
     def gold(self) -> int:
         """How many pieces of gold there are."""
-        return sum(record.kind == GOLD for record in self.objects)
+        return [record.kind for record in self.objects].count(GOLD)
 
     def tile(self, column: int, row: int) -> int:
         """Tile id at interior cell ``column`` 1…31, ``row`` 1…23 (indices of the full 33 x 25 grid)."""

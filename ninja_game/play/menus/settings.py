@@ -260,7 +260,7 @@ class SettingsScreen(MenuScreen):
 
     def _choice(
         self, place: int, text: str, name: str, options: Sequence[tuple[str, object]], hint: str = ""
-    ) -> Choice:
+    ) -> Choice[object]:
         return Choice(
             self._area(place), text, options, lambda: getattr(self.player.settings, name),
             lambda value: self.change(**{name: value}), hint=hint,

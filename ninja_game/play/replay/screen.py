@@ -16,8 +16,9 @@ from ninja_game.play.clipboard import copy_link
 from ninja_game.play.clock import RunClock
 from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.level.hud import Hud
+from ninja_game.play.replay.bar import ReplayBar
 from ninja_game.play.replay.film import FilmJob
-from ninja_game.play.replay.playback import Ghost, Playback, ReplayBar
+from ninja_game.play.replay.playback import Ghost, Playback
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.overlays import Overlays
 from ninja_game.sim.rules import TICK_MS, TICKS_PER_SECOND

@@ -6,7 +6,7 @@ Positions and sizes are logical px of the 792 x 600 stage. A widget answers ``Tr
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TypeVar
+from typing import Generic, TypeVar
 
 import pygame
 
@@ -123,12 +123,12 @@ class Button(Widget):
         theme.text(surface, text, x, y - self.size / 2, size=self.size, colour=colour, align="centre", bold=focused)
 
 
-class Choice(Widget):
+class Choice(Widget, Generic[T]):
     """One of several values: left and right change it, confirm takes the next. A switch has the values on and off."""
 
     def __init__(
-        self, area: Area, text: str, options: Sequence[tuple[str, object]], get: Callable[[], object],
-        put: Callable[[object], object], *, hint: str = "",
+        self, area: Area, text: str, options: Sequence[tuple[str, T]], get: Callable[[], T],
+        put: Callable[[T], object], *, hint: str = "",
     ) -> None:  # fmt: skip
         super().__init__(area, hint=hint)
         self.text = text

@@ -88,18 +88,6 @@ def run_world(
 
 
 @entry_point
-def count_ticks(levels: Sequence[TileMap], worlds: Sequence[World], index: int, inputs: Sequence[int]) -> int:
-    """Run world ``index`` in level ``index`` like ``run_world``, without a record: only the number of ticks run."""
-    level = levels[index]
-    w = worlds[index]
-    for tick in range(len(inputs)):
-        step(level, w, int(inputs[tick]))
-        if w.outcome:
-            return tick + 1
-    return len(inputs)
-
-
-@entry_point
 def trace_world(
     levels: Sequence[TileMap],
     number: int,

@@ -197,9 +197,9 @@ class SearchTab(Tab):
     def __init__(self, editor: TasEditor) -> None:
         super().__init__(editor)
         self.span: Span = (0, 0)
-        self.order: object = EARLIEST
-        self.rest: object = False
-        self.method: object = "auto"
+        self.order = EARLIEST
+        self.rest = False
+        self.method = "auto"
         self.results: SpanResults | None = None
         self._preset: tuple[Callable[[SearchedSpan], SpanGoal], SpanGoal] | None = None
         self.found: tuple[Found, ...] = ()
@@ -276,11 +276,11 @@ class SearchTab(Tab):
         self.rest = wanted.rest
         self.wants = self.goal
 
-    def _put_order(self, order: object) -> None:
+    def _put_order(self, order: str) -> None:
         self.order = order
-        self.rest = bool(self.rest) and order == EARLIEST
+        self.rest = self.rest and order == EARLIEST
 
-    def _put_rest(self, rest: object) -> None:
+    def _put_rest(self, rest: bool) -> None:
         self.rest = rest
         self.order = EARLIEST if rest else self.order
 
@@ -291,7 +291,7 @@ class SearchTab(Tab):
         measure = "" if self.order == EARLIEST else self.measure.text.strip() or "speed"
         return SpanTask(
             session.about.level, session.track.inputs, first, last, self.goal.text.strip(), measure,
-            least=self.order == SMALLEST, rest=bool(self.rest), body=session.about.body,
+            least=self.order == SMALLEST, rest=self.rest, body=session.about.body,
         )  # fmt: skip
 
     # --- the search ---
@@ -305,7 +305,7 @@ class SearchTab(Tab):
             if not (task.goal or task.measure or task.rest):
                 raise ArgumentError("Say what for: a goal, or a value that is to be the greatest or smallest")
             every = fewest_ticks(task.length) if self.method == "exhaustive" else 1
-            self.results = SpanResults(self.editor, task, str(self.method), every)
+            self.results = SpanResults(self.editor, task, self.method, every)
         except FormulaError as error:
             self.editor.app.notify(what_is_wrong(error))
         except NinjaGameError as error:
