@@ -14,17 +14,25 @@ from inspect import signature
 from itertools import product
 from pathlib import Path
 from pkgutil import walk_packages
+from random import Random
 from typing import Any
 from unittest.mock import patch
 
 import pygame
 
 from ninja_game import play
+from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.ui.theme import PALETTES, Palette
 from ninja_game.play.view.ninja import figure
 from ninja_game.play.view.ninja.figure import DANCES, Pose, air_pose, paint_figure, run_pose
-from ninja_game.play.view.sprites.drawing import Drawing
+from ninja_game.play.view.ninja.ninja_animation import draw_ragdoll
+from ninja_game.play.view.ninja.ragdoll import Ragdoll
+from ninja_game.play.view.sprites.drawing import Drawing, DrawTarget, SpriteBook
 from ninja_game.play.view.sprites.sketch import Sketch
+from ninja_game.sim.kinds import NINJA
+from ninja_game.sim.level import Level, ObjectSpec
+from ninja_game.sim.states import BULLET, EXPLOSIVE
+from ninja_game.simulation import Simulation
 from tests.support.draw_log import px, role_of
 from tests.support.recorded import hold_against
 
@@ -103,5 +111,18 @@ def lines_of_the_ninja() -> Iterator[str]:
     yield from painted(heap, 1, (0.0, 0.0), banded=True)
 
 
+def lines_of_the_corpse() -> Iterator[str]:
+    target = DrawTarget(Canvas((792, 600)), CLASSIC, SpriteBook(1, CLASSIC))
+    run = Simulation(Level(objects=(ObjectSpec(NINJA, (396.0, 300.0)),)))
+    at = figure.STAND.moved(396, 300)
+    for kind, facing in ((BULLET, 1), (EXPLOSIVE, -1)):
+        doll = Ragdoll(at, at, (1.0, -1.0), facing, Random(3), lambda *_: None)
+        doll.shove(kind, (6.0, -3.0), 296, 300)
+        for _ in range(12):
+            doll.step(run.tiles, run.world)
+        yield f"corpse facing {facing}, in pieces {doll.dismembered}"
+        yield from shapes(lambda _, palette, doll: draw_ragdoll(target, doll, 0.5, palette.ninja), CLASSIC, doll)
+
+
 def test_every_drawing_is_as_recorded() -> None:
-    hold_against(GOLDEN, [*lines_of_drawings(), *lines_of_the_ninja()])
+    hold_against(GOLDEN, [*lines_of_drawings(), *lines_of_the_ninja(), *lines_of_the_corpse()])
