@@ -21,7 +21,7 @@ READS = re.compile(
 OURS = {
     "__main__": "opens what was closed, to lead nowhere", "runtime": "asks what the system can do",
     "cli/desktop": "starts programs of the system, and reads nothing of what they say",
-    "files/locking": "holds locks", "files/writing": "writes", "play/audio/player": "silences a library",
+    "files/locking": "holds locks", "files/writing": "writes", "ui/audio/player": "silences a library",
     "play/lab/figure": "the program's own figures", "play/menus/help": "its own help",
     "learn/levels/curriculum": "its own levels", "sim/memory/declare": "its own code, made from its own rules",
     "web/site/compiling": "its own code", "web/site/game_archive": "its own files",

@@ -214,8 +214,8 @@ def draw(picture: Path, level: Level, paths: Sequence[tuple[str, Any]], keep: Se
     os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
     from ninja_game.files.writing import write_atomically
     from ninja_game.play.replay.paths import paths_picture
-    from ninja_game.play.ui.theme import PALETTES
     from ninja_game.play.window import png_of
+    from ninja_game.ui.theme import PALETTES
 
     surface = paths_picture(level, paths, PALETTES["classic"], 1584)
     write_atomically(picture, png_of(surface), keep=keep)

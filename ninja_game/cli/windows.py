@@ -69,9 +69,15 @@ def play(
         raise click.UsageError("--level is the level of what --replay names")
     path = next((str(each) for each in (level, level_path) if each is not None), None)
     from ninja_game.play.main import main
+    from ninja_game.tas_editor.opening import open_tas_editor
 
     replay_path = str(replay) if replay is not None else None
-    ctx.exit(main(path, body=body, replay_path=replay_path, practice=practice, record=record, **window))
+    ctx.exit(
+        main(
+            path, body=body, replay_path=replay_path, practice=practice, record=record, tas_editor=open_tas_editor,
+            **window,
+        )
+    )  # fmt: skip
 
 
 @click.command()
@@ -99,8 +105,9 @@ def edit(ctx: click.Context, /, level: Path | None, record: int, **window: Any) 
         source = Source(source.draft)
     from ninja_game.play.editor.screen import EditorScreen
     from ninja_game.play.main import run_app
+    from ninja_game.tas_editor.opening import open_tas_editor
 
-    ctx.exit(run_app(lambda app: EditorScreen(app, source), **window))
+    ctx.exit(run_app(lambda app: EditorScreen(app, source), tas_editor=open_tas_editor, **window))
 
 
 @click.command()
@@ -137,8 +144,8 @@ def tas(
     opened = open_run(file, record=record, level=level_given(level_path))
     others = [run for path in against for run in runs_of_level(path, opened.recording)]
     from ninja_game.play.main import run_app
-    from ninja_game.play.tas.opening import OpeningScreen
-    from ninja_game.play.tas.screen import TasScreen
+    from ninja_game.tas_editor.opening import OpeningScreen, open_tas_editor
+    from ninja_game.tas_editor.screen import TasScreen
 
     def editor(app: App) -> TasScreen:
         screen = TasScreen(app, opened, others)
@@ -149,7 +156,7 @@ def tas(
         # So many pictures are pictures of the TAS editor.
         return editor(app) if window["frames"] else OpeningScreen(app, opened.recording, lambda: editor(app))
 
-    ctx.exit(run_app(opening, **window))
+    ctx.exit(run_app(opening, tas_editor=open_tas_editor, **window))
 
 
 FIGURES = ("cells", "edges", "projection", "grids", "nine-cells", "pairs", "bullets", "rays", "drones", "tick")

@@ -32,8 +32,8 @@ class EpisodePicture:
     def __init__(self, level: Level, body: Body, size: tuple[int, int], *, window: bool = False) -> None:
         import pygame
 
-        from ninja_game.play.ui.canvas import Canvas
-        from ninja_game.play.view.level_view import OffscreenContext
+        from ninja_game.ui.canvas import Canvas
+        from ninja_game.view.level_view import OffscreenContext
 
         self._pygame = pygame
         self._canvas = Canvas
@@ -49,7 +49,7 @@ class EpisodePicture:
         self.begin(level, body)
 
     def begin(self, level: Level, body: Body) -> None:
-        from ninja_game.play.view.level_view import LevelView
+        from ninja_game.view.level_view import LevelView
 
         self._simulation = Simulation(level, body=body)
         self._view = LevelView(self._context, self._simulation, audible=False)

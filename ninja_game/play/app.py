@@ -13,16 +13,16 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import data_folder, export_path
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
-from ninja_game.play.audio.player import AudioOutput, AudioPlayer
-from ninja_game.play.input.bindings import Bindings, InputEvent
-from ninja_game.play.ui.canvas import HEIGHT, WIDTH, Canvas
-from ninja_game.play.ui.spreadsheet import draw_spreadsheet
-from ninja_game.play.ui.theme import PALETTES, Area, Theme, palette_named
 from ninja_game.play.window import TITLE, Window, save_picture
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import FASTEST_TICK_GAIN
 from ninja_game.player.settings import Settings
 from ninja_game.sim.rules import TICK_MS
+from ninja_game.ui.audio.player import AudioOutput, AudioPlayer
+from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
+from ninja_game.ui.input.bindings import Bindings, InputEvent
+from ninja_game.ui.spreadsheet import draw_spreadsheet
+from ninja_game.ui.theme import PALETTES, Area, Theme, palette_named
 
 
 class Screen:

@@ -11,9 +11,9 @@ import pygame
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.writing import write_atomically
-from ninja_game.play.ui.canvas import HEIGHT, WIDTH
-from ninja_game.play.ui.theme import PALETTES
 from ninja_game.player.settings import Settings
+from ninja_game.ui.canvas import HEIGHT, WIDTH
+from ninja_game.ui.theme import PALETTES
 
 TITLE = "ninja-game"
 """What the window is called."""
@@ -117,7 +117,7 @@ def fitting_size(wished: tuple[int, int] = (0, 0)) -> tuple[int, int]:
 
 def icon(size: int, *, corner: float = 1 / 6) -> pygame.Surface:
     """The running ninja, as the game draws it. ``size``: px; ``corner``: radius of the corners, as a share of it."""
-    from ninja_game.play.view.ninja.figure import ninja_sprite, run_pose
+    from ninja_game.view.ninja.figure import ninja_sprite, run_pose
 
     palette = PALETTES["classic"]
     picture = pygame.Surface((size, size), pygame.SRCALPHA)

@@ -41,7 +41,7 @@ _SITE = re.compile(r"https?://[!-~]+")
 _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 InputNames = Mapping[str, tuple[str, ...]]
-"""Action to the names of its inputs (``play/input/bindings.py``)."""
+"""Action to the names of its inputs (``ui/input/bindings.py``)."""
 
 
 @dataclass(frozen=True)

@@ -15,13 +15,13 @@ from ninja_game.budget import PAGE_BUDGET, TURN_WORK
 from ninja_game.errors import BudgetError, NinjaGameError
 from ninja_game.formats.links.fragment import is_link, watched
 from ninja_game.play.app import App
-from ninja_game.play.input.keys import scancode_named
 from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.main import first_screen, watch_screen
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.settings import RULES
+from ninja_game.ui.input.keys import scancode_named
 
 
 class PageServices:

@@ -13,6 +13,7 @@ from click.testing import CliRunner, Result
 
 from ninja_game.cli.main import cli
 from ninja_game.files.user_folder import bundled_levels
+from ninja_game.tas_editor.opening import open_tas_editor
 
 
 @pytest.fixture
@@ -37,6 +38,7 @@ def test_without_a_level_the_menu_opens(calls: list[dict[str, Any]]) -> None:
     assert play().exit_code == 0
     assert calls[0]["level_path"] is None
     assert calls[0]["body"] == "circle"
+    assert calls[0]["tas_editor"] is open_tas_editor
 
 
 def test_options_reach_the_window(calls: list[dict[str, Any]], tmp_path: Path) -> None:

@@ -12,14 +12,14 @@ from ninja_game.files.user_folder import export_path
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
-from ninja_game.play.app import App, BossScreen, Screen, build_app
-from ninja_game.play.audio.player import AudioOutput
+from ninja_game.play.app import App, BossScreen, build_app
 from ninja_game.play.level.screen import PausePanel
-from ninja_game.play.main import first_screen, main, run_app
+from ninja_game.play.main import first_screen, main
 from ninja_game.play.menus.replays import watch_recording
 from ninja_game.play.window import Window
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.settings import Settings
+from ninja_game.ui.audio.player import AudioOutput
 from tests.support.menu_driver import MenuDriver
 from tests.support.samples import NO_NINJA
 from tests.support.scripted import frames, scripted_app, tap
@@ -185,19 +185,6 @@ def test_screenshot_to_a_place_that_is_not_there_names_it(tmp_path: Path, monkey
     monkeypatch.setenv("NINJA_GAME_HOME", str(tmp_path / "home"))
     with pytest.raises(NinjaGameError, match=r"nowhere/a\.png: the picture cannot be written"):
         main(str(LEVEL), frames=1, screenshot=str(tmp_path / "nowhere" / "a.png"))
-
-
-def test_the_program_has_a_tas_editor(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("NINJA_GAME_HOME", str(tmp_path))
-    programs: list[App] = []
-
-    def first(app: App) -> Screen:
-        programs.append(app)
-        return BossScreen(app)
-
-    run_app(first, frames=1)
-    (app,) = programs
-    assert app.tas_editor is not None
 
 
 def test_no_display_is_said(monkeypatch: pytest.MonkeyPatch) -> None:

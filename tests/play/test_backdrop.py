@@ -9,15 +9,15 @@ import pygame
 import pytest
 
 from ninja_game.formats.load import load_replays
-from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.theme import CLASSIC
-from ninja_game.play.view.sprites import moving_sprites
-from ninja_game.play.view.sprites.backdrop import Backdrop
-from ninja_game.play.view.sprites.drawing import DrawTarget, SpriteBook
-from ninja_game.play.view.sprites.object_animation import ObjectAnimation
 from ninja_game.sim.events import EXIT_OPENED
 from ninja_game.sim.kinds import SWITCH
 from ninja_game.simulation import Simulation
+from ninja_game.ui.canvas import Canvas
+from ninja_game.ui.theme import CLASSIC
+from ninja_game.view.sprites import moving_sprites
+from ninja_game.view.sprites.backdrop import Backdrop
+from ninja_game.view.sprites.drawing import DrawTarget, SpriteBook
+from ninja_game.view.sprites.object_animation import ObjectAnimation
 from tests.support.own_pack import PACK
 
 REPLAYS = sorted(PACK.glob("certificates/*.replay.txt"))

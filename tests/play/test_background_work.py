@@ -16,14 +16,14 @@ from ninja_game.formats.replay.text import Replay
 from ninja_game.play.editor import session as editor_session
 from ninja_game.play.replay import film
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.play.tas import opening
-from ninja_game.play.tas.tabs import lead_tab
 from ninja_game.runtime import NewestJob
 from ninja_game.search.formula import background
 from ninja_game.search.formula.background import SpanSearch
 from ninja_game.search.formula.task import SpanTask
 from ninja_game.search.task import Task
 from ninja_game.sim.level import Level
+from ninja_game.tas_editor import opening
+from ninja_game.tas_editor.tabs import lead_tab
 from tests.support.level_maker import ROOM, Maker
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK

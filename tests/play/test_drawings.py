@@ -20,19 +20,19 @@ from unittest.mock import patch
 
 import pygame
 
-from ninja_game import play
-from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.theme import PALETTES, Palette
-from ninja_game.play.view.ninja import figure
-from ninja_game.play.view.ninja.figure import DANCES, Pose, air_pose, paint_figure, run_pose
-from ninja_game.play.view.ninja.ninja_animation import draw_ragdoll
-from ninja_game.play.view.ninja.ragdoll import Ragdoll
-from ninja_game.play.view.sprites.drawing import Drawing, DrawTarget, SpriteBook
-from ninja_game.play.view.sprites.sketch import Sketch
+from ninja_game import play, view
 from ninja_game.sim.kinds import NINJA
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.states import BULLET, EXPLOSIVE
 from ninja_game.simulation import Simulation
+from ninja_game.ui.canvas import Canvas
+from ninja_game.ui.theme import PALETTES, Palette
+from ninja_game.view.ninja import figure
+from ninja_game.view.ninja.figure import DANCES, Pose, air_pose, paint_figure, run_pose
+from ninja_game.view.ninja.ninja_animation import draw_ragdoll
+from ninja_game.view.ninja.ragdoll import Ragdoll
+from ninja_game.view.sprites.drawing import Drawing, DrawTarget, SpriteBook
+from ninja_game.view.sprites.sketch import Sketch
 from tests.support.draw_log import px, role_of
 from tests.support.recorded import hold_against
 
@@ -70,7 +70,10 @@ def shapes(paint: Callable[..., None], palette: Palette, *values: Any) -> list[s
 
 def drawings() -> Iterator[tuple[str, Drawing[Any]]]:
     """All drawings of the front end by name."""
-    for module in walk_packages(play.__path__, "ninja_game.play."):
+    for module in (
+        *walk_packages(play.__path__, "ninja_game.play."),
+        *walk_packages(view.__path__, "ninja_game.view."),
+    ):
         for each in vars(import_module(module.name)).values():
             if isinstance(each, Drawing) and each.paint.__module__ == module.name:
                 yield each.paint.__name__, each

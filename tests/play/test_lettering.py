@@ -7,10 +7,10 @@ import time
 import pygame
 import pytest
 
-from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.glyphs import GLYPHS
-from ninja_game.play.ui.lettering import Lettering, StrokeFont, glyph
-from ninja_game.play.ui.theme import CLASSIC, Theme, wrapped
+from ninja_game.ui.canvas import Canvas
+from ninja_game.ui.glyphs import GLYPHS
+from ninja_game.ui.lettering import Lettering, StrokeFont, glyph
+from ninja_game.ui.theme import CLASSIC, Theme, wrapped
 
 
 @pytest.fixture(autouse=True)

@@ -12,11 +12,11 @@ from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App, Screen
-from ninja_game.play.input.bindings import ACTIONS
 from ninja_game.play.level.hud import hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, Phase
 from ninja_game.play.level.screen import LevelScreen, PausePanel
 from ninja_game.player.playthrough import EpisodeRun, FileRun
+from ninja_game.ui.input.bindings import ACTIONS
 from tests.support.scripted import (
     ScriptedControls,
     frames,

@@ -6,13 +6,13 @@ import pygame
 import pytest
 
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.play.ui.theme import PALETTES
-from ninja_game.play.view.level_view import LevelView, OffscreenContext
-from ninja_game.play.view.overlays import OVERLAY_ACTIONS, Overlays
-from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.sim.death import kill
 from ninja_game.sim.states import EXPLOSIVE
 from ninja_game.simulation import Simulation
+from ninja_game.ui.theme import PALETTES
+from ninja_game.view.level_view import LevelView, OffscreenContext
+from ninja_game.view.overlays import OVERLAY_ACTIONS, Overlays
+from ninja_game.view.sprites.thumbnail import thumbnail
 
 TILES = "0" * 713
 NINJA = "5^100,560"

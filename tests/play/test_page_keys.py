@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ninja_game.play.input.bindings import ACTIONS, PAGE_KEYS
-from ninja_game.play.input.keys import scancode_named
+from ninja_game.ui.input.bindings import ACTIONS, PAGE_KEYS
+from ninja_game.ui.input.keys import scancode_named
 
 
 def test_no_key_of_the_page_is_one_of_the_browsers_or_means_two_things() -> None:

@@ -6,11 +6,11 @@ import pygame
 import pytest
 
 from ninja_game.play.level.hud import trough
-from ninja_game.play.ui.theme import CLASSIC, PALETTES, ROLES, Palette, palette_named
-from ninja_game.play.view.effects import particles
-from ninja_game.play.view.sprites import moving_sprites as moving, static_sprites as static
-from ninja_game.play.view.sprites.drawing import Drawing, SpriteBook, SpriteKey
 from ninja_game.player.settings import DEFAULT_PALETTE, Settings
+from ninja_game.ui.theme import CLASSIC, PALETTES, ROLES, Palette, palette_named
+from ninja_game.view.effects import particles
+from ninja_game.view.sprites import moving_sprites as moving, static_sprites as static
+from ninja_game.view.sprites.drawing import Drawing, SpriteBook, SpriteKey
 
 AT_REST = (
     static.mine(),

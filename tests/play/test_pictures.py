@@ -15,15 +15,15 @@ import pytest
 
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.play.lab.screen import export_figure
-from ninja_game.play.ui.theme import PALETTES
-from ninja_game.play.view import level_view
-from ninja_game.play.view.level_view import LevelView, OffscreenContext
-from ninja_game.play.view.overlays import OVERLAY_ACTIONS, Overlays
-from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.player.settings import Settings
 from ninja_game.sim.death import kill
 from ninja_game.sim.states import ELECTRIC, EXPLOSIVE
 from ninja_game.simulation import Simulation
+from ninja_game.ui.theme import PALETTES
+from ninja_game.view import level_view
+from ninja_game.view.level_view import LevelView, OffscreenContext
+from ninja_game.view.overlays import OVERLAY_ACTIONS, Overlays
+from ninja_game.view.sprites.thumbnail import thumbnail
 from tests.support.own_pack import PACK
 from tests.support.recorded import ACCEPT
 from tools.draw import how_it_works, screens

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from random import Random
 
-from ninja_game.play.view.ninja.figure import STAND
-from ninja_game.play.view.ninja.ragdoll import STICKS, Ragdoll
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.states import BULLET, EXPLOSIVE
 from ninja_game.simulation import Simulation
+from ninja_game.view.ninja.figure import STAND
+from ninja_game.view.ninja.ragdoll import STICKS, Ragdoll
 
 
 def cave(tile: int = 0) -> Simulation:

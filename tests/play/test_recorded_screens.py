@@ -21,12 +21,12 @@ GOLDEN = Path(__file__).parent / "golden"
 NAMES = sorted(f"{path.parent.name}/{path.stem}" for path in GOLDEN.glob("*screens/*.txt"))
 DRAWS = re.compile(r"_?(draw|paint)(_|$)")
 NOT_SHOWN = {
-    "lab/figure.py: Figure.draw": "its figures do",
-    "app.py: Screen.draw": "its screens do",
-    "workspace/part.py: Part.paint": "its parts do",
+    "play/lab/figure.py: Figure.draw": "its figures do",
+    "play/app.py: Screen.draw": "its screens do",
+    "play/workspace/part.py: Part.paint": "its parts do",
     "ui/widgets.py: Widget.draw": "its widgets do",
-    "replay/paths.py: _draw_speeds": "of the pictures that `compare` writes",
-    "tas/roll/part.py: RollMouse._paint": "paints keys with the mouse, not a picture",
+    "play/replay/paths.py: _draw_speeds": "of the pictures that `compare` writes",
+    "tas_editor/roll/part.py: RollMouse._paint": "paints keys with the mouse, not a picture",
     "view/overlays.py: _paint_edges": "kept from the first picture on; test_pictures.py shows it",
     "view/overlays.py: _paint_grid": "kept from the first picture on; test_pictures.py shows it",
 }
@@ -51,13 +51,14 @@ def screens(tmp_path_factory: pytest.TempPathFactory, logs: tuple[DrawLog, TasLo
 
 def drawing_functions() -> Iterator[tuple[str, CodeType]]:
     """All functions and methods of the front end that draw, by file and name."""
-    for path in sorted((ROOT / "ninja_game" / "play").rglob("*.py")):
+    rooms = ("play", "tas_editor", "ui", "view")
+    for path in sorted(path for room in rooms for path in (ROOT / "ninja_game" / room).rglob("*.py")):
         found = [compile(path.read_text("utf-8"), str(path), "exec")]
         while found:
             code = found.pop()
             found += [each for each in code.co_consts if isinstance(each, CodeType)]
             if DRAWS.match(code.co_name):
-                yield f"{path.relative_to(ROOT / 'ninja_game' / 'play')}: {code.co_qualname}", code
+                yield f"{path.relative_to(ROOT / 'ninja_game')}: {code.co_qualname}", code
 
 
 def test_every_function_that_draws_is_shown_by_some_screen(

@@ -16,15 +16,15 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
 from ninja_game.play.app import App
-from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.replay import playback
 from ninja_game.play.replay.film import Film, write_film
 from ninja_game.play.replay.playback import Playback
 from ninja_game.play.replay.screen import SHOWN_AFTER_END, SPEEDS, ReplayScreen
-from ninja_game.play.ui.theme import Theme
 from ninja_game.runs import save_states
 from ninja_game.sim.level import Level
 from ninja_game.simulation import Simulation
+from ninja_game.ui.input.bindings import InputEvent
+from ninja_game.ui.theme import Theme
 from tests.support.heavy import heavy_level
 from tests.support.own_pack import PACK
 from tests.support.page_scenes import settle

@@ -12,7 +12,11 @@ import pygame
 import pytest
 
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.play.audio.player import (
+from ninja_game.sim import states
+from ninja_game.sim.events import DIED, EVENT_NAMES
+from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER
+from ninja_game.simulation import Simulation
+from ninja_game.ui.audio.player import (
     BY_DEATH,
     BY_EVENT,
     CORPSE,
@@ -22,10 +26,6 @@ from ninja_game.play.audio.player import (
     _has_loop,
     loop_levels,
 )
-from ninja_game.sim import states
-from ninja_game.sim.events import DIED, EVENT_NAMES
-from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER
-from ninja_game.simulation import Simulation
 from tests.support.recorded import hold_against
 from tools.make_sounds import RATE, RECIPES, samples
 

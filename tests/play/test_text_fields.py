@@ -8,9 +8,9 @@ from pathlib import Path
 import pygame
 import pytest
 
-from ninja_game.play.input.keys import SCANCODES
 from ninja_game.play.menus.panels import FormPanel
-from ninja_game.play.ui.text_entry import EditedText, TextEntry
+from ninja_game.ui.input.keys import SCANCODES
+from ninja_game.ui.text_entry import EditedText, TextEntry
 from tests.support.menu_driver import MenuDriver
 
 CTRL, SHIFT, ALT = pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT, pygame.KMOD_RALT

@@ -7,14 +7,14 @@ from typing import NamedTuple
 import pygame
 import pytest
 
-from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.theme import PALETTES
-from ninja_game.play.view.sprites.backdrop import Backdrop
-from ninja_game.play.view.sprites.drawing import SpriteBook
-from ninja_game.play.view.sprites.tile_sheet import tile_picture
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.simulation import Simulation
+from ninja_game.ui.canvas import Canvas
+from ninja_game.ui.theme import PALETTES
+from ninja_game.view.sprites.backdrop import Backdrop
+from ninja_game.view.sprites.drawing import SpriteBook
+from ninja_game.view.sprites.tile_sheet import tile_picture
 
 CLASSIC = PALETTES["classic"]
 

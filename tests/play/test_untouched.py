@@ -9,9 +9,9 @@ import pytest
 from ninja_game.formats.load import load_replays
 from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
-from ninja_game.play.view.level_view import LevelView, OffscreenContext
-from ninja_game.play.view.overlays import OVERLAY_ACTIONS
 from ninja_game.simulation import Simulation
+from ninja_game.view.level_view import LevelView, OffscreenContext
+from ninja_game.view.overlays import OVERLAY_ACTIONS
 from tests.support.own_pack import PACK
 from tests.support.scripted import frames, level_run, press, release, scripted_app, tap
 

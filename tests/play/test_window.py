@@ -15,8 +15,8 @@ from ninja_game.play.app import App, Screen, build_app
 from ninja_game.play.clock import RunClock
 from ninja_game.play.main import main
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.window import fitting_size
+from ninja_game.ui.canvas import Canvas
 from tests.support.scripted import frames, scripted_app
 
 ROOT = Path(__file__).parent.parent.parent

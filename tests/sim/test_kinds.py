@@ -15,9 +15,6 @@ import pytest
 from ninja_game.formats.ascii.legend import SYMBOLS
 from ninja_game.formats.ascii.object_forms import FORMS
 from ninja_game.levels.picture import COLOURS
-from ninja_game.play.audio.player import BY_DEATH, BY_EVENT, OTHER_DEATH
-from ninja_game.play.view.sprites.moving_sprites import PAINTERS
-from ninja_game.play.view.sprites.static_sprites import static_sprites_of
 from ninja_game.player.statistics import KILLERS
 from ninja_game.sim import events, kinds
 from ninja_game.sim.death import idle_event
@@ -27,6 +24,9 @@ from ninja_game.sim.memory.object_fields import Header, Object
 from ninja_game.sim.memory.plain import PlainWorlds
 from ninja_game.sim.objects import dispatch
 from ninja_game.sim.traces import is_traced, status_of
+from ninja_game.ui.audio.player import BY_DEATH, BY_EVENT, OTHER_DEATH
+from ninja_game.view.sprites.moving_sprites import PAINTERS
+from ninja_game.view.sprites.static_sprites import static_sprites_of
 from tests.support.crowded import crowded_inputs, crowded_level
 from tests.support.own_fields import own_fields_only
 

@@ -17,11 +17,11 @@ import pygame
 
 from ninja_game.play.editor.view import EditorView, Overlay
 from ninja_game.play.menus.thumbnails import Thumbnails
-from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.lettering import Lettering
-from ninja_game.play.ui.theme import ROLES, Palette
-from ninja_game.play.view.sprites.backdrop import Backdrop
-from ninja_game.play.view.sprites.drawing import DrawTarget, SpriteKey
+from ninja_game.ui.canvas import Canvas
+from ninja_game.ui.lettering import Lettering
+from ninja_game.ui.theme import ROLES, Palette
+from ninja_game.view.sprites.backdrop import Backdrop
+from ninja_game.view.sprites.drawing import DrawTarget, SpriteKey
 
 
 def px(*values: float) -> str:

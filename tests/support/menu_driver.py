@@ -13,14 +13,14 @@ import pygame
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.play.app import Screen, build_app
-from ninja_game.play.input.bindings import Bindings
-from ninja_game.play.input.keys import SCANCODES
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.panels import FormPanel
 from ninja_game.play.menus.settings import PAGES, SettingsScreen
-from ninja_game.play.tas.opening import open_tas_editor
-from ninja_game.play.ui.widgets import Widget
 from ninja_game.player.player_data import PlayerData
+from ninja_game.tas_editor.opening import open_tas_editor
+from ninja_game.ui.input.bindings import Bindings
+from ninja_game.ui.input.keys import SCANCODES
+from ninja_game.ui.widgets import Widget
 from tests.support.waiting import LONGEST
 
 FRAME_MS = 25

@@ -23,8 +23,8 @@ from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.records import RecordsScreen
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.play.view.overlays import OVERLAY_ACTIONS
 from ninja_game.player.catalogue import Entry
+from ninja_game.view.overlays import OVERLAY_ACTIONS
 
 Scene = tuple[str, str, Callable[[App], object]]
 """Name, palette, what is shown."""

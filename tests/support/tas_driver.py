@@ -9,9 +9,9 @@ import pygame
 
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import build_app
-from ninja_game.play.tas.screen import TasScreen
 from ninja_game.simulation import Simulation
 from ninja_game.tas.files import open_run
+from ninja_game.tas_editor.screen import TasScreen
 from tests.support.menu_driver import MenuDriver, ScriptedKeys
 
 

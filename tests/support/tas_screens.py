@@ -11,13 +11,13 @@ from unittest.mock import Mock, patch
 import numpy as np
 import pygame
 
-from ninja_game.play.tas.level import paths
-from ninja_game.play.tas.level.part import LevelPart
-from ninja_game.play.tas.opening import OpeningScreen
-from ninja_game.play.tas.roll.rows import Digits, RowSheet
-from ninja_game.play.tas.tabs.lead_tab import LeadTab
-from ninja_game.play.ui.lettering import Lettering
 from ninja_game.search.formula.task import Found, SpanTask
+from ninja_game.tas_editor.level import paths
+from ninja_game.tas_editor.level.part import LevelPart
+from ninja_game.tas_editor.opening import OpeningScreen
+from ninja_game.tas_editor.roll.rows import Digits, RowSheet
+from ninja_game.tas_editor.tabs.lead_tab import LeadTab
+from ninja_game.ui.lettering import Lettering
 from tests.support.draw_log import DrawLog, Note, px
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK
@@ -142,7 +142,7 @@ class FixedSearch:
 def tas_editor(driver: MenuDriver) -> Iterator[str]:
     """The names of the states, one after the other; in the end the screen below is shown again."""
     run = Path(copy(RUN, driver.player.folder / "locksmith.replay.txt"))
-    with patch("ninja_game.play.tas.tabs.search_tab.SpanSearch", FixedSearch):
+    with patch("ninja_game.tas_editor.tabs.search_tab.SpanSearch", FixedSearch):
         at = TasDriver.over(driver, run)
         yield "tas"
         yield from _edits(at)

@@ -8,7 +8,7 @@ from typing import Any
 import pygame
 import pytest
 
-from ninja_game.play.input.keys import SCANCODES, key_name
+from ninja_game.ui.input.keys import SCANCODES, key_name
 from tests.support.visitor import eventually
 
 EVENTS = """

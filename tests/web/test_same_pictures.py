@@ -11,7 +11,7 @@ import pytest
 from numpy.typing import NDArray
 
 from ninja_game.play.app import App, build_app
-from ninja_game.play.ui.theme import PALETTES
+from ninja_game.ui.theme import PALETTES
 from tests.support.page_scenes import Scene, scenes, show_scene
 from tests.support.web_page import BUSY, SCENES, SIZE, run_in
 from tools.measure.busy import BusyRun, Restless, busy_level

@@ -13,10 +13,10 @@ from pathlib import Path
 
 import pygame
 
-from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.theme import PALETTES, Palette, Theme
-from ninja_game.play.view.effects import particles
-from ninja_game.play.view.ninja.figure import (
+from ninja_game.ui.canvas import Canvas
+from ninja_game.ui.theme import PALETTES, Palette, Theme
+from ninja_game.view.effects import particles
+from ninja_game.view.ninja.figure import (
     DANCES,
     FALL,
     FLOAT,
@@ -29,8 +29,8 @@ from ninja_game.play.view.ninja.figure import (
     ninja_sprite,
     run_pose,
 )
-from ninja_game.play.view.sprites import moving_sprites as moving, static_sprites as static
-from ninja_game.play.view.sprites.drawing import SpriteBook, SpriteKey
+from ninja_game.view.sprites import moving_sprites as moving, static_sprites as static
+from ninja_game.view.sprites.drawing import SpriteBook, SpriteKey
 from tests.support.game_screens import run_tour
 from tests.support.menu_driver import MenuDriver
 from tools import ROOT

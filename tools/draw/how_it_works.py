@@ -7,7 +7,7 @@ from xml.sax.saxutils import escape
 
 from ninja_game.formats.ascii.legend import TILE_FAMILIES, TILE_OF_CHAR
 from ninja_game.play.lab.screen import export_figure
-from ninja_game.play.view.sprites.tile_sheet import outline
+from ninja_game.view.sprites.tile_sheet import outline
 from tools import ROOT
 
 PICTURES = ROOT / "docs" / "pictures"

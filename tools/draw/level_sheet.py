@@ -18,11 +18,11 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.play.replay.paths import draw_path
-from ninja_game.play.ui.canvas import WIDTH, Canvas
-from ninja_game.play.ui.theme import PALETTES
-from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.runs.run import run_level
 from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.ui.canvas import WIDTH, Canvas
+from ninja_game.ui.theme import PALETTES
+from ninja_game.view.sprites.thumbnail import thumbnail
 from tools.draw.contact_sheet import MARGIN, grid
 
 ROUTES = {"exit": pygame.Color(220, 40, 40), "gold": pygame.Color(235, 180, 0)}

@@ -14,8 +14,8 @@ from ninja_game.editor.files import open_source
 from ninja_game.formats.load import load_replays
 from ninja_game.play.replay.paths import paths_picture
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.play.ui.theme import PALETTES
 from ninja_game.runs.compare import run_splits
+from ninja_game.ui.theme import PALETTES
 from tests.support.level_maker import Maker, examine
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK, instead_of_ours

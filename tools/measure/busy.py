@@ -7,13 +7,13 @@ from random import Random
 
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.play.app import App
-from ninja_game.play.input.bindings import Bindings
 from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import LevelRun
 from ninja_game.sim import kinds
 from ninja_game.sim.level import Level, ObjectSpec
+from ninja_game.ui.input.bindings import Bindings
 
 
 def busy_level() -> Level:

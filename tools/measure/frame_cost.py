@@ -20,10 +20,10 @@ from ninja_game.formats.load import load_levels
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
 from ninja_game.play.app import App, build_app
-from ninja_game.play.audio.player import AudioOutput
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.sim.level import Level
+from ninja_game.ui.audio.player import AudioOutput
 from tools.measure.busy import Restless, busy_level, busy_screen, go_on
 
 SIZE = (1584, 1200)

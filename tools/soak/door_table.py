@@ -40,8 +40,6 @@ from ninja_game.formats.recording import Recording, parse_replays, record_of
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.formats.tas_lines import write_celeste, write_libtas
 from ninja_game.levels.warnings import level_warnings
-from ninja_game.play.ui.lettering import StrokeFont
-from ninja_game.play.ui.text_entry import EditedText
 from ninja_game.player.backup import read_backup
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.settings import read_settings, write_changes
@@ -57,6 +55,8 @@ from ninja_game.tas import journal
 from ninja_game.tas.files import branches_path, inputs_of_text, open_run, replay_of_track, runs_of_level
 from ninja_game.tas.session import Session
 from ninja_game.tas.watch import parse_watch
+from ninja_game.ui.lettering import StrokeFont
+from ninja_game.ui.text_entry import EditedText
 from ninja_game.web.board.report import read_board
 from tests.support.samples import WALK, replay_of_walk
 from tools.soak.mutators import as_text

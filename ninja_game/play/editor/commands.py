@@ -26,9 +26,9 @@ from ninja_game.play.editor.view import EditorView
 from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.panels import FormPanel, Menu, nothing
-from ninja_game.play.ui.widgets import following
 from ninja_game.play.workspace.document import Action, DocumentCommands
 from ninja_game.player.catalogue import Entry
+from ninja_game.ui.widgets import following
 
 HELP = """\
 A first level: draw a floor with the left mouse button. Take the ninja from the objects at the right and click where \

@@ -11,19 +11,19 @@ import pygame
 from ninja_game.editor.draft import Cell, cell_of
 from ninja_game.editor.specs import BODY, points, word
 from ninja_game.errors import LevelError
-from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.theme import Palette
-from ninja_game.play.view.ninja.figure import REACH, STAND, paint_figure
-from ninja_game.play.view.sprites import static_sprites
-from ninja_game.play.view.sprites.drawing import DrawTarget, SpriteBook, SpriteKey, drawing, is_near
-from ninja_game.play.view.sprites.moving_sprites import draw_moving
-from ninja_game.play.view.sprites.object_animation import ObjectAnimation
-from ninja_game.play.view.sprites.sketch import Sketch
-from ninja_game.play.view.sprites.static_sprites import PlacedSprite, door_place, static_sprites_of
 from ninja_game.sim import kinds
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec, well_formed
 from ninja_game.sim.states import TRAP
 from ninja_game.simulation import Simulation
+from ninja_game.ui.canvas import Canvas
+from ninja_game.ui.theme import Palette
+from ninja_game.view.ninja.figure import REACH, STAND, paint_figure
+from ninja_game.view.sprites import static_sprites
+from ninja_game.view.sprites.drawing import DrawTarget, SpriteBook, SpriteKey, drawing, is_near
+from ninja_game.view.sprites.moving_sprites import draw_moving
+from ninja_game.view.sprites.object_animation import ObjectAnimation
+from ninja_game.view.sprites.sketch import Sketch
+from ninja_game.view.sprites.static_sprites import PlacedSprite, door_place, static_sprites_of
 
 _NINJA = ObjectSpec(kinds.NINJA, (36.0, 36.0))
 _TOGETHER = 1000

@@ -21,13 +21,13 @@ from ninja_game.editor.motion import TILE_IDS
 from ninja_game.editor.specs import BODY, points
 from ninja_game.editor.tools import EditorTools
 from ninja_game.play.editor.object_pictures import ObjectPictures
-from ninja_game.play.input.keys import key_label_of
-from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.theme import PALETTES, Area, Theme, inside
-from ninja_game.play.ui.widgets import Widget
-from ninja_game.play.view.sprites.drawing import DrawTarget, SpriteBook
-from ninja_game.play.view.sprites.tile_sheet import tile_picture
 from ninja_game.sim.level import ObjectSpec
+from ninja_game.ui.canvas import Canvas
+from ninja_game.ui.input.keys import key_label_of
+from ninja_game.ui.theme import PALETTES, Area, Theme, inside
+from ninja_game.ui.widgets import Widget
+from ninja_game.view.sprites.drawing import DrawTarget, SpriteBook
+from ninja_game.view.sprites.tile_sheet import tile_picture
 
 TILE, OBJECT, BLOCK = 17.0, 28.0, 42.5
 """Sides of the squares, and from one family of tiles to the next, px."""

@@ -18,11 +18,11 @@ from ninja_game.play.editor.controls import TABLE
 from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.view import LAYOUT, EditorView
-from ninja_game.play.ui.list_view import ListView
-from ninja_game.play.ui.text_entry import TextEntry
-from ninja_game.play.ui.theme import Area, Theme, wrapped
-from ninja_game.play.ui.widgets import Button, Choice, Label, Widget
 from ninja_game.play.workspace.part import Part
+from ninja_game.ui.list_view import ListView
+from ninja_game.ui.text_entry import TextEntry
+from ninja_game.ui.theme import Area, Theme, wrapped
+from ninja_game.ui.widgets import Button, Choice, Label, Widget
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

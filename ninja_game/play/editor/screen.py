@@ -16,12 +16,12 @@ from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.parts import FilePart, Findings, PalettePart, Properties, StatusLine, Toolbar
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.view import LAYOUT, EditorView
-from ninja_game.play.input.bindings import InputEvent
-from ninja_game.play.input.keys import chord
 from ninja_game.play.menus.menu_screen import DIRECTIONS
-from ninja_game.play.ui.text_entry import TextEntry
 from ninja_game.play.workspace.part import Part
 from ninja_game.play.workspace.screen import WorkspaceScreen
+from ninja_game.ui.input.bindings import InputEvent
+from ninja_game.ui.input.keys import chord
+from ninja_game.ui.text_entry import TextEntry
 
 
 class EditorScreen(WorkspaceScreen):

@@ -18,11 +18,11 @@ from ninja_game.levels.findings import Finding
 from ninja_game.levels.warnings import level_findings
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link, copy_text, pasted_text
-from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.play.window import save_picture
 from ninja_game.player.saving import keep_replay
 from ninja_game.runtime import NewestJob
 from ninja_game.sim.level import Level
+from ninja_game.view.sprites.thumbnail import thumbnail
 
 CHECK_SPACING = 0.1
 """Seconds from one examination of the level to the next, at least."""

@@ -18,15 +18,15 @@ from ninja_game.editor.draft import Draft
 from ninja_game.editor.specs import BODY, SWITCH, has_switch, points
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.object_pictures import ObjectPictures, ObjectSprites
-from ninja_game.play.ui.canvas import Canvas, Colour, Point
-from ninja_game.play.ui.theme import Palette
-from ninja_game.play.view.sprites.drawing import DrawTarget, SpriteBook, is_near
-from ninja_game.play.view.sprites.tile_sheet import TileSheet
 from ninja_game.sim import kinds
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 from ninja_game.sim.loader import grid_tiles
 from ninja_game.sim.memory.schema import TileMap
 from ninja_game.sim.rules import STRIDE
+from ninja_game.ui.canvas import Canvas, Colour, Point
+from ninja_game.ui.theme import Palette
+from ninja_game.view.sprites.drawing import DrawTarget, SpriteBook, is_near
+from ninja_game.view.sprites.tile_sheet import TileSheet
 
 _FRONT = {kinds.GOLD: 1, kinds.MINE: 1, kinds.NINJA: 3} | {kind.number: 2 for kind in kinds.KINDS if kind.moves}
 """What is drawn later lies in front."""

@@ -16,13 +16,13 @@ from ninja_game.play.app import App
 from ninja_game.play.editor.palette_view import tile_icon
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.sheet import GRIDS, MIDDLE, Grid, LevelSheet, finding_points, joined, level_marks
-from ninja_game.play.ui.canvas import Canvas, Colour, Point
-from ninja_game.play.ui.theme import Area, Palette, Theme
-from ninja_game.play.ui.widgets import Widget, following
-from ninja_game.play.view.sprites.drawing import DrawTarget, drawing, is_near
-from ninja_game.play.view.sprites.sketch import Sketch
 from ninja_game.play.workspace.part import Part
 from ninja_game.sim.kinds import EXIT, NINJA
+from ninja_game.ui.canvas import Canvas, Colour, Point
+from ninja_game.ui.theme import Area, Palette, Theme
+from ninja_game.ui.widgets import Widget, following
+from ninja_game.view.sprites.drawing import DrawTarget, drawing, is_near
+from ninja_game.view.sprites.sketch import Sketch
 
 if TYPE_CHECKING:
     from ninja_game.editor.certify import Route

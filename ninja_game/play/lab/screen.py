@@ -20,12 +20,12 @@ from ninja_game.play.lab.figures.projection import Projection
 from ninja_game.play.lab.figures.rays import RayCast
 from ninja_game.play.menus.menu_screen import DIRECTIONS, MenuScreen
 from ninja_game.play.replay.film import write_gif
-from ninja_game.play.ui.canvas import HEIGHT, WIDTH
-from ninja_game.play.ui.list_view import ListView
-from ninja_game.play.ui.theme import Area, Theme, wrapped
-from ninja_game.play.ui.widgets import Button, Choice, Slider, Widget
-from ninja_game.play.view.level_view import OffscreenContext
 from ninja_game.play.window import save_picture
+from ninja_game.ui.canvas import HEIGHT, WIDTH
+from ninja_game.ui.list_view import ListView
+from ninja_game.ui.theme import Area, Theme, wrapped
+from ninja_game.ui.widgets import Button, Choice, Slider, Widget
+from ninja_game.view.level_view import OffscreenContext
 
 TEXT_TOP, NUMBERS_TOP, LINE = 394.0, 452.0, 15.0
 CONTROLS: Area = (552, 452, 200, 26)

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 import pygame
 
 from ninja_game.play.level.play import DEATH_PAUSE, LevelPlay, Phase
-from ninja_game.play.ui.canvas import HEIGHT
-from ninja_game.play.ui.theme import Palette, Theme, mixed
-from ninja_game.play.ui.widgets import draw_medal
 from ninja_game.player.records import seconds_text
 from ninja_game.player.statistics import SELF
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.rules import LIFETIME
+from ninja_game.ui.canvas import HEIGHT
+from ninja_game.ui.theme import Palette, Theme, mixed
+from ninja_game.ui.widgets import draw_medal
 
 _BAR_LEFT, _BAR_MIDDLE = 24.0, 12.0
 _BAR_LONGEST = 700.0

@@ -8,12 +8,12 @@ from random import Random
 from ninja_game.play.app import App
 from ninja_game.play.clock import RunClock
 from ninja_game.play.replay.playback import Ghost, Playback
-from ninja_game.play.view.level_view import LevelView
 from ninja_game.player.attempt import Attempt, Moment
 from ninja_game.player.playthrough import LevelContext
 from ninja_game.player.statistics import cause_of
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.states import CRUSHED
+from ninja_game.view.level_view import LevelView
 
 _FILL_SHARE = 0.05
 """Share of what the bar lacks that fills in per picture, at least; always so before play starts."""

@@ -12,7 +12,6 @@ from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
 from ninja_game.play.app import App, Screen
 from ninja_game.play.clipboard import copy_level_link, copy_link
-from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.level.hud import Hud, hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, LevelPlay, Phase
 from ninja_game.play.menus.help import HelpScreen
@@ -20,12 +19,13 @@ from ninja_game.play.menus.panels import Panel
 from ninja_game.play.menus.passed import EpisodePassed
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.play.view.overlays import Overlays
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import EpisodeRun, LevelContext, LevelRun, Navigation
 from ninja_game.player.saving import keep_replay
 from ninja_game.sim.inputs import JUMP_HELD
+from ninja_game.ui.input.bindings import InputEvent
+from ninja_game.view.overlays import Overlays
 
 
 class LevelScreen(Screen):

@@ -16,18 +16,18 @@ from ninja_game.files.user_folder import free_path
 from ninja_game.formats.load import load_levels
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
-from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text, where_from
-from ninja_game.play.ui.list_view import ListView
-from ninja_game.play.ui.text_entry import TextEntry
-from ninja_game.play.ui.theme import Area, Theme
-from ninja_game.play.ui.widgets import Button, Choice, Widget
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.marks import Mark
 from ninja_game.player.records import SavedReplay, seconds_text
+from ninja_game.ui.input.bindings import InputEvent
+from ninja_game.ui.list_view import ListView
+from ninja_game.ui.text_entry import TextEntry
+from ninja_game.ui.theme import Area, Theme
+from ninja_game.ui.widgets import Button, Choice, Widget
 
 ROW = 54
 PICTURE = 60

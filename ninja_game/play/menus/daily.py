@@ -16,11 +16,11 @@ from ninja_game.play.app import App
 from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, draw_pars, time_and_par, tries_text
-from ninja_game.play.ui.theme import wrapped
-from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.records import seconds_text
 from ninja_game.runtime import require_desktop, run_in_background
+from ninja_game.ui.theme import wrapped
+from ninja_game.ui.widgets import Button, Widget
 
 LEFT, TOP, WIDE = 44, 74, 480
 SIDE, SIDE_WIDTH = 548, 200

@@ -10,18 +10,18 @@ from ninja_game.files.shown_text import unreadable
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
-from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.level.screen import LevelScreen, play_level
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, time_and_par, tries_text
-from ninja_game.play.ui.list_view import BAR, ListView
-from ninja_game.play.ui.theme import Area, Theme
-from ninja_game.play.ui.widgets import MEDALS, Choice, Widget, draw_all_gold, draw_medal
 from ninja_game.player.catalogue import Episode, EpisodeSet
 from ninja_game.player.marks import Mark, has_all_gold, tally, worst_medal
 from ninja_game.player.playthrough import EpisodeRun
 from ninja_game.player.progress import CHEATED, LOCKED
 from ninja_game.player.records import seconds_text
+from ninja_game.ui.input.bindings import InputEvent
+from ninja_game.ui.list_view import BAR, ListView
+from ninja_game.ui.theme import Area, Theme
+from ninja_game.ui.widgets import MEDALS, Choice, Widget, draw_all_gold, draw_medal
 
 LEFT, TOP, WIDE, MOST_HIGH = 44, 116, 318, 286
 """Where the grid lies: it is as large as the episodes that there are, cells up to LARGEST px."""

@@ -15,19 +15,19 @@ from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.play.app import App
 from ninja_game.play.clock import RunClock
-from ninja_game.play.input.bindings import ACTIONS, MOVES
-from ninja_game.play.input.gamepad import pad_label
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.replay.playback import Playback
-from ninja_game.play.ui.canvas import HEIGHT, WIDTH, Canvas
-from ninja_game.play.ui.list_view import ListView
-from ninja_game.play.ui.theme import Area, Theme, wrapped
-from ninja_game.play.ui.widgets import Button, Widget
-from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.workspace.commands import Command, key_text
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, with_press_bits
 from ninja_game.sim.level import COLUMNS, ROWS, Level
 from ninja_game.simulation import Simulation
+from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
+from ninja_game.ui.input.bindings import ACTIONS, MOVES
+from ninja_game.ui.input.gamepad import pad_label
+from ninja_game.ui.list_view import ListView
+from ninja_game.ui.theme import Area, Theme, wrapped
+from ninja_game.ui.widgets import Button, Widget
+from ninja_game.view.level_view import LevelView
 
 PAGES_FILE = "help/pages.toml"
 

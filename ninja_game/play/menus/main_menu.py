@@ -26,12 +26,12 @@ from ninja_game.play.menus.records import RecordsScreen
 from ninja_game.play.menus.replays import ReplaysScreen
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.playback import Playback
-from ninja_game.play.ui.canvas import HEIGHT, WIDTH
-from ninja_game.play.ui.theme import Area
-from ninja_game.play.ui.widgets import Button, Widget
-from ninja_game.play.view.level_view import LevelView
 from ninja_game.player.catalogue import Entry
 from ninja_game.simulation import Simulation
+from ninja_game.ui.canvas import HEIGHT, WIDTH
+from ninja_game.ui.theme import Area
+from ninja_game.ui.widgets import Button, Widget
+from ninja_game.view.level_view import LevelView
 
 LEFT, WIDE, MIDDLE = 44, 232, 306
 """Where the panel lies: its left edge, its width, the height of its middle."""

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.play.app import App, Screen
-from ninja_game.play.input.bindings import InputEvent
-from ninja_game.play.input.keys import HeldKey, scancode_of
-from ninja_game.play.ui.canvas import HEIGHT, WIDTH
-from ninja_game.play.ui.list_view import ListView
-from ninja_game.play.ui.text_entry import TextEntry
-from ninja_game.play.ui.widgets import Widget
+from ninja_game.ui.canvas import HEIGHT, WIDTH
+from ninja_game.ui.input.bindings import InputEvent
+from ninja_game.ui.input.keys import HeldKey, scancode_of
+from ninja_game.ui.list_view import ListView
+from ninja_game.ui.text_entry import TextEntry
+from ninja_game.ui.widgets import Widget
 
 if TYPE_CHECKING:
     from ninja_game.player.player_data import PlayerData

@@ -8,10 +8,10 @@ import pygame
 
 from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.ui.canvas import HEIGHT, WIDTH
-from ninja_game.play.ui.text_entry import TextEntry
-from ninja_game.play.ui.theme import wrapped
-from ninja_game.play.ui.widgets import Button, Widget
+from ninja_game.ui.canvas import HEIGHT, WIDTH
+from ninja_game.ui.text_entry import TextEntry
+from ninja_game.ui.theme import wrapped
+from ninja_game.ui.widgets import Button, Widget
 
 PANEL_WIDTH = 300
 ROW = 40

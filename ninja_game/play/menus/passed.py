@@ -9,11 +9,11 @@ import pygame
 from ninja_game.play.app import App
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal
-from ninja_game.play.ui.canvas import WIDTH
-from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.player.catalogue import Episode
 from ninja_game.player.playthrough import EpisodeRun
 from ninja_game.player.records import seconds_text
+from ninja_game.ui.canvas import WIDTH
+from ninja_game.ui.widgets import Button, Widget
 
 PICTURE = 132
 

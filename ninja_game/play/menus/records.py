@@ -10,11 +10,11 @@ import pygame
 from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.replays import watch
-from ninja_game.play.ui.list_view import ListView
-from ninja_game.play.ui.theme import Area, Theme
-from ninja_game.play.ui.widgets import Widget
 from ninja_game.player.records import seconds_text
 from ninja_game.sim.rules import TICK_MS
+from ninja_game.ui.list_view import ListView
+from ninja_game.ui.theme import Area, Theme
+from ninja_game.ui.widgets import Widget
 
 ROW = 30
 SIDE, SIDE_WIDTH = 528, 228

@@ -18,15 +18,15 @@ from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
-from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Question
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.play.ui.list_view import ListView
-from ninja_game.play.ui.theme import Area, Theme
-from ninja_game.play.ui.widgets import Widget
 from ninja_game.player.records import SavedReplay, level_score, seconds_text
 from ninja_game.player.saving import forget_replay
+from ninja_game.ui.input.bindings import InputEvent
+from ninja_game.ui.list_view import ListView
+from ninja_game.ui.theme import Area, Theme
+from ninja_game.ui.widgets import Widget
 
 ROW = 34
 FILES_SHOWN = 300

@@ -9,17 +9,17 @@ import pygame
 
 from ninja_game.files.user_folder import LEVELS
 from ninja_game.play.app import App, Screen
-from ninja_game.play.input.bindings import ACTIONS, InputEvent
-from ninja_game.play.input.gamepad import pad_label
-from ninja_game.play.input.keys import key_label
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import CANCEL, Menu, Row
-from ninja_game.play.ui.canvas import WIDTH
-from ninja_game.play.ui.list_view import ListView
-from ninja_game.play.ui.text_entry import TextEntry
-from ninja_game.play.ui.theme import NINJA_COLOURS, PALETTES, Area, Theme
-from ninja_game.play.ui.widgets import TEXT, Button, Choice, Label, Slider, Widget
 from ninja_game.player.progress import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
+from ninja_game.ui.canvas import WIDTH
+from ninja_game.ui.input.bindings import ACTIONS, InputEvent
+from ninja_game.ui.input.gamepad import pad_label
+from ninja_game.ui.input.keys import key_label
+from ninja_game.ui.list_view import ListView
+from ninja_game.ui.text_entry import TextEntry
+from ninja_game.ui.theme import NINJA_COLOURS, PALETTES, Area, Theme
+from ninja_game.ui.widgets import TEXT, Button, Choice, Label, Slider, Widget
 
 IN_REPLAYS_ONLY = frozenset({"faster", "slower", "frame_back", "frame_forward", "edit"})
 IN_LEVELS_ONLY = frozenset({"suicide", "replay", "skip", "quick_save", "quick_load", "rewind", "slow", "step"})

@@ -9,13 +9,13 @@ import pygame
 from ninja_game.files.shown_text import counted
 from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.ui.theme import Theme
-from ninja_game.play.ui.widgets import MEDALS, draw_all_gold, draw_medal
-from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.marks import Mark, has_all_gold, medal_of, next_par
 from ninja_game.player.records import seconds_text
 from ninja_game.player.statistics import Played
+from ninja_game.ui.theme import Theme
+from ninja_game.ui.widgets import MEDALS, draw_all_gold, draw_medal
+from ninja_game.view.sprites.thumbnail import thumbnail
 
 BUDGET = 0.006
 """Seconds a picture may cost beyond its first thumbnail."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pygame
 
-from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.theme import Theme, mixed
+from ninja_game.ui.canvas import Canvas
+from ninja_game.ui.theme import Theme, mixed
 
 _LEFT, _WIDTH, _Y = 24.0, 560.0, 588.0
 

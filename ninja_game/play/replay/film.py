@@ -20,13 +20,13 @@ from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.replay.playback import Ghost, Playback
-from ninja_game.play.ui.theme import ROLES, Palette, mixed, palette_named
-from ninja_game.play.view.level_view import LevelView, OffscreenContext
 from ninja_game.play.window import png_of
 from ninja_game.player.settings import Settings
 from ninja_game.runtime import require_desktop, run_in_background
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
+from ninja_game.ui.theme import ROLES, Palette, mixed, palette_named
+from ninja_game.view.level_view import LevelView, OffscreenContext
 
 _TAIL = TICKS_PER_SECOND
 """Ticks after the end that a film shows."""

@@ -8,11 +8,11 @@ import numpy as np
 import pygame
 from numpy.typing import NDArray
 
-from ninja_game.play.ui.canvas import HEIGHT, WIDTH, Canvas
-from ninja_game.play.ui.theme import Palette, Theme
-from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
+from ninja_game.ui.theme import Palette, Theme
+from ninja_game.view.sprites.thumbnail import thumbnail
 
 Path = tuple[str, NDArray[np.float64]]
 """A run's name and its positions, float64 (ticks, 2), px."""

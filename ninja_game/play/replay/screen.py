@@ -14,15 +14,15 @@ from ninja_game.formats.replay.text import Replay
 from ninja_game.play.app import App, Screen
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.clock import RunClock
-from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.replay.bar import ReplayBar
 from ninja_game.play.replay.film import FilmJob
 from ninja_game.play.replay.playback import Ghost, Playback
-from ninja_game.play.view.level_view import LevelView
-from ninja_game.play.view.overlays import Overlays
 from ninja_game.sim.rules import TICK_MS, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
+from ninja_game.ui.input.bindings import InputEvent
+from ninja_game.view.level_view import LevelView
+from ninja_game.view.overlays import Overlays
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
 NORMAL_SPEED = SPEEDS.index(1.0)

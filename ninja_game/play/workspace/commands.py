@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 import pygame
 
-from ninja_game.play.input.bindings import InputEvent
-from ninja_game.play.input.gamepad import Gamepads
-from ninja_game.play.input.keys import HeldKey, chord, key_label_of, scancode_of
+from ninja_game.ui.input.bindings import InputEvent
+from ninja_game.ui.input.gamepad import Gamepads
+from ninja_game.ui.input.keys import HeldKey, chord, key_label_of, scancode_of
 
 FIRST_REPEAT_MS = 300
 """A command whose key is held is repeated after so long."""

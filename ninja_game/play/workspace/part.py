@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 
 import pygame
 
-from ninja_game.play.ui.theme import Area, Theme, inside
-from ninja_game.play.ui.widgets import Widget
+from ninja_game.ui.theme import Area, Theme, inside
+from ninja_game.ui.widgets import Widget
 
 Commands = Mapping[str, Callable[[], object]]
 """What is done, by the names of the table of commands."""

@@ -8,12 +8,12 @@ from typing import ClassVar
 import pygame
 
 from ninja_game.play.app import App
-from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.menus.menu_screen import MOUSE, MenuScreen
-from ninja_game.play.ui.text_entry import TextEntry
-from ninja_game.play.ui.widgets import Widget
 from ninja_game.play.workspace.commands import CommandTable, HeldCommand
 from ninja_game.play.workspace.part import Part
+from ninja_game.ui.input.bindings import InputEvent
+from ninja_game.ui.text_entry import TextEntry
+from ninja_game.ui.widgets import Widget
 
 
 class WorkspaceScreen(MenuScreen):

@@ -13,10 +13,10 @@ import pygame
 from ninja_game.errors import FileError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.tree import Tree
-from ninja_game.play.ui.glyphs import CAP
-from ninja_game.play.ui.lettering import SPACING, WEIGHTS, glyph
-from ninja_game.play.ui.theme import PALETTES, Palette, mixed
 from ninja_game.play.window import icon, png_of
+from ninja_game.ui.glyphs import CAP
+from ninja_game.ui.lettering import SPACING, WEIGHTS, glyph
+from ninja_game.ui.theme import PALETTES, Palette, mixed
 
 LONGEST = 400
 """Characters of a text that are shown."""

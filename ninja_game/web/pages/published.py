@@ -18,10 +18,10 @@ from ninja_game.formats.pack.files import is_pack
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
-from ninja_game.play.ui.theme import CLASSIC
-from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.player.catalogue import Entry, EpisodeSet, episode_set
 from ninja_game.sim.level import Level
+from ninja_game.ui.theme import CLASSIC
+from ninja_game.view.sprites.thumbnail import thumbnail
 
 PICTURE_WIDTH = 792
 CERTIFICATES = ("exit", "gold")

@@ -13,10 +13,10 @@ from ninja_game.files.user_folder import bundled_levels
 from ninja_game.formats.load import load_levels
 from ninja_game.play.editor import object_pictures
 from ninja_game.play.editor.object_pictures import ObjectPictures, ObjectSprites
-from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.theme import PALETTES
-from ninja_game.play.view.sprites.drawing import DrawTarget, SpriteBook
 from ninja_game.sim.level import ObjectSpec
+from ninja_game.ui.canvas import Canvas
+from ninja_game.ui.theme import PALETTES
+from ninja_game.view.sprites.drawing import DrawTarget, SpriteBook
 from tests.support.level_maker import ROOM, Maker
 
 CROWD = tuple(

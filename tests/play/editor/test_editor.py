@@ -14,11 +14,11 @@ from ninja_game.editor.stamp import Stamp, put
 from ninja_game.play.editor.controls import COMMANDS
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.trying import TryScreen
-from ninja_game.play.input.keys import SCANCODES
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.panels import Menu
 from ninja_game.sim.kinds import NINJA
 from ninja_game.sim.level import ObjectSpec
+from ninja_game.ui.input.keys import SCANCODES
 from tests.support.level_maker import ROOM, Maker
 
 

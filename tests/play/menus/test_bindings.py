@@ -8,9 +8,9 @@ import pygame
 import pytest
 
 from ninja_game.play.app import build_app
-from ninja_game.play.input.bindings import ACTIONS, MENU_KEYS, Bindings
-from ninja_game.play.input.gamepad import FULL_AXIS, Gamepads, pad_label
-from ninja_game.play.input.keys import SCANCODES, key_label, key_name, learn_label, scancode_named
+from ninja_game.ui.input.bindings import ACTIONS, MENU_KEYS, Bindings
+from ninja_game.ui.input.gamepad import FULL_AXIS, Gamepads, pad_label
+from ninja_game.ui.input.keys import SCANCODES, key_label, key_name, learn_label, scancode_named
 
 
 @pytest.fixture

@@ -13,11 +13,11 @@ from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.records import RecordsScreen
 from ninja_game.play.menus.replays import ReplaysScreen
-from ninja_game.play.ui.canvas import HEIGHT, WIDTH
-from ninja_game.play.ui.list_view import ListView
-from ninja_game.play.ui.theme import Area
-from ninja_game.play.ui.widgets import Widget
 from ninja_game.simulation import Simulation
+from ninja_game.ui.canvas import HEIGHT, WIDTH
+from ninja_game.ui.list_view import ListView
+from ninja_game.ui.theme import Area
+from ninja_game.ui.widgets import Widget
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK
 

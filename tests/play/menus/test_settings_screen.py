@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from ninja_game.play.input.bindings import ACTIONS
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.panels import Menu
 from ninja_game.play.menus.settings import PAGES, SLOTS, SettingsScreen, clash
-from ninja_game.play.ui.widgets import Slider
+from ninja_game.ui.input.bindings import ACTIONS
+from ninja_game.ui.widgets import Slider
 from tests.support.menu_driver import MenuDriver
 
 

@@ -9,7 +9,7 @@ from shutil import copy
 import pytest
 
 from ninja_game.formats.load import load_replays
-from ninja_game.play.tas.opening import prepare
+from ninja_game.tas_editor.opening import prepare
 from tests.support.own_pack import PACK
 from tests.support.tas_driver import TasDriver
 

@@ -10,11 +10,11 @@ import pygame
 import pytest
 
 from ninja_game.play.menus.panels import Menu
-from ninja_game.play.tas.layout import NARROWEST_ROLL, LayoutPreferences, tas_canvas, tas_layout
-from ninja_game.play.tas.screen import TasScreen
-from ninja_game.play.ui.theme import Area
 from ninja_game.player.settings import read_settings
 from ninja_game.tas.files import open_run
+from ninja_game.tas_editor.layout import NARROWEST_ROLL, LayoutPreferences, tas_canvas, tas_layout
+from ninja_game.tas_editor.screen import TasScreen
+from ninja_game.ui.theme import Area
 from tests.play.tas.conftest import RUN
 from tests.support.tas_driver import TasDriver
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from ninja_game.play.menus.panels import Question
-from ninja_game.play.tas.tabs.branches_tab import BranchesTab
 from ninja_game.sim.inputs import Input
+from ninja_game.tas_editor.tabs.branches_tab import BranchesTab
 from tests.support.tas_driver import TasDriver
 
 

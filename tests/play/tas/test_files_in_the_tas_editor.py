@@ -11,11 +11,11 @@ from ninja_game.formats.load import load_replays
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.panels import Menu
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.play.tas.controls import COMMANDS
-from ninja_game.play.tas.opening import open_tas_editor
-from ninja_game.play.tas.screen import TasScreen
 from ninja_game.sim.inputs import KEY_LEFT
 from ninja_game.tas.journal import FOLDER, recovered
+from ninja_game.tas_editor.controls import COMMANDS
+from ninja_game.tas_editor.opening import open_tas_editor
+from ninja_game.tas_editor.screen import TasScreen
 from tests.play.tas.conftest import RUN
 from tests.support.own_pack import PACK
 from tests.support.samples import WALK, running, write_records

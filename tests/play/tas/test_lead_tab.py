@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from ninja_game.play.tas.tabs.lead_tab import PAUSE_MS, LeadTab
+from ninja_game.tas_editor.tabs.lead_tab import PAUSE_MS, LeadTab
 from tests.support.tas_driver import TasDriver
 
 

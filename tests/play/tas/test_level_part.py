@@ -16,12 +16,12 @@ from ninja_game.errors import ReplayError
 from ninja_game.formats.load import load_replays
 from ninja_game.play.menus.panels import FormPanel
 from ninja_game.play.replay.screen import SPEEDS
-from ninja_game.play.tas.level.other_runs import OtherRunScreen
-from ninja_game.play.tas.level.paths import shown_span
-from ninja_game.play.tas.screen import TasScreen
-from ninja_game.play.tas.tabs.values_tab import ValuesTab
 from ninja_game.tas.files import open_run, runs_of_level
 from ninja_game.tas.timeline import Timeline
+from ninja_game.tas_editor.level.other_runs import OtherRunScreen
+from ninja_game.tas_editor.level.paths import shown_span
+from ninja_game.tas_editor.screen import TasScreen
+from ninja_game.tas_editor.tabs.values_tab import ValuesTab
 from tests.support.own_pack import PACK
 from tests.support.tas_driver import TasDriver
 

@@ -12,9 +12,9 @@ from ninja_game.backend.kernel_cache import before_compiling
 from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import NinjaGameError, ReplayError
 from ninja_game.formats.load import load_replays
-from ninja_game.play.tas import opening
-from ninja_game.play.tas.opening import OpeningScreen, is_prepared, open_tas_editor
-from ninja_game.play.tas.screen import TasScreen
+from ninja_game.tas_editor import opening
+from ninja_game.tas_editor.opening import OpeningScreen, is_prepared, open_tas_editor
+from ninja_game.tas_editor.screen import TasScreen
 from tests.play.tas.conftest import RUN
 from tests.support.menu_driver import MenuDriver
 

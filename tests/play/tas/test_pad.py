@@ -5,9 +5,9 @@ from __future__ import annotations
 import pygame
 import pytest
 
-from ninja_game.play.input.bindings import Bindings
-from ninja_game.play.input.gamepad import BUTTONS, FULL_AXIS
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
+from ninja_game.ui.input.bindings import Bindings
+from ninja_game.ui.input.gamepad import BUTTONS, FULL_AXIS
 from tests.support.menu_driver import ScriptedKeys
 from tests.support.tas_driver import TasDriver
 

@@ -6,9 +6,9 @@ import pygame
 import pytest
 
 from ninja_game.formats.replay.input_runs import Marker
-from ninja_game.play.input.keys import SCANCODES
-from ninja_game.play.tas.roll.part import MARGIN
 from ninja_game.tas.input_track import InputTrack
+from ninja_game.tas_editor.roll.part import MARGIN
+from ninja_game.ui.input.keys import SCANCODES
 from tests.support.tas_driver import TasDriver
 
 CTRL, SHIFT = pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT

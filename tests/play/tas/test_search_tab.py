@@ -10,13 +10,13 @@ import numpy as np
 import pygame
 import pytest
 
-from ninja_game.play.input.keys import SCANCODES
-from ninja_game.play.tas.tabs import search_tab as module
-from ninja_game.play.tas.tabs.search_tab import COMPILING, NOT_BEGUN, NOTHING, NOTHING_YET, SearchTab, SpanResults
 from ninja_game.search.formula import background
 from ninja_game.search.formula.methods import fewest_ticks
 from ninja_game.search.formula.task import Found
 from ninja_game.sim.inputs import Input
+from ninja_game.tas_editor.tabs import search_tab as module
+from ninja_game.tas_editor.tabs.search_tab import COMPILING, NOT_BEGUN, NOTHING, NOTHING_YET, SearchTab, SpanResults
+from ninja_game.ui.input.keys import SCANCODES
 from tests.support.tas_driver import TasDriver
 from tests.support.waiting import LONGEST
 

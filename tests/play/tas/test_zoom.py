@@ -6,8 +6,8 @@ import numpy as np
 import pygame
 import pytest
 
-from ninja_game.play.tas.level.picture import LARGEST_ZOOM
-from ninja_game.play.ui.canvas import Point
+from ninja_game.tas_editor.level.picture import LARGEST_ZOOM
+from ninja_game.ui.canvas import Point
 from tests.support.tas_driver import TasDriver
 
 

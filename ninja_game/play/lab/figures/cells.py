@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ninja_game.play.lab.figure import CORNER, Control, Figure, Sheet, room_world, watch
-from ninja_game.play.view.overlays import hit_shapes, touched_cells
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, COLUMN, EXISTS, ROW
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.grid import cell_at
@@ -13,6 +12,7 @@ from ninja_game.sim.kinds import KIND_NAMES
 from ninja_game.sim.memory.plain import restore_plain, save_plain
 from ninja_game.sim.objects.dispatch import NINE_CELLS, touch_objects
 from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, RADIUS
+from ninja_game.view.overlays import hit_shapes, touched_cells
 
 BODIES: Sequence[tuple[str, object]] = (("circle", False), ("box", True))
 

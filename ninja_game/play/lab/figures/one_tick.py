@@ -6,12 +6,12 @@ from collections.abc import Sequence
 
 from ninja_game.play.lab.figure import Call, Control, Figure, Sheet, Stage
 from ninja_game.play.menus.help import strokes
-from ninja_game.play.view.overlays import touched_cells
 from ninja_game.sim.collision.tiles import EXISTS
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, pressed
 from ninja_game.sim.kinds import KIND_OF
 from ninja_game.sim.objects.dispatch import NINE_CELLS
+from ninja_game.view.overlays import touched_cells
 
 PHASES = {
     "update_objects": "1. the update set, newest first",

@@ -10,13 +10,13 @@ from ninja_game.editor.brush import tile_name
 from ninja_game.formats.ascii.legend import TILE_CHARS
 from ninja_game.play.lab.figure import Call, Control, Figure, FigureSetting, Sheet, View, room_world, watch
 from ninja_game.play.lab.figures.cells import BODIES
-from ninja_game.play.ui.canvas import Point
 from ninja_game.sim.collision.box import collide_box
 from ninja_game.sim.collision.circle import collide_circle
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_index
 from ninja_game.sim.memory.plain import restore_plain, save_plain
 from ninja_game.sim.rules import RADIUS
+from ninja_game.ui.canvas import Point
 
 COLUMN, ROW = 8, 5
 """The cell that holds the tile."""

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from math import dist
 
 from ninja_game.play.lab.figure import Control, Figure, Sheet, room_world, values_of, watch
-from ninja_game.play.ui.canvas import Point
 from ninja_game.sim.collision.rays import cast, ray_circle, ray_tiles, sees
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.rules import GOLD_RADIUS, RADIUS
+from ninja_game.ui.canvas import Point
 
 NINJA: Point = (292.0, 172.0)
 

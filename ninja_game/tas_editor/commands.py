@@ -1,0 +1,176 @@
+"""The commands that concern the file of a run: its menu, saving, what was not saved last time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import suppress
+from functools import partial
+from itertools import islice
+from pathlib import Path
+from time import localtime, strftime
+
+from ninja_game.files.locking import forget
+from ninja_game.files.shown_text import counted, file_stem
+from ninja_game.files.user_folder import REPLAYS, free_path, is_bundled
+from ninja_game.formats.links.making import replay_link
+from ninja_game.play.app import App
+from ninja_game.play.clipboard import copy_link
+from ninja_game.play.menus.help import HelpPage
+from ninja_game.play.menus.panels import FormPanel, Menu, Row, nothing
+from ninja_game.play.replay.screen import ReplayScreen
+from ninja_game.play.workspace.document import Action, DocumentCommands
+from ninja_game.play.workspace.part import Commands
+from ninja_game.player.saving import keep_replay
+from ninja_game.tas.files import SUFFIX, branches_path, replay_of_track, same_level
+from ninja_game.tas.journal import RecoveredRun, recovered
+from ninja_game.tas_editor.controls import COMMANDS
+from ninja_game.tas_editor.editor import TasEditor
+
+HELP = """\
+A row of the roll is a tick: click L, R or J to change a key, drag to paint, click the number of a tick to go there. \
+The level shows the world after that tick. Enter takes over: play on yourself, Enter again ends it.
+Mark some ticks and press F to search for better keys there; a click on a result puts it into the run.
+The wheel scrolls the roll, and shows the level or a plot larger; the right button moves the level, the left one \
+a plot. With Ctrl the wheel goes tick by tick. Drag what is between the parts to give one of them more room."""
+"""What one has to know to begin."""
+
+
+class RunCommands(DocumentCommands):
+    """The commands that concern files.
+
+    ``run``: does a command of any part by its name; ``recover``: opens what was not saved.
+    """
+
+    def __init__(
+        self, app: App, editor: TasEditor, run: Callable[[str], object], recover: Callable[[RecoveredRun], object]
+    ) -> None:
+        super().__init__(app, editor.session)
+        self.editor = editor
+        self.session = editor.session
+        self._run = run
+        self._recover = recover
+
+    def commands(self) -> Commands:
+        return {"menu": self.menu, "help": self.help, "save": self.save, "save_as": self.save_as}
+
+    def help(self) -> None:
+        self.app.push(HelpPage(self.app, "The TAS editor", HELP, COMMANDS))
+
+    def menu(self) -> None:
+        rows: list[Row] = [
+            ("Save", self.save, "Ctrl+S"), ("Save as...", self.save_as, "Ctrl+Shift+S"),
+            ("Open another run...", lambda: self._run("open_other"), "Beside this one: Ctrl+O"),
+            ("Not saved last time...", self.list_recovered, "Runs that were edited when the program ended"),
+            ("Watch", self.watch, "In the replay viewer, which makes films too"),
+            ("Keep as a replay", self.keep, "Among yours"), ("Copy a link", self.copy_link, "Opens the run"),
+            ("Help", self.help, "F1"), ("Leave", self.leave, ""),
+        ]  # fmt: skip
+        self.app.push(Menu(self.app, "Run", rows))
+
+    # --- saving ---
+
+    def own_path(self) -> Path | None:
+        """The run's file, if it has one."""
+        return self.session.file.path
+
+    @property
+    def _folder(self) -> Path:
+        """Where the run is, or was opened from; else the player's replays, also for runs of the game."""
+        opened = self.session.file.path or Path(self.session.about.file)
+        with suppress(OSError):
+            if opened.is_file() and not is_bundled(opened):
+                return opened.parent
+        return self.app.player.folder / REPLAYS
+
+    def save_as(self, then: Action = nothing) -> None:
+        """Ask for the name of the file, write the run, and do ``then``."""
+        path, folder = self.session.file.path, self._folder
+        free = free_path(folder, file_stem(self.session.name, "run"), SUFFIX)
+        name = (path or free).name.removesuffix(SUFFIX)
+
+        def on_accept(texts: list[str]) -> None:
+            path = folder / Path(texts[0].strip()).expanduser()
+            if path.parent.is_dir():
+                self.save_to(path.with_name(f"{file_stem(path.name.removesuffix(SUFFIX), 'run')}{SUFFIX}"), then)
+            else:
+                self.app.notify(f"Not saved: there is no folder {path.parent}")
+
+        self.app.push(
+            FormPanel(
+                self.app, f"Save in {folder.absolute()}", [("Name or path of the file", name, 300)], "Save", on_accept
+            )
+        )
+
+    def saved_text(self, path: Path) -> str:
+        """Where it is, and what else was saved."""
+        tail = ", with what is behind its end (Ctrl+E takes that out)" if self.session.has_tail else ""
+        branches = " and its branches beside it" * branches_path(path).exists()
+        return f"Saved{tail}: {path}{branches}"
+
+    def keep(self) -> None:
+        """Put the run among the player's replays."""
+        if self.session.has_tail:
+            self.app.notify("Keys are pressed behind the end: take them out first, with Ctrl+E")
+            return
+        about, track = self.session.about, self.session.track
+        self.editor.attempt(lambda: self.app.notify(keep_replay(self.app.player, replay_of_track(about, track))))
+
+    def copy_link(self) -> None:
+        about, track = self.session.about, self.session.track
+        copy_link(self.app, lambda: replay_link([replay_of_track(about, track)]), title=self.session.name)
+
+    def watch(self) -> None:
+        self.app.push(ReplayScreen(self.app, [self.session.recording()], editable=False))
+
+    # --- what was not saved ---
+
+    def offer_recovered(self) -> None:
+        """Ask what to do with this run, if it was being edited when the program died; tell of others.
+
+        Of a run that was recorded on another level ask whether it is to be edited on this one.
+        """
+        lost = list(recovered(self.app.player.folder))
+        own = next((found for found in lost if self._is_of_this_run(found)), None)
+        if own:
+            self._offer(own)
+        elif self.session.moved:
+            rows: list[Row] = [
+                ("Edit it on this level", nothing, "Its keys stay; it is saved as a new recording"),
+                ("Leave", self.close, ""),
+            ]
+            self.app.push(Menu(self.app, f"{self.session.name}: this level is not the one that was recorded", rows))
+        elif lost:
+            self.app.notify(f"Not saved last time: {_name_of(lost[0])}. Esc, Not saved last time")
+
+    def _is_of_this_run(self, found: RecoveredRun) -> bool:
+        opened, session = found.opened, self.session
+        if opened.file.path or session.file.path:
+            return opened.file.path == (session.file.path and session.file.path.absolute())
+        return opened.track == session.track and same_level(opened.recording, session.about)
+
+    def list_recovered(self) -> None:
+        """All runs that were being edited when the program died, or was closed."""
+        rows: list[Row] = [
+            (_name_of(found), partial(self._offer, found), _when(found))
+            for found in islice(recovered(self.app.player.folder), 8)
+        ]
+        if rows:
+            self.app.push(Menu(self.app, "Not saved last time", [*rows, ("Back", nothing, "")]))
+        else:
+            self.app.notify("All runs that were edited are saved")
+
+    def _offer(self, found: RecoveredRun) -> None:
+        recover, discard = partial(self._recover, found), partial(forget, found.file)
+        self.ask_about_recovered(_name_of(found), recover, discard, about=f"{_when(found)}; every edit can be undone")
+
+
+def _name_of(found: RecoveredRun) -> str:
+    home = found.opened.file.path
+    return home.name if home else found.opened.recording.name or "a run"
+
+
+def _when(found: RecoveredRun) -> str:
+    """How many edits, and when the last one was."""
+    count = len(found.tracks)
+    last = strftime("%Y-%m-%d %H:%M", localtime(found.file.stat().st_mtime)) if found.file.exists() else "gone"
+    return f"{counted(count, 'edit')}, the last {last}"

@@ -1,0 +1,184 @@
+"""Other runs of the same level beside the one under edit: opened, chosen, and taken in part by part."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from ninja_game.errors import ReplayError
+from ninja_game.files.reading import LeftOut
+from ninja_game.formats.links.fragment import is_link
+from ninja_game.formats.n14.level_string import level_digest
+from ninja_game.formats.recording import Recording
+from ninja_game.play.app import App
+from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.menus.panels import FormPanel
+from ninja_game.play.menus.replays import FILES_SHOWN, ReplayRow, ReplaysScreen
+from ninja_game.play.workspace.part import Commands
+from ninja_game.player.records import SavedReplay
+from ninja_game.tas.files import runs_of_level, same_level, track_of
+from ninja_game.tas.timeline import Timeline
+from ninja_game.tas_editor.editor import OtherRun, TasEditor
+from ninja_game.ui.input.bindings import InputEvent
+from ninja_game.ui.widgets import Button, Widget
+
+NONE_YET = "No other run is open: Ctrl+O opens one"
+
+
+class OtherRuns:
+    """The commands that concern other runs."""
+
+    def __init__(self, editor: TasEditor) -> None:
+        self.editor = editor
+
+    def commands(self) -> Commands:
+        return {
+            "open_other": lambda: self.editor.app.push(OtherRunScreen(self.editor.app, self)),
+            "next_other": self.next, "splice": self.splice, "splice_here": self.splice_here,
+        }  # fmt: skip
+
+    def open(self, recordings: Sequence[Recording]) -> None:
+        """Show recordings beside the run. Raises ReplayError for one of another level, or with another body."""
+        editor = self.editor
+        for recording in recordings:
+            editor.others.append(other_run(editor, recording))
+            editor.chosen = len(editor.others) - 1
+
+    @property
+    def chosen(self) -> OtherRun | None:
+        """The run that parts are taken from; a notice where there is none."""
+        editor = self.editor
+        if not editor.others:
+            editor.app.notify(NONE_YET)
+            return None
+        return editor.others[editor.chosen % len(editor.others)]
+
+    def next(self) -> None:
+        editor = self.editor
+        if self.chosen is not None:
+            editor.chosen = (editor.chosen + 1) % len(editor.others)
+            editor.app.notify(f"Compared, and parts are taken from: {editor.others[editor.chosen].name}")
+
+    def splice(self) -> None:
+        """The selected ticks get the keys that the other run has in the same ticks; all others keep theirs."""
+        other = self.chosen
+        if other is not None:
+            first, last = self.editor.selection
+            keys = [other.track.keys_at(tick) for tick in range(first, last)]
+            if self.editor.edit_selected(lambda track: track.replaced(first, last, keys)):
+                self.editor.app.notify(f"Ticks {first} to {last - 1} are those of {other.name}")
+
+    def splice_here(self) -> None:
+        """Behind the cursor comes the rest of the other run, from the tick in which its ninja was nearest to ours."""
+        editor, other = self.editor, self.chosen
+        tick, positions = editor.cursor, editor.session.timeline.positions
+        if other is None or tick >= len(positions):
+            return
+        far = np.hypot(*(other.positions - positions[tick]).T)
+        there = int(np.argmin(far))
+        keys = [other.track.keys_at(k) for k in range(there + 1, len(other.track))]
+        if editor.edit(lambda track: track.replaced(tick + 1, max(tick + 1, len(track)), keys)):
+            editor.app.notify(f"From here on {other.name} from its tick {there} on, {far[there]:.2f} px away")
+
+
+def other_run(editor: TasEditor, recording: Recording) -> OtherRun:
+    """A recording as a run to be shown beside. Raises ReplayError for another level, or another body."""
+    about = editor.session.about
+    if not same_level(recording, about):
+        what = "body" if recording.body != about.body else "level"
+        raise ReplayError(f"{recording.name or 'this run'} is a run with another {what} than the one in the TAS editor")
+    track = track_of(recording)
+    timeline = Timeline(about.level, track.inputs, body=about.body, memory=editor.session.timeline.memory)
+    timeline.simulate(len(timeline))
+    return OtherRun(_free_name(recording, about, {other.name for other in editor.others}), track, timeline.trajectory())
+
+
+def _free_name(recording: Recording, about: Recording, taken: set[str]) -> str:
+    """What tells a run from the others: its author, or its file and number, or its name."""
+    # The author of a record of N is its level's.
+    author = recording.author if recording.form != "file" and recording.author != about.author else ""
+    name = author or _place_of(recording) or recording.name or "another run"
+    return next(each for each in (name, *(f"{name} {n}" for n in range(2, len(taken) + 3))) if each not in taken)
+
+
+def _place_of(recording: Recording) -> str:
+    """The name of the file, and which record of it that is where it holds others before."""
+    return Path(recording.file).name.removesuffix(".replay.txt") + f" {recording.record}" * (recording.record > 0)
+
+
+class OtherRunScreen(ReplaysScreen):
+    """The replays of the level that is in the TAS editor; the chosen one is shown beside."""
+
+    title = "Another run of this level"
+    heads = "Run", "Player", "Result", "From"
+    hint = "Enter shows it beside the run"
+
+    def __init__(self, app: App, others: OtherRuns) -> None:
+        self.others = others
+        self._digest = level_digest(others.editor.session.about.level)
+        super().__init__(app)
+        self.list.empty = "No other run of this level is known. There may be one in a file"
+
+    def build(self) -> Sequence[Widget]:
+        return [*super().build(), Button((622, 14, 134, 26), "From a file ...", self._ask, hint="Any file with runs")]
+
+    def arranged(self, rows: list[ReplayRow]) -> list[ReplayRow]:
+        """Those of the same level, the fastest first; those in files by the names of their files."""
+        return sorted(map(_named, filter(self._is_of_the_level, rows)), key=_ticks)
+
+    def places(self) -> list[tuple[str, Iterable[Path | LeftOut]]]:
+        """Beside the file of the run, too."""
+        file = Path(self.others.editor.session.about.file)
+        beside = sorted(each for each in file.parent.glob("*.txt") if each.name != file.name) if file.is_file() else []
+        return [("Same folder", beside[:FILES_SHOWN]), *super().places()]
+
+    def _is_of_the_level(self, row: ReplayRow) -> bool:
+        source = row.source
+        return (level_digest(source.level) if isinstance(source, Recording) else source.level) == self._digest
+
+    def handle(self, event: InputEvent) -> None:
+        """Nothing is written or removed here."""
+        MenuScreen.handle(self, event)
+
+    def act(self, action: str, *, held: bool = False) -> None:
+        MenuScreen.act(self, action, held=held)
+
+    def _ask(self) -> None:
+        fields = [("path of a file, or a link", "", 200)]
+        form = FormPanel(self.app, "Runs from a file", fields, "Show them", lambda texts: self.open_file(texts[0]))
+        self.app.push(form)
+
+    def open_file(self, text: str) -> None:
+        """Show the runs of a file or a link; a file is looked for beside that of the run in the TAS editor too."""
+        about = self.others.editor.session.about
+        path = Path(text) if is_link(text) else Path(text).expanduser()
+        beside = Path(about.file).parent / path
+        path = beside if not is_link(path) and not path.exists() and beside.exists() else path
+        if self.others.editor.attempt(lambda: self.others.open(runs_of_level(path, about))):
+            self.app.pop()
+
+    def choose(self, source: SavedReplay | Recording) -> None:
+        """Show it, and go back to the TAS editor."""
+        if not isinstance(source, Recording):
+            replay = self.player.records.replay(source.id)
+            if replay is None or replay.level is None:
+                self.app.notify("This replay is not there any more")
+                return
+            source = Recording(replay.level, replay)
+        recording = source
+        if self.others.editor.attempt(lambda: self.others.open([recording])):
+            self.app.pop()
+
+
+def _named(row: ReplayRow) -> ReplayRow:
+    """A row that tells a run from others of its level."""
+    if not isinstance(row.source, Recording):
+        return row
+    text = f"{_place_of(row.source)}   {row.source.comment}".rstrip()
+    return row._replace(text=text, who="" if row.source.form == "file" else row.who)
+
+
+def _ticks(row: ReplayRow) -> int:
+    return row.source.ticks if isinstance(row.source, Recording) else row.source.final_tick + 1

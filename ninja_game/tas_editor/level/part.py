@@ -1,0 +1,348 @@
+"""The level beside the roll: the world after the tick under the cursor, the paths of runs, and the mouse over it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import hypot
+
+import numpy as np
+import pygame
+
+from ninja_game.play.replay.screen import SPEEDS
+from ninja_game.play.workspace.part import Commands
+from ninja_game.sim.kinds import KIND_NAMES
+from ninja_game.simulation import ObjectView, Simulation
+from ninja_game.tas_editor.controls import TABLE
+from ninja_game.tas_editor.editor import TasEditor, TasPart
+from ninja_game.tas_editor.level.other_runs import OtherRuns
+from ninja_game.tas_editor.level.paths import (
+    FAINT,
+    LETTERS,
+    NEAR,
+    LevelPaths,
+    Positions,
+    RunPath,
+    first_other_place,
+    shown_span,
+)
+from ninja_game.tas_editor.level.picture import LevelPicture, RunGhost
+from ninja_game.tas_editor.level.playing import Playing, TakeOver
+from ninja_game.tas_editor.tabs.plot import colour_of
+from ninja_game.tas_editor.tabs.values_tab import proposal
+from ninja_game.ui.canvas import Point
+from ninja_game.ui.input.bindings import InputEvent
+from ninja_game.ui.theme import Theme
+
+_REACH = 16.0
+"""px of the level within which an object is pointed at."""
+_LEAP = 40.0
+"""A drag goes to a nearer part of the run that is many ticks away only if it is nearer by more px than this."""
+
+LINE = 13.0
+"""Height of what is written below the level, logical px."""
+
+_STILL = 3
+"""The mouse that moves less, px, clicks."""
+
+Px = tuple[int, int]
+
+
+def nearest_tick(positions: Positions, x: float, y: float, cursor: int, *, dragged: bool = False) -> int:
+    """The tick, of those whose path is shown, after which the ninja was nearest to a place, px of the level."""
+    first, last = shown_span(cursor)
+    shown = positions[first:last] if first < len(positions) else positions
+    first = first if first < len(positions) else 0
+    far = np.hypot(shown[:, 0] - x, shown[:, 1] - y)
+    if dragged:
+        far += np.minimum(np.abs(np.arange(len(far)) + first - cursor), _LEAP)
+    return first + int(np.argmin(far))
+
+
+def object_at(run: Simulation, x: float, y: float) -> ObjectView | None:
+    """The object that is nearest to a place now, if it is near."""
+    found = min(run.objects, key=lambda each: hypot(each.x - x, each.y - y), default=None)
+    return found if found is not None and hypot(found.x - x, found.y - y) < _REACH else None
+
+
+class LevelPart(TasPart):
+    """The level, smaller than in the game. ``hover``: the tick to which a click goes; ``pointed``: the object there.
+
+    ``ask_to_watch``: proposes a formula about it.
+    """
+
+    slot = "level"
+
+    def __init__(self, editor: TasEditor, ask_to_watch: Callable[[str], object]) -> None:
+        super().__init__(editor)
+        self.ask_to_watch = ask_to_watch
+        self.picture = LevelPicture(editor)
+        self.playing = Playing(editor, self.picture)
+        self.take_over = TakeOver(self.playing)
+        self.others = OtherRuns(editor)
+        self.hover: int | None = None
+        self.pointed: ObjectView | None = None
+        self._hovered_run = editor.track
+        self._paths: LevelPaths | None = None
+        self._ghosts: dict[object, RunGhost] = {}
+        self._known: tuple[object, ...] = ()
+        self._positions: Positions = np.zeros((0, 2))
+        self._pointer = LevelPointer(self)
+        self._followed: Point = (0.0, 0.0)
+
+    def commands(self) -> Commands:
+        playing, taken = self.playing, self.take_over
+        shared: Commands = {
+            "faster": lambda: playing.change_speed(1), "slower": lambda: playing.change_speed(-1),
+            "ghosts": self._toggle_ghosts, "whole_level": self.picture.camera.show_all, **self.others.commands(),
+        }  # fmt: skip
+        if taken.on:
+            return {
+                "play": taken.pause, "step": taken.step, "step_back": taken.step_back, "take_over": taken.end, **shared
+            }  # fmt: skip
+        return {
+            "play": playing.toggle, "step": lambda: playing.step(1), "step_back": lambda: playing.step(-1),
+            "take_over": taken.begin, **shared,
+        }  # fmt: skip
+
+    def meaning(self, event: InputEvent) -> str:
+        """The command that an event means; '' for none."""
+        return self.take_over.meaning(event) if self.take_over.on else TABLE.meaning(event)
+
+    @property
+    def ghosts(self) -> list[RunGhost]:
+        """Those that were drawn last."""
+        return list(self._ghosts.values())
+
+    def _toggle_ghosts(self) -> None:
+        self.editor.ghosts = not self.editor.ghosts
+
+    # --- time ---
+
+    def update(self, real_ms: int) -> None:
+        self.playing.update(real_ms)
+        self.take_over.update(real_ms)
+        if self._hovered_run is not self.editor.track:
+            self.mouse_left()
+
+    def stop(self) -> None:
+        """End playing and taking over; the speed is remembered."""
+        self.playing.stop()
+        self.playing.remember()
+        self.take_over.end()
+
+    # --- keys and mouse ---
+
+    def capture(self, event: InputEvent) -> bool:
+        """Take the keys of the game while the run is taken over; Escape ends playing. Whether it did."""
+        taken = self.take_over
+        if taken.on:
+            if event.raw.type == pygame.WINDOWFOCUSLOST:
+                taken.stand_still()
+            return event.raw.type == pygame.MOUSEBUTTONDOWN or taken.captures(event)
+        if self.playing.on and event.source == ("keys", "escape"):
+            self.playing.stop()
+            return True
+        return False
+
+    def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
+        self._pointer.handle_mouse(event, x, y)
+        return True
+
+    def point_at(self, tick: int, found: ObjectView | None) -> None:
+        """Show the tick to which a click goes, and an object."""
+        self.hover, self.pointed = tick, found
+        self._hovered_run = self.editor.track
+
+    def mouse_left(self) -> None:
+        self.hover = self.pointed = None
+        self._pointer.release()
+
+    # --- picture ---
+
+    def render_key(self) -> tuple[object, ...]:
+        editor, timeline, playing = self.editor, self.editor.session.timeline, self.playing
+        moving = playing.on or self.take_over.on
+        return (
+            editor.track, editor.cursor, editor.selection, timeline.simulated_until, editor.session.before,
+            editor.ghosts, tuple(editor.others), editor.preview, self.hover, self.pointed, editor.app.settings,
+            playing.on, playing.speed,
+            self.picture.camera.render_key, self.take_over.on, self.take_over.still, self.take_over.waiting,
+            moving and playing.clock.remainder,
+        )  # fmt: skip
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        """The level, the paths of runs, their ghosts, what goes on."""
+        editor, picture = self.editor, self.picture
+        rect = theme.canvas.rect(*self.area)
+        running = self.playing.on or (self.take_over.on and not (self.take_over.still or self.take_over.waiting))
+        fraction = self.playing.clock.fraction if running else 1.0
+        positions = self._present()
+        whole = picture.fit(rect.size)
+        others = self._follow_others(positions)
+        picture.show(editor.cursor)
+        self._follow_ninja(rect.size, fraction)
+        whole = picture.fit(rect.size) or whole
+        if whole or self._paths is None or self._paths.theme is not theme:
+            self._paths = LevelPaths(theme, picture.canvas)
+        picture.draw(fraction, whole=whole)
+        surface.blit(picture.surface, rect)
+        inner = surface.subsurface(rect.clip(surface.get_rect()))
+        paths = self._paths
+        paths.draw_beside(inner, others)
+        paths.draw_flags(inner, positions, editor.track.markers)
+        for ghost in self.ghosts:
+            if ghost.label:
+                paths.draw_name(inner, ghost.label, ghost.place(fraction), ghost.colour(theme.palette))
+        if len(positions):
+            paths.draw_present(inner, positions, editor.cursor, editor.selection, shown_span(editor.cursor))
+        picture.draw_ninja_over(inner, fraction)
+        if self.hover is not None and self.hover < len(positions):
+            paths.draw_hover(inner, positions, self.hover)
+        if self.pointed is not None:
+            paths.draw_object(inner, self.pointed)
+        self._write(surface, theme)
+
+    def _follow_ninja(self, size: tuple[int, int], fraction: float) -> None:
+        """Have the ninja in the picture when it is elsewhere than before, unless the mouse has hold of the run."""
+        place = self.picture.place(fraction)
+        if place != self._followed and not self._pointer.busy:
+            self.picture.camera.follow(size, *place)
+        self._followed = place
+
+    def _present(self) -> Positions:
+        """Where the ninja is after each simulated tick."""
+        timeline = self.editor.session.timeline
+        known = timeline.inputs, timeline.simulated_until
+        if known != self._known:
+            self._known, self._positions = known, timeline.positions
+        return self._positions
+
+    def _follow_others(self, positions: Positions) -> list[RunPath]:
+        """The paths of other runs, and of the run before the last edit where it differs; their ghosts go along."""
+        editor = self.editor
+        kept, self._ghosts = self._ghosts, {}
+        if not editor.ghosts:
+            self.picture.follow([])
+            return []
+        palette = self.editor.theme.palette
+        runs = [(run, colour_of(number, palette)) for number, run in enumerate(editor.others)]
+        if editor.preview is not None:
+            runs.append((editor.preview, palette.exit))
+        before = editor.session.before
+        at = first_other_place(positions, before.positions)
+        if at <= min(editor.cursor, len(before) - 1, len(positions) - 1):
+            self._ghosts[before] = kept.get(before) or RunGhost(before)
+        for run, colour in runs:
+            self._ghosts[run.trajectory] = kept.get(run.trajectory) or RunGhost(run.trajectory, run.name, colour)
+        self.picture.follow(self.ghosts)
+        # Not at each tick of a run that is taken over is the other one shorter.
+        first, last = shown_span(editor.cursor)
+        beside = [RunPath(run.trajectory, colour, first, last) for run, colour in runs]
+        return [RunPath(before, palette.ghost, max(first, at - at % NEAR - 1), last, FAINT), *beside]
+
+    def _write(self, surface: pygame.Surface, theme: Theme) -> None:
+        """What goes on, below the level."""
+        take_over = self.take_over
+        if take_over.on:
+            now = "press a key to begin" if take_over.waiting else "tick by tick" if take_over.still else "your keys"
+            go_on = "go on" if take_over.still else "pause"
+            text = f"Taken over: {now}. Enter: end; Space: {go_on}; . and ,: step"
+        elif self.playing.on:
+            text = "Playing. Space: stop"
+        else:
+            text = "Space: play; Enter: take over"
+        x, y, w, h = self.area
+        palette, y = theme.palette, y + h - LINE
+        theme.canvas.fill_rect(surface, palette.tile, x, y, w, LINE)
+        zoom = self.picture.camera.zoom
+        speed = f"zoom {zoom:.1f}, " * (zoom > 1) + f"speed x {SPEEDS[self.playing.speed]:g}"
+        right = theme.text(surface, speed, x + w - 6, y + 1, size=LETTERS, colour=palette.on_tile, align="right")
+        room = right.left / theme.canvas.scale - x - 12
+        theme.text(surface, text, x + 6, y + 1, size=LETTERS, colour=palette.on_tile, bold=take_over.on, width=room)
+
+
+class LevelPointer:
+    """What the mouse is doing in the level."""
+
+    def __init__(self, part: LevelPart) -> None:
+        self._part = part
+        self._editor = part.editor
+        self._goes = False
+        self._grabbed: Px | None = None
+        self._button = 0
+        self._moved = False
+
+    @property
+    def busy(self) -> bool:
+        """Whether it goes along the run, or moves the picture."""
+        return self._goes or self._grabbed is not None
+
+    def release(self) -> None:
+        self._goes, self._grabbed = False, None
+
+    def handle_mouse(self, event: pygame.Event, x: float, y: float) -> None:
+        """A mouse event at logical px of the window."""
+        rect = self._editor.theme.canvas.rect(*self._part.area)
+        left, top = self._editor.theme.canvas.point(x, y)
+        at = left - rect.left, top - rect.top
+        if event.type == pygame.MOUSEMOTION and not any(event.buttons):
+            self.release()
+        if event.type == pygame.MOUSEWHEEL:
+            self._wheel(event.y, rect.size, at)
+        elif event.type == pygame.MOUSEBUTTONDOWN and event.button in (pygame.BUTTON_MIDDLE, pygame.BUTTON_RIGHT):
+            self._grabbed, self._button, self._moved = at, event.button, False
+        elif event.type == pygame.MOUSEMOTION and self._grabbed is not None:
+            self._drag(rect.size, at)
+        elif event.type == pygame.MOUSEBUTTONUP and self._grabbed is None:
+            self.release()
+        elif event.type == pygame.MOUSEBUTTONUP and event.button == self._button:
+            self._click()
+        elif not self._part.take_over.on:
+            self._point(event, at)
+
+    def _wheel(self, notches: float, size: Px, at: Px) -> None:
+        part = self._part
+        if not pygame.key.get_mods() & pygame.KMOD_CTRL:
+            part.picture.camera.zoom_at(size, at, notches)
+        elif not part.take_over.on:
+            part.playing.step(-round(notches))
+
+    def _drag(self, size: Px, at: Px) -> None:
+        if self._grabbed is None:
+            return
+        dx, dy = at[0] - self._grabbed[0], at[1] - self._grabbed[1]
+        self._moved = self._moved or max(abs(dx), abs(dy)) > _STILL
+        if self._moved:
+            self._part.picture.camera.move(size, dx, dy)
+            self._grabbed = at
+
+    def _click(self) -> None:
+        """The button that was down, perhaps without a drag, is up again."""
+        part, moved = self._part, self._moved
+        self.release()
+        if moved or part.take_over.on:
+            return
+        if self._button == pygame.BUTTON_MIDDLE:
+            part.picture.camera.show_all()
+        elif part.pointed is not None:
+            part.ask_to_watch(proposal(part.pointed.id, KIND_NAMES.index(part.pointed.kind)))
+
+    def _point(self, event: pygame.Event, at: Px) -> None:
+        """Tell what is there; a click, or a drag, goes to the tick in which the ninja was nearest."""
+        part, editor = self._part, self._editor
+        positions = editor.session.timeline.positions
+        if not len(positions):
+            return
+        place = part.picture.canvas.logical(at)
+        dragged = event.type == pygame.MOUSEMOTION and bool(event.buttons[0])
+        pressed = event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT
+        tick = nearest_tick(positions, *place, editor.cursor, dragged=dragged)
+        part.point_at(tick, None if dragged else object_at(part.picture.run, *place))
+        found = part.pointed
+        words = f"{found.kind} {found.id}; right button: watch it   " if found else ""
+        zoomed = part.picture.camera.zoom > 1
+        editor.hint = f"{words}Click: to tick {tick}; wheel: zoom{', right button: move, 0: all' if zoomed else ''}"
+        self._goes = dragged or pressed
+        if self._goes:
+            part.playing.stop()
+            editor.go(tick, select=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))

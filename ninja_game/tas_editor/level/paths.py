@@ -1,0 +1,193 @@
+"""The paths of runs over the level: drawn once, and again only where they change."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+import pygame
+from numpy.typing import NDArray
+
+from ninja_game.formats.replay.input_runs import Marker
+from ninja_game.play.replay.paths import draw_path
+from ninja_game.simulation import ObjectView
+from ninja_game.tas.timeline import Trajectory
+from ninja_game.tas_editor.editor import Span
+from ninja_game.ui.canvas import Canvas, Point
+from ninja_game.ui.theme import Theme
+
+Positions = NDArray[np.float64]
+
+NEAR = 40
+"""Ticks before and after the cursor whose path is bright."""
+_DOT_EVERY, _CLOSE = 10, 0.5
+"""Ticks between two dots on the bright path; where a px of the window is less of the level: each tick."""
+FAINT, CLEAR = 110, 190
+"""Of 255: how solid paths are."""
+_BLOCK = 1000
+"""Ticks by which the part of a long run moves whose path is shown."""
+LETTERS = 9
+"""Size of what is written over the level, logical px of the TAS editor, as all sizes here."""
+_LONGEST_NAME = 100
+_THIN, _THICK = 0.8, 2.7
+"""Width of paths, and of their selected part."""
+
+
+def shaded(colour: pygame.Color, alpha: int) -> pygame.Color:
+    """A colour that lets shine through what is below."""
+    return pygame.Color(colour.r, colour.g, colour.b, alpha)
+
+
+def shown_span(cursor: int) -> Span:
+    """The ticks whose path are shown: more would be a tangle."""
+    middle = cursor - cursor % _BLOCK
+    return max(0, middle - 2 * _BLOCK), middle + 4 * _BLOCK
+
+
+class RunPath(NamedTuple):
+    """The path of another run in the ticks ``first`` … ``last`` - 1; ``alpha``: of 255, how solid."""
+
+    trajectory: Trajectory
+    colour: pygame.Color
+    first: int
+    last: int
+    alpha: int = CLEAR
+
+
+class PathLayer:
+    """One surface with the path of one run, to which more ticks are added as they are known. ``covered``: its px."""
+
+    def __init__(self, canvas: Canvas, colour: pygame.Color, width: float) -> None:
+        self.surface = pygame.Surface(canvas.window, pygame.SRCALPHA)
+        self._canvas = canvas
+        self._colour = colour
+        self._width = width
+        self._drawn: Positions = np.zeros((0, 2))
+        self.covered = pygame.Rect(0, 0, 0, 0)
+
+    def show(self, positions: Positions) -> None:
+        """Show this path; what it has in common with the last one stays."""
+        known = len(self._drawn)
+        if known > len(positions) or not np.array_equal(self._drawn, positions[:known]):
+            self.surface.fill((0, 0, 0, 0), self.covered)
+            self.covered, known = pygame.Rect(0, 0, 0, 0), 0
+        added = draw_path(self.surface, self._canvas, positions[max(0, known - 1) :], self._colour, self._width)
+        self.covered = union_of([self.covered, added])
+        self._drawn = positions
+
+
+class LevelPaths:
+    """What lies over a picture of the level. ``canvas``: of that picture; ``theme``: the TAS editor's."""
+
+    def __init__(self, theme: Theme, canvas: Canvas) -> None:
+        self.theme = theme
+        self.canvas = canvas
+        self._present = PathLayer(canvas, shaded(theme.palette.accent, FAINT), self._px(_THIN))
+        self._under = pygame.Surface(canvas.window, pygame.SRCALPHA)
+        self._covered = pygame.Rect(0, 0, 0, 0)
+        self._beside: tuple[RunPath, ...] = ()
+        self._labels: list[pygame.Rect] = []
+
+    def _px(self, length: float) -> float:
+        """A length of the TAS editor in px of the level: what is drawn over it does not grow with it."""
+        return length * self.theme.canvas.scale / self.canvas.scale
+
+    def _put(self, surface: pygame.Surface, layer: pygame.Surface, covered: pygame.Rect) -> None:
+        seen = covered.clip(self.canvas.stage)
+        surface.blit(layer, seen, seen)
+
+    def draw_beside(self, surface: pygame.Surface, paths: Sequence[RunPath]) -> None:
+        """The other runs; a picture begins."""
+        self._labels.clear()
+        if tuple(paths) != self._beside:
+            self._beside = tuple(paths)
+            self._under.fill((0, 0, 0, 0), self._covered)
+            drawn = [
+                draw_path(
+                    self._under, self.canvas, each.trajectory.positions[each.first : each.last],
+                    shaded(each.colour, each.alpha), self._px(_THIN),
+                )
+                for each in paths
+            ]  # fmt: skip
+            self._covered = union_of(drawn)
+        self._put(surface, self._under, self._covered)
+
+    def draw_present(
+        self, surface: pygame.Surface, positions: Positions, cursor: int, selected: Span, shown: Span
+    ) -> None:
+        """The run itself: faint, brighter near the cursor and dotted there; the selected ticks stand out."""
+        canvas, palette = self.canvas, self.theme.palette
+        self._present.show(positions[slice(*shown)])
+        self._put(surface, self._present.surface, self._present.covered)
+        first, last = selected
+        if last - first > 1:
+            draw_path(surface, canvas, positions[max(0, first - 1) : last], palette.good, self._px(_THICK))
+        low = max(0, cursor - NEAR)
+        draw_path(surface, canvas, positions[low : cursor + NEAR + 1], palette.accent, self._px(_THIN))
+        every = 1 if self._px(1.0) < _CLOSE else _DOT_EVERY
+        for tick in range(low + -low % every, min(len(positions), cursor + NEAR + 1), every):
+            radius = 1.0 if tick % _DOT_EVERY else 1.6
+            canvas.circle(surface, palette.accent, _point(positions, tick), self._px(radius))
+
+    def draw_flags(self, surface: pygame.Surface, positions: Positions, markers: Sequence[Marker]) -> None:
+        """A flag where each marked tick is, with its name."""
+        canvas, palette, px = self.canvas, self.theme.palette, self._px
+        for tick, name in markers:
+            if tick < len(positions):
+                x, y = at = _point(positions, tick)
+                canvas.line(surface, palette.outline, at, (x, y - px(14)), px(_THIN))
+                tips = [(x, y - px(14)), (x + px(7), y - px(11)), (x, y - px(8.5))]
+                self._labels.append(canvas.polygon(surface, palette.good, tips))
+                self._label(surface, name, at, (8.5, -16), palette.text)
+
+    def draw_hover(self, surface: pygame.Surface, positions: Positions, tick: int) -> None:
+        """A ring where the run is after a tick, and its number."""
+        at = _point(positions, tick)
+        self.canvas.circle(surface, self.theme.palette.text, at, self._px(4.8), self._px(1))
+        self._label(surface, str(tick), at, (7, 2), self.theme.palette.text)
+
+    def draw_object(self, surface: pygame.Surface, seen: ObjectView) -> None:
+        """What an object is and its id, above it."""
+        self._label(surface, f"{seen.kind} {seen.id}", (seen.x, seen.y), (5, -14), self.theme.palette.text)
+
+    def draw_name(self, surface: pygame.Surface, name: str, at: Point, colour: pygame.Color) -> None:
+        """The name of a ghost, above it."""
+        name = self.theme.fit(name, _LONGEST_NAME, LETTERS)
+        self._label(surface, name, at, (-4, -18), colour)
+
+    def _label(self, surface: pygame.Surface, text: str, at: Point, beside: Point, colour: pygame.Color) -> None:
+        """A small text on a plate, beside a place of the level, inside of the picture where that place is."""
+        theme, px = self.theme, self.canvas.point(*at)
+        if not surface.get_rect().collidepoint(px):
+            return
+        # The TAS editor fills its window: its logical px begin at the window's corner.
+        scale = theme.canvas.scale
+        w, (width, height) = theme.width(text, LETTERS), surface.get_size()
+        x = min(max(1.0, px[0] / scale + beside[0]), width / scale - w - 4)
+        y = min(max(1.0, px[1] / scale + beside[1]), height / scale - 13)
+        plate = theme.canvas.rect(x - 1.5, y - 0.5, w + 3, LETTERS + 2.5)
+        while (hidden := plate.collidelist(self._labels)) >= 0 and self._labels[hidden].bottom < surface.get_height():
+            y += (self._labels[hidden].bottom + 1 - plate.top) / scale
+            plate.top = self._labels[hidden].bottom + 1
+        self._labels.append(plate)
+        ground = shaded(theme.palette.background, 200)
+        theme.canvas.fill_rect(surface, ground, x - 1.5, y - 0.5, w + 3, LETTERS + 2.5, 1)
+        theme.text(surface, text, x, y, size=LETTERS, colour=colour)
+
+
+def union_of(rects: Sequence[pygame.Rect]) -> pygame.Rect:
+    """What holds all rectangles that are not empty."""
+    known = [rect for rect in rects if rect]
+    return known[0].unionall(known) if known else pygame.Rect(0, 0, 0, 0)
+
+
+def first_other_place(ours: Positions, theirs: Positions) -> int:
+    """The first tick after which two runs are at different places; the length of the shorter one if there is none."""
+    shared = min(len(ours), len(theirs))
+    other = np.flatnonzero((ours[:shared] != theirs[:shared]).any(axis=1))
+    return int(other[0]) if len(other) else shared
+
+
+def _point(positions: Positions, tick: int) -> Point:
+    return float(positions[tick, 0]), float(positions[tick, 1])

@@ -1,0 +1,193 @@
+"""The run plays from the cursor on, at any speed; or the player takes over, and the real keys play it on."""
+
+from __future__ import annotations
+
+from ninja_game.play.clock import RunClock
+from ninja_game.play.replay.screen import SPEEDS
+from ninja_game.sim.rules import TICK_MS
+from ninja_game.tas.timeline import AFTERMATH
+from ninja_game.tas_editor.controls import BY_PAD, COMMANDS
+from ninja_game.tas_editor.editor import TasEditor
+from ninja_game.tas_editor.level.picture import LevelPicture
+from ninja_game.ui.input.bindings import InputEvent
+
+
+class Playing:
+    """``on``: it plays. ``speed``: a number of SPEEDS. ``clock``: also of a run that was taken over."""
+
+    def __init__(self, editor: TasEditor, picture: LevelPicture) -> None:
+        self.editor = editor
+        self.picture = picture
+        self.clock = RunClock()
+        wished = editor.app.settings.play_speed / 100
+        self.speed = min(range(len(SPEEDS)), key=lambda speed: abs(SPEEDS[speed] - wished))
+        self.on = False
+
+    @property
+    def tick_ms(self) -> int:
+        return max(1, round(TICK_MS / SPEEDS[self.speed]))
+
+    def toggle(self) -> None:
+        """Play, from the start if the cursor is at the end; or stop."""
+        self.on = not self.on
+        if self.on and self.editor.cursor >= self.editor.last_tick:
+            self.editor.go(0)
+        self.clock.reset()
+        self.editor.app.audio_output.quiet()
+
+    def stop(self) -> None:
+        if self.on:
+            self.toggle()
+
+    def change_speed(self, by: int) -> None:
+        """Faster or slower by this many steps."""
+        self.speed = min(len(SPEEDS) - 1, max(0, self.speed + by))
+        self.clock.reset()
+
+    def remember(self) -> None:
+        """Have this speed the next time, too."""
+        percent = round(100 * SPEEDS[self.speed])
+        if percent != self.editor.app.settings.play_speed:
+            self.editor.app.change_settings(play_speed=percent)
+
+    def step(self, ticks: int) -> None:
+        """Some ticks on, or back, and stop."""
+        self.stop()
+        self.editor.go(self.editor.cursor + ticks)
+
+    def update(self, real_ms: int) -> None:
+        """Let real time pass. It waits for what is not simulated yet."""
+        if not self.on:
+            return
+        editor = self.editor
+        for _ in range(self.clock.ticks_due(real_ms, self.tick_ms)):
+            if editor.cursor >= editor.last_tick:
+                self.stop()
+                return
+            if editor.session.timeline.simulated_until > editor.cursor + 1:
+                editor.go(editor.cursor + 1)
+                self.picture.show(editor.cursor, audible=True)
+
+
+_OF_THE_APP = frozenset({"fullscreen", "screenshot", "boss"})
+_MOVES = frozenset({"left", "right", "jump"})
+_BY_ACTION = {"pause": "play", "back": "take_over", "frame_forward": "step", "frame_back": "step_back"}
+"""Commands by actions of the game, for pads and for other keys."""
+_BY_KEY = {"escape": "take_over"} | {
+    key: command.name
+    for command in COMMANDS
+    if command.name in ("play", "take_over", "step", "step_back", "faster", "slower", "ghosts", "whole_level")
+    for key in command.keys
+}
+"""The commands of a run that is taken over."""
+_BY_PAD = {button: name for button, name in BY_PAD.items() if name in ("step", "step_back")}
+
+
+class TakeOver:
+    """Playing on by hand from the cursor.
+
+    ``on``: the run is taken over. ``waiting``: it begins with the first key. ``still``: tick by tick, or paused.
+    Each tick gets the keys that are down then; all of it is one edit. After an exit or a death nothing is recorded any
+    more; it ends when the aftermath has been shown.
+    """
+
+    def __init__(self, playing: Playing) -> None:
+        self.playing = playing
+        self.editor = playing.editor
+        self.on = self.waiting = self.still = False
+        self.tick = 0
+        self._held_before = 0
+
+    def begin(self) -> None:
+        """Take over from the tick under the cursor; it begins with the first key that is pressed."""
+        editor = self.editor
+        self.playing.stop()
+        editor.session.timeline.ensure(editor.cursor)
+        if self._ended(editor.cursor):
+            end, outcome = editor.session.timeline.end
+            words = "has left" if outcome == "exit" else "is dead"
+            editor.app.notify(f"The ninja {words} in tick {end}: take over in a tick before")
+            return
+        editor.session.begin()
+        self.on = self.waiting = True
+        self.still = False
+        self.tick = editor.cursor
+        editor.go(self.tick)
+        self._held_before = editor.app.controls.poll()
+
+    def end(self) -> None:
+        """The run is edited as before; all that was played is one edit."""
+        if self.on:
+            self.on = False
+            self.editor.app.audio_output.quiet()
+            self.editor.session.end()
+            self.editor.session.timeline.simulate(self.editor.session.ticks_per_frame)
+
+    def pause(self) -> None:
+        self.stand_still(still=not (self.still or self.waiting))
+
+    def stand_still(self, *, still: bool = True) -> None:
+        self.still, self.waiting = still, False
+        self.playing.clock.reset()
+        self.editor.app.audio_output.quiet()
+
+    def step(self) -> None:
+        """One tick with the keys that are down; then it stands still."""
+        self.stand_still()
+        self._play_tick()
+
+    def step_back(self) -> None:
+        """A tick back, to go on from there; it stands still."""
+        self.stand_still()
+        self._go(max(0, self.tick - 1))
+
+    def _go(self, tick: int, *, audible: bool = False) -> None:
+        self.tick = tick
+        self.editor.go(tick)
+        self.playing.picture.show(tick, audible=audible)
+
+    def _ended(self, tick: int, after: int = 0) -> bool:
+        """Whether the exit or death was so many ticks before."""
+        end = self.editor.session.timeline.end[0]
+        return 0 <= end <= tick - after
+
+    def _play_tick(self) -> None:
+        """The next tick, with the keys that are down right now."""
+        editor, tick = self.editor, self.tick + 1
+        session = editor.session
+        if not self._ended(self.tick):
+            keys = editor.app.controls.poll()
+            if not editor.attempt(lambda: session.change(editor.track.replaced(tick, tick + 1, [keys]), ticks=0)):
+                self.end()
+                return
+        session.timeline.ensure(tick)
+        self._go(tick, audible=True)
+        if self._ended(tick, AFTERMATH) or tick >= editor.last_tick:
+            self.end()
+
+    def update(self, real_ms: int) -> None:
+        if not self.on or self.still:
+            return
+        if self.waiting:
+            # Keys that were down before do not count until they are pressed again.
+            held = self.editor.app.controls.poll()
+            self._held_before &= held
+            self.waiting = not held & ~self._held_before
+            self.playing.clock.reset()
+            return
+        for _ in range(self.playing.clock.ticks_due(real_ms, self.playing.tick_ms)):
+            if self.on:
+                self._play_tick()
+
+    @staticmethod
+    def meaning(event: InputEvent) -> str:
+        """The command that an event means now; '' for none."""
+        if event.source is None or _MOVES.intersection(event.pressed):
+            return ""
+        # By the bare key: Shift may be down, which jumps.
+        of_key = (_BY_KEY if event.source[0] == "keys" else _BY_PAD).get(event.source[1], "")
+        return of_key or next((_BY_ACTION[action] for action in event.pressed if action in _BY_ACTION), "")
+
+    def captures(self, event: InputEvent) -> bool:
+        """Whether a key is none that goes on to the commands or to the app."""
+        return event.source is not None and not self.meaning(event) and not _OF_THE_APP.intersection(event.pressed)

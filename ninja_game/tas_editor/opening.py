@@ -1,0 +1,139 @@
+"""Opens the TAS editor, behind a waiting screen where rules must be loaded or compiled first."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from typing import TYPE_CHECKING
+
+import pygame
+
+from ninja_game.backend.kernel_cache import before_compiling
+from ninja_game.backend.memories import begins_plain, compiled_available, is_compiled
+from ninja_game.errors import NinjaGameError, reason
+from ninja_game.formats.recording import Recording
+from ninja_game.play.app import App, Screen
+from ninja_game.runtime import run_in_background
+from ninja_game.ui.canvas import HEIGHT, WIDTH
+from ninja_game.ui.input.bindings import InputEvent
+
+if TYPE_CHECKING:
+    from ninja_game.tas_editor.screen import TasScreen
+
+PATIENCE_MS = 1000
+"""What takes longer is explained."""
+
+
+def open_tas_editor(app: App, recording: Recording, others: Sequence[Recording], tick: int) -> None:
+    """Open the TAS editor on a run, with others of its level beside it; a notice where that is impossible."""
+
+    def make() -> TasScreen:
+        # They import NumPy, which watching does without.
+        from ninja_game.tas.files import open_recording, same_level
+        from ninja_game.tas_editor.screen import TasScreen
+
+        opened = open_recording(recording)
+        screen = TasScreen(app, opened, [each for each in others if same_level(each, recording)])
+        screen.editor.go(tick)
+        return screen
+
+    if not is_prepared():
+        app.push(OpeningScreen(app, recording, make))
+        return
+    try:
+        screen = make()
+    except (NinjaGameError, OSError) as error:
+        app.notify(_refusal(error))
+    else:
+        app.push(screen)
+
+
+def is_prepared() -> bool:
+    """Whether the TAS editor opens at once."""
+    from ninja_game.sim.memory.kernels import trace_world
+
+    return not compiled_available() or is_compiled(trace_world) or begins_plain()
+
+
+def prepare(run: Recording) -> None:
+    """Have the rules that the TAS editor needs for a run in this process: loaded, or compiled."""
+    from ninja_game.simulation import Simulation
+    from ninja_game.tas.timeline import Timeline
+
+    # What is wrong with the run, the TAS editor says.
+    with suppress(NinjaGameError):
+        Timeline(run.level, b"\0", body=run.body).simulate(1)
+        Simulation(run.level, body=run.body, memory="auto").step_keys(0)
+
+
+class OpeningScreen(Screen):
+    """Says what is being done until the rules are there; then the TAS editor, which ``make`` gives, takes its place.
+
+    What is wrong then is reported on the screen below, or raised where there is none: NinjaGameError, OSError.
+    """
+
+    def __init__(self, app: App, run: Recording, make: Callable[[], TasScreen]) -> None:
+        super().__init__(app)
+        self._name = run.name or "the run"
+        self._make = make
+        self._compiles = False
+        self._waited_ms = 0
+        self._shown = ""
+        before_compiling.append(self._note_compiling)
+        self._thread = run_in_background(lambda: prepare(run), self._note_problem)
+
+    def _note_compiling(self) -> None:
+        self._compiles = True
+
+    def _note_problem(self, why: str) -> None:
+        def refuse() -> TasScreen:
+            raise NinjaGameError(why)
+
+        self._make = refuse
+
+    @property
+    def explanation(self) -> str:
+        if self._waited_ms < PATIENCE_MS:
+            return ""
+        seconds = f"{self._waited_ms // 1000} s"
+        if self._compiles:
+            return f"Compiling the rules for this machine, only the first time: a minute or two ({seconds})"
+        return f"Loading the rules ({seconds})"
+
+    def capture(self, event: InputEvent) -> bool:
+        """Nothing can be done yet, except close the window."""
+        return True
+
+    def update(self, real_ms: int) -> None:
+        """Wait for the rules, at least for one picture."""
+        self._waited_ms += real_ms
+        if self._thread.is_alive() or not self._shown:
+            return
+        try:
+            screen = self._make()
+        except (NinjaGameError, OSError) as error:
+            if len(self.app.stack) == 1:
+                raise
+            self.app.pop()
+            self.app.notify(_refusal(error))
+        else:
+            self.app.replace(screen)
+
+    def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
+        shown = f"Opening {self._name} ...\n{self.explanation}"
+        if shown == self._shown and not self.redraw:
+            return []
+        self._shown = shown
+        palette = self.theme.palette
+        surface.fill(palette.tile)
+        for number, (line, size) in enumerate(zip(shown.split("\n"), (18, 11), strict=True)):
+            y = HEIGHT / 2 - 30 + 34 * number
+            self.theme.text(
+                surface, line, WIDTH / 2, y, size=size, bold=not number, colour=palette.on_tile, align="centre",
+                width=WIDTH - 80,
+            )  # fmt: skip
+        return None
+
+
+def _refusal(error: Exception) -> str:
+    return f"It cannot be edited: {reason(error)}"

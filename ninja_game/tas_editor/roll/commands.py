@@ -1,0 +1,243 @@
+"""The roll's commands: moving, selecting, changing ticks, the clipboard, markers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+from ninja_game.errors import ArgumentError, NinjaGameError
+from ninja_game.files.shown_text import counted
+from ninja_game.formats.replay.input_runs import Marker, write_inputs
+from ninja_game.formats.replay.input_text import Inputs
+from ninja_game.play.clipboard import copy_text, pasted_text
+from ninja_game.play.menus.panels import FormPanel
+from ninja_game.play.workspace.part import Commands
+from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
+from ninja_game.tas.files import inputs_of_text
+from ninja_game.tas.input_track import InputTrack
+from ninja_game.tas_editor.editor import Span, TasEditor
+from ninja_game.tas_editor.roll.facts import changes, compared
+
+BEHIND = "Nothing here: the run ends earlier"
+"""Where nothing can be copied or taken out."""
+
+
+class RollCommands:
+    """The commands of the piano roll: cursor, selection, edits of keys. ``page``: how many rows are seen."""
+
+    def __init__(self, editor: TasEditor, page: Callable[[], int]) -> None:
+        self._editor = editor
+        self._page = page
+
+    def commands(self) -> Commands:
+        editor, moves = self._editor, self._moves()
+        return {
+            **{name: partial(self._move, to) for name, to in moves.items()},
+            **{f"select_{name}": partial(self._move, to, select=True) for name, to in moves.items()},
+            "select_all": self.select_all, "go_to": self.ask_where,
+            "next_marker": lambda: self._to_marker(1), "previous_marker": lambda: self._to_marker(-1),
+            "next_difference": lambda: self._to_difference(1),
+            "previous_difference": lambda: self._to_difference(-1),
+            "key_left": lambda: self.toggle(KEY_LEFT), "key_right": lambda: self.toggle(KEY_RIGHT),
+            "key_jump": lambda: self.toggle(JUMP_HELD),
+            "clear": self.clear, "insert": self.insert, "remove": self.remove,
+            "copy": self.copy, "cut": self.cut,
+            "paste": self.paste, "paste_insert": lambda: self.paste(between=True),
+            "cut_end": self.cut_end, "marker": self.name_tick,
+            "undo": lambda: self._step(editor.session.undo, "Nothing to undo"),
+            "redo": lambda: self._step(editor.session.redo, "Nothing to redo"),
+        }  # fmt: skip
+
+    # --- moving ---
+
+    def _moves(self) -> dict[str, Callable[[], int]]:
+        editor = self._editor
+        return {
+            "up": lambda: editor.cursor - 1, "down": lambda: editor.cursor + 1,
+            "page_up": lambda: editor.cursor - self._page() + 1, "page_down": lambda: editor.cursor + self._page() - 1,
+            "first": lambda: 0, "last": self._last,
+        }  # fmt: skip
+
+    def _move(self, to: Callable[[], int], *, select: bool = False) -> None:
+        self._editor.go(to(), select=select)
+
+    def _last(self) -> int:
+        """The tick of exit or death; from there or behind it the last one."""
+        end = self._editor.session.timeline.end[0]
+        return end if self._editor.cursor < end else self._editor.last_tick
+
+    def select_all(self) -> None:
+        self._editor.select(0, len(self._editor.track))
+
+    def ask_where(self) -> None:
+        editor = self._editor
+        editor.app.push(
+            FormPanel(editor.app, "Go to", [("Tick or name", "", 100)], "Go", lambda texts: self.go_to(texts[0]))
+        )
+
+    def go_to(self, text: str) -> None:
+        """Go to a tick by its number or its marker's name; a notice tells where there is none."""
+        text = text.strip().removeprefix("#")
+        named = [tick for tick, name in self._editor.track.markers if name.casefold() == text.casefold()]
+        if named or (text.isascii() and text.isdigit()):
+            self._editor.go(named[0] if named else int(text[:9]))
+        elif text:
+            self._editor.app.notify(f"No tick is named {text}")
+
+    def _to_marker(self, direction: int) -> None:
+        """The next named tick, or the one before."""
+        cursor = self._editor.cursor
+        ticks = [tick for tick, _ in self._editor.track.markers if (tick - cursor) * direction > 0]
+        if ticks:
+            self._editor.go(min(ticks, key=lambda tick: abs(tick - cursor)))
+        else:
+            self._editor.app.notify(f"No named tick {'behind' if direction > 0 else 'before'} this one: M names it")
+
+    def _to_difference(self, direction: int) -> None:
+        """The next tick in which the keys part from those of the run that is compared, or the one before."""
+        editor, other = self._editor, compared(self._editor)
+        if other is None:
+            editor.app.notify("Other runs are not shown: G shows them")
+            return
+        ticks = changes(editor.track.inputs, other.track.inputs)
+        ticks = ticks[ticks <= editor.last_tick]
+        ahead = ticks[(ticks - editor.cursor) * direction > 0]
+        if len(ahead):
+            editor.go(int(ahead[0] if direction > 0 else ahead[-1]))
+        else:
+            where = "no" if not len(ticks) else "no more" if direction > 0 else "no earlier"
+            editor.app.notify(f"There are {where} ticks with other keys than {other.name}")
+
+    # --- changing ---
+
+    def _filled(self) -> Span:
+        """The selected ticks that the run has."""
+        first, last = self._editor.selection
+        return first, min(last, len(self._editor.track))
+
+    def toggle(self, key: int) -> None:
+        """A key down in the selected ticks; up where it is down in all of them."""
+        first, last = self._editor.selection
+        down = not all(self._editor.track.keys_at(tick) & key for tick in range(first, last))
+        self._editor.edit_selected(lambda track: track.with_key(first, last, key, down=down))
+
+    def clear(self) -> None:
+        """All keys up in the selected ticks."""
+        first, last = self._filled()
+        if first >= last:
+            self._editor.app.notify(BEHIND)
+        else:
+            self._editor.edit_selected(lambda track: track.replaced(first, last, bytes(last - first)))
+
+    def insert(self) -> None:
+        """Ticks without a key before the selected ones, as many as they are."""
+        first, last = self._editor.selection
+        self._editor.edit_selected(lambda track: track.replaced(first, first, bytes(last - first)))
+
+    def remove(self) -> None:
+        first, last = self._filled()
+        if first >= last:
+            self._editor.app.notify(BEHIND)
+        elif self._editor.edit_selected(lambda track: track.replaced(first, last, b"")):
+            self._editor.go(first)
+
+    def cut_end(self) -> None:
+        """Take out what is behind exit or death."""
+        editor = self._editor
+        editor.session.timeline.ensure(editor.last_tick)
+        end = editor.session.timeline.end[0]
+        if end < 0:
+            editor.app.notify("The run neither reaches the exit nor dies: there is nothing behind its end")
+        elif end + 1 >= len(editor.track):
+            editor.app.notify("There are no keys behind the end")
+        else:
+            editor.edit(lambda track: track.replaced(end + 1, len(track), b""))
+
+    def _step(self, step: Callable[[], bool], refusal: str) -> None:
+        """Undo or redo, and have the cursor and the selection of that time again; else go where something changes."""
+        editor = self._editor
+        editor.session.end()
+        before, place = editor.track, (editor.cursor, editor.anchor)
+        if not step():
+            editor.app.notify(refusal)
+            return
+        editor.app.notify("")
+        if editor.track in editor.places:
+            editor.places[before] = place
+        first = _first_change(before, editor.track)
+        cursor, anchor = editor.places.get(editor.track, (first, None))
+        near = abs(cursor - first) < self._page()
+        editor.go(first if not near or anchor is None else anchor)
+        editor.go(cursor if near else first, select=near and anchor is not None)
+
+    # --- clipboard ---
+
+    def copy(self) -> None:
+        """The selected ticks as text of our notation, with their markers."""
+        first, last = self._filled()
+        markers = [Marker(tick - first, name) for tick, name in self._editor.track.markers if first <= tick < last]
+        text = "\n".join(write_inputs(self._editor.track.inputs[first:last], markers))
+        if text:
+            notice = f"{counted(last - first, 'tick')} copied"
+            title = self._editor.session.about.name or "inputs"
+            copy_text(self._editor.app, text, title=title, suffix=".inputs.txt", notice=notice)
+        else:
+            self._editor.app.notify(BEHIND)
+
+    def cut(self) -> None:
+        self.copy()
+        first, last = self._filled()
+        if first < last:
+            self.remove()
+
+    def paste(self, *, between: bool = False) -> None:
+        """The ticks of the clipboard's text over what is there, or ``between``; they are selected then."""
+        editor = self._editor
+        try:
+            pasted = inputs_of_text(pasted_text(), "clipboard")
+        except NinjaGameError as error:
+            editor.app.notify(f"Not pasted: {error}")
+            return
+        first, count = editor.selection[0], len(pasted.keys)
+        if self._editor.edit_selected(lambda track: _with_pasted(track, first, pasted, between=between)):
+            editor.select(first, first + count)
+            editor.app.notify(f"{counted(count, 'tick')} pasted")
+
+    # --- markers ---
+
+    def name_tick(self) -> None:
+        """Ask for the name of the cursor's tick."""
+        editor, tick = self._editor, self._editor.cursor
+        name = next((name for at, name in editor.track.markers if at == tick), "")
+        fields = [("Marker name (empty removes it)", name, 100)]
+        editor.app.push(
+            FormPanel(editor.app, f"Tick {tick}", fields, "Name it", lambda texts: self._name(tick, texts[0]))
+        )
+
+    def _name(self, tick: int, text: str) -> None:
+        words = "-".join(text.split())
+
+        def named(track: InputTrack) -> InputTrack:
+            if words and tick > len(track):
+                raise ArgumentError(f"the run has {len(track)} ticks: give this one a key first")
+            return track.named(tick, words)
+
+        if self._editor.edit(named) and words != text.strip():
+            self._editor.app.notify(f"It is called {words}: names have no blanks")
+
+
+def _with_pasted(track: InputTrack, first: int, pasted: Inputs, *, between: bool) -> InputTrack:
+    """An input track with pasted ticks; markers that it has keep their ticks."""
+    last = first if between else first + len(pasted.keys)
+    made = track.replaced(first, last, pasted.keys)
+    for tick, name in pasted.markers:
+        if all(name != each.name and first + tick != each.tick for each in made.markers):
+            made = made.named(first + tick, name)
+    return made
+
+
+def _first_change(before: InputTrack, after: InputTrack) -> int:
+    """The first tick whose keys or name differ."""
+    if before.inputs != after.inputs:
+        return before.first_difference(after)
+    return min((tick for tick, _ in set(before.markers) ^ set(after.markers)), default=0)

@@ -1,0 +1,204 @@
+"""What the rows of the roll show: keys and values of each tick, and where another run has other keys."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+import pygame
+from numpy.typing import NDArray
+
+from ninja_game.formats.replay.input_runs import KEY_NAMES
+from ninja_game.sim.inputs import KEYS_DOWN, fitted_inputs
+from ninja_game.sim.states import STATE_NAMES
+from ninja_game.tas.input_track import InputTrack
+from ninja_game.tas.watch import exit_distance
+from ninja_game.tas_editor.editor import TasEditor
+from ninja_game.tas_editor.tabs.plot import colour_of
+from ninja_game.ui.theme import Palette
+
+PREVIEW, BEFORE = -1, -2
+"""Instead of the number of another run."""
+
+
+class Compared(NamedTuple):
+    """A run whose keys are marked beside those of the one under edit. ``number``: of another run, or which it is."""
+
+    track: InputTrack
+    name: str
+    number: int
+
+    def colour(self, palette: Palette) -> pygame.Color:
+        """The colour of its ghost in the level."""
+        if self.number == BEFORE:
+            return palette.ghost
+        return palette.exit if self.number == PREVIEW else colour_of(self.number, palette)
+
+
+def compared(editor: TasEditor) -> Compared | None:
+    """The result of a search that is looked at, else the chosen other run, else the run before the last edit.
+
+    None where other runs are not shown.
+    """
+    if not editor.ghosts:
+        return None
+    if editor.preview is not None:
+        return Compared(editor.preview.track, "the result", PREVIEW)
+    if editor.others:
+        number = editor.chosen % len(editor.others)
+        return Compared(editor.others[number].track, editor.others[number].name, number)
+    return Compared(editor.session.before_track, "before the edit", BEFORE)
+
+
+@lru_cache(maxsize=4)
+def different_keys(ours: bytes, theirs: bytes) -> NDArray[np.uint8]:
+    """In each tick of the longer one of two runs the keys that are down in one of them only, as a sum."""
+    first, second = _keys(ours, theirs)
+    return first ^ second
+
+
+@lru_cache(maxsize=4)
+def changes(ours: bytes, theirs: bytes) -> NDArray[np.intp]:
+    """The ticks with different keys, without those in which all is as in the tick before."""
+    both = np.stack(_keys(ours, theirs))
+    moved = np.ones(both.shape[1], bool)
+    moved[1:] = (both[:, 1:] != both[:, :-1]).any(axis=0)
+    return np.flatnonzero(moved & (both[0] != both[1]))
+
+
+@lru_cache(maxsize=4)
+def different_rows(ours: bytes, theirs: bytes, ticks: int, height: int) -> list[int]:
+    """The px of a bar of this height, for this many ticks, in which there are ticks with different keys."""
+    found = np.flatnonzero(different_keys(ours, theirs)[:ticks])
+    return np.flatnonzero(np.bincount(found * height // ticks)).tolist()
+
+
+def _keys(*runs: bytes) -> list[NDArray[np.uint8]]:
+    """The keys that are down in each tick of the longest of some runs."""
+    ticks = max(map(len, runs))
+    return [np.frombuffer(fitted_inputs(inputs, ticks), np.uint8) & np.uint8(KEYS_DOWN) for inputs in runs]
+
+
+FLOOR, WALL_LEFT, WALL_RIGHT = 1, 2, 4
+"""Contacts, as a sum."""
+
+
+class Values(NamedTuple):
+    """What the world says after a tick: px, px/tick, numbers; ``contacts``: a sum of FLOOR, WALL_LEFT, WALL_RIGHT."""
+
+    x: float
+    y: float
+    vx: float
+    vy: float
+    state: int
+    jump_timer: int
+    contacts: int
+    gold: int
+    exit: float
+
+
+class RowFacts(NamedTuple):
+    """All that the picture of a row depends on.
+
+    ``keys``, ``before``: inputs of the tick and of the one before it; ``differs``: the keys that are down either here
+    or in the run that this one is compared to. ``values``: None where nothing is simulated.
+    ``beyond``: behind the last input; ``over``: behind exit or death. ``changed``: its keys are not the saved ones.
+    """
+
+    tick: int
+    keys: int
+    before: int
+    differs: int
+    values: Values | None
+    events: str
+    name: str
+    beyond: bool
+    over: bool
+    changed: bool
+    selected: bool
+    cursor: bool
+
+
+def row_facts(editor: TasEditor, first: int, last: int) -> list[RowFacts]:
+    """The rows of the ticks ``first`` … ``last`` - 1."""
+    track, timeline = editor.track, editor.session.timeline
+    values: list[Values | None] = [*_values(editor, first, last)]
+    values += [None] * (last - first - len(values))
+    end = timeline.end[0]
+    begin, behind = editor.selection
+    changed = changed_ticks(track, editor.session.saved)
+    names = {tick: name for tick, name in track.markers if first <= tick < last}
+    count, inputs = len(track), track.inputs
+    other = compared(editor)
+    differs = different_keys(inputs, other.track.inputs)[first:last].tolist() if other else []
+    differs += [0] * (last - first - len(differs))
+    return [
+        RowFacts(
+            tick,
+            inputs[tick] if tick < count else 0,
+            inputs[tick - 1] if 0 < tick <= count else 0,
+            differs[tick - first],
+            values[tick - first],
+            timeline.events(tick),
+            names.get(tick, ""),
+            tick >= count,
+            0 <= end < tick,
+            tick in changed if isinstance(changed, range) else tick < count and bool(changed[tick]),
+            begin <= tick < behind,
+            tick == editor.cursor,
+        )
+        for tick in range(first, last)
+    ]
+
+
+def _values(editor: TasEditor, first: int, last: int) -> list[Values]:
+    """The values of those ticks of them that are simulated."""
+    timeline = editor.session.timeline
+    span = slice(first, min(last, timeline.simulated_until))
+    column = timeline.column
+    x, y = column("x")[span], column("y")[span]
+    wall = np.where(column("wall_x")[span] > 0, WALL_LEFT, WALL_RIGHT) * column("near_wall")[span]
+    contacts = wall + FLOOR * (column("floor_contacts")[span] > 0)
+    found = (
+        x, y, x - column("prev_x")[span], y - column("prev_y")[span], column("state")[span],
+        column("jump_timer")[span], contacts, column("gold")[span], exit_distance(timeline, span),
+    )  # fmt: skip
+    return [Values(*row) for row in zip(*(values.tolist() for values in found), strict=True)]
+
+
+@lru_cache(maxsize=2)
+def changed_ticks(track: InputTrack, saved: InputTrack) -> range | bytes:
+    """Where a track is not the saved one: a truth a tick, or, where it is longer or shorter, the span between."""
+    ours, theirs = np.frombuffer(track.inputs, np.uint8), np.frombuffer(saved.inputs, np.uint8)
+    if len(ours) == len(theirs):
+        return bytes(ours != theirs)
+    first, shared = track.first_difference(saved), min(len(ours), len(theirs))
+    unequal = np.flatnonzero(ours[::-1][:shared] != theirs[::-1][:shared])
+    same = int(unequal[0]) if len(unequal) else shared
+    return range(first, len(ours) - min(same, shared - first))
+
+
+def keys_in_words(row: RowFacts, other: str) -> str:
+    """The keys of a row, and those of the run that is compared, which is called ``other``."""
+    ours, theirs = (KEY_NAMES[keys & KEYS_DOWN] for keys in (row.keys, row.keys ^ row.differs))
+    return f"{row.tick}: {ours}; {other}: {theirs}"
+
+
+def in_words(row: RowFacts, *, numbers: bool) -> str:
+    """A row in full: places and speeds to the last digit, or the rest."""
+    name = f"#{row.name}  " if row.name else ""
+    if row.values is None:
+        return f"{name}{row.tick}: not simulated yet"
+    seen = row.values
+    if numbers:
+        places = "  ".join(f"{key} {getattr(seen, key)!r}" for key in ("x", "y", "vx", "vy"))
+        return f"{name}{row.tick}:  {places}  {row.events.replace(' ', ', ')}"
+    touched = [
+        word
+        for bit, word in ((FLOOR, "on a floor"), (WALL_LEFT, "wall at the left"), (WALL_RIGHT, "wall at the right"))
+        if seen.contacts & bit
+    ]
+    words = [STATE_NAMES[seen.state], f"jump timer {seen.jump_timer}", *touched, f"gold {seen.gold}"]
+    far = f", {seen.exit!r} px to the exit's disc" if np.isfinite(seen.exit) else ""
+    return f"{name}{row.tick}:  {', '.join(words)}{far}"

@@ -1,0 +1,372 @@
+"""The rows of the roll and their columns. A row that looks as before is not drawn again, wherever it is now."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from math import isfinite
+from typing import NamedTuple
+
+import pygame
+
+from ninja_game.sim.events import EVENT_NAMES
+from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEY_LEFT, KEY_RIGHT, pressed
+from ninja_game.sim.states import JUMPING
+from ninja_game.tas_editor.roll.facts import FLOOR, WALL_LEFT, WALL_RIGHT, RowFacts, Values
+from ninja_game.ui.canvas import Canvas
+from ninja_game.ui.theme import Area, Palette, Theme, mixed
+
+HEAD, ROW, BAR = 16.0, 11.0, 12.0
+"""Height of the heads and of a row, width of the scroll bar, logical px."""
+
+
+class Column(NamedTuple):
+    """``width``: logical px; 0: what is left. ``decimals``: of a number. ``key``: that it shows.
+
+    Those with a ``meaning`` may be hidden.
+    """
+
+    name: str
+    head: str
+    width: float
+    decimals: int = 0
+    key: int = 0
+    meaning: str = ""
+
+
+COLUMNS = (
+    Column("tick", "tick", 28),
+    Column("left", "L", 13, key=KEY_LEFT),
+    Column("right", "R", 13, key=KEY_RIGHT),
+    Column("jump", "J", 13, key=JUMP_HELD),
+    Column("x", "x", 32, 2, meaning="x, px"),
+    Column("y", "y", 32, 2, meaning="y, px"),
+    Column("vx", "vx", 30, 3, meaning="Speed to the right, px a tick"),
+    Column("vy", "vy", 30, 3, meaning="Speed downwards, px a tick"),
+    Column("state", "state", 24, meaning="State"),
+    Column("jump_timer", "jt", 13, meaning="Jump timer, ticks"),
+    Column("contacts", "|_|", 14, meaning="Floor and walls"),
+    Column("gold", "gold", 18, meaning="Gold taken"),
+    Column("exit", "exit", 27, 1, meaning="Px to the exit's disc"),
+    Column("events", "events", 0, meaning="Events and markers"),
+)
+"""From left to right."""
+
+
+class Place(NamedTuple):
+    """A column in the window: its first px, and how many it has."""
+
+    column: Column
+    left: int
+    width: int
+
+
+@dataclass(frozen=True)
+class RollLayout:
+    """Where things are, px of the window. ``rows``: how many are seen; ``row``: the height of one."""
+
+    heads: pygame.Rect
+    body: pygame.Rect
+    bar: pygame.Rect
+    row: int
+    rows: int
+    places: tuple[Place, ...]
+
+    def row_at(self, y: int) -> int:
+        """The number of the row at a px, from the first that is seen: negative above it."""
+        return (y - self.body.top) // self.row
+
+    def column_at(self, x: int) -> Column:
+        """The column at a px; beside them the nearest one."""
+        return next((place.column for place in self.places if x < place.left + place.width), self.places[-1].column)
+
+
+def layout_of(canvas: Canvas, area: Area, hidden: Collection[str]) -> RollLayout:
+    """Heads, rows and scroll bar in an area, logical px. All rows have the same height, whole px."""
+    whole = canvas.rect(*area)
+    head, row, bar = canvas.px(HEAD), max(6, int(ROW * canvas.scale)), canvas.px(BAR)
+    rows = max(1, (whole.height - head) // row)
+    body = pygame.Rect(whole.left, whole.top + head, whole.width - bar, rows * row)
+    shown = [column for column in COLUMNS if column.name not in hidden]
+    free = area[2] - BAR - sum(column.width for column in shown)
+    places, x = [], 0.0
+    for column in shown:
+        left, x = x, x + (column.width or free)
+        first, behind = round(left * canvas.scale), min(round(x * canvas.scale), body.width)
+        places.append(Place(column, whole.left + first, behind - first))
+    heads = pygame.Rect(whole.left, whole.top, whole.width, head)
+    side = pygame.Rect(body.right, body.top, whole.right - body.right, whole.height - head)
+    return RollLayout(heads, body, side, row, rows, tuple(places))
+
+
+STATES = ("stand", "run", "skid", "jump", "fall", "slide", "dead", "won")
+"""In the order of the state numbers."""
+
+
+class EventWord(NamedTuple):
+    """``rank``: the lower, the more important; ``chip``: the palette's role that it lies on; ``ink``: its own."""
+
+    rank: int
+    word: str
+    chip: str = ""
+    ink: str = "outline"
+
+
+_WORDS = {
+    "died": EventWord(0, "died", "bad", "panel"),
+    "won": EventWord(0, "exit", "good", "panel"),
+    "exit-opened": EventWord(1, "switch", "exit_light"),
+    "gold-taken": EventWord(2, "gold", "gold_light"),
+    "lock-opened": EventWord(3, "lock", "exit_light"),
+    "trap-closed": EventWord(3, "trap", "warning"),
+    "door-opened": EventWord(4, "door"),
+    "launched": EventWord(5, "pad"),
+    "jumped": EventWord(5, "jump"),
+    "wall-jumped": EventWord(5, "wall jump"),
+    "mine-exploded": EventWord(6, "mine"),
+    "landed": EventWord(7, "land"),
+    "rocket-launched": EventWord(8, "rocket"),
+    "rocket-exploded": EventWord(8, "blast"),
+    "turret-fired": EventWord(8, "turret"),
+    "laser-on": EventWord(8, "laser"),
+    "chaingun-shot": EventWord(8, "shot"),
+    "block-woken": EventWord(9, "block"),
+    "thwump-fell": EventWord(9, "thwump"),
+    "thwump-landed": EventWord(9, "thwump"),
+    "guard-started": EventWord(9, "guard"),
+    "chase-started": EventWord(9, "chase"),
+    "door-closed": EventWord(9, "door shut"),
+}
+EVENTS = {name: _WORDS.get(name, EventWord(10, name.replace("-", " "))) for name in EVENT_NAMES}
+"""By the names of events."""
+
+
+Blit = tuple[pygame.Surface, tuple[int, int]]
+
+
+class Digits:
+    """The characters of numbers in one size and any colours. ``theme``: for which they are made."""
+
+    def __init__(self, theme: Theme, size: float) -> None:
+        self.theme, self._size = theme, size
+        self._pictures: dict[int, dict[str, tuple[pygame.Surface, float]]] = {}
+        # Widths of texts are whole px; of many characters the mean is exact.
+        widths = {each: (theme.width(each * 21, size) - theme.width(each, size)) / 20 for each in "0123456789.-"}
+        # Digits below each other are of one width.
+        widest = max(widths[each] for each in "0123456789")
+        scale = theme.canvas.scale
+        self._advance = {each: (widest if each.isdigit() else width) * scale for each, width in widths.items()}
+
+    def _of(self, colour: pygame.Color) -> dict[str, tuple[pygame.Surface, float]]:
+        """Every character in a colour, and how wide it is."""
+        render = self.theme.lettering.rendered
+        return {each: (render(each, self._size, colour), wide) for each, wide in self._advance.items()}
+
+    def blits(self, text: str, right: int, y: int, colour: pygame.Color) -> list[Blit]:
+        """What draws a number whose last px is left of ``right``, px."""
+        key = int(colour)
+        if key not in self._pictures:
+            self._pictures[key] = self._of(colour)
+        characters, x, made = self._pictures[key], right + 0.5, []
+        for character in reversed(text):
+            picture, wide = characters[character]
+            x -= wide
+            made.append((picture, (int(x), y)))
+        return made
+
+
+SIZE = 8.0
+"""Of the letters, logical px."""
+SHORTEST = 20.0
+"""Room in which a name is worth beginning, logical px."""
+LONGEST = 6
+"""Characters of a number."""
+_KEY_LETTERS = {KEY_LEFT: "L", KEY_RIGHT: "R", JUMP_HELD: "J"}
+
+
+class RowSheet:
+    """The rows that are seen as one picture. Tick k is at row k modulo their number: scrolling moves none.
+
+    ``mark``: the colour of the run that this one is compared to.
+    """
+
+    def __init__(self, theme: Theme, layout: RollLayout, mark: pygame.Color) -> None:
+        self.theme, self.layout, self.mark = theme, layout, mark
+        self._picture = pygame.Surface(layout.body.size)
+        self._drawn: list[RowFacts | None] = [None] * layout.rows
+        self._digits = Digits(theme, SIZE)
+        self._grounds: dict[tuple[bool, ...], tuple[pygame.Surface, pygame.Color, pygame.Color]] = {}
+        self._blits: list[Blit] = []
+        self._margin = theme.canvas.px(2)
+        self._lift = (layout.row - theme.lettering.rendered("0", SIZE, theme.palette.text).get_height() + 1) // 2
+
+    def draw(self, surface: pygame.Surface, rows: Sequence[RowFacts]) -> int:
+        """Draw rows, one below the other, from the upper edge on; how many did not look as before."""
+        layout = self.layout
+        changed = [row for row in rows if self._drawn[row.tick % layout.rows] != row]
+        for row in changed:
+            self._drawn[row.tick % layout.rows] = row
+            self._row(row, (row.tick % layout.rows) * layout.row)
+        self._picture.fblits(self._blits)
+        self._blits.clear()
+        self._show(surface, rows)
+        return len(changed)
+
+    def _show(self, surface: pygame.Surface, rows: Sequence[RowFacts]) -> None:
+        """The picture in its two parts, and nothing below the last row."""
+        body, row = self.layout.body, self.layout.row
+        split = (rows[0].tick % self.layout.rows) * row if rows else 0
+        surface.blit(self._picture, body, (0, split, body.width, body.height - split))
+        if split:
+            surface.blit(self._picture, (body.left, body.bottom - split), (0, 0, body.width, split))
+        below = body.top + len(rows) * row
+        surface.fill(self.theme.palette.background, (body.left, below, body.width, body.bottom - below))
+
+    def _row(self, row: RowFacts, y: int) -> None:
+        """One row at a px of the picture; its texts are noted."""
+        palette, layout, fill = self.theme.palette, self.layout, self._picture.fill
+        ground, ink, line = self._ground(row)
+        self._picture.blit(ground, (0, y))
+        for place in layout.places:
+            left = place.left - layout.body.left
+            if place.column.key:
+                self._key(row, place, left, y, line)
+                if row.differs & place.column.key:
+                    self._difference(row, place, left, y)
+            elif place.column.name == "tick":
+                if row.name:
+                    fill(palette.ghost, (left, y, place.width, layout.row))
+                number, right = palette.panel if row.name else ink, left + place.width - self._margin
+                self._blits += self._digits.blits(str(row.tick), right, y + self._lift, number)
+            elif place.column.name == "events":
+                self._events(row, left, place.width, y, ink)
+            elif row.values:
+                self._value(row.values, place, left, y, ink)
+        if row.name:
+            fill(palette.ghost, (0, y, layout.body.width, 1))
+        if row.changed:
+            fill(palette.ember, (0, y, self.theme.canvas.px(2.5), layout.row))
+        if row.cursor:
+            frame = (0, y, layout.body.width, layout.row)
+            pygame.draw.rect(self._picture, palette.accent, frame, max(1, layout.row // 11))
+
+    def _ground(self, row: RowFacts) -> tuple[pygame.Surface, pygame.Color, pygame.Color]:
+        """What a row lies on, with the lines between the columns; the colours of its letters and of the lines."""
+        kind = row.values is None, row.over or row.beyond, row.selected, row.tick % 10 == 0
+        if kind not in self._grounds:
+            palette, layout = self.theme.palette, self.layout
+            colour, ink = _inks(palette, row)
+            known = colour if row.values is None else mixed(colour, palette.good, 0.17)
+            line = mixed(colour, palette.panel_edge, 0.55)
+            ground = pygame.Surface((layout.body.width, layout.row), 0, self._picture)
+            ground.fill(colour)
+            for place in layout.places:
+                left = place.left - layout.body.left
+                if place.column.key or place.column.name == "tick":
+                    ground.fill(known, (left, 0, place.width, layout.row))
+                ground.fill(line, (left, 0, 1, layout.row))
+            if row.tick % 10 == 0:
+                ground.fill(line, (0, 0, layout.body.width, 1))
+            self._grounds[kind] = ground, ink, line
+        return self._grounds[kind]
+
+    def _key(self, row: RowFacts, place: Place, left: int, y: int, line: pygame.Color) -> None:
+        """A cell of a key: a bar that begins where the key goes down."""
+        key, palette, height = place.column.key, self.theme.palette, self.layout.row
+        if not row.keys & key:
+            return
+        begins = not row.before & key
+        margin, gap = max(1, height // 8), max(1, height // 11) if begins else 0
+        colour = palette.accent if key == JUMP_HELD else palette.switch
+        box = (left + 1 + margin, y + gap, place.width - 2 * margin - 1, height - gap)
+        self._picture.fill(mixed(colour, line, 0.35) if row.over else colour, box)
+        letter = _KEY_LETTERS[key] if begins else ""
+        if key == JUMP_HELD and row.keys != pressed(row.keys, row.before & JUMP_HELD):
+            # A recording may jump without the press, and press without the jump.
+            letter = "!" if row.keys & JUMP_PRESSED else "-"
+        if letter:
+            picture = self.theme.lettering.rendered(letter, SIZE, palette.panel, bold=True)
+            middle = left + 1 + (place.width - picture.get_width()) // 2
+            self._blits.append((picture, (middle, y + self._lift)))
+
+    def _difference(self, row: RowFacts, place: Place, left: int, y: int) -> None:
+        """At the right of a key's cell: a bar where the key is down in the other run only, a hollow one for ours."""
+        px, height, fill = self.theme.canvas.px, self.layout.row, self._picture.fill
+        wide = px(4)
+        x = left + place.width - wide
+        fill(self.mark, (x, y, wide, height))
+        if row.keys & place.column.key:
+            edge = max(1, px(1))
+            fill(self.theme.palette.panel, (x + edge, y, wide - 2 * edge, height))
+
+    def _value(self, values: Values, place: Place, left: int, y: int, ink: pygame.Color) -> None:
+        """What a column says after the tick."""
+        name, theme = place.column.name, self.theme
+        if name == "state":
+            word = theme.lettering.rendered(STATES[values.state], SIZE, ink)
+            self._blits.append((word, (left + theme.canvas.px(2), y + self._lift)))
+        elif name == "contacts":
+            self._contacts(values.contacts, place, left, y, ink)
+        elif name != "jump_timer" or values.state == JUMPING:
+            value = getattr(values, name)
+            if value == 0:
+                text, ink = "0", mixed(ink, theme.palette.panel, 0.5)
+            else:
+                text = shortened(value, place.column.decimals)
+            self._blits += self._digits.blits(text, left + place.width - self._margin, y + self._lift, ink)
+
+    def _contacts(self, contacts: int, place: Place, left: int, y: int, ink: pygame.Color) -> None:
+        """Bars at the sides that touch something."""
+        thick, height = max(2, self.theme.canvas.px(2)), self.layout.row
+        x, width, fill = left + 1 + thick, place.width - 2 * thick - 1, self._picture.fill
+        if contacts & FLOOR:
+            fill(ink, (x, y + height - thick, width, thick))
+        if contacts & WALL_LEFT:
+            fill(ink, (x, y + 1, thick, height - 1))
+        if contacts & WALL_RIGHT:
+            fill(ink, (x + width - thick, y + 1, thick, height - 1))
+
+    def _events(self, row: RowFacts, left: int, width: int, y: int, ink: pygame.Color) -> None:
+        """What happened, what matters first, as far as there is room; the marker's name, with one event at most."""
+        palette, gap, height = self.theme.palette, self.theme.canvas.px(2), self.layout.row
+        x, right = left + gap + 1, left + width
+        events = sorted(map(EVENTS.__getitem__, row.events.split())) if row.events else []
+        for event in events[:1] if row.name else events:
+            dark = getattr(palette, event.ink) if event.chip else ink
+            word = self.theme.lettering.rendered(event.word, SIZE, dark, bold=bool(event.chip))
+            if x + word.get_width() > right:
+                break
+            if event.chip:
+                box = (x - gap, y + 1, word.get_width() + 2 * gap, height - 1)
+                self._picture.fill(getattr(palette, event.chip), box)
+            self._blits.append((word, (x, y + self._lift)))
+            x += word.get_width() + 2 * gap
+        room = (right - x - 2 * gap) / self.theme.canvas.scale
+        if row.name and room >= SHORTEST:
+            text = self.theme.fit(row.name, room, SIZE, bold=True)
+            name = self.theme.lettering.rendered(text, SIZE, palette.panel, bold=True)
+            right -= name.get_width() + 2 * gap
+            self._picture.fill(palette.ghost, (right, y, left + width - right, height))
+            self._blits.append((name, (right + gap, y + self._lift)))
+
+
+def shortened(value: float, decimals: int) -> str:
+    """A number in at most six characters: with fewer decimals where it is long, "-" where that is not enough."""
+    text = f"{value:.{decimals}f}"
+    if len(text) > LONGEST:
+        text = f"{value:.{max(0, decimals + LONGEST - len(text))}f}"
+    return text if len(text) <= LONGEST and isfinite(value) else "-"
+
+
+def _inks(palette: Palette, row: RowFacts) -> tuple[pygame.Color, pygame.Color]:
+    """The colours of a row's ground and letters."""
+    ground, ink = palette.panel, palette.text
+    if row.values is None:
+        ground = mixed(ground, palette.tile, 0.45)
+    elif row.over or row.beyond:
+        ground = mixed(ground, palette.tile, 0.18)
+    if row.over or row.beyond:
+        ink = palette.faint
+    if row.selected:
+        ground = mixed(ground, palette.bar_full, 0.55)
+    return ground, ink

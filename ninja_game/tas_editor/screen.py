@@ -1,0 +1,192 @@
+"""The TAS editor in the window: its parts, and a run in them; the lines above and below."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pygame
+
+from ninja_game.formats.recording import Recording
+from ninja_game.play.app import App
+from ninja_game.play.workspace.part import Commands
+from ninja_game.play.workspace.screen import WorkspaceScreen
+from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.tas.session import Session
+from ninja_game.tas_editor.commands import RunCommands
+from ninja_game.tas_editor.controls import TABLE
+from ninja_game.tas_editor.editor import TasEditor, TasPart
+from ninja_game.tas_editor.layout import Splitters
+from ninja_game.tas_editor.level.part import LevelPart
+from ninja_game.tas_editor.roll.part import Roll
+from ninja_game.tas_editor.tabs.branches_tab import BranchesTab
+from ninja_game.tas_editor.tabs.lead_tab import LeadTab
+from ninja_game.tas_editor.tabs.search_tab import SearchTab
+from ninja_game.tas_editor.tabs.tab import Tab, TabStrip
+from ninja_game.tas_editor.tabs.values_tab import ValuesTab
+from ninja_game.ui.input.bindings import InputEvent
+from ninja_game.ui.theme import Theme
+
+if TYPE_CHECKING:
+    from ninja_game.tas.files import OpenedRun
+    from ninja_game.tas.journal import RecoveredRun
+
+
+class TasScreen(WorkspaceScreen):
+    """A run is edited here. ``editor``: what is seen and selected; ``session``: the run.
+
+    ``others``: other runs of its level; ``found``: what was not saved of the run last time. Raises LevelError for a run
+    on a level that cannot be played, ReplayError for another run that is of another level or has another body,
+    FileError for what another window continues with.
+    """
+
+    table = TABLE
+
+    def __init__(
+        self, app: App, opened: OpenedRun, others: Sequence[Recording] = (), found: RecoveredRun | None = None
+    ) -> None:
+        super().__init__(app)
+        self.session = Session(opened, app.player.folder)
+        if found is not None:
+            self.session.recover(found)
+        self.editor = TasEditor(app, self.session)
+        values = ValuesTab(self.editor)
+        self.tabs: list[Tab] = [values, BranchesTab(self.editor), LeadTab(self.editor), SearchTab(self.editor)]
+        self.level, self.roll = LevelPart(self.editor, values.ask), Roll(self.editor)
+        self.strip = TabStrip(self.editor, self.tabs)
+        self.head, self.foot_line = Head(self.editor), Foot(self.editor)
+        self.files = RunCommands(app, self.editor, self.run, self._recover)
+        self.level.others.open(others)
+        placed = [self.head, self.level, self.roll, self.foot_line, self.strip, *self.tabs]
+        self.splitters = Splitters(self.editor, placed)
+        self._entered = found is not None
+
+    @property
+    def tab(self) -> Tab:
+        return self.strip.shown
+
+    @property
+    def parts(self) -> Sequence[TasPart]:
+        return [self.head, self.level, self.roll, self.tab, self.strip, self.foot_line, self.splitters]
+
+    @property
+    def theme(self) -> Theme:
+        """The TAS editor's own: a larger window has room for more, where other screens are larger."""
+        if self.splitters.fit():
+            self.redraw, self.notice_area = True, self.splitters.layout.notices
+        return self.editor.theme
+
+    def commands(self) -> Commands:
+        own = dict(self.files.commands())
+        for part in (*self.parts, *self.tabs):
+            own.update(part.commands())
+        return own
+
+    def run(self, name: str) -> None:
+        self.commands()[name]()
+
+    def hint(self, text: str) -> None:
+        self.editor.hint = text
+
+    def _recover(self, found: RecoveredRun) -> None:
+        self.app.replace(TasScreen(self.app, found.opened, found=found))
+
+    def enter(self) -> None:
+        """The first time, ask about what was not saved."""
+        self.editor.theme = self.theme  # all parts are in their places before the first of them looks around
+        super().enter()
+        # All that there is now (compiled code has much) is left out when memory is cleared up: that took 80 ms.
+        gc.freeze()
+        if not self._entered:
+            self._entered = True
+            self.files.offer_recovered()
+
+    def leave(self) -> None:
+        """Covered or closed: what is going on ends."""
+        super().leave()
+        gc.unfreeze()
+        self.level.stop()
+        self.session.end()
+        if self not in self.app.stack:
+            for tab in self.tabs:
+                tab.close()
+            self.session.close(keep=True)  # what is not saved is offered again
+
+    def meaning(self, event: InputEvent) -> str:
+        """The command that an event means, which is another one while the run is taken over; '' for none."""
+        return self.level.meaning(event)
+
+    def capture(self, event: InputEvent) -> bool:
+        """Keys of the game go to the ninja that was taken over."""
+        if self.level.capture(event):
+            self.held.follow(event.raw)
+            return True
+        return super().capture(event)
+
+    def update(self, real_ms: int) -> None:
+        """Simulate what is not simulated yet; parts go on."""
+        super().update(real_ms)
+        if not self.level.take_over.on:
+            self.session.timeline.simulate(self.session.ticks_per_frame)
+        for part in (self.level, self.roll, *self.tabs):
+            part.update(real_ms)
+        self.follow_parts()
+
+
+class Head(TasPart):
+    """The run's name and file, and whether it is saved."""
+
+    slot = "head"
+
+    def render_key(self) -> tuple[object, ...]:
+        session = self.editor.session
+        return session.about.name, session.file.path, session.is_saved, session.timeline.end, session.journal.problem
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        session, palette, right = self.editor.session, theme.palette, self.area[2] - 8
+        theme.canvas.fill_rect(surface, palette.tile, *self.area)
+        end, outcome = session.timeline.end
+        opened = Path(session.about.file).name
+        where = ", on another level" * session.moved
+        unsaved = f"{opened}{where}, to be saved as a new file" if opened else "no file yet"
+        file = session.file.path.name if session.file.path else unsaved
+        author = f" - {session.about.author}" if session.about.author else ""
+        name = f"{session.about.name}{author}"
+        title = theme.text(surface, name, 8, 6, size=13, bold=True, colour=palette.on_tile, width=right / 2 - 62)
+        x = title.right / theme.canvas.scale + 12
+        saved = "" if not session.file.path and session.is_saved else ", saved" if session.is_saved else ", not saved"
+        state = session.journal.problem or file + saved
+        theme.text(surface, state, x, 9, size=9.5, colour=palette.on_tile, width=right - 224 - x)
+        words = {"exit": f"exit in tick {end}", "dead": f"dead in tick {end}"}.get(outcome, "no exit yet")
+        seconds = f", {(end + 1) / TICKS_PER_SECOND:.3f} s" if end >= 0 else ""
+        theme.text(surface, words + seconds, right, 8, size=11, bold=True, colour=palette.on_tile, align="right")
+
+
+class Foot(TasPart):
+    """Where the cursor is, what is selected, and a hint."""
+
+    slot = "foot"
+
+    def render_key(self) -> tuple[object, ...]:
+        """Cursor, selection, the run's length, the hint."""
+        editor = self.editor
+        beside = editor.chosen, len(editor.others), editor.ghosts
+        run = len(editor.track), editor.session.timeline.simulated_until
+        return editor.cursor, editor.selection, run, editor.hint, beside
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        editor, palette, (_, y, w, _) = self.editor, theme.palette, self.area
+        theme.canvas.fill_rect(surface, palette.tile, *self.area)
+        first, last = editor.selection
+        selected = f", {last - first} selected" if last - first > 1 else ""
+        timeline = editor.session.timeline
+        known = "" if timeline.complete else f", simulated up to {timeline.simulated_until}"
+        other = editor.others[editor.chosen % len(editor.others)] if editor.others and editor.ghosts else None
+        beside = f", beside {theme.fit(other.name, 110, 9.5)}" if other else ""
+        text = f"tick {editor.cursor} of {len(editor.track)}{selected}{known}{beside}"
+        theme.text(surface, text, 8, y + 5, size=9.5, colour=palette.on_tile)
+        hint = editor.hint or "Click L R J to change keys; Enter: take over; F: search; F1: help"
+        room = w - 28 - theme.width(text, 9.5)
+        theme.text(surface, hint, w - 8, y + 5, size=9.5, colour=palette.on_tile, align="right", width=room)

@@ -1,0 +1,151 @@
+"""Branches: input tracks that are kept, as a tree."""
+
+from __future__ import annotations
+
+import pygame
+
+from ninja_game.play.menus.panels import FormPanel, Question
+from ninja_game.play.workspace.part import Commands
+from ninja_game.tas.branches import Branch, Branches
+from ninja_game.tas_editor.editor import TasEditor
+from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, Rows, Tab, put_in_a_row
+from ninja_game.ui.theme import Area, Theme
+from ninja_game.ui.widgets import Button
+
+LONGEST = 60
+"""Characters of a name."""
+
+_INDENT, _DEEPEST = 9, 12
+_COLUMNS = (174, 112, 64)
+"""Where end, gold and the difference stand, px from the right of a row."""
+
+
+class BranchesTab(Tab):
+    """The tree of branches, and what can be done with the chosen one."""
+
+    name = "Branches"
+
+    def __init__(self, editor: TasEditor) -> None:
+        super().__init__(editor)
+        self.tree: list[tuple[int, int]] = []
+        self.list = Rows(self._draw_row, lambda _: None, empty="B keeps the run as a branch")
+        actions = [
+            ("Keep", self.keep, "B: keep the run as it is now, as a child of the marked branch"),
+            ("Go to it", self.checkout, "The run becomes the chosen branch; undo brings back what was there"),
+            ("Compare", self.compare, "The lead of the run over the chosen branch"),
+            ("Rename", self.rename, "Another name for the chosen branch"),
+            ("Drop", self.drop, "Forget the chosen branch; what was made from it stays"),
+        ]
+        self._buttons = [Button(UNPLACED, text, action, hint=hint, size=SMALL) for text, action, hint in actions]
+        self._for_one = self._buttons[1:]
+        self.widgets: list[Rows | Button] = [self.list, *self._buttons]
+
+    def arrange(self, x: float, y: float, w: float, h: float) -> None:
+        self.list.area = x + 4, y + 20, w - 8, h - 43
+        put_in_a_row(x + 4, y + h - 20, self._buttons, (46, 58, 58, 56, 46))
+
+    def commands(self) -> Commands:
+        return {"branch": self.keep}
+
+    @property
+    def branches(self) -> Branches:
+        return self.editor.session.branches
+
+    @property
+    def chosen(self) -> int | None:
+        """The number of the branch that is chosen in the tree."""
+        return self.tree[self.list.index][0] if self.list.index < len(self.tree) else None
+
+    # --- what can be done ---
+
+    def keep(self) -> None:
+        """Keep the run as a branch, after asking for a name."""
+        self.editor.show_tab(self.name)
+        session = self.editor.session
+        end, outcome = session.timeline.end
+        name = f"{outcome} {end}" if end >= 0 else f"branch {len(self.branches) + 1}"
+
+        def kept(texts: list[str]) -> None:
+            number = session.keep_branch(texts[0].strip() or name)
+            self.refresh()
+            self.list.index = [each for each, _ in self.tree].index(number)
+
+        app = self.editor.app
+        app.push(FormPanel(app, "Keep the run as a branch", [("its name", name, LONGEST)], "Keep", kept))
+
+    def checkout(self) -> None:
+        number = self.chosen
+        if number is not None:
+            self.editor.attempt(lambda: self.editor.session.checkout_branch(number))
+
+    def compare(self) -> None:
+        if self.chosen is not None:
+            self.editor.against = self.branches.all[self.chosen].track
+            self.editor.show_tab("Lead")
+
+    def rename(self) -> None:
+        number = self.chosen
+        if number is None:
+            return
+        app, session, old = self.editor.app, self.editor.session, self.branches.all[number].name
+
+        def renamed(texts: list[str]) -> None:
+            session.rename_branch(number, texts[0].strip() or old)
+
+        app.push(FormPanel(app, "Rename the branch", [("its name", old, LONGEST)], "Rename", renamed))
+
+    def drop(self) -> None:
+        """Forget the chosen branch, after a question."""
+        number = self.chosen
+        if number is not None:
+            app, session = self.editor.app, self.editor.session
+            title = f"Drop {self.branches.all[number].name}?"
+            app.push(Question(app, title, "Drop it", lambda: session.drop_branch(number)))
+
+    # --- picture ---
+
+    def refresh(self) -> None:
+        self.tree = list(self.branches.in_tree())
+        self.list.fill(self.tree)
+        for button in self._for_one:
+            button.enabled = bool(self.tree)
+
+    def render_key(self) -> tuple[object, ...]:
+        session = self.editor.session
+        tree = tuple(self.branches.all), self.branches.current
+        return tree, session.track, session.timeline.end, self.list.over
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        """The names of the columns; the list is a widget."""
+        super().paint(surface, theme)
+        self.refresh()
+        self.list.draw_heads(surface, theme, "Branch", ("Ends in tick", "Gold", "Against the run now"), _COLUMNS)
+
+    def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, _: bool) -> None:
+        number, depth = self.tree[index]
+        branch, palette = self.branches.all[number], theme.palette
+        x, y, w, h = area
+        right, left = x + w, x + 16 + _INDENT * min(depth, _DEEPEST)
+        current = number == self.branches.current
+        if current:
+            tip = left - 4
+            theme.canvas.polygon(surface, palette.accent, [(tip - 6, y + 4), (tip - 6, y + h - 4), (tip, y + h / 2)])
+        changed = " (changed since)" if current and branch.track != self.editor.track else ""
+        room = right - _COLUMNS[0] - left - 6
+        theme.text(surface, branch.name + changed, left, y + 3, size=SMALL, bold=current, width=room)
+        cells = (f"{branch.outcome} {branch.end}" if branch.end >= 0 else "no end", str(branch.gold))
+        for at, text in zip(_COLUMNS, cells, strict=False):
+            theme.text(surface, text, right - at, y + 3, size=SMALL)
+        words, ahead = self._difference(branch)
+        colour = palette.good if ahead > 0 else palette.bad if ahead < 0 else palette.text
+        theme.text(surface, words, right - _COLUMNS[2], y + 3, size=SMALL, bold=bool(ahead), colour=colour)
+
+    def _difference(self, branch: Branch) -> tuple[str, int]:
+        """How much a branch is shorter than the run, in words and ticks."""
+        end, outcome = self.editor.session.timeline.end
+        if branch.track.inputs == self.editor.track.inputs:
+            return "the same", 0
+        if {branch.outcome, outcome} != {"exit"}:
+            return "", 0
+        ahead = end - branch.end
+        return ("as long" if not ahead else f"{abs(ahead)} {'shorter' if ahead > 0 else 'longer'}"), ahead

@@ -1,0 +1,172 @@
+"""The lead of the run over another one: a branch, the run as it was, or a run that was opened beside it."""
+
+from __future__ import annotations
+
+import pygame
+
+from ninja_game.errors import NinjaGameError
+from ninja_game.files.shown_text import counted
+from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.input_runs import Marker
+from ninja_game.runtime import NewestJob
+from ninja_game.tas.input_track import InputTrack
+from ninja_game.tas.leads import LeadTable, lead_table
+from ninja_game.tas_editor.editor import TasEditor
+from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, Rows, Tab
+from ninja_game.ui.theme import Area, Theme
+from ninja_game.ui.widgets import Choice
+
+PAUSE_MS = 300
+"""How long a run must stay as it is before it is compared."""
+
+_COLUMNS = (214, 144, 74)
+"""Where the ticks and the lead stand, px from the right of a row."""
+
+Pair = tuple[InputTrack, InputTrack]
+Job = tuple[Pair, Recording, Recording, tuple[Marker, ...]]
+
+
+def compared(job: Job) -> tuple[Pair, LeadTable | str]:
+    """The table, or why there is none."""
+    pair, ours, theirs, markers = job
+    try:
+        return pair, lead_table(ours, theirs, markers)
+    except NinjaGameError as error:
+        return pair, str(error)
+
+
+class LeadTab(Tab):
+    """Which run is the other one, and the table."""
+
+    name = "Lead"
+
+    def __init__(self, editor: TasEditor) -> None:
+        super().__init__(editor)
+        self._opened = editor.track
+        self._asked: Pair | None = None
+        self._still_ms = 0
+        self._job: NewestJob[Job, tuple[Pair, LeadTable | str]] = NewestJob(compared)
+        self._choice = Choice(UNPLACED, "", self._options(), self._against, self._put,
+                              hint="The run that this one is compared to")  # fmt: skip
+        self.list = Rows(self._draw_row, self._go, keeps=False, hint="A click puts the cursor there")
+        self.widgets = [self._choice, self.list]
+
+    def arrange(self, x: float, y: float, w: float, h: float) -> None:
+        self._choice.area = x + 56, y + 4, w - 60, 18
+        self.list.area = x + 4, y + 53, w - 8, h - 55
+
+    # --- which runs ---
+
+    def _options(self) -> list[tuple[str, object]]:
+        """The other runs, each once."""
+        session, found = self.editor.session, [("the run as it was opened", self._opened)]
+        if len(session.saved):
+            found.append(("the run as it was saved", session.saved))
+        found += [(f"branch: {branch.name}", branch.track) for branch in session.branches.all]
+        found += [(other.name, other.track) for other in self.editor.others]
+        names: dict[InputTrack, str] = {}
+        for name, track in found:
+            names.setdefault(track, name)
+        return [(name, track) for track, name in names.items()]
+
+    def _against(self) -> InputTrack:
+        return self._opened if self.editor.against is None else self.editor.against
+
+    def _put(self, track: object) -> None:
+        self.editor.against = track if isinstance(track, InputTrack) else None
+
+    @property
+    def _pair(self) -> Pair:
+        return self.editor.track, self._against()
+
+    def update(self, real_ms: int) -> None:
+        """While it is shown: compare the runs once they stay as they are."""
+        if self.editor.tab != self.name:
+            return
+        self._choice.options = self._options()
+        if self._against() not in {track for _, track in self._choice.options}:
+            self.editor.against = None
+        pair = self._pair
+        if pair != self._asked:
+            self._asked, self._still_ms = pair, 0
+        elif self._still_ms < PAUSE_MS:
+            self._still_ms += real_ms
+            if self._still_ms >= PAUSE_MS:
+                session = self.editor.session
+                ours, theirs = session.recording(pair[0], "this run"), session.recording(pair[1], "the other run")
+                self._job.ask((pair, ours, theirs, pair[0].markers))
+        self.list.fill(self.table.rows if self.table else ())
+
+    @property
+    def table(self) -> LeadTable | None:
+        """The table that was made last."""
+        result = self._job.result
+        return result[1] if result is not None and isinstance(result[1], LeadTable) else None
+
+    @property
+    def is_current(self) -> bool:
+        """Whether it is of the runs as they are now."""
+        return self._job.result is not None and self._job.result[0] == self._pair
+
+    def _go(self, index: int) -> None:
+        if self.table is not None:
+            self.editor.go(self.table.rows[index].tick)
+
+    # --- picture ---
+
+    @property
+    def summary(self) -> str:
+        if not self.is_current or self._job.result is None:
+            return self._job.problem or "comparing ..."
+        table = self._job.result[1]
+        if isinstance(table, str):
+            return table
+        keys, place = table.comparison.first_keys, table.comparison.first_place
+        if keys is None:
+            return "the same keys"
+        parts = [
+            f"other keys from tick {keys} on",
+            f"elsewhere from tick {place} on" if place is not None else "the same way",
+        ]
+        last = next((row for row in reversed(table.rows) if row.counts), None)
+        if last is not None:
+            parts.append(f"{lead_in_words(last.ahead)} at {last.name}")
+        return "; ".join(parts)
+
+    def render_key(self) -> tuple[object, ...]:
+        return self._choice.options, self._against(), self.summary, id(self.table), self.editor.cursor, self.list.over
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        """What it comes to, and the names of the columns."""
+        super().paint(surface, theme)
+        x, y, w, _ = self.area
+        theme.text(surface, "Against", x + 6, y + 8, size=11)
+        theme.text(surface, self.summary, x + 6, y + 26, size=SMALL, width=w - 16)
+        self.list.draw_heads(surface, theme, "Place", ("Tick here", "Tick there", "Ahead + or behind -"), _COLUMNS)
+
+    def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, _: bool) -> None:
+        if self.table is None or index >= len(self.table.rows):
+            return
+        row, palette = self.table.rows[index], theme.palette
+        x, right, y = area[0], area[0] + area[2], area[1] + 3
+        current = self.is_current
+        colour = palette.text if row.counts and current else palette.faint
+        theme.text(
+            surface, row.name, x + 8, y, size=SMALL, colour=colour, bold=row.counts, width=area[2] - _COLUMNS[0] - 14
+        )
+        for at, tick in zip(_COLUMNS, (row.tick, row.other), strict=False):
+            theme.text(surface, str(tick), right - at, y, size=SMALL, colour=colour)
+        if current and row.ahead:
+            colour = palette.good if row.ahead > 0 else palette.bad
+        theme.text(surface, f"{row.ahead:+d}" if row.ahead else "0", right - _COLUMNS[2], y, size=SMALL, bold=True,
+                   colour=colour)  # fmt: skip
+
+
+def lead_in_words(ahead: int) -> str:
+    """A lead in words.
+
+    >>> lead_in_words(1), lead_in_words(-12), lead_in_words(0)
+    ('1 tick ahead', '12 ticks behind', 'as early')
+    """
+    ticks = counted(abs(ahead), "tick", "ticks")
+    return f"{ticks} {'ahead' if ahead > 0 else 'behind'}" if ahead else "as early"

@@ -1,0 +1,392 @@
+"""Searches in the selected ticks for keys that reach a goal, or bring more of something, and their results."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from math import hypot
+from time import monotonic
+
+import numpy as np
+import pygame
+
+from ninja_game.batch.thread_pool import cores
+from ninja_game.errors import ArgumentError, NinjaGameError
+from ninja_game.files.shown_text import counted
+from ninja_game.play.menus.panels import Menu
+from ninja_game.play.workspace.part import Commands
+from ninja_game.search.formula.background import SpanSearch
+from ninja_game.search.formula.language import FormulaError
+from ninja_game.search.formula.methods import KEPT, fewest_ticks
+from ninja_game.search.formula.task import Found, SpanTask, score_in_words
+from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.tas.goals import PRESETS, SearchedSpan, SpanGoal
+from ninja_game.tas.input_track import InputTrack, first_difference
+from ninja_game.tas.timeline import Timeline
+from ninja_game.tas_editor.editor import OtherRun, Span, TasEditor
+from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, EntryField, Rows, Tab, what_is_wrong
+from ninja_game.ui.theme import Area, Theme, wrapped
+from ninja_game.ui.widgets import Button, Choice
+
+CLOSING_SECONDS = 0.5
+"""How long a search that is cancelled is waited for when the TAS editor is left."""
+
+COMPILING = "The rules are made ready. On a machine that has never searched this takes a minute or two."
+NOT_BEGUN = "Stopped before it began. The rules are still made ready, for the next search."
+NOTHING_YET = "Nothing yet."
+NOTHING = "The goal was not reached. More time, a longer span or another method may reach it."
+
+LONGEST = 300
+"""Characters of a formula that one can type."""
+
+EARLIEST, GREATEST, SMALLEST = "earliest", "greatest", "smallest"
+_METHODS = (
+    ("both methods", "auto"),
+    ("beam", "beam"),
+    ("small changes", "local"),
+    ("all keys there are", "exhaustive"),
+)
+_ORDERS = (("the earliest", EARLIEST), ("the greatest", GREATEST), ("the smallest", SMALLEST))
+_RESTS = (("end at the goal", False), ("then the rest", True))
+_NAMES = "x y vx vy speed tick gold state dead won in_air distance(x, y) taken(id) opened(id) and or not < > abs(a)"
+_LEFT, _COLUMNS, _WIDTHS = 14, (232, 182, 122), (46, 58, 30)
+"""Of the cells of a result, px: the first from the left of a row, the others from its right; widths of the others."""
+_HEADS = ("Result", "Other from", "Ends at x, y", "Speed")
+_EXPLAINED = (
+    "Say what for: a goal that is true after one of these ticks, as early as possible, or a value that is to be "
+    "the greatest or smallest then. Other keys for these ticks are searched; a click puts a result into the run."
+)
+
+
+class SpanResults:
+    """Runs a task in the background, and puts results into the run, while nothing that they rely on has changed.
+
+    ``better``: the results that bring more than the run's own keys, best first; of those that end alike the best one.
+    Raises what SpanSearch does.
+    """
+
+    def __init__(self, editor: TasEditor, task: SpanTask, method: str, every: int) -> None:
+        self.editor = editor
+        self.task = task
+        memory = editor.session.timeline.asked_memory
+        self.search = SpanSearch(task, method, max(1, cores() - 1), every=every, memory=memory)
+        # The begins of runs that results fit to, and the first tick that follows a result in each: the run that is
+        # searched and those that results were put into.
+        whole = len(task.inputs) if task.rest else task.last
+        self._fitting = [(task.inputs[:whole], task.last)]
+        self.better: tuple[Found, ...] = ()
+        self._seen: tuple[Found, ...] = ()
+        self._preview: tuple[Found, OtherRun] | None = None
+        self.search.start()
+        self._started = monotonic()
+
+    @property
+    def running(self) -> bool:
+        return not self.search.done
+
+    def stop(self) -> None:
+        """End the search; results stay."""
+        self.search.cancel()
+
+    def close(self) -> None:
+        self.search.cancel()
+        self.search.finish(CLOSING_SECONDS)
+
+    @property
+    def behind(self) -> int | None:
+        """The first tick behind a result that is put into the run as it is now; None: it was changed, and none fits.
+
+        As with the rest of a run, what follows is what the run did after its own moment at the goal.
+        """
+        inputs = self.editor.track.inputs
+        for begin, behind in reversed(self._fitting):
+            if inputs == begin if self.task.rest else inputs.startswith(begin):
+                return behind
+        return None
+
+    def put(self, found: Found) -> bool:
+        """Put a result into the run, as one edit, and select it; whether that was possible."""
+        behind = self.behind
+        if behind is None:
+            self.editor.app.notify("The run was changed: search again")
+            return False
+        made = self._made(self.editor.track, found, behind)
+        if not self.editor.edit(lambda _: made):
+            return False
+        end = self.task.first + found.ticks
+        self._fitting.append((made.inputs if self.task.rest else made.inputs[:end], end))
+        self.editor.select(self.task.first, end)
+        return True
+
+    def _made(self, track: InputTrack, found: Found, behind: int) -> InputTrack:
+        """The run with a result in it; with ``rest`` it is the run that reached the exit in the search."""
+        first, keys = self.task.first, found.keys[: found.ticks].tolist()
+        if not self.task.rest:
+            return track.replaced(first, behind, keys)
+        rest = len(found.inputs) - first - found.ticks
+        made = track.replaced(first, len(track) - rest, keys)
+        return InputTrack(track.inputs[:first] + found.inputs[first:], made.markers)
+
+    def preview(self, found: Found) -> OtherRun:
+        """The run that a result makes, to be looked at."""
+        if self._preview is None or self._preview[0] is not found:
+            task = self.task
+            timeline = Timeline(task.level, found.inputs, body=task.body, memory=self.editor.session.timeline.memory)
+            timeline.simulate(len(found.inputs))
+            self._preview = found, OtherRun("result", InputTrack(found.inputs), timeline.trajectory())
+        return self._preview[1]
+
+    # --- in words ---
+
+    def refresh(self) -> None:
+        found = self.search.found
+        if found is self._seen:
+            return
+        self._seen, own = found, self.search.own
+        if own is not None:
+            self._fitting[0] = self._fitting[0][0], self.task.first + own.ticks
+        different: dict[object, Found] = {}
+        for each in sorted([*self.better, *found]):
+            if own is None or each.score < own.score:
+                different.setdefault((each.gold, *np.round(each.end, 2)), each)
+        self.better = tuple(different.values())[:KEPT]
+
+    def words(self, found: Found) -> tuple[str, ...]:
+        """What a better result brings; from where on it has other keys; place and speed at the goal; what it gains."""
+        own, words = self.search.own, score_in_words(self.task, found)
+        if own is not None and self.task.rest and found.gold < own.gold:
+            words += f", {own.gold - found.gold} gold fewer"
+        gain = "new"
+        if own is not None:
+            more = own.score - found.score
+            gain = f"better by {more:.4g}" if self.task.measure else f"{counted(int(more), 'tick', 'ticks')} sooner"
+        x, y, vx, vy = found.end
+        other = first_difference(found.inputs, self.task.inputs)
+        return words, str(other), f"{x:.1f}, {y:.1f}", f"{hypot(vx, vy):.3f}", gain
+
+    @property
+    def status(self) -> str:
+        """How it stands, in a few words."""
+        search = self.search
+        if search.problem:
+            return "cannot be searched"
+        if not search.ticks_run:
+            return f"getting ready: {monotonic() - self._started:.0f} s" if self.running else "ended"
+        doing = "searching" if self.running else "ended"
+        return f"{doing}: {search.ticks_run / 1e6:.1f} million ticks, {search.seconds:.0f} s"
+
+    @property
+    def note(self) -> str:
+        """What is to be said where there is no result."""
+        search = self.search
+        if search.problem or self.better:
+            return search.problem
+        if search.own is not None:
+            yet = "yet " if self.running else ""
+            return f"Nothing better {yet}than the run's own keys: {score_in_words(self.task, search.own)}."
+        if not search.ticks_run:
+            return COMPILING if self.running else NOT_BEGUN
+        return NOTHING_YET if self.running else NOTHING
+
+
+class SearchTab(Tab):
+    """Span, goal, measure and method; below them the results."""
+
+    name = "Search"
+
+    def __init__(self, editor: TasEditor) -> None:
+        super().__init__(editor)
+        self.span: Span = (0, 0)
+        self.order = EARLIEST
+        self.rest = False
+        self.method = "auto"
+        self.results: SpanResults | None = None
+        self._preset: tuple[Callable[[SearchedSpan], SpanGoal], SpanGoal] | None = None
+        self.found: tuple[Found, ...] = ()
+        self.goal = EntryField(
+            "x > 400, taken(12), distance(300, 200) < 6 ...", self.start, longest=LONGEST, hint=_NAMES
+        )
+        self.measure = EntryField("speed; vx, y, gold ...", self.start, longest=LONGEST, hint=_NAMES)
+        self._button = Button(UNPLACED, "Start", self._start_or_stop, size=SMALL)
+        self.list = Rows(self._draw_row, self._put, keeps=False,
+                         hint="Under the mouse: its path in the level; a click puts it into the run")  # fmt: skip
+        self.widgets = [
+            Button(UNPLACED, "Use the selection", self.use_selection, size=SMALL),
+            Button(UNPLACED, "Presets", self.propose, size=SMALL, hint="Common goals, to begin with"),
+            self.goal,
+            Choice(UNPLACED, "", _ORDERS, lambda: self.order, self._put_order,
+                   hint="Best is what reaches the goal first, or has the most or least of the value beside this"),
+            self.measure,
+            Choice(UNPLACED, "", _RESTS, lambda: self.rest, self._put_rest,
+                   hint="What follows the goal in the run is played, too, and must still reach the exit"),
+            Choice(UNPLACED, "", _METHODS, lambda: self.method, partial(setattr, self, "method"),
+                   hint="Beam: many states at once; small changes: of the keys there; all keys: short spans only"),
+            self._button,
+            self.list,
+        ]  # fmt: skip
+
+    def arrange(self, x: float, y: float, w: float, h: float) -> None:
+        """What is wanted, in three rows, above the results."""
+        areas = (
+            (x + w - 182, y + 4, 96, 18), (x + w - 82, y + 4, 78, 18), (x + 40, y + 25, w - 44, 18),
+            (x + 4, y + 46, 118, 18), (x + 126, y + 46, w - 280, 18), (x + w - 150, y + 46, 146, 18),
+            (x + 4, y + 67, 150, 18), (x + 158, y + 67, 58, 18), (x + 4, y + 99, w - 8, h - 101),
+        )  # fmt: skip
+        for widget, area in zip(self.widgets, areas, strict=True):
+            widget.area = area
+
+    def commands(self) -> Commands:
+        return {"search": self.ask}
+
+    # --- what is wanted ---
+
+    def ask(self) -> None:
+        """Show this tab for the selected ticks, with the focus on the goal."""
+        self.use_selection()
+        self.editor.show_tab(self.name)
+        self.wants = self.goal
+
+    def use_selection(self) -> None:
+        """Search the selected ticks; where only one is, a second from there on. A goal from the menu is made again."""
+        first, last = self.editor.selection
+        second = min(first + TICKS_PER_SECOND, max(len(self.editor.track), last))
+        before, self.span = self.span, (first, last if last > first + 1 else second)
+        if self.span == before:
+            return
+        if self.results is not None and not self.results.running:
+            self.close()
+        if self._preset is not None and (self.goal.text, self.measure.text) == self._preset[1][:2]:
+            self._fill(self._preset[0])
+
+    def propose(self) -> None:
+        """A menu of what people want; it fills the fields."""
+        rows = [(name, partial(self._fill, make), hint) for name, hint, make in PRESETS]
+        self.editor.app.push(Menu(self.editor.app, "Presets", rows))
+
+    def _fill(self, make: Callable[[SearchedSpan], SpanGoal]) -> None:
+        try:
+            wanted = make(SearchedSpan(self.editor.session, *self.span))
+        except NinjaGameError as error:
+            self.editor.app.notify(str(error))
+            return
+        self._preset = make, wanted
+        self.goal.show(wanted.goal)
+        self.measure.show(wanted.measure)
+        self.order = EARLIEST if not wanted.measure else SMALLEST if wanted.least else GREATEST
+        self.rest = wanted.rest
+        self.wants = self.goal
+
+    def _put_order(self, order: str) -> None:
+        self.order = order
+        self.rest = self.rest and order == EARLIEST
+
+    def _put_rest(self, rest: bool) -> None:
+        self.rest = rest
+        self.order = EARLIEST if rest else self.order
+
+    @property
+    def task(self) -> SpanTask:
+        """What is wanted as a task. Raises FormulaError, ArgumentError."""
+        session, (first, last) = self.editor.session, self.span
+        measure = "" if self.order == EARLIEST else self.measure.text.strip() or "speed"
+        return SpanTask(
+            session.about.level, session.track.inputs, first, last, self.goal.text.strip(), measure,
+            least=self.order == SMALLEST, rest=self.rest, body=session.about.body,
+        )  # fmt: skip
+
+    # --- the search ---
+
+    def start(self) -> None:
+        """Search; a search that is going on ends. What is wrong is reported."""
+        self.close()
+        self.list.over = -1
+        try:
+            task = self.task
+            if not (task.goal or task.measure or task.rest):
+                raise ArgumentError("Say what for: a goal, or a value that is to be the greatest or smallest")
+            every = fewest_ticks(task.length) if self.method == "exhaustive" else 1
+            self.results = SpanResults(self.editor, task, self.method, every)
+        except FormulaError as error:
+            self.editor.app.notify(what_is_wrong(error))
+        except NinjaGameError as error:
+            self.editor.app.notify(str(error))
+
+    def _start_or_stop(self) -> None:
+        if self.results is not None and self.results.running:
+            self.results.stop()
+        else:
+            self.start()
+
+    def close(self) -> None:
+        if self.results is not None:
+            self.results.close()
+        self.results, self.found, self.editor.preview = None, (), None
+
+    def update(self, real_ms: int) -> None:
+        """Take what was found; where the run has changed, the search ends."""
+        if not self.span[1]:
+            self.use_selection()
+        results = self.results
+        if results is None:
+            return
+        if results.behind is None and results.running:
+            results.stop()
+        results.refresh()
+        self.found = results.better
+        self.list.fill(self.found)
+        over = self.list.over if results.behind is not None and self.editor.tab == self.name else -1
+        self.editor.preview = results.preview(self.found[over]) if 0 <= over < len(self.found) else None
+
+    def _put(self, index: int) -> None:
+        if self.results is not None and index < len(self.found):
+            self.results.put(self.found[index])
+
+    # --- picture ---
+
+    def render_key(self) -> tuple[object, ...]:
+        """Span, what is wanted, how the search stands, its results."""
+        results, state = self.results, tuple[object, ...]()
+        if results:
+            state = (results.status, results.running, results.behind, self.editor.track, *map(id, self.found))
+        return self.span, self.editor.selection, self.order, self.rest, self.goal.text, self.list.over, state
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        super().paint(surface, theme)
+        palette, results, (x, y, w, _) = theme.palette, self.results, self.area
+        first, last = self.span
+        theme.text(surface, f"Ticks {first} to {last - 1}", x + 6, y + 8, size=11, bold=True, width=120)
+        if self.span != self.editor.selection and self.editor.anchor is not None:
+            theme.text(surface, "not the selection", x + 132, y + 9, size=SMALL, colour=palette.faint, width=w - 318)
+        theme.text(surface, "Goal", x + 6, y + 29, size=11)
+        self._button.text = "Stop" if results is not None and results.running else "Start"
+        status, colour = "Enter in the goal starts, too", palette.faint
+        if results is not None:
+            status, colour = results.status, palette.bad if results.search.problem else palette.text
+            if results.behind is None:
+                status, colour = "the run was changed: search again", palette.bad
+        theme.text(surface, status, x + 222, y + 72, size=SMALL, colour=colour, width=w - 226)
+        if self.found:
+            for at, head in zip(self._cells(self.list.row_area(0)), _HEADS, strict=True):
+                theme.text(surface, head, at, y + 88, size=8, colour=palette.faint)
+        for k, line in enumerate(wrapped(theme, results.note if results else _EXPLAINED, w - 28, 10)):
+            theme.text(surface, line, x + 10, y + 97 + 15 * k, size=10, colour=palette.faint)
+
+    @staticmethod
+    def _cells(row: Area) -> tuple[float, ...]:
+        """Where the cells of a row begin."""
+        x, _, w, _ = row
+        return x + _LEFT, *(x + w - at for at in _COLUMNS)
+
+    def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, _: bool) -> None:
+        """A sign if it is in the run, what a result brings; those that do not fit are faint."""
+        if self.results is None or index >= len(self.found):
+            return
+        x, y, w, _h = area
+        widths = w - _LEFT - _COLUMNS[0] - 4, *_WIDTHS
+        palette, fits = theme.palette, self.results.behind is not None
+        *cells, gain = self.results.words(self.found[index])
+        for at, cell, width in zip(self._cells(area), cells, widths, strict=True):
+            theme.text(surface, cell, at, y + 3, size=SMALL, width=width,
+                       colour=palette.text if fits else palette.faint)  # fmt: skip
+        theme.text(surface, gain, x + w - 6, y + 3, size=SMALL, bold=fits, align="right", width=96,
+                   colour=palette.good if fits else palette.faint)  # fmt: skip

@@ -1,0 +1,172 @@
+"""What the tabs below the level share: their place, their widgets, lists and fields in them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import ClassVar
+
+import pygame
+
+from ninja_game.errors import NinjaGameError
+from ninja_game.play.workspace.part import Commands
+from ninja_game.search.formula.language import FormulaError
+from ninja_game.tas_editor.editor import TasEditor, TasPart
+from ninja_game.ui.list_view import ListView
+from ninja_game.ui.text_entry import TextEntry
+from ninja_game.ui.theme import Area, Theme
+from ninja_game.ui.widgets import Button, following
+
+SMALL = 9.0
+"""Size of the text in lists and buttons, px."""
+ROW = 16
+"""Height of a row of a list, px."""
+UNPLACED: Area = (0, 0, 0, 0)
+"""Of widgets that their tab has not arranged yet."""
+_SHORT = 60
+"""Longer lists of what is expected are left out of a line."""
+
+
+class Tab(TasPart):
+    """A part with widgets, which are made once."""
+
+    slot = "tabs"
+    name: ClassVar[str] = ""
+
+    def place(self, area: Area) -> None:
+        super().place(area)
+        self.arrange(*area)
+
+    def arrange(self, x: float, y: float, w: float, h: float) -> None:
+        """Put the widgets where they belong in this area."""
+        raise NotImplementedError
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        theme.panel(surface, *self.area)
+
+    def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
+        """What the mouse is over is reported in the line below; all else is up to the widgets."""
+        if event.type == pygame.MOUSEMOTION:
+            self._leave_lists(x, y)
+            self.editor.hint = next((each.hint for each in self.widgets if each.contains(x, y)), "")
+        return False
+
+    def mouse_left(self) -> None:
+        self._leave_lists(-1, -1)
+
+    def _leave_lists(self, x: float, y: float) -> None:
+        for widget in self.widgets:
+            if isinstance(widget, Rows) and not widget.contains(x, y):
+                widget.over = -1
+
+    def close(self) -> None:
+        """The TAS editor is left: what goes on ends."""
+
+
+class TabName(Button):
+    """The name of a tab, to show it; that of the one that is shown stands out."""
+
+    def __init__(self, tab: Tab) -> None:
+        super().__init__(UNPLACED, tab.name, lambda: tab.editor.show_tab(tab.name), size=SMALL)
+        self._editor = tab.editor
+
+    def draw_base(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
+        theme.row(surface, self.area, chosen=focused or self.text == self._editor.tab, focused=focused)
+
+
+class TabStrip(TasPart):
+    """The names of all tabs, side by side."""
+
+    slot = "strip"
+
+    def __init__(self, editor: TasEditor, tabs: Sequence[Tab]) -> None:
+        super().__init__(editor)
+        self.tabs = tabs
+        self.widgets = [TabName(tab) for tab in tabs]
+
+    def commands(self) -> Commands:
+        return {"next_tab": self.show_next}
+
+    def show_next(self) -> None:
+        self.editor.show_tab(following([tab.name for tab in self.tabs], self.editor.tab))
+
+    @property
+    def shown(self) -> Tab:
+        return next(tab for tab in self.tabs if tab.name == self.editor.tab)
+
+    def place(self, area: Area) -> None:
+        super().place(area)
+        x, y, w, h = area
+        width = w / len(self.widgets)
+        for number, name in enumerate(self.widgets):
+            name.area = x + number * width, y, width - 4, h
+
+    def render_key(self) -> tuple[object, ...]:
+        return (self.editor.tab,)
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        theme.canvas.fill_rect(surface, theme.palette.tile, *self.area)
+
+
+class Rows(ListView):
+    """A list in a tab: only a click chooses, the mouse over it does not. ``over``: the row under the mouse, or -1.
+
+    ``keeps``: the row that was chosen last is shown as such.
+    """
+
+    def __init__(
+        self, draw_row: Callable[[pygame.Surface, Theme, int, Area, bool], None], choose: Callable[[int], object],
+        *, empty: str = "", hint: str = "", keeps: bool = True,
+    ) -> None:  # fmt: skip
+        super().__init__(UNPLACED, ROW, self._draw_row, choose, empty=empty, hint=hint)
+        self.over = -1
+        self._keeps = keeps
+        self._draw = draw_row
+
+    def draw_heads(
+        self, surface: pygame.Surface, theme: Theme, first: str, heads: Sequence[str], places: Sequence[float]
+    ) -> None:
+        """The names of the columns above the list; ``places``: of all but the first, px from the right of a row."""
+        x, _, w, _ = self.row_area(0)
+        named = [(x + 8, first), *((x + w - place, head) for place, head in zip(places, heads, strict=True))]
+        for at, head in named:
+            theme.text(surface, head, at, self.area[1] - 13, size=8, colour=theme.palette.faint)
+
+    def hover(self, x: float, y: float) -> bool:
+        """Note what the mouse is over."""
+        index = self._index_at(x, y)
+        before, self.over = self.over, -1 if index is None else index
+        return self.over != before
+
+    def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        if index == self.over:
+            theme.canvas.fill_rect(surface, theme.palette.background, *area, 2)
+        if index == self.index and (self._keeps or focused):
+            theme.canvas.fill_rect(surface, theme.palette.background, *area, 2)
+            theme.canvas.frame_rect(surface, theme.palette.accent, *area, 1.5 if focused else 0.75, 2)
+        self._draw(surface, theme, index, area, index == self.index)
+
+
+class EntryField(TextEntry):
+    """A text field in which Enter does something."""
+
+    def __init__(self, prompt: str, enter: Callable[[], object], *, longest: int, hint: str = "") -> None:
+        super().__init__(UNPLACED, prompt, "", lambda _: None, longest=longest, hint=hint)
+        self._enter = enter
+
+    def confirm(self) -> bool:
+        self._enter()
+        return True
+
+
+def put_in_a_row(x: float, y: float, buttons: Sequence[Button], widths: Sequence[float]) -> None:
+    for button, width in zip(buttons, widths, strict=True):
+        button.area = x, y, width, 17
+        x += width + 4
+
+
+def what_is_wrong(error: NinjaGameError) -> str:
+    """What to tell of an error in a line; of a formula's in which column it is."""
+    if isinstance(error, FormulaError) and error.column:
+        told = f"Column {error.column}: {error.what}, {error.found}"
+        return f"{told}; expected {error.expected}" if len(error.expected) < _SHORT else told
+    return str(error)

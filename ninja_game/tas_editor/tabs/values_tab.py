@@ -1,0 +1,319 @@
+"""Watched values: what they are at the cursor's tick, their plots over the run, and the objects to choose from."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+
+import numpy as np
+import pygame
+
+from ninja_game.errors import NinjaGameError
+from ninja_game.play.app import App
+from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.menus.panels import FormPanel
+from ninja_game.play.workspace.part import Commands
+from ninja_game.runs.compare import SPLIT_EVENTS
+from ninja_game.search.formula.language import Values
+from ninja_game.sim.kinds import DOOR, EXIT, GOLD, KIND_NAMES, KIND_OF, MINE
+from ninja_game.tas.watch import Watch, parse_watch
+from ninja_game.tas_editor.editor import TasEditor
+from ninja_game.tas_editor.tabs.plot import TickRange, colour_of, draw_lane
+from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, Rows, Tab, put_in_a_row, what_is_wrong
+from ninja_game.ui.list_view import ListView
+from ninja_game.ui.theme import Area, Theme, inside
+from ninja_game.ui.widgets import Button, Widget
+
+WatchableObject = tuple[int, int, float, float]
+"""Id, kind, x and y (px) of an object."""
+
+
+class ObjectList(MenuScreen):
+    """All objects. ``choose`` is called with a formula about the one that is chosen."""
+
+    title = "Objects of this level"
+    foot = "Enter proposes to watch an object; Esc goes back"
+
+    def __init__(self, app: App, objects: Sequence[WatchableObject], choose: Callable[[str], object]) -> None:
+        super().__init__(app)
+        self._objects = objects
+        self._choose = choose
+        self.list = ListView((40, 88, 712, 430), 20, self._draw_row, self._chosen, empty="This level has no objects")
+        self.list.fill(objects)
+
+    def build(self) -> Sequence[Widget]:
+        return [self.list, Button((640, 530, 112, 24), "Back", self.back, size=10)]
+
+    def draw_frame(self, surface: pygame.Surface) -> None:
+        """The names of the columns."""
+        super().draw_frame(surface)
+        theme = self.app.theme
+        for x, text in ((48, "Id"), (100, "What"), (300, "x, y at the start, px"), (500, "To be watched")):
+            theme.text(surface, text, x, 68, size=10, colour=theme.palette.faint)
+
+    def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        id_, kind, px, py = self._objects[index]
+        x, y, w, h = area
+        theme.row(surface, (x, y, w, h - 1), chosen=focused, focused=False, filled=focused)
+        cells = ((48, str(id_)), (100, KIND_NAMES[kind]), (300, f"{px:.6g}, {py:.6g}"), (500, proposal(id_, kind)))
+        for at, text in cells:
+            theme.text(surface, text, at, y + 4, size=10.5)
+
+    def _chosen(self, index: int) -> None:
+        self.app.pop()
+        self._choose(proposal(*self._objects[index][:2]))
+
+
+def proposal(id_: int, kind: int) -> str:
+    """What one would watch of an object of a kind.
+
+    >>> proposal(3, GOLD), proposal(4, EXIT)
+    ('taken(3)', 'opened(4)')
+    """
+    if kind in (GOLD, MINE):
+        return f"taken({id_})"
+    if kind in (EXIT, DOOR):
+        return f"opened({id_})"
+    return f"object_x({id_})" if KIND_OF[kind].moves else f"status({id_})"
+
+
+USUAL = ("speed", "vx", "vy")
+"""What is watched where nothing else is wanted."""
+LANES = 4
+"""Values whose plot is shown at once."""
+
+
+@dataclass(eq=False)
+class Watched:
+    """A value that is watched. ``plotted``: its plot is shown; ``number``: of its colour."""
+
+    watch: Watch
+    number: int
+    plotted: bool = True
+    values: Values = field(default_factory=lambda: np.zeros(0))
+
+
+def watched_values(texts: Sequence[str]) -> Iterator[Watched]:
+    """Formulas as they were kept; those that cannot be read are left out."""
+    for number, text in enumerate(texts):
+        with suppress(NinjaGameError):
+            yield Watched(parse_watch(text), number, plotted=number < LANES)
+
+
+def shown_value(each: Watched, tick: int) -> str:
+    """A value at a tick, as the list has it."""
+    value = float(each.values[tick]) if tick < len(each.values) else np.nan
+    if not np.isfinite(value):
+        return "-"
+    if each.watch.formula.truth:
+        return "yes" if value > 0 else "no"
+    return f"{value:.6g}"
+
+
+LONGEST = 200
+"""Characters of a formula that one can type."""
+
+_STILL = 3.0
+"""The mouse that moves less, px, clicks."""
+
+
+class ValuesTab(Tab):
+    """The list of watched values at the left, their plots at the right."""
+
+    name = "Values"
+
+    def __init__(self, editor: TasEditor) -> None:
+        super().__init__(editor)
+        self.watched = list(watched_values(editor.session.branches.watched or USUAL))
+        self.window = TickRange()
+        self._plot: Area = UNPLACED
+        self.events: list[tuple[int, str]] = []
+        self.list = Rows(self._draw_row, self._toggle, empty="V watches a value",
+                         hint="Values at the cursor; a click shows or hides the plot")  # fmt: skip
+        actions = [
+            ("Watch", self.ask, "V: watch another value, such as object_x(12) or x > 400"),
+            ("Objects", self.show_objects, "The objects of the level with their ids"),
+            ("Remove", self.remove, "Stop watching the chosen value"),
+        ]
+        self._buttons = [Button(UNPLACED, text, action, hint=hint, size=SMALL) for text, action, hint in actions]
+        self.widgets = [self.list, *self._buttons]
+        self._made: tuple[object, ...] = ()
+        self._cursor = 0
+        self._grabbed: float | None = None
+        self._dragged = False
+
+    def arrange(self, x: float, y: float, w: float, h: float) -> None:
+        """The list above the buttons, the plots beside them."""
+        listed = 168 + (w - 424) / 5
+        self.list.area = x + 4, y + 5, listed, h - 27
+        put_in_a_row(x + 4, y + h - 21, self._buttons, (48, 54, 54))
+        left = x + listed + 40
+        self._plot = left, y + 4, x + w - 6 - left, h - 23
+        self.window.left, self.window.width = left, self._plot[2]
+
+    def commands(self) -> Commands:
+        return {"watch": self.ask}
+
+    # --- the values ---
+
+    def refresh(self) -> None:
+        timeline = self.editor.session.timeline
+        made = (self.editor.track.inputs, timeline.simulated_until, *self.watched)
+        if made != self._made:
+            for each in self.watched:
+                each.values = each.watch.values(timeline)
+            self.events = timeline.event_ticks
+            self._made = made
+            self.list.fill(self.watched)
+
+    def ask(self, text: str = "") -> None:
+        self.editor.show_tab(self.name)
+        fields = [("speed, x > 400, object_x(12) ...", text, LONGEST)]
+        self.editor.app.push(
+            FormPanel(self.editor.app, "Watch a value", fields, "Watch", lambda texts: self.add(texts[0]))
+        )
+
+    def add(self, text: str) -> None:
+        """Watch a formula; what is wrong with it is reported, and the question is put again."""
+        try:
+            watch = parse_watch(text)
+            watch.values(self.editor.session.timeline)
+        except NinjaGameError as error:
+            self.editor.app.notify(what_is_wrong(error))
+            self.ask(text)
+            return
+        number = next(k for k in range(len(self.watched) + 1) if k not in {each.number for each in self.watched})
+        self.watched.append(Watched(watch, number))
+        self._keep()
+        self.list.nudge("last")
+        self._few_lanes(self.watched[-1])
+
+    def remove(self) -> None:
+        del self.watched[self.list.index : self.list.index + 1]
+        self._keep()
+
+    def _keep(self) -> None:
+        """The run remembers them when it is saved."""
+        self.editor.session.watch(each.watch.text for each in self.watched)
+        self.list.fill(self.watched)
+
+    def show_objects(self) -> None:
+        """The list of all objects; one that is chosen is proposed to be watched."""
+        self.editor.app.push(ObjectList(self.editor.app, self.editor.session.timeline.objects, self.ask))
+
+    def _toggle(self, index: int) -> None:
+        each = self.watched[index]
+        each.plotted = not each.plotted
+        self._few_lanes(each)
+
+    def _few_lanes(self, latest: Watched) -> None:
+        """Where too many are plotted, the first other one goes."""
+        others = [each for each in self.watched if each.plotted and each is not latest]
+        if latest.plotted and len(others) >= LANES:
+            others[0].plotted = False
+
+    # --- picture ---
+
+    def update(self, real_ms: int) -> None:
+        """While it is shown: follow the run and the cursor."""
+        if self.editor.tab != self.name:
+            return
+        self.refresh()
+        self.window.fit(self.editor.last_tick)
+        if self.editor.cursor != self._cursor:
+            self._cursor = self.editor.cursor
+            self.window.follow(self._cursor)
+
+    def render_key(self) -> tuple[object, ...]:
+        """Run, cursor, selection, what is watched, what is shown of it."""
+        editor = self.editor
+        plotted = tuple((each, each.plotted) for each in self.watched)
+        shown = self.window.first, self.window.last, self.list.over
+        run = editor.track, editor.session.timeline.simulated_until
+        return run, editor.cursor, editor.selection, plotted, shown
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        super().paint(surface, theme)
+        x, y, w, h = self._plot
+        lanes = [each for each in self.watched if each.plotted]
+        if not lanes:
+            theme.text(surface, "Click a value to see its plot", x + w / 2, y + h / 2, size=SMALL, align="centre",
+                       colour=theme.palette.faint, width=w)  # fmt: skip
+        for k, each in enumerate(lanes):
+            lane = (x, y + h * k / len(lanes), w, h / len(lanes) - 3)
+            draw_lane(surface, theme, lane, self.window, each.values, colour_of(each.number, theme.palette))
+        self._paint_ticks(surface, theme)
+
+    def _paint_ticks(self, surface: pygame.Surface, theme: Theme) -> None:
+        """Selection, events, the cursor, and the numbers of ticks below."""
+        canvas, palette, window = theme.canvas, theme.palette, self.window
+        x, y, w, h = self._plot
+        before = surface.get_clip()
+        surface.set_clip(canvas.rect(x, y, w, h + 8))
+        first, last = self.editor.selection
+        if last - first > 1:
+            tint = pygame.Color(palette.accent.r, palette.accent.g, palette.accent.b, 40)
+            canvas.fill_rect(surface, tint, window.x(first), y, window.x(last) - window.x(first), h)
+        for tick, names in self.events:
+            if window.first <= tick <= window.last:
+                counts = any(name in SPLIT_EVENTS for name in names.split())
+                colour = palette.gold_dark if "gold-taken" in names else palette.accent if counts else palette.faint
+                canvas.fill_rect(surface, colour, window.x(tick) - 0.5, y + h - 1, 1, 7 if counts else 3)
+        canvas.fill_rect(surface, palette.accent, window.x(self.editor.cursor) - 0.5, y, 1, h)
+        surface.set_clip(before)
+        for tick in window.axis():
+            half = theme.width(str(tick), 8) / 2
+            at = min(window.x(tick), x + w - half)
+            theme.text(surface, str(tick), at, y + h + 7, size=8, colour=palette.faint, align="centre")
+
+    def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, _: bool) -> None:
+        """A sign of its colour, the formula, the value at the cursor."""
+        each, palette = self.watched[index], theme.palette
+        x, y, w, h = area
+        sign = (x + 4, y + h / 2 - 4, 8, 8)
+        colour = colour_of(each.number, palette)
+        if each.plotted:
+            theme.canvas.fill_rect(surface, colour, *sign, 2)
+        else:
+            theme.canvas.frame_rect(surface, colour, *sign, 1, 2)
+        value = shown_value(each, self.editor.cursor)
+        right = theme.text(surface, value, x + w - 4, y + 3, size=SMALL, bold=True, align="right")
+        room = right.left / theme.canvas.scale - theme.canvas.origin[0] / theme.canvas.scale - (x + 16) - 4
+        theme.text(surface, each.watch.text, x + 16, y + 3, size=SMALL, width=room)
+
+    # --- mouse ---
+
+    def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
+        """In the plot: the wheel zooms, a drag moves, a click puts the cursor there, the right button shows all."""
+        left, top, w, h = self._plot
+        in_plot = inside((left, top, w, h + 18), x, y)
+        if event.type == pygame.MOUSEBUTTONUP and self._grabbed is not None:
+            if not self._dragged:
+                self.editor.go(round(self.window.tick(x)), select=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))
+            self._grabbed = None
+            return True
+        if event.type == pygame.MOUSEMOTION and self._grabbed is not None:
+            self._dragged = self._dragged or abs(x - self._grabbed) > _STILL
+            if self._dragged:
+                self.window.move(self.window.tick(self._grabbed) - self.window.tick(x))
+                self._grabbed = x
+            return True
+        if not in_plot:
+            return super().mouse(event, x, y)
+        if event.type == pygame.MOUSEMOTION:
+            super().mouse(event, x, y)
+            self._tell(round(self.window.tick(x)))
+        if event.type == pygame.MOUSEWHEEL:
+            self.window.zoom(x, event.y)
+        elif event.type == pygame.MOUSEBUTTONDOWN and event.button == 1:
+            self._grabbed, self._dragged = x, False
+        elif event.type == pygame.MOUSEBUTTONDOWN and event.button == 3:
+            self.window.show_all()
+        return True
+
+    def _tell(self, tick: int) -> None:
+        """What is plotted at a tick, and what can be done."""
+        tick = min(max(0, tick), self.editor.last_tick)
+        values = "  ".join(f"{each.watch.text}: {shown_value(each, tick)}" for each in self.watched if each.plotted)
+        self.editor.hint = f"tick {tick}  {values}   (wheel: zoom, drag: move, right: all)"

@@ -1,0 +1,205 @@
+"""Keys and pads to actions, as the player has bound them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import inf
+from time import monotonic
+from typing import NamedTuple
+
+import pygame
+
+from ninja_game.runtime import in_page_or_not
+from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
+from ninja_game.ui.input.gamepad import Gamepads, pad_label
+from ninja_game.ui.input.keys import key_label, key_name, learn_label, scancode_named, scancode_of
+
+TAP_SECONDS = 0.06
+"""A jump key that went down and up between two ticks still counts in the next one, if it is not older than this."""
+
+MOVES = (("left", KEY_LEFT), ("right", KEY_RIGHT), ("jump", JUMP_HELD))
+
+Inputs = Mapping[str, tuple[str, ...]]
+"""Names of inputs by action."""
+
+
+class Bindings:
+    """Which keys and pad inputs mean which actions.
+
+    ``keys`` and ``pad``: what the player has changed, by action; the other actions have their defaults. Unknown names
+    are ignored, and stand in ``unknown``; an action that has only such keys keeps its defaults.
+    """
+
+    def __init__(self, keys: Inputs | None = None, pad: Inputs | None = None, *, dead_zone: float = 0.35) -> None:
+        self.pads = Gamepads(dead_zone)
+        self.pad_used = False
+        self._tapped = -inf
+        self.bind(keys or {}, pad or {})
+
+    def bind(self, keys: Inputs, pad: Inputs) -> None:
+        self.unknown = sorted({name for names in keys.values() for name in names if not scancode_named(name)})
+        self.keys = {}
+        for action, default in ACTIONS.items():
+            wanted = tuple(keys.get(action, default.keys))
+            known = tuple(filter(scancode_named, wanted))
+            self.keys[action] = known if known or not wanted else tuple(default.keys)
+        self.pad = {action: tuple(pad.get(action, default.pad)) for action, default in ACTIONS.items()}
+        self._by_key: dict[int, list[str]] = {}
+        self._by_pad: dict[str, list[str]] = {}
+        for action, names in self.keys.items():
+            for scancode in filter(None, map(scancode_named, names)):
+                self._by_key.setdefault(scancode, []).append(action)
+        for action, names in self.pad.items():
+            for name in names:
+                self._by_pad.setdefault(name, []).append(action)
+        self._move_keys = [
+            (bit, [code for code in map(scancode_named, self.keys[action]) if code]) for action, bit in MOVES
+        ]
+        self._move_pad = [(bit, set(self.pad[action])) for action, bit in MOVES]
+
+    def poll(self) -> int:
+        """Read the devices: what is held right now, 1 left + 2 right + 4 jump.
+
+        A tap of the jump key since the last poll counts as held, once.
+        """
+        pygame.event.pump()
+        state = pygame.key.get_pressed()
+        pads = self.pads.down
+        bits = 0
+        for bit, codes in self._move_keys:
+            # The tuple below is by scancode; the object's own indexing is by layout.
+            if any(tuple.__getitem__(state, code) for code in codes):
+                bits |= bit
+        for bit, names in self._move_pad:
+            if pads & names:
+                bits |= bit
+        if monotonic() - self._tapped <= TAP_SECONDS:
+            bits |= JUMP_HELD
+        self._tapped = -inf
+        return bits
+
+    def decode(self, event: pygame.Event) -> InputEvent:
+        """What an event means. Called once for each: pads, layout and taps of the jump key are followed."""
+        if event.type in (pygame.KEYDOWN, pygame.KEYUP):
+            return self._decode_key(event)
+        changes = self.pads.changes(event)
+        if not changes:
+            return InputEvent(event)
+        pressed = [name for name, down in changes if down]
+        released = [name for name, down in changes if not down]
+        self.pad_used = self.pad_used or bool(pressed)
+        return self._noted(
+            InputEvent(
+                event,
+                tuple(action for name in pressed for action in self._by_pad.get(name, ())),
+                tuple(action for name in released for action in self._by_pad.get(name, ())),
+                next((MENU_PAD[name] for name in pressed if name in MENU_PAD), ""),
+                next((MENU_PAD[name] for name in released if name in MENU_PAD), ""),
+                ("pad", pressed[0]) if pressed else None,
+            )
+        )
+
+    def _decode_key(self, event: pygame.Event) -> InputEvent:
+        self.pad_used = False
+        learn_label(event)
+        code = scancode_of(event)
+        name, actions = key_name(code), tuple(self._by_key.get(code, ()))
+        menu = MENU_KEYS.get(name, "")
+        if event.type == pygame.KEYUP:
+            return InputEvent(event, released=actions, menu_released=menu)
+        return self._noted(InputEvent(event, pressed=actions, menu=menu, source=("keys", name)))
+
+    def _noted(self, event: InputEvent) -> InputEvent:
+        """The event; the time of a press of the jump key is kept for the next tick."""
+        if "jump" in event.pressed:
+            self._tapped = monotonic()
+        return event
+
+    def name(self, action: str) -> str:
+        """What to press for an action: on the pad if that was used last, else on the keyboard."""
+        pad, keys = self.pad.get(action, ()), self.keys.get(action, ())
+        if self.pad_used and pad:
+            return pad_label(pad[0])
+        return key_label(keys[0]) if keys else pad_label(pad[0]) if pad else "(no key)"
+
+
+class Action(NamedTuple):
+    """``label``: for the settings screen; ``keys`` and ``pad``: names of the default inputs."""
+
+    label: str
+    keys: tuple[str, ...]
+    pad: tuple[str, ...] = ()
+
+
+ACTIONS: dict[str, Action] = {
+    "left": Action("Run left", ("left", "a"), ("dpad-left", "leftx-", "hat-left", "axis-0-")),
+    "right": Action("Run right", ("right", "d"), ("dpad-right", "leftx+", "hat-right", "axis-0+")),
+    "jump": Action("Jump", ("lshift", "rshift", "z", "up", "w"), ("a", "button-0")),
+    "confirm": Action("Begin, continue", ("space", "return"), ("a", "button-0")),
+    "back": Action("Back", ("escape",), ("b", "button-1")),
+    "pause": Action("Pause", ("p",), ("start", "button-7")),
+    "retry": Action("Retry", ("r",), ("x", "button-2")),
+    "suicide": Action("Give up", ("k",), ("back", "button-6")),
+    "replay": Action("Watch the replay", ("v",), ("y", "button-3")),
+    "quit": Action("Leave to the menu", ("q",)),
+    "skip": Action("Skip the level (practice)", ("n",)),
+    "boss": Action("Hide the game", ("tab",)),
+    "ghost": Action("Ghost on or off", ("g",), ("rightshoulder",)),
+    "quick_save": Action("Quick save (practice)", ("f5",), ("leftstick",)),
+    "quick_load": Action("Quick load (practice)", ("f9",), ("rightstick",)),
+    "rewind": Action("Rewind (practice)", ("backspace",), ("lefttrigger+",)),
+    "slow": Action("Slow motion (practice)", ("lctrl",), ("righttrigger+",)),
+    "step": Action("Single step (practice)", ("period",), ("leftshoulder",)),
+    "overlay_hitboxes": Action("Show hit boxes", ("1",)),
+    "overlay_grid": Action("Show the grid", ("2",)),
+    "overlay_edges": Action("Show edges", ("3",)),
+    "overlay_rays": Action("Show rays", ("4",)),
+    "overlay_cells": Action("Show cells", ("5",)),
+    "faster": Action("Replay: faster", ("equals", "kp_plus"), ("rightshoulder",)),
+    "slower": Action("Replay: slower", ("minus", "kp_minus"), ("leftshoulder",)),
+    "frame_back": Action("Replay: previous tick", ("comma",)),
+    "frame_forward": Action("Replay: next tick", ("period",)),
+    "export": Action("Replay: export", ("e",)),
+    "edit": Action("Replay: edit", ("t",)),
+    "link": Action("Copy a link", ("c",)),
+    "screenshot": Action("Save a picture", ("f12",)),
+    "fullscreen": Action("Full screen", ("f11",)),
+}
+
+PAGE_KEYS = {"slow": ("x",), "screenshot": ("f10",)}
+"""Keys in a page instead of those that the browser has its own use for: Ctrl with W, a jump, closes the tab."""
+
+ACTIONS |= {action: ACTIONS[action]._replace(keys=keys) for action, keys in in_page_or_not(PAGE_KEYS, {}).items()}
+
+MENU_KEYS: dict[str, str] = {
+    "left": "left", "right": "right", "up": "up", "down": "down", "return": "confirm", "kp_enter": "confirm",
+    "space": "confirm", "escape": "back", "backspace": "back", "pageup": "page_up", "pagedown": "page_down",
+    "home": "first", "end": "last", "delete": "delete",
+}  # fmt: skip
+"""Keys in menus; they cannot be rebound, so that nobody locks themselves out."""
+
+MENU_PAD: dict[str, str] = {
+    "dpad-left": "left", "dpad-right": "right", "dpad-up": "up", "dpad-down": "down", "leftx-": "left",
+    "leftx+": "right", "lefty-": "up", "lefty+": "down", "a": "confirm", "b": "back", "start": "confirm",
+    "leftshoulder": "page_up", "rightshoulder": "page_down", "y": "delete", "x": "next",
+    "hat-left": "left", "hat-right": "right", "hat-up": "up", "hat-down": "down", "axis-0-": "left",
+    "axis-0+": "right", "axis-1-": "up", "axis-1+": "down", "button-0": "confirm", "button-1": "back",
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class InputEvent:
+    """What an event presses and releases.
+
+    ``raw``: as SDL gave it. ``pressed``, ``released``: actions in play (``ACTIONS``). ``menu``,
+    ``menu_released``: what it means in menus (the values of ``MENU_KEYS``), "" if nothing. ``source``: the input that
+    it presses, ("keys", "x") or ("pad", "a"); None for any other event.
+    """
+
+    raw: pygame.Event
+    pressed: tuple[str, ...] = ()
+    released: tuple[str, ...] = ()
+    menu: str = ""
+    menu_released: str = ""
+    source: tuple[str, str] | None = None

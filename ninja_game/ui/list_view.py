@@ -1,0 +1,146 @@
+"""A list of rows that scrolls, and a grid of cells: many things of which one is chosen."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import pygame
+
+from ninja_game.ui.theme import Area, Theme
+from ninja_game.ui.widgets import Widget
+
+DrawRow = Callable[[pygame.Surface, Theme, int, Area, bool], None]
+"""Shows a row: surface, theme, its number, its area, whether it is the chosen one while the list has the focus."""
+
+BAR = 8
+
+
+class ListView(Widget):
+    """Cells of one size in ``columns`` columns, top to bottom; one is selected. One column: a list.
+
+    ``choose`` is called with the number of a cell that is confirmed or clicked, ``selected`` when the selection moves.
+    """
+
+    def __init__(
+        self, area: Area, cell_height: float, draw_row: DrawRow, choose: Callable[[int], object], *,
+        selected: Callable[[int], object] = lambda _: None, empty: str = "", hint: str = "",
+    ) -> None:  # fmt: skip
+        super().__init__(area, hint=hint)
+        self.cell_height = cell_height
+        self.columns = 1
+        self.draw_row = draw_row
+        self.choose = choose
+        self.selected = selected
+        self.empty = empty
+        self.count = 0
+        self.index = 0
+        self.first = 0
+
+    def fill(self, rows: Sequence[object]) -> None:
+        """Show so many rows; the selection stays where that is possible."""
+        self.count = len(rows)
+        self._select(min(self.index, max(0, self.count - 1)))
+
+    @property
+    def visible_lines(self) -> int:
+        """How many lines of cells fit."""
+        return max(1, int(self.area[3] // self.cell_height))
+
+    @property
+    def lines(self) -> int:
+        return -(-self.count // self.columns)
+
+    def _select(self, index: int) -> None:
+        self.index = min(max(0, index), max(0, self.count - 1))
+        line = self.index // self.columns
+        self.first = max(min(self.first, line), line - self.visible_lines + 1, 0)
+        if self.count:
+            self.selected(self.index)
+
+    def confirm(self) -> bool:
+        if self.count:
+            self.choose(self.index)
+        return True
+
+    def nudge(self, action: str) -> bool:
+        """Move the selection; beyond the ends the focus moves on."""
+        page = self.visible_lines * self.columns
+        steps = {"up": -self.columns, "down": self.columns, "page_up": -page, "page_down": page}
+        if self.columns > 1:
+            steps |= {"left": -1, "right": 1}
+            place = self.index % self.columns
+            if (action == "left" and place == 0) or (action == "right" and place == self.columns - 1):
+                return False
+        if action in ("first", "last"):
+            self._select(0 if action == "first" else self.count - 1)
+            return True
+        if action not in steps or not self.count:
+            return False
+        goal = self.index + steps[action]
+        if action.startswith("page"):
+            goal = min(max(goal, 0), self.count - 1)
+        last_line = self.index // self.columns == self.lines - 1
+        if goal < 0 or (goal >= self.count and (last_line or action == "right")):
+            return False
+        self._select(goal)
+        return True
+
+    def row_area(self, index: int) -> Area:
+        x, y, w, _ = self.area
+        line, column = divmod(index, self.columns)
+        width = (w - BAR - 4) / self.columns
+        return x + column * width, y + (line - self.first) * self.cell_height, width, self.cell_height
+
+    def _index_at(self, x: float, y: float) -> int | None:
+        left, top, w, _ = self.area
+        column, line = int((x - left) // ((w - BAR - 4) / self.columns)), int((y - top) // self.cell_height)
+        index = (self.first + line) * self.columns + column
+        shown = 0 <= column < self.columns and line < self.visible_lines and index < self.count
+        return index if shown else None
+
+    def click(self, x: float, y: float) -> bool:
+        """Choose what is clicked; on the bar: scroll there."""
+        if x >= self.area[0] + self.area[2] - BAR - 4:
+            return self.drag(x, y)
+        index = self._index_at(x, y)
+        if index is not None:
+            self._select(index)
+            self.choose(index)
+        return index is not None
+
+    def hover(self, x: float, y: float) -> bool:
+        """The mouse is over it: select what is there; whether that changed anything."""
+        index = self._index_at(x, y)
+        if index is None or index == self.index:
+            return False
+        self.index = index
+        self.selected(index)
+        return True
+
+    def drag(self, x: float, y: float) -> bool:
+        hidden = self.lines - self.visible_lines
+        if hidden <= 0 or x < self.area[0] + self.area[2] - BAR - 30:
+            return False
+        share = (y - self.area[1]) / self.area[3]
+        self.first = round(min(1.0, max(0.0, share)) * hidden)
+        return True
+
+    def wheel(self, steps: int) -> bool:
+        self.first = min(max(0, self.first - steps), max(0, self.lines - self.visible_lines))
+        return True
+
+    def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
+        """The cells that are visible, and a bar if there are more."""
+        x, y, w, h = self.area
+        start = self.first * self.columns
+        for index in range(start, min(self.count, start + self.visible_lines * self.columns)):
+            self.draw_row(surface, theme, index, self.row_area(index), focused and index == self.index)
+        if not self.count and self.empty:
+            theme.text(
+                surface, self.empty, x + w / 2, y + h / 2 - 6, size=11, colour=theme.palette.faint, align="centre"
+            )
+        if self.lines > self.visible_lines:
+            length = max(20.0, h * self.visible_lines / self.lines)
+            top = y + (h - length) * self.first / (self.lines - self.visible_lines)
+            theme.canvas.fill_rect(surface, theme.palette.panel_edge, x + w - BAR, y, BAR - 3, h, 2)
+            theme.canvas.fill_rect(surface, theme.palette.accent, x + w - BAR, top, BAR - 3, length, 2)

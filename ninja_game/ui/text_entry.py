@@ -1,0 +1,261 @@
+"""A line of text that the player types."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from collections.abc import Callable
+from contextlib import suppress
+
+import pygame
+
+from ninja_game.ui.input.keys import chord
+from ninja_game.ui.theme import Area, Theme
+from ninja_game.ui.widgets import PAD, TEXT, Widget
+
+MAX_ENTRY = 40
+"""How many characters can be typed unless a field says otherwise."""
+DOUBLE_MS = 400
+"""A second click within so many ms selects a word, a third one everything."""
+
+
+class TextEntry(Widget):
+    """A text field, edited as everywhere: arrows, Home and End, with Shift to select, with Ctrl by words.
+
+    So are Backspace and Delete; Ctrl+A, C, X, V and Z; the mouse, dragged or clicked twice. ``prompt``: shown while it
+    is empty. ``put`` is called at every change. ``longest``: how many characters fit in. ``proposed``: the text is
+    selected at first, so that what is typed replaces it.
+    """
+
+    def __init__(
+        self,
+        area: Area,
+        prompt: str,
+        text: str,
+        put: Callable[[str], object],
+        *,
+        longest: int = MAX_ENTRY,
+        hint: str = "",
+        proposed: bool = False,
+    ) -> None:
+        super().__init__(area, hint=hint)
+        self.prompt = prompt
+        self.put = put
+        self.edited = EditedText(text, longest)
+        if proposed:
+            self.edited.select_all()
+        self._first = 0
+        self._stops: list[float] = [0.0]
+        self._clicks, self._clicked = 0, (-DOUBLE_MS, 0.0)
+
+    @property
+    def text(self) -> str:
+        return self.edited.text
+
+    def show(self, text: str) -> None:
+        self.edited = EditedText(text, self.edited.longest)
+
+    # --- keys ---
+
+    def text_event(self, event: pygame.Event) -> bool:
+        """Type, move, select, erase, copy and paste."""
+        if event.type not in (pygame.TEXTINPUT, pygame.KEYDOWN):
+            return False
+        before = self.text
+        used = self._type(event.text) if event.type == pygame.TEXTINPUT else self._press(event)
+        if self.text != before:
+            self.put(self.text)
+        return used
+
+    def _type(self, text: str) -> bool:
+        self.edited.put(text)
+        return True
+
+    def _press(self, event: pygame.Event) -> bool:
+        """A key; whether it is one for a text."""
+        *modifiers, key = chord(event).split("+")
+        select, ctrl, edited = "shift" in modifiers, "ctrl" in modifiers, self.edited
+        if key in ("left", "right"):
+            edited.step(1 if key == "right" else -1, word=ctrl, select=select)
+        elif key in ("home", "end"):
+            edited.go(0 if key == "home" else len(self.text), select=select)
+        elif key in ("backspace", "delete"):
+            edited.erase(1 if key == "delete" else -1, word=ctrl)
+        elif ctrl and not getattr(event, "mod", 0) & pygame.KMOD_ALT:
+            return self._command(key)
+        else:
+            # What types a character comes again as TEXTINPUT; as a key it must not move the focus.
+            return key == "space" or len(key) == 1
+        return True
+
+    def _command(self, letter: str) -> bool:
+        """Ctrl and a letter; whether it means anything in a text."""
+        edited = self.edited
+        with suppress(pygame.error):
+            if letter == "a":
+                edited.select_all()
+            elif letter == "z":
+                edited.undo()
+            elif letter in ("c", "x") and edited.selected:
+                pygame.scrap.put_text(edited.selected)
+                if letter == "x":
+                    edited.put("")
+            elif letter == "v":
+                edited.put(pygame.scrap.get_text())
+        return letter in ("a", "z", "c", "x", "v")
+
+    # --- mouse ---
+
+    def click(self, x: float, y: float) -> bool:
+        """Put the cursor there; twice: select the word, three times: everything. With Shift select up to there."""
+        now, place = pygame.time.get_ticks(), self._place_at(x)
+        last, where = self._clicked
+        self._clicks = self._clicks % 3 + 1 if now - last < DOUBLE_MS and abs(where - x) < PAD else 1
+        self._clicked = now, x
+        if self._clicks == 1:
+            self.edited.go(place, select=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))
+        elif self._clicks == 2:
+            self.edited.select_word(self._first + max(0, bisect_right(self._stops, x) - 1))
+        else:
+            self.edited.select_all()
+        return True
+
+    def drag(self, x: float, y: float) -> bool:
+        if self._clicks == 1:
+            self.edited.go(self._place_at(x), select=True)
+        return True
+
+    def _place_at(self, x: float) -> int:
+        """The place between two characters that is nearest to a point; beyond the edges the next one out of sight."""
+        stops = self._stops
+        if x < stops[0] - 1:
+            return self._first - 1
+        if x > stops[-1] + PAD:
+            return self._first + len(stops)
+        return self._first + min(range(len(stops)), key=lambda k: abs(stops[k] - x))
+
+    # --- picture ---
+
+    def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
+        """The text with its cursor and what is selected, or the prompt."""
+        self.draw_base(surface, theme, focused=focused)
+        x, y, w, h = self.area
+        left, top, room = x + PAD, y + (h - TEXT) / 2, w - 2 * PAD - 4
+        self._scroll(theme, room)
+        shown = self._measure(theme, left, room)
+        fill, palette = theme.canvas.fill_rect, theme.palette
+        begin, end = (self._stops[min(max(0, k - self._first), len(shown))] for k in self.edited.span)
+        if begin < end and focused:
+            fill(surface, palette.bar_full, begin - 1, top - 3, end - begin + 2, TEXT + 6)
+        if shown:
+            theme.text(surface, shown, left, top, size=TEXT)
+        else:
+            theme.text(surface, self.prompt, left, top, size=TEXT, colour=palette.faint)
+        if focused:
+            place = self._stops[min(self.edited.cursor - self._first, len(shown))]
+            fill(surface, palette.accent, place - 1, top - 2, 1.5, TEXT + 4)
+
+    def _scroll(self, theme: Theme, room: float) -> None:
+        """Show the part of the text with the cursor, and as much as there is room for."""
+        text, cursor = self.text, self.edited.cursor
+        self._first = min(self._first, cursor)
+        while theme.width(text[self._first : cursor], TEXT) > room:
+            self._first += 1
+        while self._first > 0 and theme.width(text[self._first - 1 :], TEXT) <= room:
+            self._first -= 1
+
+    def _measure(self, theme: Theme, left: float, room: float) -> str:
+        """What is shown; ``_stops`` gets the places between its characters."""
+        self._stops = [left]
+        for last in range(self._first + 1, len(self.text) + 1):
+            width = theme.width(self.text[self._first : last], TEXT)
+            if width > room:
+                break
+            self._stops.append(left + width)
+        return self.text[self._first : self._first + len(self._stops) - 1]
+
+
+class EditedText:
+    """A line of text under edit. ``cursor``: before which character it is; up to ``anchor`` it is selected.
+
+    ``longest``: how many characters fit in.
+    """
+
+    def __init__(self, text: str, longest: int) -> None:
+        self.text = text
+        self.longest = longest
+        self.cursor = self.anchor = len(text)
+        self._past: list[tuple[str, int, int]] = []
+
+    @property
+    def span(self) -> tuple[int, int]:
+        """The first selected character, and the first one behind."""
+        return min(self.cursor, self.anchor), max(self.cursor, self.anchor)
+
+    @property
+    def selected(self) -> str:
+        return self.text[slice(*self.span)]
+
+    def go(self, place: int, *, select: bool = False) -> None:
+        """Put the cursor before a character; ``select``: what lies between is selected too."""
+        self.cursor = min(max(0, place), len(self.text))
+        if not select:
+            self.anchor = self.cursor
+
+    def step(self, direction: int, *, word: bool = False, select: bool = False) -> None:
+        """Go to the right (1) or left (-1): by a character, a word, or to the end of what was selected."""
+        first, last = self.span
+        if first < last and not (word or select):
+            self.go(last if direction > 0 else first)
+        else:
+            self.go(self._beyond(direction) if word else self.cursor + direction, select=select)
+
+    def select_all(self) -> None:
+        self.anchor, self.cursor = 0, len(self.text)
+
+    def select_word(self, place: int) -> None:
+        """Select the word, or what stands between two words, around a place."""
+        place = min(place, len(self.text) - 1)
+        kind = [_kind(each) for each in self.text]
+        first = last = max(0, place)
+        while first > 0 and kind[first - 1] == kind[place]:
+            first -= 1
+        while last < len(kind) and kind[last] == kind[place]:
+            last += 1
+        self.anchor, self.cursor = first, last
+
+    def put(self, typed: str) -> None:
+        """Instead of what is selected comes a text, as much of it as fits in; line ends are blanks."""
+        first, last = self.span
+        line = re.sub(r"[\r\n\t]+", " ", typed.strip("\r\n"))
+        line = "".join(char for char in line if char.isprintable())
+        line = line[: max(0, self.longest - len(self.text) + last - first)]
+        if line != self.selected:
+            self._past.append((self.text, self.cursor, self.anchor))
+        self.text = self.text[:first] + line + self.text[last:]
+        self.go(first + len(line))
+
+    def undo(self) -> None:
+        """Take back what was typed or taken out last."""
+        if self._past:
+            self.text, self.cursor, self.anchor = self._past.pop()
+
+    def erase(self, direction: int, *, word: bool = False) -> None:
+        """Take out what is selected; else the character, or the word, at the right (1) or left (-1)."""
+        if self.cursor == self.anchor:
+            self.step(direction, word=word, select=True)
+        self.put("")
+
+    def _beyond(self, direction: int) -> int:
+        """The end of the next word at the right (1), or the begin of the one at the left (-1)."""
+        place, behind = self.cursor, 0 if direction > 0 else 1
+        end = len(self.text) if direction > 0 else 0
+        while place != end and not self.text[place - behind].isalnum():
+            place += direction
+        while place != end and self.text[place - behind].isalnum():
+            place += direction
+        return place
+
+
+def _kind(char: str) -> int:
+    return 0 if char.isspace() else 1 if char.isalnum() else 2

@@ -1,0 +1,248 @@
+"""The look of the interface at one window size: palette and lettering."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from dataclasses import dataclass, fields
+
+import pygame
+
+from ninja_game.ui.canvas import Canvas, Colour
+from ninja_game.ui.lettering import Lettering
+
+Area = tuple[float, float, float, float]
+"""x, y, width, height, logical px."""
+
+
+def inside(area: Area, x: float, y: float) -> bool:
+    """Whether a point lies in an area."""
+    left, top, w, h = area
+    return left <= x < left + w and top <= y < top + h
+
+
+NARROWEST = 0.2
+"""Width of the narrowest letter with its space, as a share of the size: longer texts need not be measured."""
+
+
+class Theme:
+    """Palette and lettering for a canvas; made again when either changes."""
+
+    def __init__(self, palette: Palette, canvas: Canvas) -> None:
+        self.palette = palette
+        self.canvas = canvas
+        self.lettering = Lettering(canvas)
+
+    def text(
+        self, surface: pygame.Surface | None, text: str, x: float, y: float, *, size: float = 8,
+        colour: Colour | None = None, align: str = "left", bold: bool = False, width: float | None = None,
+    ) -> pygame.Rect:  # fmt: skip
+        """Draw a text (or, without a surface, only measure it); its px rectangle. ``y``: its top.
+
+        ``width``: logical px to which it is shortened by dots.
+        """
+        if width is not None:
+            text = self.fit(text, width, size, bold=bold)
+        return self.lettering.draw(surface, text, x, y, size, colour or self.palette.text, align=align, bold=bold)
+
+    def width(self, text: str, size: float = 8, *, bold: bool = False) -> float:
+        """Width of a text, logical px."""
+        return self.lettering.width(text, size, bold=bold)
+
+    def fit(self, text: str, width: float, size: float, *, bold: bool = False) -> str:
+        """The text, shortened by dots to fit a width."""
+        most = int(width / (NARROWEST * size)) + 1
+        if len(text) <= most and self.width(text, size, bold=bold) <= width:
+            return text
+        lengths = range(min(len(text), most) + 1)
+        kept = bisect_right(lengths, width, key=lambda n: self.width(text[:n] + "...", size, bold=bold)) - 1
+        return text[: max(0, kept)].rstrip() + "..."
+
+    def panel(self, surface: pygame.Surface, x: float, y: float, w: float, h: float, radius: float = 3) -> pygame.Rect:
+        """A panel of the interface: filled, with a thin edge; its px rectangle."""
+        self.canvas.fill_rect(surface, self.palette.panel, x, y, w, h, radius)
+        return self.canvas.frame_rect(surface, self.palette.panel_edge, x, y, w, h, 1, radius)
+
+    def window(self, surface: pygame.Surface, x: float, y: float, w: float, h: float) -> pygame.Rect:
+        """A large panel that lies over a level or a screen; its px rectangle."""
+        self.canvas.fill_rect(surface, self.palette.background, x, y, w, h, 6)
+        return self.canvas.frame_rect(surface, self.palette.panel_edge, x, y, w, h, 1.5, 6)
+
+    def row(
+        self, surface: pygame.Surface, area: Area, *,
+        chosen: bool, focused: bool, radius: float = 4, filled: bool = True,
+    ) -> None:  # fmt: skip
+        """The frame of a widget or of a row: accented if it is chosen, thick where it has the focus too."""
+        if filled:
+            self.canvas.fill_rect(surface, self.palette.panel, *area, radius)
+        if filled or chosen:
+            edge = self.palette.accent if chosen else self.palette.panel_edge
+            self.canvas.frame_rect(surface, edge, *area, 2.5 if focused else 1, radius)
+
+
+@dataclass(frozen=True)
+class Palette:
+    """Colours by role. ``danger_by_shape``: danger is marked by spikes and bars too, not only by colour."""
+
+    name: str
+    danger_by_shape: bool
+
+    # The stage and the interface.
+    background: pygame.Color
+    tile: pygame.Color
+    text: pygame.Color
+    faint: pygame.Color
+    on_tile: pygame.Color
+    panel: pygame.Color
+    panel_edge: pygame.Color
+    accent: pygame.Color
+    good: pygame.Color
+    bad: pygame.Color
+    bar_full: pygame.Color
+    bar_empty: pygame.Color
+    # The ninja.
+    ninja: pygame.Color
+    band: pygame.Color
+    ghost: pygame.Color
+    blood: pygame.Color
+    # Things: outline, fills from dark to light, and one colour each for what must be told apart.
+    outline: pygame.Color
+    dark: pygame.Color
+    middle: pygame.Color
+    light: pygame.Color
+    bright: pygame.Color
+    gold: pygame.Color
+    gold_light: pygame.Color
+    gold_dark: pygame.Color
+    exit: pygame.Color
+    exit_light: pygame.Color
+    switch: pygame.Color
+    mine: pygame.Color
+    weapon: pygame.Color
+    laser: pygame.Color
+    warning: pygame.Color
+    turret: pygame.Color
+    launcher: pygame.Color
+    electric: pygame.Color
+    spark: pygame.Color
+    drone: pygame.Color
+    lock: pygame.Color
+    trap: pygame.Color
+    # Fire, smoke, dust.
+    flame: pygame.Color
+    ember: pygame.Color
+    smoke: pygame.Color
+    dust: pygame.Color
+
+
+_CLASSIC = dict(  # noqa: C408 - one form for all palettes
+    background="#cacad0", tile="#787887", text="#17171c", faint="#62626f", on_tile="#e4e4ea", panel="#dcdce1",
+    panel_edge="#9a9aa6", accent="#a33a2c", good="#2d6a3a", bad="#992222", bar_full="#c0ccff",
+    bar_empty="#ffab9f", ninja="#1d1d22", band="#a33a2c", ghost="#5865a0", blood="#990000", outline="#3a3a42",
+    dark="#5b5b66", middle="#9a9aa5", light="#b8b8c1", bright="#ebebef", gold="#cc9900", gold_light="#f4dd55",
+    gold_dark="#8a6500", exit="#8f6fb0", exit_light="#cbb4dd", switch="#5b7fb0", mine="#990f0f",
+    weapon="#882222", laser="#9c1c1c", warning="#cb7679", turret="#7f335a", launcher="#4d0f2c",
+    electric="#0099cc", spark="#d8f8ff", drone="#26262c", lock="#6d5a2c", trap="#8f3b3b", flame="#ffe45c",
+    ember="#f09022", smoke="#84848c", dust="#8e8e9c",
+)  # fmt: skip
+
+
+def _palette(name: str, *, danger_by_shape: bool = False, **colours: str) -> Palette:
+    """A palette: the classic one with some colours changed."""
+    inks = {role: pygame.Color(colour) for role, colour in (_CLASSIC | colours).items()}
+    return Palette(name, danger_by_shape, **inks)
+
+
+CLASSIC = _palette("classic")
+
+DARK = _palette(
+    "dark", background="#23252c", tile="#4a4e5c", text="#e8e8ee", faint="#9a9eac", on_tile="#e8e8ee",
+    panel="#2e313a", panel_edge="#565b69", accent="#ff8f6b", good="#7fd08c", bad="#ff7b74",
+    bar_full="#7f92e0", bar_empty="#e06a6a", ninja="#f1f1f5", band="#ff6b4a", ghost="#8fa0ff", blood="#d92626",
+    outline="#0f1014", dark="#757a88", middle="#8e93a1", light="#a9aebb", bright="#e4e6ec",
+    gold="#e0ae1c", gold_light="#fff08a", gold_dark="#7d5c00", exit="#9c78c8", exit_light="#d9c4ee",
+    switch="#7ba4dd", mine="#ff5148", weapon="#e0433c", laser="#ff4a40", warning="#a85456", turret="#d0659c",
+    launcher="#b3487c", electric="#22b8f0", spark="#e8fbff", drone="#8a8f9e", lock="#c9a24a", trap="#d06a6a",
+    flame="#fff07a", ember="#ffa033", smoke="#6d707a", dust="#7b808e",
+)  # fmt: skip
+
+CONTRAST = _palette(
+    "contrast", danger_by_shape=True, background="#ffffff", tile="#3a3a3a", text="#000000", faint="#333333",
+    on_tile="#ffffff", panel="#ffffff", panel_edge="#000000", accent="#0033cc", good="#006000", bad="#b00000",
+    bar_full="#7fb2ff", bar_empty="#ff8080", ninja="#000000", band="#0033cc", ghost="#4a6fff", blood="#c00000",
+    outline="#000000", dark="#333333", middle="#888888", light="#c4c4c4", bright="#ffffff",
+    gold="#c08000", gold_light="#ffe000", gold_dark="#4d3300", exit="#7a2fc0", exit_light="#d8b0ff",
+    switch="#0050d0", mine="#d00000", weapon="#d00000", laser="#d00000", warning="#ff5a5a", turret="#a00060",
+    launcher="#600030", electric="#0078d8", spark="#bfe8ff", drone="#000000", lock="#7a5500", trap="#a00000",
+    flame="#ffd800", ember="#ff7a00", smoke="#777777", dust="#777777",
+)  # fmt: skip
+
+# Blue and orange differ for every common kind of colour blindness; danger is always orange to vermilion, and spiked.
+SAFE = _palette(
+    "safe", danger_by_shape=True, background="#d3d5d8", tile="#6f7680", text="#14161a", faint="#565c66",
+    on_tile="#eef0f3", panel="#e3e5e8", panel_edge="#8f959f", accent="#0060a8", good="#0060a8", bad="#c24a00",
+    bar_full="#a6dcfa", bar_empty="#ffb877", ninja="#101216", band="#0060a8", ghost="#0072b2", blood="#8a2c00",
+    gold="#e6c200", gold_light="#fff27a", gold_dark="#6b5900", exit="#56b4e9", exit_light="#c9e8fb",
+    switch="#0072b2", mine="#d55e00", weapon="#d55e00", laser="#d55e00", warning="#e8a06a", turret="#b04a00",
+    launcher="#7a3300", electric="#d55e00", spark="#fff0d8", drone="#202329", lock="#5b5f22", trap="#a34700",
+    flame="#ffe9a0", ember="#e69f00",
+)  # fmt: skip
+
+SAFE_DARK = _palette(
+    "safe-dark", danger_by_shape=True, background="#1e2227", tile="#4b525c", text="#eceff3", faint="#a2a9b3",
+    on_tile="#eceff3", panel="#2a2f36", panel_edge="#5a626d", accent="#56b4e9", good="#56b4e9", bad="#ff9a4d",
+    bar_full="#56b4e9", bar_empty="#ff8c33", ninja="#f4f6f8", band="#56b4e9", ghost="#56b4e9", blood="#d06a2c",
+    outline="#0c0e10", dark="#78808c", middle="#8f97a3", light="#aab1bc", bright="#e6e9ee",
+    gold="#f0e442", gold_light="#fffbc0", gold_dark="#7a7200", exit="#56b4e9", exit_light="#d0ecfc",
+    switch="#3a9bdc", mine="#ff8c33", weapon="#ff7a1a", laser="#ff8c33", warning="#a8642e", turret="#ff9a4d",
+    launcher="#d0702a", electric="#ff8c33", spark="#fff0d8", drone="#8b939f", lock="#c0c060", trap="#ff9a4d",
+    flame="#fff0b0", ember="#f0a820", smoke="#6d737c", dust="#7d848f",
+)  # fmt: skip
+
+PALETTES: dict[str, Palette] = {palette.name: palette for palette in (CLASSIC, DARK, CONTRAST, SAFE, SAFE_DARK)}
+
+
+def palette_named(name: str) -> Palette:
+    """The palette of a name; the classic one for an unknown name, which a settings file may hold."""
+    return PALETTES.get(name, CLASSIC)
+
+
+ROLES = tuple(entry.name for entry in fields(Palette) if entry.name not in {"name", "danger_by_shape"})
+"""All colour roles."""
+
+NINJA_COLOURS = ("", "#d9127f", "#7d7700", "#1a6488", "#765484", "#6a2424", "#f7f7f7", "#c79400", "#787887", "#bfbfc6")
+"""The ninja's colours: the palette's own, then one per completed column (game.md §8)."""
+
+
+def mixed(a: pygame.Color, b: pygame.Color, share: float) -> pygame.Color:
+    """A colour between two, ``share`` (0…1) of the way from ``a`` to ``b``.
+
+    >>> mixed(pygame.Color("black"), pygame.Color(200, 100, 0), 0.5)
+    Color(100, 50, 0, 255)
+    """
+    return a.lerp(b, min(1.0, max(0.0, share)))
+
+
+NARROWER = (0.95, 0.9, 0.85, 0.8, 0.75, 0.7, 0.65, 0.6, 0.55)
+"""Shares of the width that are tried to make lines equally long."""
+
+
+def wrapped(theme: Theme, text: str, width: float, size: float) -> list[str]:
+    """The text in as few lines as fit a width, about equally long, so that no word is left alone."""
+    lines = _filled(theme, text, width, size)
+    for share in NARROWER:
+        narrower = _filled(theme, text, width * share, size)
+        if len(narrower) > len(lines):
+            break
+        lines = narrower
+    return lines
+
+
+def _filled(theme: Theme, text: str, width: float, size: float) -> list[str]:
+    lines: list[str] = []
+    for word in text.split():
+        longer = f"{lines[-1]} {word}" if lines else word
+        if lines and theme.width(longer, size) <= width:
+            lines[-1] = longer
+        else:
+            lines.append(word)
+    return lines

@@ -1,0 +1,254 @@
+"""Widgets: a rectangle of a menu that can have the focus, be clicked, and show itself.
+
+Positions and sizes are logical px of the 792 x 600 stage. A widget answers ``True`` where it has used an input.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Generic, TypeVar
+
+import pygame
+
+from ninja_game.formats.pack.pars import MARGINS
+from ninja_game.ui.theme import Area, Theme, inside
+
+PAD = 8
+TEXT = 11
+"""Size of ordinary text, px."""
+
+T = TypeVar("T")
+
+
+def following(options: Sequence[T], present: T, by: int = 1) -> T:
+    """The option after the present one, around the end.
+
+    >>> following("abc", "c"), following("abc", "a", -1)
+    ('a', 'c')
+    """
+    return options[(options.index(present) + by) % len(options)]
+
+
+class Widget:
+    """What all widgets share. ``hint``: shown at the foot of the screen while it has the focus."""
+
+    focusable = True
+
+    def __init__(self, area: Area, *, hint: str = "") -> None:
+        self.area = area
+        self.hint = hint
+        self.enabled = True
+
+    @property
+    def centre(self) -> tuple[float, float]:
+        x, y, w, h = self.area
+        return x + w / 2, y + h / 2
+
+    def contains(self, x: float, y: float) -> bool:
+        return inside(self.area, x, y)
+
+    def confirm(self) -> bool:
+        """The confirm key, or a click that it does not treat otherwise."""
+        return False
+
+    def nudge(self, action: str) -> bool:
+        """A direction or another menu action while it has the focus."""
+        return False
+
+    def click(self, x: float, y: float) -> bool:
+        return self.confirm()
+
+    def drag(self, x: float, y: float) -> bool:
+        """The mouse moves with its button down since a click in it."""
+        return False
+
+    def wheel(self, steps: int) -> bool:
+        """The mouse wheel over it, positive: up."""
+        return False
+
+    def text_event(self, event: pygame.Event) -> bool:
+        """A key or text event, before anything else gets it."""
+        return False
+
+    def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
+        raise NotImplementedError
+
+    def draw_base(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
+        """A panel; with the focus it has a thick edge and a mark at its left, so that not only colour tells."""
+        theme.row(surface, self.area, chosen=focused, focused=focused)
+        if focused:
+            x, y, _, h = self.area
+            mark = [(x - 9, y + h / 2 - 5), (x - 9, y + h / 2 + 5), (x - 3, y + h / 2)]
+            theme.canvas.polygon(surface, theme.palette.accent, mark)
+
+
+class Label(Widget):
+    """A text that does nothing."""
+
+    focusable = False
+
+    def __init__(self, area: Area, text: str, *, size: float = TEXT, faint: bool = False) -> None:
+        super().__init__(area)
+        self.text = text
+        self.size = size
+        self.faint = faint
+
+    def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
+        x, y, _, _ = self.area
+        colour = theme.palette.faint if self.faint else theme.palette.text
+        theme.text(surface, self.text, x, y, size=self.size, colour=colour)
+
+
+class Button(Widget):
+    """A text that does something."""
+
+    def __init__(
+        self, area: Area, text: str, action: Callable[[], object], *, hint: str = "", size: float = TEXT
+    ) -> None:
+        super().__init__(area, hint=hint)
+        self.text = text
+        self.action = action
+        self.size = size
+
+    def confirm(self) -> bool:
+        if self.enabled:
+            self.action()
+        return True
+
+    def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
+        self.draw_base(surface, theme, focused=focused)
+        colour = theme.palette.text if self.enabled else theme.palette.faint
+        text = theme.fit(self.text, self.area[2] - 2 * PAD, self.size, bold=focused)
+        x, y = self.centre
+        theme.text(surface, text, x, y - self.size / 2, size=self.size, colour=colour, align="centre", bold=focused)
+
+
+class Choice(Widget, Generic[T]):
+    """One of several values: left and right change it, confirm takes the next. A switch has the values on and off."""
+
+    def __init__(
+        self, area: Area, text: str, options: Sequence[tuple[str, T]], get: Callable[[], T],
+        put: Callable[[T], object], *, hint: str = "",
+    ) -> None:  # fmt: skip
+        super().__init__(area, hint=hint)
+        self.text = text
+        self.options = options
+        self.get = get
+        self.put = put
+
+    @property
+    def index(self) -> int:
+        """Number of the present value; the first one's where it is none of them."""
+        values = [value for _, value in self.options]
+        return values.index(self.get()) if self.get() in values else 0
+
+    def _step(self, by: int) -> bool:
+        self.put(self.options[(self.index + by) % len(self.options)][1])
+        return True
+
+    def confirm(self) -> bool:
+        return self._step(1)
+
+    def nudge(self, action: str) -> bool:
+        return self._step(-1 if action == "left" else 1) if action in ("left", "right") else False
+
+    def click(self, x: float, y: float) -> bool:
+        """On the left arrow the value before, else the next."""
+        left, _ = self._values()
+        return self._step(-1 if left <= x < left + 24 else 1)
+
+    def _values(self) -> tuple[float, float]:
+        """Left edge and width of the part that shows the value: the right half, or all of it without a text."""
+        x, _, w, _ = self.area
+        return (x + w * 0.5, w * 0.5) if self.text else (x, w)
+
+    def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
+        self.draw_base(surface, theme, focused=focused)
+        x, y, w, h = self.area
+        top = y + (h - TEXT) / 2
+        theme.text(surface, self.text, x + PAD, top, size=TEXT, bold=focused, width=w * 0.5 - PAD)
+        left, width = self._values()
+        value = self.options[self.index][0]
+        theme.text(surface, value, left + width / 2, top, size=TEXT, align="centre", width=width - 40)
+        for side, tip in ((left + 14, -5), (left + width - 14, 5)):
+            points = [(side, y + h / 2 - 4), (side, y + h / 2 + 4), (side + tip, y + h / 2)]
+            theme.canvas.polygon(surface, theme.palette.accent if focused else theme.palette.panel_edge, points)
+
+
+class Slider(Widget):
+    """A number between two others."""
+
+    def __init__(
+        self, area: Area, text: str, span: tuple[float, float, float], get: Callable[[], float],
+        put: Callable[[float], object], *, show: Callable[[float], str] = "{:.0f}".format, hint: str = "",
+    ) -> None:  # fmt: skip
+        super().__init__(area, hint=hint)
+        self.text = text
+        self.low, self.high, self.step = span
+        self.get = get
+        self.put = put
+        self.show = show
+
+    def _take(self, value: float) -> bool:
+        whole = self.low + round((value - self.low) / self.step) * self.step
+        self.put(min(self.high, max(self.low, whole)))
+        return True
+
+    def nudge(self, action: str) -> bool:
+        """One step down or up; left at the lowest number leads out of it."""
+        if action not in ("left", "right") or (action == "left" and self.get() <= self.low):
+            return False
+        return self._take(self.get() + (self.step if action == "right" else -self.step))
+
+    def click(self, x: float, y: float) -> bool:
+        return self.drag(x, y)
+
+    def drag(self, x: float, y: float) -> bool:
+        left, width = self._track()
+        return self._take(self.low + (self.high - self.low) * (x - left) / width)
+
+    def _track(self) -> tuple[float, float]:
+        x, _, w, _ = self.area
+        return x + w * 0.5 + 10, w * 0.5 - 60
+
+    def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
+        """The text left, a track with a knob and the number right."""
+        self.draw_base(surface, theme, focused=focused)
+        canvas, palette = theme.canvas, theme.palette
+        x, y, w, h = self.area
+        top = y + (h - TEXT) / 2
+        theme.text(surface, self.text, x + PAD, top, size=TEXT, bold=focused, width=w * 0.5 - PAD)
+        theme.text(surface, self.show(self.get()), x + w - PAD, top, size=TEXT, align="right")
+        left, width = self._track()
+        knob = left + width * (self.get() - self.low) / (self.high - self.low)
+        canvas.fill_rect(surface, palette.panel_edge, left, y + h / 2 - 1.5, width, 3, 1.5)
+        canvas.fill_rect(surface, palette.accent, left, y + h / 2 - 1.5, max(knob - left, 1), 3, 1.5)
+        canvas.circle(surface, palette.accent if focused else palette.faint, (knob, y + h / 2), 5)
+
+
+_METALS = {"bronze": "#b8743a", "silver": "#b4bcc6", "gold": "#e3b021", "author": "#5fb2a5"}
+_INK = pygame.Color("#1d1d22")
+MEDALS = tuple(reversed(MARGINS))
+"""All of them, the easiest first."""
+
+
+def draw_medal(
+    surface: pygame.Surface, theme: Theme, medal: str, x: float, y: float, size: float = 14, *, reached: bool = True
+) -> None:
+    """A disc with the medal's first letter, its middle at x, y; only its rim where it is not reached."""
+    canvas, palette = theme.canvas, theme.palette
+    if reached:
+        canvas.circle(surface, pygame.Color(_METALS[medal]), (x, y), size / 2)
+        canvas.circle(surface, _INK, (x, y), size / 2, 1)
+    else:
+        canvas.circle(surface, palette.panel_edge, (x, y), size / 2, 1)
+    ink = _INK if reached else palette.faint
+    letter = size * 0.58
+    theme.text(surface, medal[0].upper(), x, y - letter / 2, size=letter, colour=ink, align="centre", bold=True)
+
+
+def draw_all_gold(surface: pygame.Surface, theme: Theme, x: float, y: float, size: float = 11) -> None:
+    """A piece of gold, its middle at x, y."""
+    canvas, palette = theme.canvas, theme.palette
+    canvas.fill_rect(surface, palette.gold, x - size / 2, y - size / 2, size, size, 2)
+    canvas.frame_rect(surface, palette.gold_dark, x - size / 2, y - size / 2, size, size, 1.5, 2)

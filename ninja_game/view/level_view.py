@@ -1,0 +1,262 @@
+"""The picture of a running world: only reads it, draws between its ticks, and tells which px changed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from random import Random
+from typing import TYPE_CHECKING, Protocol
+
+import pygame
+
+from ninja_game.player.settings import Settings
+from ninja_game.sim.events import DIED
+from ninja_game.sim.memory.schema import World
+from ninja_game.sim.states import DEAD
+from ninja_game.simulation import Simulation
+from ninja_game.ui.audio.player import AudioOutput
+from ninja_game.ui.canvas import Canvas, Point
+from ninja_game.ui.theme import Palette, Theme, palette_named
+from ninja_game.view.effects.effects import Effects
+from ninja_game.view.effects.particles import Particles
+from ninja_game.view.ninja.ninja_animation import NinjaAnimation, draw_ghost, draw_ninja, draw_ragdoll
+from ninja_game.view.ninja.ragdoll import Ragdoll
+from ninja_game.view.sprites.backdrop import Backdrop
+from ninja_game.view.sprites.drawing import DrawTarget, SpriteBook
+from ninja_game.view.sprites.moving_sprites import draw_moving
+from ninja_game.view.sprites.object_animation import ObjectAnimation
+
+if TYPE_CHECKING:
+    from ninja_game.view.overlays import Overlays
+
+
+class DrawnGhost(Protocol):
+    """Another run's ninja that is shown too."""
+
+    ninja_animation: NinjaAnimation
+
+    def on_tick(self) -> None:
+        """One more tick."""
+
+    def on_seek(self, tick: int) -> None:
+        """Be where the run is after that many ticks."""
+
+    def place(self, fraction: float) -> Point:
+        """Where to draw it, px."""
+
+    def colour(self, palette: Palette) -> pygame.Color:
+        """Its colour."""
+
+
+class LevelView:
+    """Draws a world in the whole window.
+
+    Call ``on_tick`` after every tick of the simulation, ``on_seek`` after any other change of it (restart, restore).
+    ``seed``: of what is drawn at random. ``audible``: whether its events are played as sounds.
+    """
+
+    def __init__(self, context: RenderContext, simulation: Simulation, *, seed: int = 0, audible: bool = True) -> None:
+        self.context = context
+        self.simulation = simulation
+        self.audible = audible
+        self._rng = Random(seed)  # noqa: S311 - presentation
+        self.ghosts: Sequence[DrawnGhost] = ()
+        self.overlays: Overlays | None = None
+        self.particles = Particles()
+        self.effects = Effects(self.particles, self._rng)
+        self.object_animation = ObjectAnimation(simulation.world)
+        self.ninja_animation = NinjaAnimation(simulation.world, self._rng)
+        self.ragdoll: Ragdoll | None = None
+        self._covered: list[pygame.Rect] = []
+        self._look: tuple[object, ...] = ()
+        self._book: SpriteBook | None = None
+        self._layout()
+
+    # --- the world goes on ---
+
+    def on_tick(self) -> None:
+        """Take note of a tick: its events become particles, animations, a corpse, sound."""
+        world = self.simulation.world
+        self._follow_options()
+        self.object_animation.on_tick(world)
+        self.ninja_animation.on_tick(world)
+        self.effects.on_tick(self.simulation.tiles, world)
+        self._follow_death(world)
+        for ghost in self.ghosts:
+            ghost.on_tick()
+        if self.audible:
+            self.context.audio_output.play_events(world)
+
+    def on_death(self) -> None:
+        """Take note of a death between two ticks: out of time, or by the player's own hand."""
+        world = self.simulation.world
+        self.ninja_animation.on_tick(world)
+        self.effects.on_tick(self.simulation.tiles, world)
+        self._follow_death(world)
+        if self.audible:
+            self.context.audio_output.play_events(world)
+
+    def on_seek(self) -> None:
+        """Forget what was seen: the world was restarted or put back to another moment."""
+        world = self.simulation.world
+        self.object_animation.reset(world)
+        self.ninja_animation.reset(world)
+        self.effects.reset()
+        self.ragdoll = None
+        self._mended += self._backdrop.reset(world, self.object_animation)
+        for ghost in self.ghosts:
+            ghost.on_seek(world.tick)
+        if world.ninja.state == DEAD:
+            self._fall_down(world)
+
+    def _follow_options(self) -> None:
+        options = self.context.settings
+        self.effects.gore = not options.reduced_gore
+        self.particles.thin = 0.35 if options.reduced_motion else 1.0
+
+    def _follow_death(self, world: World) -> None:
+        """Become a corpse, or go on as one; a revived ninja (objects.md §3) gets up."""
+        if world.ninja.state != DEAD:
+            self.ragdoll = None
+            return
+        if self.ragdoll is None:
+            self._fall_down(world)
+        if self.ragdoll is not None:
+            self.ragdoll.step(self.simulation.tiles, world)
+
+    def _fall_down(self, world: World) -> None:
+        n = world.ninja
+        now, before = self.ninja_animation.pose(1.0).moved(n.x, n.y), self.ninja_animation.pose(0.5).moved(n.x, n.y)
+        velocity = n.x - n.prev_x, n.y - n.prev_y
+        self.ragdoll = Ragdoll(now, before, velocity, self.ninja_animation.facing, self._rng, self._corpse_hit)
+        for event in world.events[: world.event_count]:
+            if event.kind == DIED:
+                gory = not self.context.settings.reduced_gore
+                self.ragdoll.shove(event.cause, (event.dx, event.dy), event.y, n.y, whole=not gory)
+                if self.ragdoll.dismembered:
+                    self.effects.blood(n.x, n.y, 0.0, -2.0, 12)
+
+    def _corpse_hit(self, x: float, y: float, into: float, along: float) -> None:
+        if into > 1.0 and self.audible:
+            self.context.audio_output.corpse(into)
+        if into > 3.0:
+            self.effects.blood(x, y, 0.0, -1.0, 1)
+        if along * along > 0.3 and self._rng.random() < 0.12:
+            self.effects.add("dust", x, y, -along, -4, life=32, size=0.6, rear=True)
+
+    # --- the picture ---
+
+    def _layout(self) -> None:
+        """Make what depends on the window's size and the palette."""
+        self.canvas = self.context.canvas
+        palette = self.context.theme.palette
+        if self._book is None or (self._book.scale, self._book.palette) != (self.canvas.scale, palette):
+            self._book = SpriteBook(self.canvas.scale, palette)
+        book = self._book
+        self.target = DrawTarget(self.canvas, palette, book)
+        self._backdrop = Backdrop(self.canvas, palette, book, self.simulation.tiles)
+        self._backdrop.reset(self.simulation.world, self.object_animation)
+        self._look = self._wanted_look()
+        self._mended: list[pygame.Rect] = []
+        self._whole = True
+
+    def _wanted_look(self) -> tuple[object, ...]:
+        return self.context.canvas, self.context.theme.palette.name
+
+    @property
+    def colour(self) -> pygame.Color:
+        chosen = self.context.settings.ninja_colour
+        return pygame.Color(chosen) if chosen else self.target.palette.ninja
+
+    def draw(self, surface: pygame.Surface, fraction: float = 1.0, *, whole: bool = False) -> list[pygame.Rect] | None:
+        """Draw the world ``fraction`` of a tick after the last but one; the px that changed, None for all.
+
+        ``whole``: the surface no longer holds the last picture.
+        """
+        if self._look != self._wanted_look():
+            self._layout()
+        if not self.context.settings.smooth:
+            fraction = 1.0
+        whole = whole or self._whole
+        self._whole = False
+        mended = self._restore(surface, whole, fraction)
+        surface.set_clip(self.canvas.stage)
+        self._draw_moving(surface, fraction)
+        self._cover_by_tiles(surface)
+        if self.overlays is not None:
+            self.overlays.draw(self.target, self.simulation)
+        surface.set_clip(None)
+        changed = self._covered + self.target.covered + mended
+        self._covered = self.target.covered
+        return None if whole else changed
+
+    def _restore(self, surface: pygame.Surface, whole: bool, fraction: float) -> list[pygame.Rect]:
+        """Put the backdrop where something was drawn last time, and where it changed."""
+        origin = self.canvas.stage.topleft
+        self._mended += self._backdrop.update(self.simulation.world, self.object_animation, fraction)
+        mended = [rect.move(origin) for rect in self._mended]
+        self._mended.clear()
+        if whole:
+            surface.fill(self.target.palette.tile)
+            surface.blit(self._backdrop.picture, origin)
+            return mended
+        for rect in self._covered + mended:
+            surface.blit(self._backdrop.picture, rect, rect.move(-origin[0], -origin[1]))
+        return mended
+
+    def _draw_moving(self, surface: pygame.Surface, fraction: float) -> None:
+        """From back to front, as presentation.md §1 has it."""
+        target, now = self.target, self.effects.now + fraction - 1
+        target.begin(surface)
+        Particles.draw(self.particles.rear, target, now)
+        draw_moving(target, self.simulation.world, self.object_animation, fraction)
+        if self.context.settings.show_ghost:
+            for ghost in self.ghosts:
+                draw_ghost(target, ghost.ninja_animation, ghost.place(fraction), fraction, ghost.colour(target.palette))
+        self._draw_ninja(fraction)
+        Particles.draw(self.particles.front, target, now)
+
+    def _draw_ninja(self, fraction: float) -> None:
+        if self.ragdoll is not None:
+            draw_ragdoll(self.target, self.ragdoll, fraction, self.colour)
+        else:
+            at = self.object_animation.ninja_place(fraction)
+            draw_ninja(self.target, self.ninja_animation, at, fraction, self.colour)
+
+    def draw_ninja_over(self, surface: pygame.Surface, fraction: float) -> None:
+        """Draw the ninja once more, on a copy of the picture over which something else was drawn."""
+        self.target.begin(surface)
+        self._draw_ninja(fraction)
+
+    def _cover_by_tiles(self, surface: pygame.Surface) -> None:
+        """Tiles are in front of everything that moves."""
+        origin, backdrop = self.canvas.stage.topleft, self._backdrop
+        for rect in self.target.covered:
+            local = rect.move(-origin[0], -origin[1])
+            if backdrop.has_tile(local):
+                surface.blit(backdrop.tiles, rect, local, pygame.BLEND_PREMULTIPLIED)
+
+    def also_covered(self, rect: pygame.Rect) -> None:
+        """Something else was drawn over the level there; it is taken away before the next picture."""
+        self._covered.append(rect)
+
+
+class RenderContext(Protocol):
+    """Where a level is shown."""
+
+    theme: Theme
+    canvas: Canvas
+    audio_output: AudioOutput
+
+    @property
+    def settings(self) -> Settings:
+        """What the player has chosen."""
+
+
+class OffscreenContext:
+    """A silent context without a window, for pictures and films. ``size``: px."""
+
+    def __init__(self, size: tuple[int, int], settings: Settings | None = None) -> None:
+        self.settings = settings or Settings()
+        self.canvas = Canvas(size)
+        self.theme = Theme(palette_named(self.settings.palette), self.canvas)
+        self.audio_output = AudioOutput()

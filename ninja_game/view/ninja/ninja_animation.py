@@ -1,0 +1,191 @@
+"""How the ninja moves its limbs: follows the ticks and gives a pose for any moment (presentation.md §3)."""
+
+from __future__ import annotations
+
+from math import atan2, degrees
+from random import Random
+
+import pygame
+
+from ninja_game.sim.memory.schema import Ninja, World
+from ninja_game.sim.states import CELEBRATING, DEAD, FALLING, JUMPING, RUNNING, SKIDDING, SLIDING
+from ninja_game.ui.canvas import Point
+from ninja_game.ui.theme import mixed
+from ninja_game.view.ninja.figure import (
+    CYCLE,
+    DANCES,
+    HEAD,
+    SKID,
+    SLIDE,
+    STAND,
+    Pose,
+    air_pose,
+    band_ends,
+    ninja_sprite,
+    paint_arm,
+    paint_leg,
+    run_pose,
+)
+from ninja_game.view.ninja.ragdoll import PELVIS, SHOULDER, TRUNK, Ragdoll
+from ninja_game.view.sprites.drawing import DrawTarget, is_near
+from ninja_game.view.sprites.sketch import Sketch
+
+_BLEND_TICKS = 3.0
+"""A new state's pose takes over from the old one in this many ticks."""
+_UPRIGHT = 0.9
+"""Share of its rotation that a body in the air keeps each tick."""
+
+
+class NinjaAnimation:
+    """The ninja's figure between ticks. ``rng``: picks the dances, never read by the world."""
+
+    def __init__(self, world: World, rng: Random) -> None:
+        self._rng = rng
+        self.reset(world)
+
+    def reset(self, world: World) -> None:
+        """A new run, or a jump in time."""
+        n = world.ninja
+        self.state = n.state
+        self.facing = 1
+        self.turn = self.turn_before = self._floor_turn(n) if not n.in_air else 0.0
+        self.phase = self.phase_before = 0.0
+        self.since = 100.0
+        self.velocity = (0.0, 0.0)
+        self.dance = -1
+        self._from = STAND
+        self._face(n)
+
+    @staticmethod
+    def _floor_turn(n: Ninja) -> float:
+        return degrees(atan2(n.floor_x, -n.floor_y)) if n.floor_x or n.floor_y else 0.0
+
+    def _face(self, n: Ninja) -> None:
+        """Facing: the wall while sliding, else the way it moves."""
+        if n.state == SLIDING:
+            self.facing = -1 if n.wall_x > 0 else 1
+        elif abs(n.x - n.prev_x) > 1e-9:
+            self.facing = 1 if n.x > n.prev_x else -1
+
+    def on_tick(self, world: World) -> None:
+        n = world.ninja
+        if n.state == DEAD:
+            self.state = DEAD
+            return
+        if n.state != self.state or (n.state == CELEBRATING and not n.in_air and n.was_in_air):
+            self._from = self.local_pose(1.0)
+            if n.state == RUNNING and self.state != RUNNING:
+                self.phase = 0.0
+            self.state = n.state
+            self.since = 0.0
+            self.dance = self._rng.randrange(len(DANCES)) if n.state == CELEBRATING and not n.in_air else -1
+        else:
+            self.since += 1.0
+        self._face(n)
+        self.velocity = n.x - n.prev_x, n.y - n.prev_y
+        self.phase_before = self.phase
+        if n.state == RUNNING:
+            self.phase += self.speed(n) / CYCLE
+        self.turn_before = self.turn
+        if n.state in {JUMPING, SLIDING} and self.since == 0.0:
+            self.turn = self.turn_before = 0.0
+        elif n.in_air:
+            self.turn *= _UPRIGHT
+        else:
+            self.turn = self._floor_turn(n)
+
+    @staticmethod
+    def speed(n: Ninja) -> float:
+        """Speed along the floor, px/tick."""
+        vx, vy = n.x - n.prev_x, n.y - n.prev_y
+        return abs(vx * -n.floor_y + vy * n.floor_x) if n.floor_x or n.floor_y else abs(vx)
+
+    def local_pose(self, fraction: float) -> Pose:
+        """The pose about the centre, facing right, unturned."""
+        target = self._target(fraction)
+        share = min(1.0, (self.since + fraction) / _BLEND_TICKS)
+        return target if share >= 1.0 else self._from.mixed(target, share * share * (3 - 2 * share))
+
+    def _target(self, fraction: float) -> Pose:
+        if self.state == RUNNING:
+            phase = self.phase_before + (self.phase - self.phase_before) * fraction
+            vx, vy = self.velocity
+            return run_pose(phase, (vx * vx + vy * vy) ** 0.5)
+        if self.state in {JUMPING, FALLING}:
+            return air_pose(self.velocity[1])
+        if self.state == CELEBRATING:
+            return air_pose(self.velocity[1]) if self.dance < 0 else DANCES[self.dance].at(self.since + fraction)[0]
+        return {SKIDDING: SKID, SLIDING: SLIDE}.get(self.state, STAND)
+
+    def pose(self, fraction: float) -> Pose:
+        """The pose about the centre, as it is seen."""
+        turn = self.turn_before + (self.turn - self.turn_before) * fraction
+        if self.state == CELEBRATING and self.dance >= 0:
+            turn += DANCES[self.dance].at(self.since + fraction)[1] * self.facing
+        return self.local_pose(fraction).placed(self.facing, turn)
+
+
+def draw_ninja(target: DrawTarget, animation: NinjaAnimation, at: Point, fraction: float, colour: pygame.Color) -> None:
+    """The living ninja about a point."""
+    if not is_near(*at):
+        return
+    px, py = target.canvas.exact(*at)
+    offset = px - round(px), py - round(py)
+    sprite = ninja_sprite(
+        target.canvas.scale, target.palette, animation.pose(fraction), animation.facing, animation.velocity,
+        colour=colour, offset=offset,
+    )  # fmt: skip
+    target.picture(sprite, *at)
+
+
+def draw_ghost(target: DrawTarget, animation: NinjaAnimation, at: Point, fraction: float, colour: pygame.Color) -> None:
+    """A figure that one can look through."""
+    sprite = ninja_sprite(
+        target.canvas.scale, target.palette, animation.pose(fraction), animation.facing, animation.velocity,
+        colour=colour, alpha=0.45, banded=False,
+    )  # fmt: skip
+    target.picture(sprite, *at)
+
+
+def draw_ragdoll(target: DrawTarget, doll: Ragdoll, fraction: float, colour: pygame.Color) -> None:
+    """The corpse: each limb where its stick is."""
+    joints = [doll.joint(k, fraction) for k in range(len(doll.particles))]
+    head = doll.head(fraction)
+    if not doll.dismembered:
+        xs, ys = [x for x, _ in joints], [y for _, y in joints]
+        x, y = (min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2
+        _draw_parts(target, doll, joints, head, range(5), (x, y), colour)
+        return
+    for k, stick in enumerate(doll.sticks):
+        (ax, ay), (bx, by) = joints[stick.first], joints[stick.second]
+        _draw_parts(target, doll, joints, head, (k,), ((ax + bx) / 2, (ay + by) / 2), colour)
+
+
+def _draw_parts(
+    target: DrawTarget, doll: Ragdoll, joints: list[Point], head: Point, sticks: range | tuple[int, ...],
+    at: Point, colour: pygame.Color,
+) -> None:  # fmt: skip
+    """Some sticks of the corpse in one small drawing about a point."""
+    if not is_near(*at):
+        return
+    reach = 8.0 + max(
+        max(abs(joints[end][axis] - at[axis]) for end in doll.sticks[k][:2] for axis in (0, 1)) for k in sticks
+    )
+    s = Sketch(target.canvas.scale, (-reach, -reach, reach, reach), fine=3)
+    places = [(x - at[0], y - at[1]) for x, y in joints]
+    hx, hy = head[0] - at[0], head[1] - at[1]
+    far = mixed(colour, target.palette.background, 0.22)
+    for k in sticks:
+        stick = doll.sticks[k]
+        a, b = places[stick.first], places[stick.second]
+        shade = far if k in {0, 1} else colour
+        if k == TRUNK:
+            s.stroke(shade, places[SHOULDER], places[PELVIS], 3.4, 2.5)
+            s.stroke(shade, places[SHOULDER], (hx, hy), 1.6)
+            s.disc(shade, hx, hy, HEAD)
+            s.stroke(target.palette.band, *band_ends((hx, hy), places[SHOULDER]), 1.1)
+        elif k in {0, 4}:
+            paint_arm(s, shade, a, b, doll.facing)
+        else:
+            paint_leg(s, shade, a, b, doll.facing)
+    target.picture(s.finish(), *at)

@@ -1,0 +1,209 @@
+"""Overlays that show how the world works: hit boxes, grid, edge states, lines of sight, cells. They only read it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import pygame
+
+from ninja_game.sim import rules
+from ninja_game.sim.collision.rays import ray_tiles, sees
+from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS
+from ninja_game.sim.kinds import DOOR, DRONE, KIND_OF, LAUNCHER, SWITCH, TURRET
+from ninja_game.sim.memory.object_fields import Object
+from ninja_game.sim.memory.schema import World
+from ninja_game.sim.objects.dispatch import NINE_CELLS
+from ninja_game.sim.rules import INTERESTING, OFF, RADIUS, STRIDE
+from ninja_game.sim.states import AUTOMATIC, WEAPON_ZAP
+from ninja_game.simulation import Simulation
+from ninja_game.ui.canvas import Canvas
+from ninja_game.ui.theme import Palette
+from ninja_game.view.sprites.drawing import DrawTarget
+
+OVERLAY_ACTIONS = ("overlay_hitboxes", "overlay_grid", "overlay_edges", "overlay_rays", "overlay_cells")
+HIT_BOXES, GRID, EDGES, RAYS, CELLS = OVERLAY_ACTIONS
+
+
+class Overlays:
+    """Those that are on."""
+
+    def __init__(self) -> None:
+        self.on: set[str] = set()
+        self._sheet: pygame.Surface | None = None
+        self._sheet_of: tuple[object, ...] = ()
+
+    def toggle(self, action: str) -> bool:
+        """Switch the overlay that an action means; False if it means none."""
+        if action not in OVERLAY_ACTIONS:
+            return False
+        self.on ^= {action}
+        return True
+
+    def draw(self, target: DrawTarget, simulation: Simulation) -> None:
+        """Draw what is switched on over the level."""
+        if not self.on:
+            return
+        world = simulation.world
+        if self.on & {GRID, EDGES}:
+            self._draw_sheet(target, world)
+        if CELLS in self.on:
+            _draw_cells(target, world)
+        if RAYS in self.on:
+            _draw_rays(target, simulation)
+        if HIT_BOXES in self.on:
+            for shape in hit_shapes(world):
+                _draw_shape(target, shape)
+
+    def _draw_sheet(self, target: DrawTarget, world: World) -> None:
+        """Grid and edges change seldom: they are drawn once and laid over."""
+        wanted = (target.canvas, target.palette.name, GRID in self.on, EDGES in self.on, bytes(world.edges))
+        if self._sheet is None or wanted != self._sheet_of:
+            self._sheet_of = wanted
+            self._sheet = pygame.Surface(target.canvas.size, pygame.SRCALPHA)
+            local = Canvas(target.canvas.size)
+            if GRID in self.on:
+                _paint_grid(self._sheet, local, target.palette)
+            if EDGES in self.on:
+                _paint_edges(self._sheet, local, target.palette, world)
+        target.covered.append(target.surface.blit(self._sheet, target.canvas.origin))
+
+
+def _paint_grid(sheet: pygame.Surface, canvas: Canvas, palette: Palette) -> None:
+    colour = (*palette.text[:3], 70)
+    for column in range(34):
+        pygame.draw.line(sheet, colour, canvas.point(24 * column, 0), canvas.point(24 * column, 600))
+    for row in range(26):
+        pygame.draw.line(sheet, colour, canvas.point(0, 24 * row), canvas.point(792, 24 * row))
+
+
+_SIDES: tuple[tuple[float, float, float, float], ...] = (
+    (10.6, -11, 10.6, 11), (-11, 10.6, 11, 10.6), (-10.6, -11, -10.6, 11), (-11, -10.6, 11, -10.6),
+)  # fmt: skip
+"""A line just inside each side of a cell: each cell has its own edge states."""
+
+
+def _paint_edges(sheet: pygame.Surface, canvas: Canvas, palette: Palette, world: World) -> None:
+    """Solid edges full, interesting ones thin and dotted at the ends; what is off is not drawn."""
+    for cell in range(len(EXISTS)):
+        if not EXISTS[cell]:
+            continue
+        for side, (ax, ay, bx, by) in enumerate(_SIDES):
+            state = world.edges[4 * cell + side]
+            if state == OFF:
+                continue
+            colour = palette.accent if state == INTERESTING else palette.switch
+            x, y = CENTRE_X[cell], CENTRE_Y[cell]
+            width = canvas.px(0.8 if state == INTERESTING else 1.6)
+            pygame.draw.line(sheet, colour, canvas.point(x + ax, y + ay), canvas.point(x + bx, y + by), width)
+
+
+def _tint(target: DrawTarget, colour: pygame.Color, alpha: int, cell: int, inset: float = 0) -> None:
+    if not EXISTS[cell]:
+        return
+    x, y, w = CENTRE_X[cell] - 12 + inset, CENTRE_Y[cell] - 12 + inset, 24 - 2 * inset
+    target.covered.append(target.canvas.fill_rect(target.surface, (colour.r, colour.g, colour.b, alpha), x, y, w, w))
+
+
+def _draw_cells(target: DrawTarget, world: World) -> None:
+    """The nine cells that are searched for objects; stronger, those whose tiles are touched; the cells of objects."""
+    n = world.ninja
+    if EXISTS[n.cell]:
+        for offset in NINE_CELLS:
+            _tint(target, target.palette.switch, 40, n.cell + offset)
+        for cell in touched_cells(n.x, n.y, n.cell):
+            _tint(target, target.palette.accent, 70, cell, 2)
+    for slot in range(1, world.slots_used):
+        o = world.objects[slot]
+        if o.in_grid and EXISTS[o.cell]:
+            _tint(target, target.palette.good, 60, o.cell, 7)
+
+
+def touched_cells(x: float, y: float, cell: int) -> list[int]:
+    """The cells whose tiles a circle at (x, y) can touch: its own, one up or down, one beside, one between."""
+    cells = [cell]
+    dx, dy = x - CENTRE_X[cell], y - CENTRE_Y[cell]
+    beside = cell + (1 if dx > 0 else -1) if abs(dx) + RADIUS > 12 else 0
+    above = cell + (STRIDE if dy > 0 else -STRIDE) if abs(dy) + RADIUS > 12 else 0
+    cells += [found for found in (above, beside) if found]
+    if above and beside:
+        cells.append(above + beside - cell)
+    return cells
+
+
+def _draw_rays(target: DrawTarget, simulation: Simulation) -> None:
+    """A line from each object that looks for the ninja: to the ninja if it is in sight, else to the tile between."""
+    world, level = simulation.world, simulation.tiles
+    n = world.ninja
+    for slot in range(1, world.id_count + 1):
+        o = world.objects[slot]
+        if not _looks(o):
+            continue
+        x, y = (o.base_x, o.base_y) if o.kind == LAUNCHER else (o.x, o.y)
+        if not (x == x and y == y):  # noqa: PLR0124 - the test for NaN
+            continue
+        if sees(level, world, x, y, n.x, n.y)[0]:
+            target.line(target.palette.bad, x, y, n.x, n.y, 0.8)
+        else:
+            stopped, end_x, end_y = ray_tiles(level, world, x, y, n.x, n.y)
+            if stopped:
+                target.line(target.palette.faint, x, y, end_x, end_y)
+                target.disc(target.palette.faint, end_x, end_y, 1.5)
+
+
+def _looks(o: Object) -> bool:
+    return o.kind in {TURRET, LAUNCHER} or (o.kind == DRONE and o.weapon != WEAPON_ZAP)
+
+
+def _draw_shape(target: DrawTarget, shape: HitShape) -> None:
+    canvas, palette, half = target.canvas, target.palette, shape.half
+    colour = palette.good if shape.ninja else palette.bad if shape.lethal else palette.switch
+    if shape.ninja:
+        target.line(colour, shape.x, shape.y, shape.x + 6 * shape.vx, shape.y + 6 * shape.vy)
+    if not (-50 < shape.x < 850 and -50 < shape.y < 650):
+        return
+    if shape.round:
+        centre, radius = canvas.point(shape.x, shape.y), max(1, round(half * canvas.scale))
+        rect = pygame.draw.aacircle(target.surface, colour, centre, radius, 1)
+    else:
+        rect = canvas.frame_rect(target.surface, colour, shape.x - half, shape.y - half, 2 * half, 2 * half, 0.5)
+    target.covered.append(rect.inflate(2, 2))
+
+
+@dataclass(frozen=True)
+class HitShape:
+    """A circle (``round``) or square about a point, px; ``half``: its radius or half side."""
+
+    x: float
+    y: float
+    half: float
+    round: bool
+    lethal: bool = False
+    ninja: bool = False
+    vx: float = 0.0
+    vy: float = 0.0
+
+
+_SMALLEST = 1.0
+"""Half size, px, at which a point is drawn: the tip of a rocket."""
+
+
+def hit_shapes(world: World) -> Iterator[HitShape]:
+    """Of every object in the grid, which is what can be touched; the ninja's last."""
+    for slot in range(1, world.slots_used):
+        o = world.objects[slot]
+        if o.in_grid or (o.kind == SWITCH and not world.objects[o.partner].is_open):
+            kind, half = KIND_OF[o.kind], _half(o)
+            if half is not None:
+                # Drones with a weapon do not hurt by touch.
+                deadly = kind.by_touch and (o.kind != DRONE or o.weapon == WEAPON_ZAP)
+                yield HitShape(o.x, o.y, max(half, _SMALLEST), kind.disc is not None, deadly)
+    n = world.ninja
+    yield HitShape(n.x, n.y, rules.RADIUS, not n.box, ninja=True, vx=n.x - n.prev_x, vy=n.y - n.prev_y)
+
+
+def _half(o: Object) -> float | None:
+    if o.kind == DOOR and o.mechanism != AUTOMATIC:
+        return rules.DOOR_SWITCH_RADIUS
+    kind = KIND_OF[o.kind]
+    return kind.box if kind.disc is None else kind.disc

@@ -1,0 +1,107 @@
+"""Everything that does not move, drawn once and mended where it changes; and the tiles, which cover what moves."""
+
+from __future__ import annotations
+
+import pygame
+
+from ninja_game.sim.kinds import GOLD, MINE
+from ninja_game.sim.memory.schema import TileMap, World
+from ninja_game.ui.canvas import Canvas
+from ninja_game.ui.theme import Palette
+from ninja_game.view.sprites.drawing import SpriteBook, is_near
+from ninja_game.view.sprites.object_animation import ObjectAnimation
+from ninja_game.view.sprites.sketch import Sprite
+from ninja_game.view.sprites.static_sprites import SETTLED_TICKS, PlacedSprite, static_sprites_of
+from ninja_game.view.sprites.tile_sheet import TileSheet
+
+
+class Backdrop:
+    """Background, static sprites and tiles of a level in one size, as far as they are seen.
+
+    Px here count from the upper left corner of what is seen of the stage.
+    """
+
+    def __init__(self, canvas: Canvas, palette: Palette, book: SpriteBook, level: TileMap) -> None:
+        self.canvas = canvas
+        self.palette = palette
+        self._book = book
+        self._corner = canvas.stage.topleft
+        self.picture = pygame.Surface(canvas.size)
+        sheet = TileSheet(canvas, palette, book.tiles)
+        sheet.show(level)
+        self.tiles, self.has_tile = sheet.surface, sheet.has_tile
+        self._blits: dict[int, list[tuple[Sprite, int, int]]] = {}
+        self._order: list[int] = []
+        self._rects: dict[int, pygame.Rect] = {}
+        self._moving: set[int] = set()
+        self._drawn = False
+
+    def reset(self, world: World, animation: ObjectAnimation) -> list[pygame.Rect]:
+        """Have it as it is in another world, or moment, of this level; the px that changed."""
+        self._moving.clear()
+        # Walls first, then what lies before them.
+        front = {GOLD, MINE}
+        order = sorted(animation.static_slots, key=lambda slot: world.objects[slot].kind in front)
+        if order != self._order or not self._drawn:
+            self._order, self._drawn = order, True
+            self._blits.clear()
+            self._rects.clear()
+            for slot in order:
+                self._place(slot, static_sprites_of(world, slot, animation, 1.0))
+            changed = [self.picture.get_rect()]
+        else:
+            changed = []
+            for slot in order:
+                before = self._blits[slot]
+                rect = self._place(slot, static_sprites_of(world, slot, animation, 1.0))
+                if self._blits[slot] != before:
+                    changed.append(rect)
+        for rect in changed:
+            self._mend(rect)
+        return changed
+
+    def _place(self, slot: int, sprites: list[PlacedSprite]) -> pygame.Rect:
+        """Take down and put up the drawings of an object; the px that it covered and covers."""
+        old = self._rects.pop(slot, None)
+        blits = []
+        rect: pygame.Rect | None = None
+        for key, x, y in sprites:
+            if not is_near(x, y):
+                continue
+            sprite = self._book.sprite(key)
+            px, py = self.canvas.point(x, y)
+            px, py = px - self._corner[0], py - self._corner[1]
+            blits.append((sprite, px, py))
+            box = sprite.surface.get_rect(topleft=(px - sprite.ax, py - sprite.ay))
+            rect = box if rect is None else rect.union(box)
+        self._blits[slot] = blits
+        if rect is not None:
+            self._rects[slot] = rect
+        return (rect or old or pygame.Rect(0, 0, 0, 0)).union(old or rect or pygame.Rect(0, 0, 0, 0))
+
+    def _mend(self, area: pygame.Rect) -> None:
+        """Draw a part of the picture again."""
+        self.picture.set_clip(area)
+        self.picture.fill(self.palette.background)
+        for slot in self._order:
+            rect = self._rects.get(slot)
+            if rect is not None and rect.colliderect(area):
+                for sprite, px, py in self._blits[slot]:
+                    sprite.blit(self.picture, (px, py))
+        self.picture.blit(self.tiles, area, area, pygame.BLEND_PREMULTIPLIED)
+        self.picture.set_clip(None)
+
+    def update(self, world: World, animation: ObjectAnimation, fraction: float) -> list[pygame.Rect]:
+        """Mend what changed since the last picture; the px that did."""
+        self._moving |= animation.changed
+        animation.changed.clear()
+        mended = []
+        for slot in list(self._moving):
+            sprites = static_sprites_of(world, slot, animation, fraction)
+            if animation.age(slot, fraction) > SETTLED_TICKS:
+                self._moving.discard(slot)
+            rect = self._place(slot, sprites)
+            if rect.width:
+                self._mend(rect)
+                mended.append(rect)
+        return mended

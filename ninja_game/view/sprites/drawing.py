@@ -1,0 +1,140 @@
+"""A drawing: a function over a sketch, with its extent; called with its parameters it gives the key of a sprite."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Concatenate, Generic, NamedTuple, ParamSpec
+
+import pygame
+
+from ninja_game.ui.canvas import Canvas, Colour
+from ninja_game.ui.theme import Palette
+from ninja_game.view.sprites.sketch import Sketch, Sprite
+from ninja_game.view.sprites.tile_sheet import TilePictures
+
+Extent = tuple[float, float, float, float]
+"""How far a drawing reaches left, up, right and down from its point, logical px."""
+
+P = ParamSpec("P")
+
+
+class SpriteKey(NamedTuple):
+    """What tells one sprite from another. ``turn``: degrees clockwise; ``alpha``: 0 to 8 eighths.
+
+    The parameters are whole numbers or words: few enough to keep every sprite.
+    """
+
+    drawing: Drawing[Any]
+    parameters: tuple[Any, ...]
+    turn: int = 0
+    alpha: int = 8
+
+    def turned(self, degrees: int) -> SpriteKey:
+        """This sprite, turned clockwise."""
+        return self._replace(turn=degrees)
+
+    def faded(self, alpha: int) -> SpriteKey:
+        """This sprite, ``alpha`` eighths as solid."""
+        return self._replace(alpha=alpha)
+
+
+@dataclass(frozen=True, eq=False)
+class Drawing(Generic[P]):
+    """``paint(sketch, palette, *parameters)`` draws within ``extent``."""
+
+    extent: Extent
+    paint: Callable[Concatenate[Sketch, Palette, P], None]
+
+    def __call__(self, *parameters: P.args, **_named: P.kwargs) -> SpriteKey:
+        """The key of this drawing with these parameters."""
+        return SpriteKey(self, parameters)
+
+
+def drawing(*extent: float) -> Callable[[Callable[Concatenate[Sketch, Palette, P], None]], Drawing[P]]:
+    """Make a drawing of a function. One number as ``extent`` is a reach to all sides."""
+    reach = extent[0]
+    box = (-reach, -reach, reach, reach) if len(extent) == 1 else (extent[0], extent[1], extent[2], extent[3])
+    return lambda paint: Drawing(box, paint)
+
+
+_FAR = 4000
+"""Logical px beyond which nothing is drawn: some levels hold objects far off the stage."""
+
+
+def is_near(x: float, y: float) -> bool:
+    """Whether a point is worth drawing at: not far off, and a number."""
+    return abs(x) < _FAR and abs(y) < _FAR
+
+
+class DrawTarget:
+    """A surface that shows the stage. ``covered``: px rectangles drawn so far in this picture."""
+
+    def __init__(self, canvas: Canvas, palette: Palette, book: SpriteBook) -> None:
+        self.canvas = canvas
+        self.palette = palette
+        self.book = book
+        self.surface: pygame.Surface = pygame.Surface((1, 1))
+        self.covered: list[pygame.Rect] = []
+
+    def begin(self, surface: pygame.Surface) -> None:
+        self.surface = surface
+        self.covered = []
+
+    def sprite(self, key: SpriteKey, x: float, y: float) -> None:
+        """A sprite of the book, its point at (x, y)."""
+        if is_near(x, y):
+            self.covered.append(self.book.sprite(key).blit(self.surface, self.canvas.point(x, y)))
+
+    def picture(self, sprite: Sprite, x: float, y: float) -> None:
+        """A drawing that is not in the book."""
+        if is_near(x, y):
+            self.covered.append(sprite.blit(self.surface, self.canvas.point(x, y)))
+
+    def line(self, colour: Colour, ax: float, ay: float, bx: float, by: float, width: float = 0) -> None:
+        """A straight line; without a width as thin as can be."""
+        # A sum, since it is not a number if one of them is none: levels may hold such places.
+        if abs(ax) + abs(ay) + abs(bx) + abs(by) < 4 * _FAR:
+            a, b = self.canvas.exact(ax, ay), self.canvas.exact(bx, by)
+            thick = max(1, round(width * self.canvas.scale))
+            rect = pygame.draw.aaline(self.surface, colour, a, b, thick)
+            self.covered.append(rect.inflate(2, 2))
+
+    def disc(self, colour: Colour, x: float, y: float, radius: float) -> None:
+        if is_near(x, y):
+            px = max(1, round(radius * self.canvas.scale))
+            rect = pygame.draw.aacircle(self.surface, colour, self.canvas.point(x, y), px)
+            self.covered.append(rect.inflate(2, 2))
+
+
+_KEPT = 3000
+
+
+class SpriteBook:
+    """The sprites at one scale in one palette. ``tiles``: the pictures of tiles, for a sheet of them."""
+
+    def __init__(self, scale: float, palette: Palette) -> None:
+        self.scale = scale
+        self.palette = palette
+        self.tiles: TilePictures = {}
+        self._kept: OrderedDict[SpriteKey, Sprite] = OrderedDict()
+
+    def sprite(self, key: SpriteKey) -> Sprite:
+        found = self._kept.get(key)
+        if found is None:
+            drawing = key.drawing
+            extent = drawing.extent if key.turn == 0 else _turned(drawing.extent)
+            sketch = Sketch(self.scale, extent, turn=key.turn)
+            drawing.paint(sketch, self.palette, *key.parameters)
+            found = sketch.finish(key.alpha / 8)
+            self._kept[key] = found
+            if len(self._kept) > _KEPT:
+                self._kept.popitem(last=False)
+        return found
+
+
+def _turned(extent: Extent) -> Extent:
+    """Room for a drawing turned by any angle."""
+    reach = max((x * x + y * y) ** 0.5 for x in extent[::2] for y in extent[1::2])
+    return -reach, -reach, reach, reach

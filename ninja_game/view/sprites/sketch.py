@@ -1,0 +1,117 @@
+"""Small drawings: flat shapes in logical px, drawn four times as large and averaged down, so that every edge is smooth.
+
+The result is premultiplied by its alpha: averaging is only right that way, and SDL blends it faster.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from math import ceil, cos, floor, radians, sin
+from typing import NamedTuple
+
+import pygame
+
+from ninja_game.ui.canvas import Colour, Point
+
+FINE = 4
+"""How many times larger the shapes are drawn."""
+
+
+class Sprite(NamedTuple):
+    """A finished drawing: premultiplied; (``ax``, ``ay``) is the px in it that lies on the drawn point."""
+
+    surface: pygame.Surface
+    ax: int
+    ay: int
+
+    def blit(self, target: pygame.Surface, at: tuple[int, int]) -> pygame.Rect:
+        """Draw it with its point at a px; what was covered."""
+        place = at[0] - self.ax, at[1] - self.ay
+        return target.blit(self.surface, place, special_flags=pygame.BLEND_PREMULTIPLIED)
+
+
+class Sketch:
+    """A sheet for one drawing about the point (0, 0).
+
+    ``extent``: how far it reaches left, up, right and down, logical px (the first two usually negative). ``turn``:
+    degrees clockwise by which everything is turned; ``fine``: how many times larger the shapes are drawn.
+    """
+
+    def __init__(
+        self, scale: float, extent: tuple[float, float, float, float], *, turn: float = 0, fine: int = FINE
+    ) -> None:
+        left, top, right, bottom = extent
+        self._ax, self._ay = ceil(-left * scale) + 1, ceil(-top * scale) + 1
+        self._size = floor(right * scale) + 2 + self._ax, floor(bottom * scale) + 2 + self._ay
+        self._fine_by = fine
+        self._zoom = scale * fine
+        self._fine = pygame.Surface((self._size[0] * fine, self._size[1] * fine), pygame.SRCALPHA)
+        self._cos, self._sin = cos(radians(turn)), sin(radians(turn))
+
+    def _at(self, x: float, y: float) -> Point:
+        x, y = x * self._cos - y * self._sin, x * self._sin + y * self._cos
+        return self._ax * self._fine_by + x * self._zoom, self._ay * self._fine_by + y * self._zoom
+
+    def polygon(self, colour: Colour, points: Sequence[Point]) -> None:
+        pygame.draw.polygon(self._fine, colour, [self._at(x, y) for x, y in points])
+
+    def box(self, colour: Colour, x: float, y: float, w: float, h: float) -> None:
+        """A filled rectangle with its upper left corner at (x, y)."""
+        self.polygon(colour, [(x, y), (x + w, y), (x + w, y + h), (x, y + h)])
+
+    def framed_box(
+        self, fill: Colour, edge: Colour, x: float, y: float, w: float, h: float, width: float = 0.9
+    ) -> None:
+        """A filled rectangle with an edge inside of it."""
+        self.box(edge, x, y, w, h)
+        self.box(fill, x + width, y + width, w - 2 * width, h - 2 * width)
+
+    def disc(self, colour: Colour, x: float, y: float, radius: float) -> None:
+        pygame.draw.circle(self._fine, colour, self._at(x, y), radius * self._zoom)
+
+    def ring(self, colour: Colour, x: float, y: float, radius: float, width: float) -> None:
+        """A circle's line, ``width`` wide inwards."""
+        pygame.draw.circle(self._fine, colour, self._at(x, y), radius * self._zoom, max(1, round(width * self._zoom)))
+
+    def stroke(self, colour: Colour, a: Point, b: Point, width: float, end_width: float | None = None) -> None:
+        """A line with round ends; with ``end_width`` it tapers."""
+        end_width = width if end_width is None else end_width
+        dx, dy = b[0] - a[0], b[1] - a[1]
+        length = (dx * dx + dy * dy) ** 0.5
+        if length > 0:
+            nx, ny = -dy / length / 2, dx / length / 2
+            sides = ((a, width), (b, end_width))
+            left = [(p[0] + nx * w, p[1] + ny * w) for p, w in sides]
+            right = [(p[0] - nx * w, p[1] - ny * w) for p, w in sides]
+            self.polygon(colour, [*left, *reversed(right)])
+        self.disc(colour, *a, width / 2)
+        self.disc(colour, *b, end_width / 2)
+
+    def path(self, colour: Colour, points: Sequence[Point], width: float) -> None:
+        for a, b in pairwise(points):
+            self.stroke(colour, a, b, width)
+
+    def finish(self, alpha: float = 1.0) -> Sprite:
+        """The drawing, as solid as ``alpha`` (0…1)."""
+        surface = pygame.transform.smoothscale(self._fine, self._size)
+        if alpha < 1.0:
+            level = max(0, min(255, round(255 * alpha)))
+            surface.fill((level, level, level, level), special_flags=pygame.BLEND_RGBA_MULT)
+        return Sprite(surface, self._ax, self._ay)
+
+
+def star(points: int, outer: float, inner: float, turn: float = 0) -> list[Point]:
+    """The corners of a star about (0, 0), one point upwards."""
+    corners = []
+    for k in range(2 * points):
+        angle = radians(turn - 90 + 180 * k / points)
+        radius = inner if k % 2 else outer
+        corners.append((radius * cos(angle), radius * sin(angle)))
+    return corners
+
+
+def arc(x: float, y: float, radius: float, start: float, end: float, steps: int = 16) -> list[Point]:
+    """Points of a circle's arc from ``start`` to ``end`` degrees, clockwise from the right."""
+    angles = [radians(start + (end - start) * k / steps) for k in range(steps + 1)]
+    return [(x + radius * cos(angle), y + radius * sin(angle)) for angle in angles]

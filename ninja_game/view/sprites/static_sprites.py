@@ -1,0 +1,274 @@
+"""Drawings of what stays in its place: exits, switches, doors, pads, one-ways, bases of weapons, gold, mines.
+
+Parameters called ``step`` count from 0 (closed, resting) to 8 (open, done).
+"""
+
+from __future__ import annotations
+
+from math import atan2, cos, degrees, radians, sin
+
+from ninja_game.sim import kinds
+from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
+from ninja_game.sim.memory.object_fields import Object
+from ninja_game.sim.memory.schema import World
+from ninja_game.sim.states import AUTOMATIC, LAUNCHER_PREPARE, TRAP, TURRET_POST_FIRE, TURRET_PRE_FIRE
+from ninja_game.ui.theme import Palette, mixed
+from ninja_game.view.sprites.drawing import SpriteKey, drawing
+from ninja_game.view.sprites.object_animation import ObjectAnimation
+from ninja_game.view.sprites.sketch import Sketch, star
+
+
+@drawing(4.5)
+def gold(s: Sketch, p: Palette) -> None:
+    """A small bevelled ingot seen from above."""
+    s.box(p.gold_dark, -3.4, -3.4, 6.8, 6.8)
+    s.box(p.gold, -2.8, -2.8, 5.6, 5.6)
+    s.polygon(p.gold_light, [(-2.8, -2.8), (2.8, -2.8), (1.4, -1.4), (-1.4, -1.4), (-1.4, 1.4), (-2.8, 2.8)])
+    s.polygon(
+        mixed(p.gold, p.gold_dark, 0.55), [(2.8, 2.8), (-2.8, 2.8), (-1.4, 1.4), (1.4, 1.4), (1.4, -1.4), (2.8, -2.8)]
+    )
+
+
+@drawing(5.6)
+def mine(s: Sketch, p: Palette) -> None:
+    """A spiked disc."""
+    s.polygon(p.mine, star(8, 5.2 if p.danger_by_shape else 4.6, 2.5))
+    s.disc(p.mine, 0, 0, 2.9)
+    s.disc(mixed(p.mine, p.outline, 0.55), 0, 0, 1.9)
+    s.disc(p.bright, -0.6, -0.6, 0.6)
+
+
+@drawing(-26, -14, 26, 14)
+def exit_door(s: Sketch, p: Palette, step: int) -> None:
+    """Two leaves before a lit doorway; they slide apart."""
+    gap = 12.4 * step / 8
+    s.box(p.outline, -12.6, -12.6, 25.2, 25.2)
+    s.box(p.exit if step else mixed(p.exit, p.outline, 0.35), -11.6, -11.6, 23.2, 23.2)
+    if step:
+        s.box(p.exit_light, -7.5 * step / 8, -11.6, 15 * step / 8, 23.2)
+        s.polygon(p.bright, [(-4.2, -1), (0, -6.2), (4.2, -1), (1.6, -1), (1.6, 5), (-1.6, 5), (-1.6, -1)])
+    for side in (-1, 1):
+        x = side * gap + (-12.1 if side < 0 else 0)
+        s.framed_box(p.light, p.outline, x, -12.1, 12.1, 24.2)
+        s.box(p.bright, x + 1.8, -10.2, 8.5, 1.2)
+        s.framed_box(p.middle, p.dark, x + 2.6, -7.4, 6.9, 14.8, 0.7)
+        s.box(p.exit, x + (8.9 if side < 0 else 1.5), -2.5, 1.7, 5)
+
+
+@drawing(8)
+def exit_switch(s: Sketch, p: Palette, pressed: int) -> None:
+    """A small panel with a key: lit until it is pressed."""
+    s.framed_box(p.dark if pressed else p.light, p.outline, -6.2, -3.9, 12.4, 7.8)
+    s.framed_box(p.middle if pressed else p.exit, p.outline, -4.2, -2.1, 8.4, 4.2, 0.7)
+    if not pressed:
+        s.box(p.exit_light, -3.2, -1.3, 6.4, 1.1)
+
+
+@drawing(14)
+def door(s: Sketch, p: Palette, mechanism: int, step: int) -> None:
+    """A bar across x = 0 from y -12 to 12; ``step``: how far its halves have shrunk into stubs."""
+    half = 12 - 9 * step / 8
+    width, fill = ((1.5, p.dark), (2.4, p.lock), (3.2, p.trap))[mechanism]
+    for side in (-1, 1):
+        top = -12 if side < 0 else 12 - half
+        s.framed_box(fill, p.outline, -width, top, 2 * width, half, 0.7)
+        s.framed_box(p.light, p.outline, -width - 1.1, -12 if side < 0 else 9.6, 2 * width + 2.2, 2.4, 0.6)
+    if mechanism == 0:
+        for side in (-1, 1):
+            edge = side * (12 - half)
+            s.box(p.good, -0.6, edge - (0 if side > 0 else 2.6), 1.2, 2.6)
+    elif mechanism == 1 and step == 0:
+        s.disc(p.outline, 0, 0, 4.6)
+        s.disc(p.lock, 0, 0, 3.8)
+        s.disc(p.bright, 0, -0.9, 1.3)
+        s.polygon(p.bright, [(-0.6, -0.5), (0.6, -0.5), (1.0, 2.4), (-1.0, 2.4)])
+    elif mechanism == 2:
+        for y in range(-8, 9, 4):
+            s.polygon(
+                p.bright if not p.danger_by_shape else p.outline,
+                [(-2.4, y - 1.4), (2.4, y + 0.6), (2.4, y + 1.8), (-2.4, y - 0.2)],
+            )
+
+
+@drawing(6.5)
+def door_switch(s: Sketch, p: Palette, mechanism: int, used: int) -> None:
+    """A round plate with a key (locked doors: gold is square) or a snare (trap doors)."""
+    if mechanism == 1:
+        plate, sign = (p.middle, p.dark) if used else (p.lock, p.bright)
+        s.disc(p.outline, 0, 0, 5.4)
+        s.disc(plate, 0, 0, 4.6)
+        s.ring(sign, -1.6, 0, 1.7, 0.9)
+        s.stroke(sign, (-0.2, 0), (3.2, 0), 0.9)
+        for x in (1.7, 3.1):
+            s.stroke(sign, (x, 0), (x, 1.5), 0.9)
+    else:
+        s.framed_box(p.middle if used else p.trap, p.outline, -3, -3, 6, 6, 0.8)
+        if not used:
+            s.stroke(p.bright, (-1.2, -1.2), (1.2, 1.2), 0.8)
+            s.stroke(p.bright, (-1.2, 1.2), (1.2, -1.2), 0.8)
+
+
+@drawing(-9.5, -12, 9.5, 3)
+def launch_pad(s: Sketch, p: Palette, step: int) -> None:
+    """A spring plate lying on the surface at its point; ``step`` 8: just sprung, 0: settled."""
+    top = -4.6 - 4.5 * step / 8
+    flash = mixed(p.light, p.bright, step / 8)
+    s.polygon(p.dark, [(-5.5, 0), (5.5, 0), (4, top + 2.4), (-4, top + 2.4)])
+    s.stroke(p.outline, (-3.6, -0.4), (3.6, top + 3), 0.7)
+    s.stroke(p.outline, (3.6, -0.4), (-3.6, top + 3), 0.7)
+    s.framed_box(flash, p.outline, -7.6, top, 15.2, 3, 0.7)
+    chevron = [(-2.6, 0.7), (0, -0.7), (2.6, 0.7), (2.6, 1.6), (0, 0.2), (-2.6, 1.6)]
+    s.polygon(p.good, [(x, y + top + 1.2) for x, y in chevron])
+    s.box(p.outline, -7.6, -0.7, 15.2, 0.9)
+
+
+@drawing(13)
+def one_way(s: Sketch, p: Palette) -> None:
+    """A bar on the side that carries, here the upper one, with teeth that show the way through."""
+    s.framed_box(p.light, p.outline, -12, -12, 24, 3.4, 0.7)
+    for x in (-8, 0, 8):
+        s.polygon(p.dark, [(x - 3, -6.2), (x, -8.8), (x + 3, -6.2), (x + 1.8, -6.2), (x, -7.6), (x - 1.8, -6.2)])
+
+
+@drawing(7)
+def turret_base(s: Sketch, p: Palette, step: int) -> None:
+    """A round base; its dot grows before the shot."""
+    s.disc(p.outline, 0, 0, 6.3)
+    s.disc(p.turret, 0, 0, 5.4)
+    s.disc(mixed(p.turret, p.outline, 0.5), 0, 0, 3.7)
+    s.disc(p.bright if step else p.warning, 0, 0, 1.1 + 2.2 * step / 8)
+    if p.danger_by_shape:
+        for angle in (45, 135, 225, 315):
+            a = radians(angle)
+            s.stroke(p.outline, (4.2 * cos(a), 4.2 * sin(a)), (6.6 * cos(a), 6.6 * sin(a)), 1.4)
+
+
+@drawing(7)
+def launcher_base(s: Sketch, p: Palette, step: int) -> None:
+    """A round base with a rocket's head in its tube; it glows while the rocket is prepared."""
+    s.disc(p.outline, 0, 0, 6.3)
+    s.disc(p.launcher, 0, 0, 5.4)
+    s.disc(mixed(p.launcher, p.outline, 0.6), 0, 0, 3.6)
+    glow = mixed(p.middle, p.flame, step / 8)
+    s.polygon(glow, [(-1.9, 2.2), (-1.9, -0.6), (0, -3.1), (1.9, -0.6), (1.9, 2.2)])
+    for angle in (30, 150, 270):
+        a = radians(angle)
+        s.disc(p.light, 4.6 * cos(a), 4.6 * sin(a), 0.7)
+
+
+@drawing(9)
+def crosshair(s: Sketch, p: Palette, look: int) -> None:
+    """``look``: 0 far, 1 mid, 2 near, 3 locked (before and after the shot)."""
+    radius = (2.3, 4.5, 6.8, 6.8)[look]
+    colour = mixed(p.outline, p.turret, 0.4) if look < 3 else p.laser
+    s_width = 0.8 if look < 3 else 1.1
+    if look == 0:
+        s.stroke(colour, (-radius, 0), (radius, 0), s_width)
+        s.stroke(colour, (0, -radius), (0, radius), s_width)
+        return
+    s.ring(colour, 0, 0, radius * 0.72, s_width)
+    for angle in (0, 90, 180, 270):
+        a = radians(angle)
+        s.stroke(colour, (radius * 0.45 * cos(a), radius * 0.45 * sin(a)), (radius * cos(a), radius * sin(a)), s_width)
+    if look == 3:
+        s.disc(p.laser, 0, 0, 1.3)
+
+
+@drawing(-5, -38, 5, 6)
+def gold_streak(s: Sketch, p: Palette, step: int) -> None:
+    """Collected gold: squeezed into a streak that shoots up."""
+    t = step / 8
+    width = max(0.35, 3.2 * (1 - t) ** 2)
+    top, bottom = -34 * t**0.7, 3 - 33 * t
+    s.polygon(p.gold, [(-width, bottom), (0, top - 3), (width, bottom), (0, bottom + 2)])
+    s.polygon(p.gold_light, [(-width * 0.5, bottom), (0, top - 2), (width * 0.5, bottom)])
+
+
+@drawing(-20, -8, 20, 8)
+def lightning(s: Sketch, p: Palette, variant: int) -> None:
+    """A jagged flash along x."""
+    zigzag = ((0, 3, -4, 2, -2, 0), (0, -4, 3, -3, 4, 0), (0, 5, -1, 3, -5, 0))[variant]
+    points = [(-18 + 7.2 * k, y * 1.0) for k, y in enumerate(zigzag)]
+    s.path(p.electric, points, 2.2)
+    s.path(p.spark, points, 1.0)
+
+
+PlacedSprite = tuple[SpriteKey, float, float]
+"""A drawing and where its point lies, px."""
+
+_EXIT_FRAMES, _PAD_FRAMES, _LOCK_FRAMES, _TRAP_FRAMES = 30, 18, 18, 18
+_DOOR_OPENING, _DOOR_CLOSING, _AIM_FRAMES, _PREPARE_FRAMES = 15, 16, 15, 30
+LONGEST_FRAMES = 30
+SETTLED_TICKS = LONGEST_FRAMES / 3
+"""After so many ticks without change a static sprite stays the same."""
+
+
+def static_sprites_of(world: World, slot: int, animation: ObjectAnimation, fraction: float) -> list[PlacedSprite]:
+    """The drawings of one object; [] if nothing of it is fixed to the walls, or it is gone."""
+    o = world.objects[slot]
+    kind = o.kind
+    if kind == kinds.GOLD:
+        return [] if o.taken else [(gold(), o.x, o.y)]
+    if kind == kinds.MINE:
+        return [] if o.exploded else [(mine(), o.x, o.y)]
+    if kind == kinds.EXIT:
+        step = animation.step(slot, fraction, _EXIT_FRAMES) if o.is_open else 0
+        return [(exit_door(step), o.x, o.y)]
+    if kind == kinds.SWITCH:
+        return [(exit_switch(world.objects[o.partner].is_open), o.x, o.y)]
+    if kind == kinds.DOOR:
+        return _door_sprites(o, slot, animation, fraction)
+    if kind == kinds.LAUNCH_PAD:
+        step = 8 - animation.step(slot, fraction, _PAD_FRAMES)
+        return [(launch_pad(step).turned(_upright(o.face_x, o.face_y)), o.x, o.y)]
+    if kind == kinds.ONE_WAY:
+        return [(one_way().turned(_upright(o.face_x, o.face_y)), o.x, o.y)]
+    if kind == kinds.TURRET:
+        return [(turret_base(_turret_step(o, slot, animation, fraction)), o.x, o.y)]
+    if kind == kinds.LAUNCHER:
+        step = animation.step(slot, fraction, _PREPARE_FRAMES) if o.routine == LAUNCHER_PREPARE else 0
+        return [(launcher_base(step), o.base_x, o.base_y)]
+    return []
+
+
+def _upright(face_x: float, face_y: float) -> int:
+    """Turn in degrees, by steps of 45, of a drawing whose upper side faces that way."""
+    sign_x, sign_y = (face_x > 0) - (face_x < 0), (face_y > 0) - (face_y < 0)
+    return round(degrees(atan2(sign_x, -sign_y)))
+
+
+def _turret_step(o: Object, slot: int, animation: ObjectAnimation, fraction: float) -> int:
+    if not o.updating:
+        return 0
+    if o.routine == TURRET_PRE_FIRE:
+        return animation.step(slot, fraction, _AIM_FRAMES)
+    return 8 - animation.step(slot, fraction, 9) if o.routine == TURRET_POST_FIRE else 0
+
+
+def door_place(o: Object) -> tuple[float, float, int] | None:
+    """Middle of a door's bar, px, and its turn in degrees; None for a door that is nowhere."""
+    if not o.edge_1:
+        return None
+    cell, side = divmod(o.edge_1, 4)
+    dx, dy = ((12, 0), (0, 12), (-12, 0), (0, -12))[side]
+    return CENTRE_X[cell] + dx, CENTRE_Y[cell] + dy, 0 if dx else 90
+
+
+def _door_sprites(o: Object, slot: int, animation: ObjectAnimation, fraction: float) -> list[PlacedSprite]:
+    sprites: list[PlacedSprite] = []
+    place = door_place(o)
+    step = animation.step(slot, fraction, _door_frames(o))
+    closed = o.switched == (o.mechanism == TRAP)
+    # A trap door cannot be seen until it is sprung.
+    if place and not (o.mechanism == TRAP and not o.switched):
+        x, y, turn = place
+        sprites.append((door(o.mechanism, 8 - step if closed else step).turned(turn), x, y))
+    if o.mechanism != AUTOMATIC:
+        sprites.append((door_switch(o.mechanism, o.switched), o.x, o.y))
+    return sprites
+
+
+def _door_frames(o: Object) -> int:
+    if o.mechanism == AUTOMATIC:
+        return _DOOR_OPENING if o.switched else _DOOR_CLOSING
+    return _TRAP_FRAMES if o.mechanism == TRAP else _LOCK_FRAMES

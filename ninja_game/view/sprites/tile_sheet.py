@@ -1,0 +1,151 @@
+"""The tiles of a level in one size, on a sheet that is transparent elsewhere."""
+
+from __future__ import annotations
+
+from math import cos, pi, sin
+
+import pygame
+
+from ninja_game.sim.collision import tiles
+from ninja_game.sim.collision.tiles import EMPTY, SHAPE
+from ninja_game.sim.memory.schema import TileMap
+from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, STRIDE
+from ninja_game.ui.canvas import Canvas, Point
+from ninja_game.ui.theme import Palette
+from ninja_game.view.sprites.sketch import FINE
+
+TilePictures = dict[tuple[int, int, int, float, float], pygame.Surface]
+"""By tile, size and place beside the px."""
+
+
+class TileSheet:
+    """``surface``: premultiplied; its px count from the upper left corner of what is seen of the stage.
+
+    ``pictures``: those that were made before, at the same scale in the same palette.
+    """
+
+    def __init__(self, canvas: Canvas, palette: Palette, pictures: TilePictures | None = None) -> None:
+        self.canvas = canvas
+        self._corner = canvas.stage.topleft
+        self._shift = canvas.origin[0] - self._corner[0], canvas.origin[1] - self._corner[1]
+        self.palette = palette
+        self.surface = pygame.Surface(canvas.size, pygame.SRCALPHA)
+        # A bit for each column of a row that is not empty.
+        self._rows = [0] * GRID_ROWS
+        self._pictures: TilePictures = {} if pictures is None else pictures
+
+    def show(self, level: TileMap) -> None:
+        for row in range(GRID_ROWS):
+            for column in range(GRID_COLUMNS):
+                self.draw(column, row, level.tiles[(row + 1) * STRIDE + column + 1])
+
+    def cell(self, column: int, row: int) -> pygame.Rect:
+        """The px of a cell, between its rounded edges."""
+        return self.canvas.rect(24 * column, 24 * row, 24, 24).move(-self._corner[0], -self._corner[1])
+
+    def draw(self, column: int, row: int, tile: int) -> None:
+        """Show a tile in a cell, in the place of what is there."""
+        bit = 1 << column
+        filled, before = SHAPE[tile] != EMPTY, self._rows[row] & bit
+        if not filled and not before:
+            return
+        rect, scale = self.cell(column, row), self.canvas.scale
+        if before:
+            self._rows[row] ^= bit
+            self.surface.fill((0, 0, 0, 0), rect)
+        if filled:
+            self._rows[row] |= bit
+            if not rect.colliderect(self.surface.get_rect()):
+                return
+            # How far the cell's true corner lies beside its px: in eighths, so that few pictures are drawn.
+            left, top = self._shift[0] + 24 * column * scale, self._shift[1] + 24 * row * scale
+            shift = round(8 * (left - rect.left)) / 8, round(8 * (top - rect.top)) / 8
+            key = tile, *rect.size, *shift
+            if key not in self._pictures:
+                self._pictures[key] = tile_picture(tile, rect.size, self.palette.tile, scale=scale, shift=shift)
+            self.surface.blit(self._pictures[key], rect)
+
+    def has_tile(self, area: pygame.Rect) -> bool:
+        """Whether any px of an area may be a tile's."""
+        scale = 24 * self.canvas.scale
+        area = area.move(-self._shift[0], -self._shift[1])
+        first_column, last_column = max(0, int(area.left / scale)), min(GRID_COLUMNS - 1, int(area.right / scale))
+        first_row, last_row = max(0, int(area.top / scale)), min(GRID_ROWS - 1, int(area.bottom / scale))
+        columns = (1 << max(0, last_column + 1)) - (1 << min(first_column, GRID_COLUMNS))
+        for row in range(first_row, last_row + 1):  # noqa: SIM110 - a hundred times a picture
+            if self._rows[row] & columns:
+                return True
+        return False
+
+
+H = 12.0
+_ARC_STEPS = 24
+
+
+def outline(tile: int) -> list[Point]:
+    """The corners of a tile's solid part, px from its cell's centre; [] for an empty one.
+
+    >>> outline(2)
+    [(-12.0, 12.0), (-12.0, -12.0), (12.0, 12.0)]
+    """
+    shape = tiles.SHAPE[tile]
+    if shape in {tiles.EMPTY, tiles.UNDEFINED}:
+        return []
+    if shape == tiles.FULL:
+        return [(-H, -H), (H, -H), (H, H), (-H, H)]
+    sx, sy = tiles.SIGN_X[tile], tiles.SIGN_Y[tile]
+    if shape == tiles.HALF_TILE:
+        # The half against the open side: cut the square at its middle.
+        left, right = (-H if sx >= 0 else 0.0), (H if sx <= 0 else 0.0)
+        top, bottom = (-H if sy >= 0 else 0.0), (H if sy <= 0 else 0.0)
+        return [(left, top), (right, top), (right, bottom), (left, bottom)]
+    corner = (-H * sx, -H * sy)
+    if shape in {tiles.CONCAVE, tiles.CONVEX}:
+        # A quarter of a circle about the open (concave) or the solid corner, from one end of the surface to the other.
+        about = 1.0 if shape == tiles.CONCAVE else -1.0
+        quarter = [pi / 2 * k / _ARC_STEPS for k in range(_ARC_STEPS + 1)]
+        return [
+            corner,
+            *(((about - about * 2 * sin(a)) * sx * H, (about - about * 2 * cos(a)) * sy * H) for a in quarter),
+        ]
+    points = [corner, (tiles.T_X[tile], tiles.T_Y[tile]), (tiles.S_X[tile], tiles.S_Y[tile])]
+    # The thick wedges reach a second corner of the cell, next to the end of the surface that is in a side's middle.
+    if tiles.T_X[tile] == 0.0:
+        points.insert(1, (-H * sx, H * sy))
+    if tiles.S_Y[tile] == 0.0:
+        points.append((H * sx, -H * sy))
+    return points
+
+
+def tile_picture(
+    tile: int, size: tuple[int, int], colour: pygame.Color, *, scale: float = 0.0, shift: Point = (0.0, 0.0)
+) -> pygame.Surface:
+    """A tile in a cell of that many px, premultiplied.
+
+    ``shift``: px by which the cell's true corner, at ``scale`` px per logical px, lies beside that of its px. Slopes
+    are drawn where they truly are, so that those of neighbouring cells form one line; other shapes fill the cell's px.
+    """
+    fine = pygame.Surface((size[0] * FINE, size[1] * FINE), pygame.SRCALPHA)
+    # Drawing includes the px of the last corner: half a fine px less keeps the shape inside its cell.
+    wide, high = size[0] * FINE, size[1] * FINE
+    if scale and tiles.SHAPE[tile] not in _FITTED:
+        zoom = scale * FINE
+        corners = [((x + H) * zoom + shift[0] * FINE, (y + H) * zoom + shift[1] * FINE) for x, y in _overlong(tile)]
+    else:
+        exact = [((x + H) / 24 * wide, (y + H) / 24 * high) for x, y in outline(tile)]
+        corners = [(min(x, wide - 0.5), min(y, high - 0.5)) for x, y in exact]
+    if len(corners) > 2:
+        pygame.draw.polygon(fine, colour, corners)
+    return pygame.transform.smoothscale(fine, size)
+
+
+_FITTED = {tiles.EMPTY, tiles.UNDEFINED, tiles.FULL, tiles.HALF_TILE, tiles.CONCAVE, tiles.CONVEX}
+"""Shapes that are stretched to the px of their cell."""
+
+
+def _overlong(tile: int) -> list[Point]:
+    """The outline of a slope that reaches beyond its cell, so that no side of the cell has a gap."""
+    start, end = (tiles.T_X[tile], tiles.T_Y[tile]), (tiles.S_X[tile], tiles.S_Y[tile])
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    longer = {start: (start[0] - dx / 12, start[1] - dy / 12), end: (end[0] + dx / 12, end[1] + dy / 12)}
+    return [longer.get(point, (point[0] * 1.2, point[1] * 1.2)) for point in outline(tile)]
