@@ -27,18 +27,17 @@ def _make_pipeline() -> type:
     make_passes: Any = compiler.DefaultPassBuilder.define_nopython_pipeline
     register: Any = compiler_machinery.register_pass
     passes: Any = compiler_machinery.PassManager
-    for needed in ("finalize", "_raise_if_finalized", "_get_module_for_linking", "_finalize_dynamic_globals"):
+    for needed in ("_optimize_final_module", "_finalize_final_module", "_finalize_dynamic_globals"):
         getattr(library, needed)
 
     class InnerLibrary(library):  # type: ignore[misc, valid-type]
         """The code of a function that is copied into others and never runs by itself."""
 
-        def finalize(self) -> None:
-            """Only collect what it calls."""
-            self._raise_if_finalized()
-            for called in dict.fromkeys(self._linking_libraries):
-                self._reload_init.update(called._reload_init)  # noqa: SLF001
-                self._final_module.link_in(called._get_module_for_linking(), preserve=True)  # noqa: SLF001
+        def _optimize_final_module(self) -> None:
+            """Nothing: it is optimized where it is copied to."""
+
+        def _finalize_final_module(self) -> None:
+            """Make no machine code of it."""
             self._finalize_dynamic_globals()
             self._finalized = True
 
