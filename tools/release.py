@@ -41,6 +41,9 @@ compile_everything(1, quiet=False)
 """
 """Compiles the kernels of all commands for any processor of the family, into NUMBA_CACHE_DIR."""
 
+NOTES = ("direct_url.json", "uv_cache.json")
+"""Files beside an installed package that are different each time."""
+
 STARTER = """
 import multiprocessing
 import sys
@@ -63,6 +66,8 @@ class Release:
         self.environment = {
             **os.environ, "SOURCE_DATE_EPOCH": str(self.epoch), "PYTHONHASHSEED": "0", "PYTHONPATH": str(self.source),
             "NINJA_GAME_BACKGROUND_COMPILER": "0", "PYTHONSAFEPATH": "1", "SDL_VIDEODRIVER": "dummy",
+            # Bytecode depends on whether other bytecode was there.
+            "PYTHONPYCACHEPREFIX": str(WORK / "bytecode"),
         }  # fmt: skip
         shutil.rmtree(out, ignore_errors=True)
         out.mkdir(parents=True)
@@ -97,11 +102,7 @@ class Release:
         words = ("export", "--quiet", "--locked", "--no-default-groups", "--no-emit-project", "--extra=fast")
         self._said(program("uv"), *words, *(f"--group={group}" for group in groups), "--output-file", str(needs))
         self._said(program("uv"), "venv", "--quiet", "--clear", "--python", sys.executable, str(venv))
-        # Installers note from where a wheel came, and how old its file was: always the same.
-        wheel = WORK / self.wheel().name
-        shutil.copyfile(self.wheel(), wheel)
-        os.utime(wheel, (self.epoch, self.epoch))
-        for what in (("--require-hashes", "-r", str(needs)), ("--no-deps", str(wheel))):
+        for what in (("--require-hashes", "-r", str(needs)), ("--no-deps", str(self.wheel()))):
             python = venv / Path(program("python")).relative_to(ROOT / ".venv")
             self._said(program("uv"), "pip", "install", "--quiet", "--python", str(python), *what)
         return python.parent
@@ -111,6 +112,13 @@ class Release:
         start = WORK / "ninja-game.py"
         start.write_text(STARTER, "utf-8")
         folder = self.installed("freezing", "release")
+        # What an installer notes of its own: from where the wheel came, and when.
+        about = next(folder.parent.rglob("ninja_game-*.dist-info"))
+        record = about / "RECORD"
+        lines = record.read_text("utf-8").splitlines(keepends=True)
+        record.write_text("".join(line for line in lines if not any(name in line for name in NOTES)), "utf-8")
+        for name in NOTES:
+            (about / name).unlink(missing_ok=True)
         metadata = (f"--copy-metadata={name}" for name in ("numba", "numpy", "ninja-game"))
         options = ("--noconfirm", "--log-level=ERROR", f"--name={FROZEN}", "--collect-all=ninja_game", *metadata)
         where = ("--distpath", str(WORK), "--workpath", str(WORK / "work"), "--specpath", str(WORK))
