@@ -12,8 +12,9 @@ from ninja_game.files.shown_text import shown_text
 
 @click.command(name="lint")
 @click.argument("pack", type=click.Path(exists=True, path_type=Path))
+@click.option("--design", is_flag=True, help="Report what levels lack that good ones have, too.")
 @click.pass_context
-def lint(ctx: click.Context, pack: Path) -> None:
+def lint(ctx: click.Context, pack: Path, design: bool) -> None:
     """Report what is odd about a pack: its index, its levels, its certificates, its table of pars.
 
     A line says how to mend what was found, and ends in its code (docs/findings.md).
@@ -24,12 +25,13 @@ def lint(ctx: click.Context, pack: Path) -> None:
     Examples:
       ninja-game levels lint my-pack/
       ninja-game levels lint my-pack.zip
+      ninja-game levels lint my-pack/ --design
     """
     from ninja_game.formats.pack.pack import Pack
     from ninja_game.runs.packs import lint
 
     opened = Pack(pack)
-    found = list(lint(opened))
+    found = list(lint(opened, with_design=design))
     for finding in found:
         click.echo(f"{shown_text(str(finding), 500)}. {finding.hint} [{finding.code}]")
     episodes = len(opened.episodes)

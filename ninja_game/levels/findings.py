@@ -113,6 +113,33 @@ PACK_RULES = {
 }
 """Of packs; what is odd about their levels has the codes of levels."""
 
+DESIGN_RULES = {
+    "safe-gold": Rule(
+        "{value:.0%} of the gold is in danger; expected {bound:.0%} or more", "Put gold where a hazard guards it."
+    ),
+    "even-gold": Rule(
+        "the gold is strewn evenly ({value:.2f}; expected {bound} at most)", "Lay it in groups where it is bait."
+    ),
+    "even-mines": Rule(
+        "the mines are strewn evenly ({value:.2f}; expected {bound} at most)",
+        "Lay them in lines and rims that guard something.",
+    ),
+    "far-hazards": Rule(
+        "half of the hazards are {value:.0f} px or more from the run to the exit; expected {bound} at most",
+        "Move them to what they guard, or take them away.",
+    ),
+    "same-bay": Rule("{value} bays have the same tiles; expected {bound} at most", "Draw each place differently."),
+    "unused-space": Rule(
+        "{value:.0%} of the space is far from every object and from the run; expected {bound:.0%} at most",
+        "Fill it with rock, or with something to go there for.",
+    ),
+    "short-trip": Rule(
+        "the run is {value:.1f} times as long as the way from the start to the exit; expected {bound} or more",
+        "Move the exit nearer to the start, or what opens it farther away.",
+    ),
+}
+"""Of levels that lack what good ones have (docs/good-levels.md), by code: only where they are asked for."""
+
 _RECORD = "Run its inputs again with `ninja-game record`."
 RUN_RULES = {
     "other-rules": Rule("recorded under rules {rules}, these are rules {now}", _RECORD),
@@ -174,7 +201,7 @@ class PackFinding(NamedTuple):
     @property
     def hint(self) -> str:
         """How to fix it, a sentence."""
-        return (PACK_RULES | LEVEL_RULES)[self.code].hint
+        return (PACK_RULES | LEVEL_RULES | DESIGN_RULES)[self.code].hint
 
 
 class RunProblem(NamedTuple):
@@ -200,6 +227,11 @@ def in_run(code: str, **values: object) -> RunProblem:
 def in_pack(code: str, place: str = "", **values: object) -> PackFinding:
     """A finding of this code about a pack; ``values``: what its text names."""
     return PackFinding(place, code, PACK_RULES[code].text.format(**values))
+
+
+def in_design(code: str, place: str, **values: object) -> PackFinding:
+    """What a level lacks; ``values``: what its text names."""
+    return PackFinding(place, code, DESIGN_RULES[code].text.format(**values))
 
 
 def found(code: str, records: tuple[int, ...] = (), cells: tuple[Cell, ...] = (), **values: object) -> Finding:

@@ -17,6 +17,7 @@ from ninja_game.formats.pack.pars import DIGITS, Pars, parse_pars
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.levels.findings import PackFinding, in_pack
 from ninja_game.levels.warnings import level_findings
+from ninja_game.runs.level_design import design, design_findings
 from ninja_game.runs.verify import Verdict, verify_recording, with_demands
 from ninja_game.sim.level import Level
 
@@ -95,8 +96,8 @@ def make_pars(pack: Pack, *, tries: int = TRIES) -> Iterator[tuple[str, Pars]]:
 KINDS = ("exit", "gold")
 
 
-def lint(pack: Pack) -> Iterator[PackFinding]:
-    """Every finding; none for a proper pack."""
+def lint(pack: Pack, *, with_design: bool = False) -> Iterator[PackFinding]:
+    """Every finding; none for a proper pack. ``with_design``: what its levels lack, too (docs/good-levels.md)."""
     in_episodes = {level.file for levels in pack.episodes.values() for level in levels}
     yield from (in_pack("unreadable", why=problem) for problem in pack.problems)
     yield from _about_index(pack)
@@ -110,6 +111,15 @@ def lint(pack: Pack) -> Iterator[PackFinding]:
         yield finding
     if sound:
         yield from _about_pars(pack)
+    if sound and with_design:
+        yield from (finding for file in pack.levels for finding in _about_design(pack, file))
+
+
+def _about_design(pack: Pack, file: str) -> Iterator[PackFinding]:
+    run = certificate(pack, file, "exit")
+    if run:
+        counts = design(run.level, run.recording.inputs[: run.verdict.ticks])
+        yield from design_findings(counts, pack.files.place(file))
 
 
 def _about_index(pack: Pack) -> Iterator[PackFinding]:

@@ -8,7 +8,7 @@ from typing import Any
 
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.pack.pack import Pack
-from tools.measure.level_figures import DIFFICULTY, KNOWN
+from tools.measure.level_figures import DESIGN, DIFFICULTY, KNOWN
 
 OURS, THEIRS = "#c0392b", "#34495e"
 
@@ -16,8 +16,9 @@ OURS, THEIRS = "#c0392b", "#34495e"
 def draw_figures(rows: Sequence[Mapping[str, float]], folder: Path) -> None:
     """Draw ``figures.svg``: for each figure the reference's quartiles as a band, and a dot for each of our levels."""
     plt = _pyplot()
-    figure, axes = plt.subplots(len(KNOWN) // 2, 2, figsize=(9, 1.1 * len(KNOWN) / 2 + 1.2), layout="constrained")
-    for axis, (key, row) in zip(axes.flat, KNOWN.items(), strict=True):
+    shown = KNOWN | DESIGN
+    figure, axes = plt.subplots(len(shown) // 2, 2, figsize=(9, 1.1 * len(shown) / 2 + 1.2), layout="constrained")
+    for axis, (key, row) in zip(axes.flat, shown.items(), strict=True):
         values = sorted(each[key] for each in rows if key in each)
         axis.axvspan(row.first, row.third, color=THEIRS, alpha=0.25, lw=0, label="reference, quartiles")
         axis.axvline(row.median, color=THEIRS, lw=2, label="reference, median")

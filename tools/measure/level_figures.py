@@ -73,6 +73,18 @@ KNOWN = {
 }
 """Of 500 levels, and the best recorded runs on them. "Solid" is what is not empty."""
 
+DESIGN = {
+    "hazard_distance": Row("distance of hazards to the run, px", 36.6, 66.4, 126.4),
+    "bait": Row("share of the gold in danger", 0.277, 0.608, 0.952),
+    "gold_evenness": Row("evenness of the gold", 0.268, 0.4, 0.67),
+    "mine_evenness": Row("evenness of the mines", 0.608, 0.861, 1.178),
+    "bays": Row("bays with the same tiles", 1, 2, 3),
+    "unused": Row("share of the space that is not used", 0.0, 0.024, 0.102),
+    "detour": Row("length of the run over start to exit", 4.56, 8.76, 22.4),
+    "near_ticks": Row("share of the run within 20 px of death", 0.018, 0.091, 0.192),
+}
+"""Of 334 levels with the best recorded run: what docs/good-levels.md counts (`ninja_game.runs.level_design`)."""
+
 DIFFICULTY = Row("difficulty", 2.71, 5.58, 9.9)
 """Of the best recorded runs on 334 levels of the reference."""
 

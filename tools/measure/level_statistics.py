@@ -19,12 +19,15 @@ from typing import Any
 from ninja_game.formats.ascii.legend import TILE_CHARS
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.pack.pack import Pack
+from ninja_game.runs.level_design import design
+from ninja_game.runs.packs import certificate
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from tools import ROOT
 from tools.draw.level_plots import draw_difficulty, draw_figures
 from tools.measure.level_figures import (
     ALL_VARIANTS,
+    DESIGN,
     DIFFICULTY,
     KINDS_OF_REFERENCE,
     KNOWN,
@@ -65,6 +68,10 @@ def figures_of_set(pack: Pack) -> dict[str, dict[str, float]]:
     for file, pars in pack.pars.items():
         if pars.difficulty is not None:
             found[file]["difficulty"] = pars.difficulty
+    for file, figures_of_level in found.items():
+        run = certificate(pack, file, "exit")
+        counts = design(run.level, run.recording.inputs)._asdict() if run else {}
+        figures_of_level |= {name: float(value) for name, value in counts.items() if value is not None}
     return found
 
 
@@ -88,7 +95,7 @@ def table_of_levels(rows: Mapping[str, Mapping[str, float]]) -> str:
 def table_of_set(rows: Sequence[Mapping[str, float]]) -> str:
     """The quartiles of the set beside the reference's, in Markdown."""
     lines = ["| per level | reference | ours | median within |", "|---|---|---|---|"]
-    for key, row in (*KNOWN.items(), ("difficulty", DIFFICULTY)):
+    for key, row in (*KNOWN.items(), ("difficulty", DIFFICULTY), *DESIGN.items()):
         values = [each[key] for each in rows if key in each]
         ours = quartiles(values)
         inside = "-" if not values else "yes" if row.first <= ours[1] <= row.third else "no"

@@ -1,0 +1,214 @@
+"""What makes a level good, as far as it can be counted (docs/good-levels.md), from a level and a run that passes it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import hypot, sqrt
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.levels.findings import PackFinding, in_design
+from ninja_game.levels.reach import Ground
+from ninja_game.runs.trace import RunTrace, trace_level
+from ninja_game.sim import kinds
+from ninja_game.sim.collision.rays import solid_at
+from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
+from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec, well_formed
+from ninja_game.sim.rules import CELL, DRONE_RADIUS, GUARD_RADIUS, MINE_RADIUS, RADIUS, ROCKET_RADIUS
+
+Points = NDArray[np.float64]
+"""Places, px: (n, 2)."""
+
+STANDING_TICKS = 400
+"""How long one stands still at the start: ten seconds."""
+NEAR = 20.0
+"""A near miss: so few px between the ninja and what kills."""
+BAIT = 40.0
+"""Gold so near (px) to where a hazard can be is in danger."""
+EMPTY = 4 * CELL
+"""Space so far (px) from every object and from the run is not used."""
+FEW = 6
+"""Fewer pieces are neither even nor in groups."""
+BAY = 6, 5
+"""Columns and rows of a bay that may repeat."""
+
+RADII = {"mine": MINE_RADIUS, "floor guard": GUARD_RADIUS, "drone": DRONE_RADIUS, "thwump": 9.0}
+"""Of hazards that kill by touch, px."""
+GUNS = {"gauss turret": 2, "homing launcher": 2}
+"""Hazards that aim or fly, and their status number while that kills."""
+DIRECTIONS = (1, 0), (0, 1), (-1, 0), (0, -1)
+"""Right, down, left, up, as a thwump's direction numbers them."""
+LANES = {kinds.THWUMP, kinds.FLOOR_GUARD}
+HAZARDS = kinds.MINE, kinds.DRONE, kinds.FLOOR_GUARD, kinds.THWUMP, kinds.TURRET, kinds.LAUNCHER
+
+
+class Design(NamedTuple):
+    """The counts of a level. Distances in px, shares from 0 to 1; None: it has too little to be counted.
+
+    ``hazard_distance``: from a hazard to the run, the median. ``bait``: the share of the gold that lies where a hazard
+    can be, or in the sight of a gun. ``gold_evenness``, ``mine_evenness``: mean distance to the nearest other piece
+    over what chance would give; above 1 they are strewn evenly. ``bays``: how often the commonest bay of tiles occurs.
+    ``unused``: the share of the open space far from every object and from the run. ``detour``: length of the run over
+    the distance from start to exit. ``near_ticks``: the share of the run's ticks within 20 px of what kills.
+    """
+
+    hazard_distance: float | None
+    bait: float | None
+    gold_evenness: float | None
+    mine_evenness: float | None
+    bays: int
+    unused: float
+    detour: float
+    near_ticks: float
+
+
+BOUNDS = {
+    "safe-gold": ("bait", ">=", 0.15),
+    "even-gold": ("gold_evenness", "<=", 0.85),
+    "even-mines": ("mine_evenness", "<=", 1.3),
+    "far-hazards": ("hazard_distance", "<=", 180),
+    "same-bay": ("bays", "<=", 3),
+    "unused-space": ("unused", "<=", 0.25),
+    "short-trip": ("detour", ">=", 1.6),
+}
+"""What is asked of a count, by the code of the finding: the outer tenths of the reference, or what judges asked for."""
+
+
+def design_findings(counts: Design, place: str = "") -> Iterator[PackFinding]:
+    """What a level lacks. ``place``: its file."""
+    for code, (name, sign, bound) in BOUNDS.items():
+        value = getattr(counts, name)
+        if value is not None and (value < bound if sign == ">=" else value > bound):
+            yield in_design(code, place, value=value, bound=bound)
+
+
+def design(level: Level, inputs: bytes) -> Design:
+    """The counts of a level, with a run that passes it (``Recording.playback``).
+
+    Raises LevelError for a level that cannot be played.
+    """
+    run, still = trace_level(level, inputs), trace_level(level, bytes(STANDING_TICKS))
+    ground = Ground(level)
+    path = np.column_stack([run.ninja["x"], run.ninja["y"]])
+    gold, mines = places(level, kinds.GOLD), places(level, kinds.MINE)
+    room = len(ground.cells) * CELL * CELL
+    homes = np.concatenate([places(level, kind) for kind in HAZARDS])
+    return Design(
+        float(np.median(distances(homes, path))) if len(homes) else None,
+        float(np.mean(in_danger(level, ground, still, gold))) if len(gold) and len(homes) else None,
+        evenness(gold, room),
+        evenness(mines, room),
+        most_bays(level),
+        unused(level, ground, path),
+        float(np.abs(np.diff(path, axis=0)).sum()) / max(CELL, _start_to_exit(level)),
+        float(np.mean(clearance(run) < NEAR)),
+    )
+
+
+def places(level: Level, kind: int) -> Points:
+    """The places of all objects of a kind."""
+    found = [record.values[:2] for record in level.objects if record.kind == kind and well_formed(record)]
+    return np.array(found, np.float64).reshape(-1, 2)
+
+
+def distances(points: Points, others: Points) -> NDArray[np.float64]:
+    """From each point to the nearest of the others, px; infinite where there is none: (n,)."""
+    if not len(others):
+        return np.full(len(points), np.inf)
+    apart = np.hypot(*(points[:, None] - others[None]).transpose(2, 0, 1))
+    return np.asarray(apart.min(axis=1), np.float64)
+
+
+def clearance(run: RunTrace) -> NDArray[np.float64]:
+    """The space between the ninja and the nearest thing that kills, after each tick, px: (ticks,)."""
+    nearest = np.full(len(run.ninja), np.inf)
+    for column, kind in enumerate(run.kinds):
+        rows = run.objects[:, column]
+        deadly = rows["s"] == 1 if kind == "mine" else rows["s"] == GUNS[kind] if kind in GUNS else None
+        if deadly is None and kind not in RADII:
+            continue
+        space = (
+            np.hypot(run.ninja["x"] - rows["x"], run.ninja["y"] - rows["y"]) - RADIUS - RADII.get(kind, ROCKET_RADIUS)
+        )
+        nearest = np.minimum(nearest, space if deadly is None else np.where(deadly, space, np.inf))
+    return nearest
+
+
+def in_danger(level: Level, ground: Ground, still: RunTrace, points: Points) -> NDArray[np.bool_]:
+    """Which points lie within 40 px of where a hazard can be, or in the sight of a gun."""
+    moving = [rows[::5] for kind, rows in zip(still.kinds, still.objects.T, strict=True) if kind in RADII]
+    reached = [np.column_stack([rows["x"], rows["y"]]) for rows in moving]
+    lanes = [lane(ground, record) for record in level.objects if record.kind in LANES and well_formed(record)]
+    reached += [np.array(list(each)).reshape(-1, 2) for each in lanes]
+    near = distances(points, np.concatenate([places(level, kinds.MINE), *reached])) < BAIT
+    for kind in (kinds.TURRET, kinds.LAUNCHER):
+        for gun in places(level, kind):
+            near |= np.array([in_sight(ground, gun, point) for point in points], bool)
+    return near
+
+
+def lane(ground: Ground, record: ObjectSpec) -> Iterator[tuple[float, float]]:
+    """The places along which a thwump strikes, or a guard runs: steps of half a cell up to the rock."""
+    x, y = record.values[:2]
+    is_guard = record.kind == kinds.FLOOR_GUARD
+    for dx, dy in [(1, 0), (-1, 0)] if is_guard else [DIRECTIONS[int(record.values[2]) % 4]]:
+        for step in range(2 * COLUMNS):
+            place = x + dx * step * CELL / 2, y + dy * step * CELL / 2
+            if solid_at(ground.level, *place):
+                break
+            yield place
+
+
+def in_sight(ground: Ground, gun: Sequence[float], point: Sequence[float]) -> bool:
+    """Whether no rock lies between two places."""
+    steps = max(1, int(hypot(point[0] - gun[0], point[1] - gun[1]) / 6))
+    return not any(
+        solid_at(ground.level, gun[0] + (point[0] - gun[0]) * k / steps, gun[1] + (point[1] - gun[1]) * k / steps)
+        for k in range(1, steps)
+    )
+
+
+def evenness(points: Points, room: float) -> float | None:
+    """Mean distance to the nearest other piece over that of pieces placed by chance (Clark and Evans, 1954)."""
+    if len(points) < FEW:
+        return None
+    apart = np.hypot(*(points[:, None] - points[None]).transpose(2, 0, 1))
+    np.fill_diagonal(apart, np.inf)
+    return float(apart.min(axis=1).mean() / (0.5 * sqrt(max(room, 1.0) / len(points))))
+
+
+def most_bays(level: Level) -> int:
+    """How often the commonest block of 6 x 5 cells occurs without overlaps; nearly full or empty ones do not count."""
+    wide, high = BAY
+    where: dict[tuple[int, ...], list[tuple[int, int]]] = {}
+    for i in range(COLUMNS - wide + 1):
+        for j in range(ROWS - high + 1):
+            block = tuple(tile for k in range(i, i + wide) for tile in level.tiles[k * ROWS + j : k * ROWS + j + high])
+            if len(set(block)) > 2 and 6 <= sum(tile > 0 for tile in block) <= wide * high - 6:
+                where.setdefault(block, []).append((i, j))
+    return max((len(_apart(found)) for found in where.values()), default=0)
+
+
+def _apart(found: Sequence[tuple[int, int]]) -> list[tuple[int, int]]:
+    """Of blocks at these cells, as many as do not overlap, from the left."""
+    kept: list[tuple[int, int]] = []
+    for i, j in found:
+        if all(abs(i - a) >= BAY[0] or abs(j - b) >= BAY[1] for a, b in kept):
+            kept.append((i, j))
+    return kept
+
+
+def unused(level: Level, ground: Ground, path: Points) -> float:
+    """The share of the cells in reach that are far from every object and from the run."""
+    if not ground.cells:
+        return 0.0
+    cells = np.array([(CENTRE_X[cell], CENTRE_Y[cell]) for cell in ground.cells])
+    used = np.array([record.values[:2] for record in level.objects if well_formed(record)], np.float64)
+    return float(np.mean(np.minimum(distances(cells, used), distances(cells, path[::5])) > EMPTY))
+
+
+def _start_to_exit(level: Level) -> float:
+    """The distance from the ninja's start to the nearest exit, px."""
+    return float(distances(places(level, kinds.NINJA)[-1:], places(level, kinds.EXIT)).min(initial=np.inf))
