@@ -1,4 +1,4 @@
-"""One attempt at a level: ground plan, tiles, ninja and exit, gold, enemies, mines - or nothing, if it does not fit."""
+"""One attempt at a level: two ground plans, tiles, the way, gold as bait, hazards round it - or nothing."""
 
 from __future__ import annotations
 
@@ -14,12 +14,15 @@ from ninja_game.generator.obstacles import MOST_OBJECTS, place_enemies, place_fi
 from ninja_game.generator.scene import MIDDLE, Board, Cell, Scene, mirrored, spec, steps_from
 from ninja_game.generator.shaping import chosen_style
 from ninja_game.levels.warnings import level_findings
-from ninja_game.sim.level import COLUMNS, ROWS, TILES
+from ninja_game.runs.run import run_level
+from ninja_game.sim.inputs import Input
+from ninja_game.sim.level import COLUMNS, ROWS, TILES, Level
+from ninja_game.sim.rules import TICKS_PER_SECOND
 
 CHOICES = 24
 """Routes of which the best is taken."""
-CLOSE = 6.0
-"""Cells that are at least between any two of ninja, switches and exit."""
+CLOSE, WITHHELD = 4.0, 10.0
+"""Cells that are at least between any two of ninja, switches and exit; an exit so near to the start is seen early."""
 
 
 class Niche(NamedTuple):
@@ -40,9 +43,8 @@ def place_route(board: Board, tiles: dict[Cell, str], niche: Niche | None, rng: 
     best: tuple[float, list[Cell]] | None = None
     for _ in range(CHOICES):
         start = rng.choice(floor)
-        axis = [cell for cell in floor if cell[0] == MIDDLE]
-        ends = [niche.exit] if niche else [*floor, *axis * 4, *[mirrored(start)] * 8]
-        exit_ = rng.choice([cell for cell in ends if niche or cell in floor])
+        near = [cell for cell in floor if CLOSE <= dist(cell, start) <= WITHHELD]
+        exit_ = niche.exit if niche else rng.choice([*floor, *near * 4])
         switches = [rng.choice(floor) for _ in range(1 + (len(niche.doors) if niche else 0))]
         stops = [start, *switches, exit_]
         worth = _worth(stops, bare.empty, far)
@@ -77,26 +79,24 @@ def _worth(stops: Sequence[Cell], empty: set[Cell], far: float) -> float | None:
         way += steps[b]
     start, exit_ = stops[0], stops[-1]
     height = max(row for _, row in stops) - min(row for _, row in stops)
-    composed = (MIDDLE in (exit_[0], start[0])) + (exit_ == mirrored(start))
-    return 4.0 * composed + min(height, 14) - abs(way - far)
+    return 12.0 * (dist(start, exit_) <= WITHHELD) + min(height, 14) - abs(way - far)
 
 
 SOLID = 0.13, 0.37
 SHAPES = 20, 73
-MIRROR = 0.73
 OBJECTS = 50, MOST_OBJECTS
 """What levels keep to: shares of the cells, tiles with a shape, objects (the quartiles of N's own levels)."""
 
 
-def compose(layout: str, rng: Random, difficulty: int) -> Scene | None:
-    """A level that keeps to all marks and has nothing odd; None if this attempt does not."""
-    board = Board()
-    frame(board, rng)
-    LAYOUTS[layout](board, rng)
-    _break_symmetry(board, rng)
+def compose(layouts: tuple[str, str], rng: Random, difficulty: int) -> Scene | None:
+    """A level that keeps to all marks and has nothing odd; None if this attempt does not.
+
+    ``layouts``: the ground plans of its left and of its right part.
+    """
+    board = _joined(layouts, rng)
     niche = _niche(board, rng) if rng.random() < 0.4 else None
     tiles = chosen_style(board, rng, *SHAPES)
-    if tiles is None or not SOLID[0] <= len(tiles) / TILES <= SOLID[1] or _mirror_share(tiles) < MIRROR:
+    if tiles is None or not SOLID[0] <= len(tiles) / TILES <= SOLID[1]:
         return None
     scene = place_route(board, tiles, niche, rng, far=22 + 3 * difficulty)
     if scene is None:
@@ -107,32 +107,28 @@ def compose(layout: str, rng: Random, difficulty: int) -> Scene | None:
     if not place_enemies(scene, rng, rng.choice((3, 4, 4)) + difficulty // 3, difficulty):
         return None
     place_mines(scene, rng, rng.choice((4, 6, 8)) + difficulty // 2)
-    if not OBJECTS[0] <= len(scene.objects) <= OBJECTS[1] or level_findings(scene.level):
+    if not OBJECTS[0] <= len(scene.objects) <= OBJECTS[1] or level_findings(scene.level) or not _fair(scene.level):
         return None
     return scene
 
 
-def _mirror_share(tiles: dict[Cell, str]) -> float:
-    cells = [(c, r) for c in range(1, COLUMNS + 1) for r in range(1, ROWS + 1)]
-    return sum((cell in tiles) == (mirrored(cell) in tiles) for cell in cells) / TILES
+def _joined(layouts: tuple[str, str], rng: Random) -> Board:
+    """One plan to the left of a seam, another one to its right: two places with two questions."""
+    seam = MIDDLE + rng.randint(-3, 3)
+    joined = Board()
+    for layout, columns in zip(layouts, (range(1, seam), range(seam, COLUMNS + 1)), strict=True):
+        board = Board()
+        frame(board, rng)
+        LAYOUTS[layout](board, rng)
+        joined.cells |= {cell for cell in board.cells if cell[0] in columns}
+        joined.stones |= {cell: tile for cell, tile in board.stones.items() if cell[0] in columns}
+    return joined
 
 
-def _break_symmetry(board: Board, rng: Random) -> None:
-    """Once: a stone is missing at one side, or a ledge is there; or the plan stays as it is."""
-    kind = rng.choice(("missing", "ledge", "ledge", "none"))
-    if kind == "missing":
-        stones = [piece for piece in board.pieces() if len(piece) <= 12 and all(c > MIDDLE for c, _ in piece)]
-        if stones:
-            gone = rng.choice(stones)
-            board.cells -= set(gone)
-            for cell in gone:
-                board.stones.pop(cell, None)
-    elif kind == "ledge":
-        for _ in range(20):
-            column, row, width = rng.randint(2, 26), rng.randint(5, 18), rng.choice((3, 4, 5))
-            if board.free(column - 2, row - 3, width + 4, 7):
-                board.fill(column, row, width, rng.choice((1, 1, 2)), one_sided=True)
-                return
+def _fair(level: Level) -> bool:
+    """Whether who stands still for ten seconds, or runs a second to either side, is alive."""
+    openings = bytes(10 * TICKS_PER_SECOND), *(bytes([key] * TICKS_PER_SECOND) for key in (Input.LEFT, Input.RIGHT))
+    return all(run_level(level, inputs, memory="plain").outcome != "dead" for inputs in openings)
 
 
 def _niche(board: Board, rng: Random) -> Niche | None:

@@ -1,6 +1,7 @@
-"""The level of a day: generated from the date, kept as a pack in the player's folder of levels.
+"""The level of a day, kept as a pack in the player's folder of levels.
 
-Those of some four hundred days come with the game, made in advance by tools/daily_levels.py: nobody waits for them.
+Those of a hundred weeks come with the game (``generator.packed``), nobody waits for them; later ones are generated from
+the date.
 """
 
 from __future__ import annotations
@@ -9,26 +10,25 @@ from collections.abc import Callable
 from datetime import date
 from pathlib import Path
 from threading import Event
-from typing import TYPE_CHECKING
 
 from ninja_game.files.reading import read_text
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import data_folder
+from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.n14.level_string import level_digest
-from ninja_game.formats.pack.files import CERTIFICATES, INDEX, PARS, PackFiles
+from ninja_game.formats.named_level import NamedLevel
+from ninja_game.formats.pack.files import CERTIFICATES, INDEX, PARS
 from ninja_game.formats.pack.pars import DIGITS, Pars, parse_pars, write_pars
 from ninja_game.formats.recording import parse_replays
-from ninja_game.formats.replay.text import write_replay
+from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.generator.naming import AUTHOR
-
-if TYPE_CHECKING:
-    from ninja_game.generator.generate import Generated
+from ninja_game.generator.packed import PACKED, generated_levels
 
 FOLDER = "daily-levels"
 """Of the pack, in the player's folder of levels."""
 
-PACKED = "daily.zip"
-"""A pack of days to come, among the game's assets."""
+FIRST = date(2026, 11, 23)
+"""The Monday from which on the packed levels are taken in turn, each week's seven of seven difficulties."""
 
 _INDEX = f'name = "Daily levels"\nauthor = "{AUTHOR}"\ncomment = "A level a day, from the date"\n'
 _MONDAY = 2
@@ -56,12 +56,18 @@ def take_packed(levels: Path, day: date) -> bool:
 
     Raises NinjaGameError or OSError where it cannot be kept.
     """
-    path, file = data_folder("assets") / PACKED, daily_file(levels, day)
-    # A page is without it: it would be a third of what a visitor loads.
-    if not path.exists() or file.name not in (packed := PackFiles(path)).levels:
+    week = (day - FIRST).days // 7
+    # A page is without them: they would be a sixth of what a visitor loads.
+    if week < 0 or not (data_folder("assets") / PACKED).exists():
         return False
-    pars = parse_pars(packed.text(PARS))[file.name]
-    _keep(file, packed.text(file.name), packed.text(_certificate(file)), pars)
+    levels_of_day = generated_levels(daily_difficulty(day))
+    if week >= len(levels_of_day):
+        return False
+    from ninja_game.search.certificate import verified_run  # a page has no search
+
+    packed = levels_of_day[week]
+    run = verified_run(packed.level, packed.inputs)
+    _keep_made(daily_file(levels, day), packed.named, run, packed.difficulty)
     return True
 
 
@@ -79,19 +85,21 @@ def make_daily(levels: Path, day: date, *, report: Callable[[str], None], stop: 
         if stop.is_set():
             return False
         if made:
-            _keep_made(daily_file(levels, day), made)
+            named = NamedLevel(made.name, AUTHOR, made.comment, made.level, "")
+            _keep_made(daily_file(levels, day), named, made.run, made.difficulty)
             return True
     return False
 
 
-def _keep_made(file: Path, made: Generated) -> None:
+def _keep_made(file: Path, named: NamedLevel, run: Replay, difficulty: float) -> None:
     from ninja_game.runs.verify import verify_recording
     from ninja_game.search.certificate import named_run
 
-    replay = write_replay(named_run(made.run, name=made.name, author=AUTHOR, level_author=AUTHOR))
-    verdict = verify_recording(parse_replays(replay, file=file.stem, level=made.level)[0])
-    level, run = level_digest(made.level)[:DIGITS], verdict.xy_sha256[:DIGITS]
-    _keep(file, made.text, replay, Pars(level, run, made.run.end_tick, None, made.difficulty))
+    replay = write_replay(named_run(run, name=named.name, author=AUTHOR, level_author=AUTHOR))
+    verdict = verify_recording(parse_replays(replay, file=file.stem, level=named.level)[0])
+    text = write_ascii_level(named.level, name=named.name, author=AUTHOR, comment=named.comment)
+    digests = level_digest(named.level)[:DIGITS], verdict.xy_sha256[:DIGITS]
+    _keep(file, text, replay, Pars(*digests, run.end_tick, None, difficulty))
 
 
 def _keep(file: Path, level: str, replay: str, pars: Pars) -> None:

@@ -1,21 +1,26 @@
-"""Enemies and mines beside the route, never on the ninja; what hinders without harm; mirrored where there is room."""
+"""Enemies and lines of mines round gold, exit and switches, never on the ninja; what hinders without harm."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from math import dist, hypot
 from random import Random
 
-from ninja_game.generator.scene import ENEMIES, MIDDLE, Cell, Point, Scene, flipped, middle, places, spec, with_mirror
+from ninja_game.generator.scene import ENEMIES, MIDDLE, Cell, Point, Scene, middle, places, spec
 from ninja_game.sim import kinds
 from ninja_game.sim.level import ObjectSpec
-from ninja_game.sim.rules import CELL
+from ninja_game.sim.rules import CELL, PAD_RADIUS
 
 MOST_MINES, MOST_OBJECTS = 21, 88
+MORE = 14
+"""Mines and objects that may come to them when a level turns out too easy."""
 SAFE = 150.0
 """px from the ninja's start in which nothing waits."""
-BESIDE = 190.0
-"""px from exit and switches in which enemies are put first."""
+BESIDE = 110.0
+"""px from gold, exit and switches in which enemies are put first."""
+AT_BAIT = 80.0
+"""px from the middle of a group of gold in which mines guard it."""
 FROM_RUN = 17.0
 """px from a certified run at which a mine leaves it alone: their radii, and a little."""
 
@@ -60,7 +65,7 @@ def turrets(scene: Scene, rng: Random) -> Iterator[str]:
     """In the open."""
     for column, row in sorted(scene.steps):
         around = all((column + i, row + j) in scene.steps for i in (-1, 0, 1) for j in (-1, 0, 1))
-        if around and (column in (MIDDLE, 5, 8, 11) or rng.random() < 0.1):
+        if around and (column in (MIDDLE, 5, 8, 11, 21, 24, 27) or rng.random() < 0.1):
             yield f"gauss turret {column},{row}"
 
 
@@ -68,7 +73,7 @@ def launchers(scene: Scene, _: Random) -> Iterator[str]:
     """In high corners."""
     for column, row in sorted(scene.steps):
         corner = scene.full((column, row - 1)) and (column - 1, row) in scene.steps and row < 12
-        if corner and column in (2, 3, MIDDLE):
+        if corner and column in (2, 3, MIDDLE, 29, 30):
             yield f"homing launcher {column},{row}"
 
 
@@ -91,53 +96,40 @@ def place_enemies(scene: Scene, rng: Random, wanted: int, difficulty: int) -> bo
             break
         lines = list(source(scene, rng))
         rng.shuffle(lines)
-        lines.sort(key=lambda line: not _on_the_way(scene, line))
-        # Alone it breaks the symmetry; that is the exception.
-        alone = rng.random() < 0.25 or source is launchers or wanted - scene.count(*ENEMIES) == 1
-        group = next((group for line in lines if (group := _group(scene, line, alone))), None)
-        if group:
-            scene.hazards.append(group)
+        # The first three guard the hoard together, each other one something else.
+        together = len(scene.hazards) < 3
+        lines.sort(key=partial(_from_hoard, scene) if together else lambda line: not _guards_something(scene, line))
+        apart = (2 if together else 4) * CELL
+        enemy = next((record for line in lines if (record := _enemy(scene, line, apart))), None)
+        if enemy:
+            scene.hazards.append([enemy])
     return scene.count(*ENEMIES) >= 3
 
 
-def _on_the_way(scene: Scene, line: str) -> bool:
-    """Whether an enemy is near to something that one has to touch."""
+def _guards_something(scene: Scene, line: str) -> bool:
+    """Whether an enemy is near to something that one wants or has to touch."""
     x, y, *_ = spec(line).values
-    wanted = [point for record in scene.key[1:] for point in places(record)]
+    wanted = [*scene.baits, *(point for record in scene.key[1:] for point in places(record))]
     return any(dist((x, y), point) <= BESIDE for point in wanted)
 
 
-def _group(scene: Scene, line: str, alone: bool) -> list[ObjectSpec]:
-    """The enemy of a line and its mirror image, if they have room; else nothing."""
-    record = spec(line)
-    group = [record] if alone else [record, mirror_image(record)]
-    if group[0].values[:2] == group[-1].values[:2]:
-        group = group[:1]
-    start = middle(scene.start)
-    for each in group:
-        point = (each.values[0], each.values[1])
-        clear = scene.clear_of(point, key=60.0, other=14.0) and dist(point, start) >= SAFE
-        enemies = [other for other in scene.objects if other.kind in ENEMIES]
-        apart = all(dist(point, other.values[:2]) >= 4 * CELL for other in enemies)
-        if not clear or not apart or (each.kind in _SHOOTERS and scene.sees(point, start)):
-            return []
-    return group
+def _from_hoard(scene: Scene, line: str) -> float:
+    return dist(spec(line).values[:2], scene.baits[0])
+
+
+def _enemy(scene: Scene, line: str, apart: float) -> ObjectSpec | None:
+    """The enemy of a line, if it has room, ``apart`` px to others, and does not close on the start."""
+    record, start = spec(line), middle(scene.start)
+    point = (record.values[0], record.values[1])
+    enemies = [other for other in scene.objects if other.kind in ENEMIES]
+    clear = scene.clear_of(point, key=60.0, other=14.0) and dist(point, start) >= SAFE
+    alone = all(dist(point, other.values[:2]) >= apart for other in enemies)
+    seen = record.kind in _SHOOTERS and scene.sees(point, start)
+    same_floor = record.kind == kinds.FLOOR_GUARD and int(point[1] // CELL) == scene.start[1]
+    return record if clear and alone and not seen and not same_floor else None
 
 
 _SHOOTERS = (kinds.TURRET, kinds.LAUNCHER)
-
-
-def mirror_image(record: ObjectSpec) -> ObjectSpec:
-    """The mirrored object; drones turn the other way round."""
-    x, y, *rest = record.values
-    x, y = flipped((x, y))
-    if record.kind == kinds.DRONE:
-        movement, seeker, weapon, direction = rest
-        movement = {0.0: 1.0, 1.0: 0.0, 2.0: 3.0, 3.0: 2.0}.get(movement, movement)
-        rest = [movement, seeker, weapon, {0.0: 2.0, 2.0: 0.0}.get(direction, direction)]
-    elif record.kind == kinds.LAUNCH_PAD:
-        rest = [0.0 - rest[0], rest[1]]
-    return ObjectSpec(record.kind, (x, y, *rest))
 
 
 def _beside_tiles(scene: Scene) -> Iterator[Cell]:
@@ -150,70 +142,81 @@ def _beside_tiles(scene: Scene) -> Iterator[Cell]:
 
 
 def place_mines(scene: Scene, rng: Random, wanted: int) -> None:
-    """Rows of mines where the level invites: under ceilings, on floors' ends, up the walls, all of one sort."""
-    sort = rng.choice((_ceiling_mines, _edge_mines, _wall_mines))
-    rows = list(sort(scene))
-    rng.shuffle(rows)
-    for row in rows:
-        group = _mines(scene, [point for each in row for point in with_mirror(each)])
-        if len(group) >= 2 and scene.count(kinds.MINE) + len(group) <= wanted:
+    """Lines of mines that guard the gold: under ceilings, on floors and up walls near it."""
+    lines = [line for sort in (_ceiling_mines, _floor_mines, _wall_mines) for line in sort(scene)]
+    rng.shuffle(lines)
+    lines.sort(key=lambda line: dist(line[1], scene.baits[0]) > 1.5 * AT_BAIT)
+    lines.sort(key=lambda line: min((dist(line[len(line) // 2], bait) for bait in scene.baits), default=0.0) > AT_BAIT)
+    for line in lines:
+        group = _mines(scene, line)
+        near = any(
+            dist(line[len(line) // 2], record.values[:2]) < 4 * CELL
+            for record in scene.objects
+            if record.kind == kinds.MINE
+        )
+        if len(group) == len(line) and not near and scene.count(kinds.MINE) + len(group) <= min(wanted, MOST_MINES):
             scene.hazards.append(group)
+
+
+STEP = 15.0
+"""px between the mines of a line."""
 
 
 def _ceiling_mines(scene: Scene) -> Iterator[list[Point]]:
     for column, row in sorted(scene.steps):
-        cells = [(column + 2 * k, row) for k in range(3)]
-        if column % 2 and all(cell in scene.steps and scene.full((cell[0], row - 1)) for cell in cells):
-            yield [(x, y - 8) for x, y in map(middle, cells)]
+        cells = [(column + k, row) for k in range(3)]
+        if all(cell in scene.steps and scene.full((cell[0], row - 1)) for cell in cells):
+            x, y = middle((column + 1, row))
+            yield [(x + STEP * k, y - 7) for k in (-1.5, -0.5, 0.5, 1.5)]
 
 
-def _edge_mines(scene: Scene) -> Iterator[list[Point]]:
+def _floor_mines(scene: Scene) -> Iterator[list[Point]]:
     for run in scene.runs():
-        if run.length >= 3:
-            (left, y), (right, _) = middle((run.column, run.row)), middle((run.column + run.length - 1, run.row))
-            yield [(left - 6, y + 8), (right + 6, y + 8)]
+        if run.length >= 6:
+            left, y = middle((run.column, run.row))
+            right = left + CELL * (run.length - 1)
+            yield [(left + STEP * k, y + 7) for k in range(3)]
+            yield [(right - STEP * k, y + 7) for k in range(3)]
 
 
 def _wall_mines(scene: Scene) -> Iterator[list[Point]]:
     for column, row in sorted(scene.steps):
         for dx in (-1, 1):
-            cells = [(column, row + 2 * k) for k in range(3)]
+            cells = [(column, row + k) for k in range(3)]
             if all(cell in scene.steps and scene.full((column + dx, cell[1])) for cell in cells):
-                yield [(x + 8 * dx, y) for x, y in map(middle, cells)]
+                x, y = middle((column, row + 1))
+                yield [(x + 8 * dx, y + STEP * k) for k in (-1.5, -0.5, 0.5, 1.5)]
 
 
 def _mines(scene: Scene, points: Sequence[Point]) -> list[ObjectSpec]:
     """Mines at those of the points that have room."""
     start = middle(scene.start)
-    fit = [p for p in points if scene.clear_of(p, key=44.0, other=17.0) and dist(p, start) >= SAFE / 2]
+    fit = [p for p in points if scene.clear_of(p, key=44.0, other=14.0) and dist(p, start) >= SAFE / 2]
     return [spec(f"mine {round(x)},{round(y)}px") for x, y in dict.fromkeys(fit)]
 
 
 def mines_beside(scene: Scene, run: Sequence[Point], rng: Random) -> list[ObjectSpec]:
-    """Mines beside a run that passes, at a place where it is in the air, and their mirror images; perhaps none.
+    """A line of mines that points at a run that passes, at a place where it is in the air; perhaps none.
 
     The run stays possible: no mine is less than ``FROM_RUN`` px from it.
     """
-    if scene.count(kinds.MINE) + 4 > MOST_MINES or len(scene.objects) + 4 > MOST_OBJECTS or len(run) < 50:
+    full = scene.count(kinds.MINE) > MOST_MINES + MORE - 3 or len(scene.objects) > MOST_OBJECTS + MORE - 3
+    if full or len(run) < 50:
         return []
-    for _ in range(20):
+    for trial in range(20):
         tick = rng.randint(40, len(run) - 3)
         (x0, y0), (x, y) = run[tick - 1], run[tick]
         speed = hypot(x - x0, y - y0)
         if speed < 1.0:
             continue
-        nx, ny = (y - y0) / speed, (x0 - x) / speed
-        points = []
-        for side in (-1, 1):
-            for away in (18, 22, 26):
-                point = (6.0 * round((x + side * away * nx) / 6), 6.0 * round((y + side * away * ny) / 6))
-                if min(dist(point, at) for at in run) >= FROM_RUN:
-                    points.append(point)
-                    break
-        both = [p for each in points for p in with_mirror(each) if min(dist(p, at) for at in run) >= FROM_RUN]
-        group = _mines(scene, both)
-        if group:
-            return group
+        side = rng.choice((-1, 1))
+        nx, ny = side * (y - y0) / speed, side * (x0 - x) / speed
+        for away in (18, 22, 26):
+            # A line of three that points at the run.
+            line = [(round(x + (away + STEP * k) * nx), round(y + (away + STEP * k) * ny)) for k in range(3)]
+            group = _mines(scene, [point for point in line if min(dist(point, at) for at in run) >= FROM_RUN])
+            if len(group) >= (2 if trial < 10 else 1):
+                return group
     return []
 
 
@@ -228,21 +231,24 @@ def nearest_hazard(scene: Scene, run: Sequence[Point]) -> int | None:
     return min(spare)[1] if spare else None
 
 
-MOST_FIXTURES = 12
+MOST_FIXTURES = 8
 
 
 def blocks(scene: Scene, rng: Random) -> Iterator[str]:
-    """Bounce blocks in staggered rows, in open air."""
-    apart, first = rng.choice((3, 4)), rng.randint(4, 7)
-    for number, row in enumerate(range(first, 20, apart)):
-        for column in range(16 - (number % 2) * 2, 1, -4):
-            if all((column + i, row + j) in scene.empty for i in (-1, 0, 1) for j in (-1, 0, 1)):
-                yield f"bounce block {column},{row}"
+    """A row of bounce blocks through open air, as a bridge over what is deep."""
+    rows = list(range(4, 20))
+    rng.shuffle(rows)
+    for row in rows:
+        for first in range(2, 22, 4):
+            columns = [first + 3 * k for k in range(4)]
+            if all((c + i, row + j) in scene.empty for c in columns for i in (-1, 0, 1) for j in range(-1, 6)):
+                yield from (f"bounce block {c},{row}" for c in columns)
+                return
 
 
 def pads(scene: Scene, rng: Random) -> Iterator[str]:
     """Launch pads on floors."""
-    runs = [run for run in scene.runs() if run.length >= 3 and run.column < 16]
+    runs = [run for run in scene.runs() if run.length >= 3]
     rng.shuffle(runs)
     for run in runs[:2]:
         yield f"launch pad {run.column + rng.randint(0, run.length - 1)},{run.row} up"
@@ -251,7 +257,7 @@ def pads(scene: Scene, rng: Random) -> Iterator[str]:
 def one_ways(scene: Scene, _: Random) -> Iterator[str]:
     """One-way platforms over gaps between tiles."""
     for row in range(4, 22):
-        for column in range(2, 17):
+        for column in range(2, 30):
             wide = 0
             while (column + wide, row) in scene.empty and column + wide < 30:
                 wide += 1
@@ -263,11 +269,11 @@ def one_ways(scene: Scene, _: Random) -> Iterator[str]:
 
 
 def place_fixtures(scene: Scene, rng: Random) -> None:
-    """Perhaps put one sort of fixtures into a scene, mirrored."""
-    kind = rng.choice((blocks, pads, pads, one_ways, one_ways, None))
+    """Perhaps put one sort of fixtures into a scene."""
+    kind = rng.choice((blocks, blocks, blocks, pads, pads, one_ways, one_ways, None))
     for line in kind(scene, rng) if kind else ():
-        first = spec(line)
-        for record in dict.fromkeys((first, mirror_image(first))):
-            point = (record.values[0], record.values[1])
-            if len(scene.fixtures) < MOST_FIXTURES and scene.clear_of(point, key=40.0, other=12.0):
-                scene.fixtures.append(record)
+        record = spec(line)
+        # A pad lies on the edge of its cell.
+        point = (record.values[0], record.values[1] - (PAD_RADIUS if record.kind == kinds.LAUNCH_PAD else 0.0))
+        if len(scene.fixtures) < MOST_FIXTURES and scene.clear_of(point, key=40.0, other=12.0):
+            scene.fixtures.append(record)

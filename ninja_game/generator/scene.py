@@ -93,9 +93,6 @@ def neighbours(cell: Cell) -> tuple[Cell, ...]:
     return (column + 1, row), (column, row + 1), (column - 1, row), (column, row - 1)
 
 
-WIDTH = (COLUMNS + 2) * CELL
-"""px of the world from edge to edge."""
-
 ENEMIES = (kinds.TURRET, kinds.FLOOR_GUARD, kinds.DRONE, kinds.THWUMP, kinds.LAUNCHER)
 
 Point = tuple[float, float]
@@ -136,7 +133,7 @@ class Scene:
     """A level in the making.
 
     ``key``: what every route needs (ninja, exit, doors). ``fixtures``: harmless. ``hazards``: groups of objects
-    that belong together, as a rule one and its mirror image.
+    that belong together: an enemy, or a line of mines.
     """
 
     def __init__(self, board: Board, tiles: dict[Cell, str], start: Cell) -> None:
@@ -148,6 +145,7 @@ class Scene:
         self.key: list[ObjectSpec] = []
         self.fixtures: list[ObjectSpec] = []
         self.gold: list[ObjectSpec] = []
+        self.baits: list[Point] = []  #: the middles of groups of gold
         self.hazards: list[list[ObjectSpec]] = []
 
     @property
@@ -214,13 +212,3 @@ def places(record: ObjectSpec) -> Iterator[Point]:
     yield x, y
     if record.kind == kinds.EXIT:
         yield more[0], more[1]
-
-
-def flipped(point: Point) -> Point:
-    """The mirrored point."""
-    return WIDTH - point[0], point[1]
-
-
-def with_mirror(point: Point) -> list[Point]:
-    """A point and its mirror image; once where they are the same."""
-    return [point] if abs(point[0] - WIDTH / 2) < 1 else [point, flipped(point)]

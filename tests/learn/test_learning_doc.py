@@ -27,7 +27,7 @@ COMMANDS = [
 ]
 SHORTER = {
     "levels/certificates": "levels/certificates/00-0-first-steps.exit.replay.txt",
-    "test": "00-2-rolling-hills",
+    "test": "00-2-the-chimney",
     "50": "3",
     "100": "3",
     "240": "1",

@@ -4,7 +4,7 @@
 ['00-1-mind-the-gap']
 >>> train, test = level_source("train"), level_source("test")
 >>> len(train.levels), len(test.levels), test.names[:2]
-(80, 20, ['00-2-rolling-hills', '01-3-turnstiles'])
+(80, 20, ['00-2-the-chimney', '01-3-turnstiles'])
 """
 
 from __future__ import annotations
@@ -42,6 +42,7 @@ def level_source(origin: Origin) -> LevelSource:
                               "curriculum:ORIGIN": those of another origin
     "generated:3:1-8"         generated levels of difficulty 3, seeds 1 to 8; made when they are asked for, in some
                               seconds each (docs/generator.md)
+    "packed", "packed:3"      the generated levels that come with the game, all thousand or those of difficulty 3
     a path                    all levels of a file, folder or pack
     a text                    the levels of a text in any format
     a Level, a NamedLevel     itself
@@ -70,6 +71,8 @@ def level_source(origin: Origin) -> LevelSource:
         return Curriculum(level_source(rest or "train"))
     if word == "generated":
         return _generated(rest)
+    if word == "packed":
+        return _packed(rest)
     files = _own_files()
     chosen = _split(list(files)).get(origin) or [name for name in files if name == origin]
     if chosen:
@@ -113,6 +116,16 @@ def _generated(text: str) -> LevelSource:
         expected = f"'generated:DIFFICULTY:FIRST-LAST', {EASIEST} to {HARDEST} and seeds, as 'generated:3:1-8'"
         raise ArgumentError(f"found 'generated:{text:.60}'; expected {expected}")
     return generated_levels(range(int(first), int(last or first) + 1), int(wanted))
+
+
+def _packed(wanted: str) -> LevelSource:
+    """The generated levels that come with the game: all, or those of a difficulty."""
+    from ninja_game.generator import packed
+
+    if wanted and wanted not in map(str, range(1, 11)):
+        raise ArgumentError(f"found 'packed:{wanted:.60}'; expected 'packed', or 'packed:1' to 'packed:10'")
+    found = packed.generated_levels(int(wanted) if wanted else None)
+    return LevelSource([f"generated-{each.wanted}-{each.seed}" for each in found], [each.level for each in found])
 
 
 def generated_levels(seeds: Iterable[int], difficulty: int) -> LevelSource:

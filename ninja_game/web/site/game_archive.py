@@ -18,7 +18,7 @@ from ninja_game.files.user_folder import PACKAGE, data_folder
 from ninja_game.web.sounds import compressed
 
 LEFT_OUT = (
-    "batch", "cli", "daily.zip", "data", "learn", "search", "tas", "verification", "web/board", "web/pages",
+    "batch", "cli", "generated.tsv.xz", "data", "learn", "search", "tas", "verification", "web/board", "web/pages",
     "web/licences", "web/page", "web/site",
 )  # fmt: skip
 """What of the package a page has no use for."""

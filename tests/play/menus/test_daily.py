@@ -11,7 +11,7 @@ from typing import Self
 import pytest
 
 from ninja_game.backend.memories import compiled_available
-from ninja_game.files.user_folder import data_folder
+from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.generator import daily
 from ninja_game.play.level.screen import LevelScreen
@@ -84,15 +84,18 @@ def test_the_days_that_come_with_the_game_need_no_compiler(driver: MenuDriver, m
     assert found.problems == []
 
 
-def test_all_days_that_come_with_the_game_are_sound() -> None:
-    pack = Pack(data_folder("assets") / daily.PACKED)
-    days = [date.fromisoformat(name.removesuffix(".txt")) for name in pack.levels]
-    assert days == [days[0] + timedelta(number) for number in range(len(days))]
-    assert set(pack.pars) == set(pack.levels)
-    for name in list(pack.levels)[::40]:
-        found = certificate(pack, name, "exit")
+def test_a_hundred_weeks_of_days_come_with_the_game(tmp_path: Path) -> None:
+    last = daily.FIRST + timedelta(weeks=100, days=-1)
+    seen = set()
+    for day in (daily.FIRST, daily.FIRST + timedelta(1), daily.FIRST + timedelta(7), last):
+        assert daily.take_packed(tmp_path, day)
+        found = certificate(Pack(tmp_path / daily.FOLDER), f"{day}.txt", "exit")
         assert found is not None
         assert found.problems == []
+        seen.add(level_digest(found.level))
+    assert len(seen) == 4
+    assert not daily.take_packed(tmp_path, daily.FIRST - timedelta(1))
+    assert not daily.take_packed(tmp_path, last + timedelta(1))
 
 
 def test_a_second_day_joins_the_first(tmp_path: Path, making: MenuDriver) -> None:

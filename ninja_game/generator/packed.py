@@ -1,0 +1,97 @@
+"""The generated levels that come with the game: a thousand, made once by tools/generated_levels.py; nobody waits.
+
+>>> first = generated_levels(difficulty=3)[0]
+>>> first.seed, first.wanted, len(first.inputs) > 0
+(2, 3, True)
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+from typing import NamedTuple
+
+from ninja_game.errors import FileError
+from ninja_game.files.reading import read_bytes
+from ninja_game.files.user_folder import data_folder
+from ninja_game.formats.n14.level_string import parse_level_string, write_level_string
+from ninja_game.formats.named_level import NamedLevel
+from ninja_game.formats.replay.input_runs import write_inputs
+from ninja_game.formats.replay.input_text import read_inputs
+from ninja_game.generator.naming import AUTHOR
+from ninja_game.sim.level import Level
+
+PACKED = "generated.tsv.xz"
+"""Among the game's assets: a level a line, as ``PackedLevel.line`` writes it."""
+MOST_BYTES = 8 * 2**20
+"""Of the file, and of its text when unpacked."""
+MOST_MEMORY = 64 * 2**20
+"""Of unpacking."""
+
+
+class PackedLevel(NamedTuple):
+    """A generated level. ``wanted``: the difficulty asked for, 1 to 10; ``difficulty``: as measured.
+
+    ``inputs``: of a run that passes it, a byte a tick. `ninja-game generate --seed SEED --difficulty WANTED` makes it
+    again, as long as generator and solver are those of the version that made it.
+    """
+
+    seed: int
+    wanted: int
+    name: str
+    difficulty: float
+    level: Level
+    inputs: bytes
+
+    @property
+    def named(self) -> NamedLevel:
+        """The level with name and author."""
+        comment = f"seed {self.seed}, difficulty {self.wanted}: measured {self.difficulty:.1f}"
+        return NamedLevel(self.name, AUTHOR, comment, self.level, "")
+
+    @property
+    def line(self) -> str:
+        """All of it as a line of the file."""
+        runs = " ".join(" ".join(write_inputs(self.inputs)).split())
+        level = write_level_string(self.level, exact=True)
+        return f"{self.seed}\t{self.wanted}\t{self.name}\t{self.difficulty}\t{level}\t{runs}"
+
+
+def read_line(line: str) -> PackedLevel:
+    """The level of a line. Raises FileError for one that is none, or what its parts raise."""
+    fields = line.split("\t")
+    if len(fields) != 6:
+        raise FileError("a line of the generated levels is broken", PACKED, found=f"{len(fields)} fields", expected="6")
+    seed, wanted, name, difficulty, level, runs = fields
+    inputs = read_inputs([(1, runs)]).keys
+    return PackedLevel(int(seed), int(wanted), name, float(difficulty), parse_level_string(level), inputs)
+
+
+def generated_levels(difficulty: int | None = None) -> list[PackedLevel]:
+    """The generated levels that come with the game, in the order of their seeds: of a ``difficulty``, 1 to 10, or all.
+
+    Raises FileError where they are not there, as in a page.
+    """
+    lines = _lines(data_folder("assets") / PACKED)
+    return [read_line(line) for line in lines if difficulty is None or line.split("\t")[1] == str(difficulty)]
+
+
+@cache
+def _lines(path: Path) -> tuple[str, ...]:
+    import lzma  # not in every Python, nor in a page
+
+    reader = lzma.LZMADecompressor(memlimit=MOST_MEMORY)
+    try:
+        text = reader.decompress(read_bytes(path, MOST_BYTES), MOST_BYTES).decode("utf-8")
+    except (OSError, lzma.LZMAError, UnicodeDecodeError) as error:
+        raise FileError("the generated levels of the game cannot be read", str(path)) from error
+    if not reader.eof:
+        raise FileError("the generated levels of the game cannot be read: they end too early", str(path))
+    return tuple(text.splitlines())
+
+
+def pack(lines: list[str]) -> bytes:
+    """Lines as the file has them: the same lines are the same bytes."""
+    import lzma
+
+    return lzma.compress("".join(f"{line}\n" for line in lines).encode("utf-8"), preset=6)
