@@ -46,7 +46,7 @@ JUDGED_EVERY = 16
 """Rounds between two points of the curve; only there an agent may be the best."""
 
 LEVELS = (
-    "00-0-first-steps", "00-1-mind-the-gap", "00-2-rolling-hills", "00-4-seven-league-boots", "01-1-the-chimney",
+    "00-0-first-steps", "00-1-mind-the-gap", "00-3-rolling-hills", "01-1-seven-league-boots", "00-2-the-chimney",
     "10-2-fountain", "10-4-the-juggler", "11-2-kennel", "12-1-four-winds", "20-0-kite", "20-1-phases-of-the-moon",
     "31-1-downhill",
 )  # fmt: skip
