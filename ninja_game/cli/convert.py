@@ -148,11 +148,10 @@ class Output:
 
 
 def _ascii_text(level: NamedLevel, legend: bool) -> str:
-    from ninja_game.formats.ascii.writer import write_ascii_level
+    from ninja_game.formats.ascii.writer import HEADER_KEYS, write_ascii_level
 
-    return write_ascii_level(
-        level.level, name=level.name, author=level.author, comment=level.comment, teaches=level.teaches, legend=legend
-    )
+    about = {key: getattr(level, key) for key in HEADER_KEYS}
+    return write_ascii_level(level.level, **about, legend=legend)
 
 
 def _strings_text(levels: Sequence[NamedLevel | Recording]) -> str:

@@ -123,7 +123,8 @@ def _facts(level: NamedLevel, run: Recording | None) -> dict[str, Any]:
 
     facts: dict[str, Any] = {
         "file": level.file, "record": level.record, "line": level.line, "form": level.form, "name": level.name,
-        "author": level.author, "comment": level.comment, "teaches": level.teaches, "objects": dict(_counts(level)),
+        "author": level.author, "comment": level.comment, "teaches": level.teaches, "says": level.says,
+        "objects": dict(_counts(level)),
         "level_digest": level_digest(level.level), "warnings": level_warnings(level.level),
     }  # fmt: skip
     return facts | ({"recording_ticks": run.ticks} if run else {})
@@ -140,6 +141,8 @@ def _show(console: Console, level: NamedLevel, run: Recording | None, picture: b
     console.print(Text.assemble((name or "(no name)", "bold"), by, f"  {comment}" * bool(comment)))
     if level.teaches:
         console.print(Text(f"teaches: {shown_text(level.teaches)}"))
+    if level.says:
+        console.print(Text(f"says: {shown_text(level.says)}"))
     console.print(Text(f"{file}, record {level.record}", "dim"))
     if picture:
         console.print(level_picture(level.level), soft_wrap=True)

@@ -33,8 +33,8 @@ _RULER = re.compile(r";[\s\d]*")
 
 
 def ascii_text(draft: Draft) -> str:
-    name, author, comment, teaches = draft.about
-    return write_ascii_level(draft.level, name=name, author=author, comment=comment, teaches=teaches)
+    name, author, comment, teaches, says = draft.about
+    return write_ascii_level(draft.level, name=name, author=author, comment=comment, teaches=teaches, says=says)
 
 
 def updated_text(text: str, opened: Draft, draft: Draft) -> str:
@@ -58,7 +58,7 @@ def reads_as(text: str, draft: Draft, *, named: bool = True) -> bool:
         read = parse_ascii_level(text)
     except LevelError:
         return False
-    given = (read.name if named else draft.name, read.author, read.comment, read.teaches)
+    given = (read.name if named else draft.name, read.author, read.comment, read.teaches, read.says)
     objects = read.level.objects
     return (
         given == draft.about

@@ -66,7 +66,7 @@ def open_source(path: Path, record: int = 0) -> Source:
 
 def draft_of(named: NamedLevel) -> Draft:
     """A level of any file as a draft."""
-    return Draft(named.level, named.name, named.author, named.comment, named.teaches)
+    return Draft(named.level, named.name, named.author, named.comment, named.teaches, named.says)
 
 
 def save(source: Source, draft: Draft, path: Path, *, replacing: bool = False) -> Source:

@@ -25,7 +25,7 @@ _TILE = re.compile(r"[0-Q]")
 
 @dataclass(frozen=True)
 class NamedLevel:
-    """A level with what its file says about it; only our readable files say what a level ``teaches``.
+    """A level with what its file says about it; only our readable files say what a level ``teaches`` and ``says``.
 
     ``form``: the format it was found in; ``record`` (from 0) and ``line`` (from
     1): where in ``file``.
@@ -40,6 +40,7 @@ class NamedLevel:
     line: int = 1
     form: Form = "file"
     teaches: str = ""
+    says: str = ""
 
     @property
     def ascii(self) -> bool:
@@ -57,7 +58,11 @@ def parse_levels(text: str, *, file: str = "") -> list[NamedLevel]:
     if form == "ascii":
         read = parse_ascii_level(text, file=file)
         name = read.name or Path(file).stem
-        return [NamedLevel(name, read.author, read.comment, read.level, file, form=form, teaches=read.teaches)]
+        return [
+            NamedLevel(
+                name, read.author, read.comment, read.level, file, form=form, teaches=read.teaches, says=read.says
+            )
+        ]
     if form == "file":
         levels = [_named(record, file) for record in read_level_file(text, file=file) if record.level]
         if not levels:

@@ -146,6 +146,11 @@ class Catalogue:
         self._known = found
         return list(found.values())
 
+    def episode_of(self, entry: Entry) -> Episode | None:
+        """The episode that a level belongs to, if any."""
+        pack = self.ours if entry.source == "game" else self._known.get(entry.source)
+        return pack.episodes.get(int(entry.episode.partition("-")[0])) if pack and entry.episode else None
+
     def following(self, episode: Episode) -> Episode | None:
         """The next episode that there is in an episode's column, if any."""
         later = [each for each in self._column(episode) if each.number > episode.number]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from ninja_game.formats.pack.pars import MARGINS, Pars
+from ninja_game.formats.pack.pars import MEDALS, Pars
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.records import seconds_text
 from ninja_game.player.store import Store
@@ -60,9 +60,13 @@ def medal_of(entry: Entry, mark: Mark | None) -> str:
 
 
 def next_par(pars: Pars, mark: Mark | None) -> str:
-    """The medal after the one that a mark brings, and its par, in words; "" after the best."""
-    medal = pars.next_medal(mark.fastest) if mark else list(MARGINS)[-1]
-    return f"{medal}: {seconds_text(pars.par(medal))} s" if medal else ""
+    """The medal after the one that a mark brings, its par, and by how much it was missed; "" after the best."""
+    if mark is None:
+        return f"{MEDALS[-1]}: pass it"
+    medal = pars.next_medal(mark.fastest)
+    if not medal:
+        return ""
+    return f"{medal}: {seconds_text(pars.par(medal))} s, missed by {seconds_text(mark.fastest - pars.par(medal))} s"
 
 
 def has_all_gold(entry: Entry, mark: Mark | None) -> bool:
@@ -72,15 +76,15 @@ def has_all_gold(entry: Entry, mark: Mark | None) -> bool:
 
 def worst_medal(entries: Iterable[Entry], marks: dict[str, Mark]) -> str:
     """The medal that all the levels have, or a better one; "" where one has none."""
-    order = [*MARGINS, ""]
+    order = [*MEDALS, ""]
     found = (order.index(medal_of(entry, marks.get(entry.digest))) for entry in entries)
-    return order[max(found, default=len(MARGINS))]
+    return order[max(found, default=len(MEDALS))]
 
 
 def tally(entries: Iterable[Entry], marks: dict[str, Mark]) -> Tally:
     """Count what has been reached in levels."""
     pairs = [(entry, marks.get(entry.digest)) for entry in entries]
-    order = list(MARGINS)
+    order = list(MEDALS)
     medals = [medal_of(*pair) for pair in pairs]
     at_least = {medal: sum(order.index(each) <= order.index(medal) for each in medals if each) for medal in order}
     passed = sum(mark is not None for _, mark in pairs)

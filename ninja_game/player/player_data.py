@@ -8,9 +8,9 @@ from pathlib import Path
 from ninja_game.errors import FileError, reason
 from ninja_game.files.user_folder import LEVELS, RECORDS, REPLAYS, SETTINGS, make_user_folder, user_folder
 from ninja_game.files.writing import remove_leftovers
-from ninja_game.player.catalogue import Catalogue, Episode
+from ninja_game.player.catalogue import Catalogue, Entry, Episode
 from ninja_game.player.marks import Marks
-from ninja_game.player.progress import UNLOCKED, Progress, complete_columns
+from ninja_game.player.progress import LOCKED, UNLOCKED, Progress, complete_columns
 from ninja_game.player.records import Records
 from ninja_game.player.settings import Settings, read_settings, write_changes
 from ninja_game.player.statistics import Statistics
@@ -79,6 +79,14 @@ class PlayerData:
         """Whether an episode is unlocked, "cheated" or locked; the first of a column never is."""
         state = self.progress_in(episode.pack).state(episode.number)
         return state if self.catalogue.preceding(episode) else UNLOCKED
+
+    def lock_of(self, entry: Entry) -> str:
+        """Why a level may not be played by itself yet, in words; "" where it may: one rule for every screen."""
+        episode = self.catalogue.episode_of(entry)
+        before = self.catalogue.preceding(episode) if episode else None
+        if episode is None or before is None or self.episode_state(episode) != LOCKED:
+            return ""
+        return f"Locked: pass episode {before.number} first"
 
     @cached_property
     def marks(self) -> Marks:

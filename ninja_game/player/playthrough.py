@@ -18,16 +18,18 @@ from ninja_game.formats.load import load_levels
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.replay.text import Replay
+from ninja_game.formats.sayings import Saying, read_sayings
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry, Episode
+from ninja_game.player.going_on import keep_place, kept_place
 from ninja_game.player.marks import next_par
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.progress import UNLOCKED, Progress, new_unlocks
+from ninja_game.player.progress import LOCKED, UNLOCKED, Progress, new_unlocks
 from ninja_game.player.records import seconds_text
 from ninja_game.player.saving import EPISODE_BEST, count_of, replay_of, save_best, told
 from ninja_game.player.store import Work
 from ninja_game.sim.level import Level
-from ninja_game.sim.rules import LIFETIME
+from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.simulation import Body, Simulation
 
 
@@ -98,9 +100,18 @@ class LevelContext:
         """Called once, right after the tick of the exit contact: saves; gives notices to show."""
         raise NotImplementedError
 
-    def died(self, attempt: Attempt) -> None:
-        """Called once per death: counts it."""
+    def sayings(self) -> tuple[Saying, ...]:
+        """What the level says: nothing once it has been passed, or where the player does not want it."""
+        if not self.data.settings.level_texts or self.data.marks.of(self.entry.digest, self.body):
+            return ()
+        with suppress(LevelError):
+            return read_sayings(self.entry.named.says)
+        return ()
+
+    def died(self, attempt: Attempt) -> bool:
+        """Called once per death: counts it; whether this killer has killed for the first time."""
         told(self.data, count_of(self.data, self.entry, attempt, killer=attempt.killer))
+        return self.data.statistics.deaths()[attempt.killer] == 1
 
     def gave_up(self, attempt: Attempt) -> None:
         """Called when an attempt is left or started again, whether it has ended or not: counts one that has not."""
@@ -199,6 +210,7 @@ class EpisodeRun(LevelContext):
     """An episode from its first level on. ``position``: of the present one, from 0.
 
     ``legitimate``: neither practice nor a "cheated" episode; else nothing is a best and only "reached" moves on.
+    ``replays``: of the levels passed so far, where it is legitimate.
     """
 
     def __init__(self, data: PlayerData, episode: Episode, *, practice_mode: bool = False) -> None:
@@ -207,8 +219,16 @@ class EpisodeRun(LevelContext):
         self.position = 0
         self.legitimate = not practice_mode and data.episode_state(episode) == UNLOCKED
         self.score = 0
+        self.replays: list[Replay] = []
         self._passed: Attempt | None = None
-        self._replays: list[Replay] = []
+
+    def go_on(self, replays: Sequence[Replay]) -> None:
+        """Stand behind the first levels of the episode, which these runs have passed."""
+        self.replays = list(replays)
+        self.position = len(replays)
+        self.entry = self.episode.levels[self.position]
+        self.lifetime = LIFETIME + sum(GOLD_BONUS * run.gold - run.final_tick for run in replays)
+        self.score = self.lifetime
 
     @property
     def _progress(self) -> Progress:
@@ -238,9 +258,9 @@ class EpisodeRun(LevelContext):
         self.score = attempt.lifetime
         self._passed = attempt
         if self.legitimate:
-            self._replays = [*self._replays[: self.position], replay_of(self.data, self.entry, attempt)]
+            self.replays = [*self.replays[: self.position], replay_of(self.data, self.entry, attempt)]
         count = count_of(self.data, self.entry, attempt, passed=True)
-        replays = tuple(self._replays) if self.legitimate else ()
+        replays = tuple(self.replays) if self.legitimate else ()
         # All of it as it is now: the work may be done later, when the run has gone on.
         work = partial(self._save, count, self.position, self.score, replays, legitimate=self.legitimate)
         self.notices = told(self.data, work)
@@ -255,6 +275,7 @@ class EpisodeRun(LevelContext):
         if not replays:
             return []
         notices = save_best(self.data, self.episode.levels[position], replays[-1])
+        keep_place(self.data.store, self.episode.key, replays if position < levels - 1 else ())
         if position == levels - 1:
             if self.data.records.episode_passed(self.episode.key, score, replays):
                 notices.append(EPISODE_BEST.format(seconds_text(score)))
@@ -294,6 +315,34 @@ class EpisodeRun(LevelContext):
             return []
 
         self.notices = told(self.data, work)
+
+
+def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodeRun | None:
+    """Where play goes on: in the episode left half-way, or else in the first one that has not been passed.
+
+    None where there are no episodes.
+    """
+    if not practice_mode and (run := _left_half_way(data)):
+        return run
+    episodes = [data.catalogue.episodes[number] for number in sorted(data.catalogue.episodes)]
+    ahead = [each for each in episodes if not data.progress.is_beaten(each.number)]
+    opened = [each for each in ahead if data.episode_state(each) != LOCKED]
+    chosen = next(iter(opened or ahead or episodes), None)
+    return EpisodeRun(data, chosen, practice_mode=practice_mode) if chosen else None
+
+
+def _left_half_way(data: PlayerData) -> EpisodeRun | None:
+    """The run that was left, if its levels are still what they were."""
+    key, replays = kept_place(data.store)
+    if not replays:
+        return None
+    episodes = (episode for pack in data.catalogue.packs() for episode in pack.episodes.values())
+    episode = next((episode for episode in episodes if episode.key == key), None)
+    if episode is None or len(replays) >= len(episode.levels):
+        return None
+    run = EpisodeRun(data, episode)
+    run.go_on(replays)
+    return run
 
 
 def _stamp(entry: Entry) -> tuple[int, int]:

@@ -14,11 +14,11 @@ from ninja_game.player.records import level_score, seconds_text
 from ninja_game.player.store import Work
 
 SAVED = ": saved"
-NEW_BEST = "Personal best {}" + SAVED
-FIRST_PASS = "First time through, {}" + SAVED
+NEW_BEST = "Personal best {} s" + SAVED
+FIRST_PASS = "First time through, {} s left" + SAVED
 NEW_MEDAL = "{} medal" + SAVED
 NEW_ALL_GOLD = "All gold" + SAVED
-EPISODE_BEST = "Episode best {}" + SAVED
+EPISODE_BEST = "Episode best {} s" + SAVED
 REPLAY_KEPT = "Replay" + SAVED
 NOT_SAVED = "Not saved yet: {}"
 

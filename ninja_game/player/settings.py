@@ -70,6 +70,7 @@ class Settings:
     tabs_height: int = 0
     play_speed: int = 100
     practice: bool = False
+    level_texts: bool = True
     name: str = ""
     site: str = ""
     dead_zone: float = 0.35
@@ -166,6 +167,7 @@ RULES = {
     ),
     "play_speed": _whole("tas", 10, 800, "of playing in the TAS editor, percent"),
     "practice": _flag("play", "practice mode: saving states, rewinding, slow motion; nothing counts"),
+    "level_texts": _flag("play", "levels that have not been passed say how they are meant"),
     "name": Rule("play", _is_name, "at most 40 printable characters", "of the player, in replays"),
     "site": Rule(
         "play",

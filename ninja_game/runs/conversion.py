@@ -110,8 +110,8 @@ def left_out(form: str, found: Sequence[NamedLevel | Recording], texts: Sequence
         lost.append("the recordings (--to replay or --to file keeps them)")
     if form == "string" and any(named.author or named.comment for named in found):
         lost.append("names, authors and comments of levels")
-    if form != "ascii" and any(isinstance(named, NamedLevel) and named.teaches for named in found):
-        lost.append("what levels teach")
+    if form != "ascii" and any(isinstance(named, NamedLevel) and (named.teaches or named.says) for named in found):
+        lost.append("what levels teach and say")
     if form in ("celeste", "libtas"):
         lost.append("levels, names and authors")
     if form in ("replay", "inputs") and any(recording.comment for recording in found):

@@ -10,7 +10,7 @@ from typing import Generic, TypeVar
 
 import pygame
 
-from ninja_game.formats.pack.pars import MARGINS
+from ninja_game.formats.pack import pars
 from ninja_game.ui.theme import Area, Theme, inside
 
 PAD = 8
@@ -228,7 +228,7 @@ class Slider(Widget):
 
 _METALS = {"bronze": "#b8743a", "silver": "#b4bcc6", "gold": "#e3b021", "author": "#5fb2a5"}
 _INK = pygame.Color("#1d1d22")
-MEDALS = tuple(reversed(MARGINS))
+MEDALS = tuple(reversed(pars.MEDALS))
 """All of them, the easiest first."""
 
 

@@ -177,7 +177,10 @@ def test_what_a_level_teaches_is_kept_in_readable_levels_and_missed_in_those_of_
     source.write_text(TINY.replace("author: me\n", "author: me\nteaches: patience\n"))
     assert convert(source, tmp_path / "b.txt", "--to", "ascii").stderr == "left out: comment lines\n"
     assert "\nteaches: patience\n" in (tmp_path / "b.txt").read_text()
-    assert convert(tmp_path / "b.txt", tmp_path / "a.txt", "--to", "file").stderr == "left out: what levels teach\n"
+    assert (
+        convert(tmp_path / "b.txt", tmp_path / "a.txt", "--to", "file").stderr
+        == "left out: what levels teach and say\n"
+    )
     source.write_text(TINY.replace("mine 5.5,7 ; watch out", "mine 1.15,7px"))
     assert "the last bit of some numbers" in convert(source, tmp_path / "c.txt").stderr
 

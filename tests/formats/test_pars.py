@@ -13,10 +13,14 @@ PARS = Pars("ab", "cd", 400)
 
 
 def test_medals_follow_from_the_tick_of_the_exit_contact() -> None:
-    assert [PARS.medal(tick) for tick in (400, 420, 421, 492, 580, 760, 761)] == [
-        "author", "author", "gold", "gold", "silver", "bronze", "",
+    assert [PARS.medal(tick) for tick in (400, 420, 421, 492, 640, 641, 9999)] == [
+        "author", "author", "gold", "gold", "silver", "bronze", "bronze",
     ]  # fmt: skip
-    assert [PARS.next_medal(tick) for tick in (420, 421, 493, 581, 900)] == ["", "author", "gold", "silver", "bronze"]
+    assert [PARS.next_medal(tick) for tick in (420, 421, 493, 641)] == ["", "author", "gold", "silver"]
+
+
+def test_margins_are_wider_where_play_with_noise_fails_more_often() -> None:
+    assert [Pars("", "", 400, difficulty=points).par("silver") for points in (0.0, 4.0, 8.0)] == [640, 880, 1120]
 
 
 @given(st.integers(0, 10**5))

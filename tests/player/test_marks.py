@@ -36,10 +36,10 @@ def test_better_medal_is_told_once_and_slower_runs_change_nothing(tmp_path: Path
     level = with_pars()
     notices, mark = passed(tmp_path, level, wait=10)
     assert mark == (EXIT_TICK + 10, 0)
-    assert notices == ["First time through, 89.175: saved", "Silver medal: saved"]
+    assert notices == ["First time through, 89.175 s left: saved", "Silver medal: saved"]
     notices, mark = passed(tmp_path, level)
     assert mark == (EXIT_TICK, 0)
-    assert notices == ["Personal best 89.425: saved", "Author medal: saved"]
+    assert notices == ["Personal best 89.425 s: saved", "Author medal: saved"]
     assert passed(tmp_path, level, wait=30) == ([], mark)
 
 
@@ -76,7 +76,7 @@ def test_levels_without_pars_have_marks_and_no_medal(tmp_path: Path) -> None:
 
 def test_tally_counts_every_medal_or_a_better_one() -> None:
     first, second, third = with_pars(), with_pars(gold=1), entry(deadly_level())
-    marks = {first.digest: Mark(EXIT_TICK, 0), second.digest: Mark(40, 1)}
+    marks = {first.digest: Mark(EXIT_TICK, 0), second.digest: Mark(60, 1)}
     assert tally([first, second, third], marks) == (3, 2, {"author": 1, "gold": 1, "silver": 1, "bronze": 2}, 1)
     assert worst_medal([first, second], marks) == "bronze"
     assert worst_medal([first, third], marks) == ""

@@ -128,7 +128,7 @@ def _first_steps(driver: MenuDriver) -> Iterator[str]:
 
 def _an_episode(driver: MenuDriver) -> Iterator[str]:
     """The first episode, with a pause and a death on the way."""
-    driver.open("Play")
+    driver.open("Episodes")
     driver.frames(8)
     yield "episodes-new"
     driver.press("down")

@@ -13,6 +13,7 @@ from ninja_game.formats.ascii.places import shown
 from ninja_game.formats.ascii.problems import Problems
 from ninja_game.formats.ascii.writer import HEADER_KEYS, MAGIC, VERSION, write_ascii_level
 from ninja_game.formats.lines import MOST_NAME, UNCOMMENTED, Line, numbered_lines
+from ninja_game.formats.sayings import read_sayings
 from ninja_game.sim.level import Level
 
 __all__ = ["AsciiLevel", "is_ascii_level", "parse_ascii_level", "write_ascii_level"]
@@ -20,13 +21,14 @@ __all__ = ["AsciiLevel", "is_ascii_level", "parse_ascii_level", "write_ascii_lev
 
 @dataclass(frozen=True)
 class AsciiLevel:
-    """A level as its file gives it: who made it, what it is, and what it teaches."""
+    """A level as its file gives it: who made it, what it is, what it teaches, and what it says."""
 
     name: str
     author: str
     comment: str
     level: Level
     teaches: str = ""
+    says: str = ""
 
 
 def is_ascii_level(text: str) -> bool:
@@ -111,6 +113,11 @@ def _read_header(lines: Sequence[Line], problems: Problems) -> dict[str, str]:
             if len(fields[key]) > MOST_NAME and key != "comment":
                 what = f"a text of {len(fields[key]):,} characters"
                 problems.add(what, number, found=shown(fields[key]), expected=f"at most {MOST_NAME:,}")
+            elif key == "says":
+                try:
+                    read_sayings(fields[key])
+                except LevelError as error:
+                    problems.add_error(error, number)
     return fields
 
 

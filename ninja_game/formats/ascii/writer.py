@@ -28,7 +28,7 @@ from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec, well_formed
 
 MAGIC = "ninja-game level"
 VERSION = 1
-HEADER_KEYS = ("name", "author", "comment", "teaches")
+HEADER_KEYS = ("name", "author", "comment", "teaches", "says")
 
 RULER = (
     ";    " + "".join(str(column // 10) if column > 9 else " " for column in range(1, COLUMNS + 1)) + "\n"
@@ -38,7 +38,14 @@ RULER = (
 
 
 def write_ascii_level(
-    level: Level, *, name: str = "", author: str = "", comment: str = "", teaches: str = "", legend: bool = False
+    level: Level,
+    *,
+    name: str = "",
+    author: str = "",
+    comment: str = "",
+    teaches: str = "",
+    says: str = "",
+    legend: bool = False,
 ) -> str:
     """A level in our ASCII format; reading it gives the same tiles, records, order and float64 values.
 
@@ -48,7 +55,7 @@ def write_ascii_level(
     parts = [visible_parts(record) for record in level.objects]
     drawn = drawn_only(level, parts)
     rows = picture_rows(level, parts)
-    fields = zip(HEADER_KEYS, (name, author, comment, teaches), strict=True)
+    fields = zip(HEADER_KEYS, (name, author, comment, teaches, says), strict=True)
     text = [f"{MAGIC} {VERSION}\n"]
     text += [f"{key}: {header_text(value)}".rstrip() + "\n" for key, value in fields if value or key in HEADER_KEYS[:2]]
     text += ["\n", RULER]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 
@@ -16,6 +17,8 @@ from ninja_game.errors import LevelError, NinjaGameError, reason
 from ninja_game.files.shown_text import file_stem
 from ninja_game.files.user_folder import LEVELS, free_path
 from ninja_game.formats.ascii.writer import HEADER_KEYS
+from ninja_game.formats.lines import MOST_NAME
+from ninja_game.formats.sayings import read_sayings
 from ninja_game.play.app import App
 from ninja_game.play.editor.controls import COMMANDS
 from ninja_game.play.editor.palette_view import PaletteView
@@ -41,6 +44,12 @@ W A S D turn them. Without a mouse: arrows move the pointer, Space draws, Shift 
 
 NAMELESS = "My level"
 """What a level is called if its maker gives it no name."""
+
+_ABOUT = {
+    "teaches": "What it teaches",
+    "says": "Says, such as start: {jump} jumps | switch: Now the exit | death 3: Wait",
+}
+"""Prompts of the fields whose names say too little."""
 
 
 class EditorCommands(DocumentCommands):
@@ -119,7 +128,9 @@ class EditorCommands(DocumentCommands):
         session = self.session
         level = session.level_to_test(here=here)
         try:
-            screen = TryScreen(self.app, session.name, level, lambda inputs: session.tried(level, inputs))
+            screen = TryScreen(
+                self.app, session.name, level, lambda inputs: session.tried(level, inputs), says=session.draft.says
+            )
         except LevelError as error:
             self.app.notify(f"{error.what}: key 9 among the objects places a ninja, F6 tests with one at the pointer")
             return
@@ -181,12 +192,18 @@ class EditorCommands(DocumentCommands):
 
         self.app.push(FormPanel(self.app, "Save as", fields, "Save", on_accept))
 
-    def about(self) -> None:
-        """Name, author, comment, what the level teaches."""
-        about = zip(HEADER_KEYS, self.session.draft.about, strict=True)
-        fields = [(key.capitalize(), text, 200) for key, text in about]
+    def about(self, typed: Sequence[str] = ()) -> None:
+        """Name, author, comment, what the level teaches and says; ``typed``: what was typed and could not be taken."""
+        about = zip(HEADER_KEYS, typed or self.session.draft.about, strict=True)
+        fields = [(_ABOUT.get(key, key.capitalize()), text, MOST_NAME if key == "says" else 200) for key, text in about]
 
         def on_accept(texts: list[str]) -> None:
+            try:
+                read_sayings(texts[-1])
+            except LevelError as error:
+                self.about(texts)
+                self.app.notify(reason(error))
+                return
             tools = self.session.tools
             tools.finish()
             tools.history.change(Draft(tools.draft.level, *texts))

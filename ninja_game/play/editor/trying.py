@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from ninja_game.formats.named_level import NamedLevel
+from ninja_game.formats.sayings import Saying, read_sayings
 from ninja_game.play.app import App
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.player.attempt import Attempt
@@ -23,11 +24,16 @@ class TryContext(LevelContext):
         """None: nobody has a best on a level that is being made."""
         return []
 
+    def sayings(self) -> tuple[Saying, ...]:
+        """All of them, however often the level was passed."""
+        return read_sayings(self.entry.named.says)
+
     def passed(self, attempt: Attempt) -> list[str]:
         return ["It can be passed"]
 
-    def died(self, attempt: Attempt) -> None:
+    def died(self, attempt: Attempt) -> bool:
         """Nothing is counted."""
+        return False
 
     def gave_up(self, attempt: Attempt) -> None:
         """Nothing is counted."""
@@ -39,8 +45,9 @@ class TryContext(LevelContext):
 class TryScreen(LevelScreen):
     """Plays a level; the back key leaves at once, whatever is going on. Raises LevelError for one without a ninja."""
 
-    def __init__(self, app: App, name: str, level: Level, left: Left) -> None:
-        named = NamedLevel(f"{name}    {app.controls.name('back')}: back to the editor", "", "", level, "")
+    def __init__(self, app: App, name: str, level: Level, left: Left, *, says: str = "") -> None:
+        title = f"{name}    {app.controls.name('back')}: back to the editor"
+        named = NamedLevel(title, "", "", level, "", says=says)
         super().__init__(app, TryContext(app.player, Entry(named, "yours"), practice_mode=True))
         self._left = left
         self._last = b""

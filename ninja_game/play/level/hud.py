@@ -7,13 +7,16 @@ from dataclasses import dataclass
 
 import pygame
 
+from ninja_game.formats.sayings import named_keys
 from ninja_game.play.level.play import DEATH_PAUSE, LevelPlay, Phase
+from ninja_game.play.level.sayings import WHY
+from ninja_game.player.marks import Mark, next_par
 from ninja_game.player.records import seconds_text
 from ninja_game.player.statistics import SELF
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.rules import LIFETIME
-from ninja_game.ui.canvas import HEIGHT
-from ninja_game.ui.theme import Palette, Theme, mixed
+from ninja_game.ui.canvas import HEIGHT, WIDTH
+from ninja_game.ui.theme import Palette, Theme, mixed, wrapped
 from ninja_game.ui.widgets import draw_medal
 
 _BAR_LEFT, _BAR_MIDDLE = 24.0, 12.0
@@ -42,7 +45,8 @@ class HudView:
 
     ``lifetime``: ticks, for the time bar; ``label``: a word in its place. ``foot``: texts at the left and the right of
     the border below. ``keys``: those of the present tick, ``frame_ms``: of the last picture; None: not shown.
-    ``message``: title and lines of a panel, and its top; ``medal``: what stands beside its title.
+    ``said``: a text of the level, and the top of its panel. ``message``: title and lines of a panel, and its top;
+    ``medal``: what stands beside its title.
     """
 
     lifetime: float
@@ -50,6 +54,7 @@ class HudView:
     foot: tuple[str, str]
     keys: int | None = None
     frame_ms: float | None = None
+    said: tuple[str, float] | None = None
     message: tuple[str, Sequence[str], float] | None = None
     medal: str = ""
 
@@ -68,6 +73,8 @@ class Hud:
             written.append(self.frame_time(surface, view.frame_ms))
         if view.keys is not None:
             written.append(self.keys(surface, view.keys))
+        if view.said is not None:
+            written.append(self.said(surface, *view.said))
         if view.message is not None:
             written.append(self.message(surface, *view.message, medal=view.medal))
         return written
@@ -131,6 +138,19 @@ class Hud:
             theme.text(surface, line, 396, y + 32 + 15 * k, size=9, colour=theme.palette.faint, align="centre")
         return rect
 
+    def said(self, surface: pygame.Surface, text: str, y: float) -> pygame.Rect:
+        """A text of the level in a panel from ``y`` on; in the border below, one line."""
+        theme = self.theme
+        lines = wrapped(theme, text, 560, SAID) if y < IN_BORDER else [theme.fit(text, 730, SAID)]
+        w = max(theme.width(line, SAID) for line in lines) + 28
+        high = SAID + 5
+        rect = theme.panel(surface, (WIDTH - w) / 2, y, w, high * len(lines) + (12 if y < IN_BORDER else 4), 4)
+        theme.canvas.fill_rect(surface, theme.palette.accent, (WIDTH - w) / 2, y + 3, 3, high * len(lines) - 2)
+        for k, line in enumerate(lines):
+            top = y + high * k + (7 if y < IN_BORDER else 3)
+            theme.text(surface, line, WIDTH / 2, top, size=SAID, align="centre", bold=True)
+        return rect
+
     def keys(self, surface: pygame.Surface, held: int, x: float = 366) -> pygame.Rect:
         """The three keys of the present input below the level, from ``x`` on: left, jump, right."""
         palette, canvas = self.theme.palette, self.theme.canvas
@@ -148,6 +168,9 @@ class Hud:
 ABOVE, BELOW = 34.0, 494.0
 """Where the panel of a passed level begins: near the upper or the lower border."""
 
+SAID, IN_BORDER = 12.5, 577.0
+"""Size of a text that the level says, and where it stands in play: in the border, where it hides nothing."""
+
 KeyName = Callable[[str], str]
 """Gives what to press for an action."""
 
@@ -158,13 +181,15 @@ def hud_view(play: LevelPlay) -> HudView:
     key, settings = app.controls.name, app.settings
     gold = f"{attempt.gold} / {play.all_gold}"
     message, medal = None, ""
+    # At the far side from the ninja, so that neither its dance nor the way that it came is hidden.
+    y = ABOVE if attempt.simulation.world.ninja.y > HEIGHT / 2 else BELOW
+    text = play.sayings.text if play.phase in {Phase.READY, Phase.PLAY} else ""
+    said = (named_keys(text, key), y if play.phase is Phase.READY else IN_BORDER) if text else None
     if play.phase is Phase.PASSED:
         keys = f"{key('confirm')}: go on    {key('retry')}: retry    {key('replay')}: replay"
         if not context.leads_on:
             keys = f"{key('confirm')}: play it again    {key('replay')}: replay    {key('back')}: leave"
-        # At the far side from the ninja, so that neither its dance nor the way that it came is hidden.
-        y = ABOVE if attempt.simulation.world.ninja.y > HEIGHT / 2 else BELOW
-        message = f"Passed with {seconds_text(attempt.score)}", [*_reached(play, gold), keys], y
+        message = f"Passed in {seconds_text(attempt.ended_tick)} s", [*_reached(play, gold), keys], y
         medal = context.pars.medal(attempt.ended_tick) if context.pars else ""
     hint = _hint(play, key)
     title = f"{context.title}    {play.aim}" if play.phase is Phase.READY and play.aim else context.title
@@ -175,19 +200,20 @@ def hud_view(play: LevelPlay) -> HudView:
         (title, hint or f"gold {gold}"),
         keys=play.keys if settings.show_keys and not hint else None,
         frame_ms=app.frame_ms if settings.show_frame_time else None,
+        said=said,
         message=message,
         medal=medal,
     )
 
 
 def _reached(play: LevelPlay, gold: str) -> list[str]:
-    """The time of a passed run with its medal and the next one, and its gold."""
+    """The medal of a passed run and by how much it missed the next one; its gold, and the time that is left."""
     tick, pars = play.attempt.ended_tick, play.context.pars
-    lines = [f"{gold} gold" + (", all of it" if play.attempt.gold == play.all_gold > 0 else "")]
+    all_of_it = ", all of it" if play.attempt.gold == play.all_gold > 0 else ""
+    lines = [f"{gold} gold{all_of_it}    {seconds_text(play.attempt.score)} s left on the clock: your score"]
     if pars:
-        medal, following = pars.medal(tick), pars.next_medal(tick)
-        text = f"{seconds_text(tick)} s" + (f": {medal} medal" if medal else "")
-        lines.insert(0, f"{text}    {following}: {seconds_text(pars.par(following))} s" if following else text)
+        following = next_par(pars, Mark(tick, 0))
+        lines.insert(0, f"{pars.medal(tick).capitalize()} medal" + (f"    {following}" if following else ""))
     return lines
 
 
@@ -220,7 +246,7 @@ def cause_of_death(play: LevelPlay) -> str:
     if play.attempt.own_hand:
         return "You gave up."
     if play.killer != SELF:
-        return f"Killed by a {play.killer}."
+        return f"Killed by a {play.killer}." + f" {WHY[play.killer]}" * play.first_death
     if play.crushed:
         return "You were crushed."
     return "Out of time." if play.attempt.lifetime <= 0 else "That was too hard a landing."

@@ -7,6 +7,7 @@ from random import Random
 
 from ninja_game.play.app import App
 from ninja_game.play.clock import RunClock
+from ninja_game.play.level.sayings import Sayings
 from ninja_game.play.replay.playback import Ghost, Playback
 from ninja_game.player.attempt import Attempt, Moment
 from ninja_game.player.playthrough import LevelContext
@@ -55,9 +56,9 @@ class LevelPlay:
     """One level of a context, tried again and again.
 
     ``view`` shows every tick. ``after_end``: ticks since the exit contact or death; ``killer``: what killed, one of
-    ``statistics.KILLERS``, ``crushed`` whether by being crushed. ``keys``: those of the last tick. ``notices``: what a
-    pass has brought. ``aim``: the next par, while it waits at the start. ``changed``: more than a tick has happened, so
-    that everything has to be drawn again.
+    ``statistics.KILLERS``, ``crushed`` whether by being crushed, ``first_death`` whether it never did before. ``keys``:
+    those of the last tick. ``notices``: what a pass has brought. ``aim``: the next par, while it waits at the start.
+    ``changed``: more than a tick has happened, so that everything has to be drawn again.
     """
 
     def __init__(self, app: App, context: LevelContext) -> None:
@@ -72,6 +73,7 @@ class LevelPlay:
         self.view = LevelView(app, self.attempt.simulation, seed=self.rng.randrange(1 << 30))
         self.all_gold = context.level.gold
         self.show_tutorial = context.show_tutorial
+        self.sayings = Sayings(context.sayings())
         self.shown_lifetime = 0.0
         self.ghosts: list[Ghost] = []
         self._phase_before = Phase.READY
@@ -82,7 +84,8 @@ class LevelPlay:
         self._held_before = self.app.controls.poll()
         self.keys = 0
         self.after_end = 0
-        self.killer, self.crushed = "", False
+        self.killer, self.crushed, self.first_death = "", False, False
+        self.sayings.at_start()
         self.notices: list[str] = []
         self.aim = self.context.aim()
         runs = self.context.ghosts()
@@ -201,6 +204,8 @@ class LevelPlay:
             self.attempt.tick(self.keys)
             self.view.on_tick()
             self.tools.on_tick()
+            if self.phase is Phase.PLAY and self.sayings.on_tick(self.attempt.simulation.world):
+                self.changed = True
             self._note_end()
         if due and self.phase is Phase.PLAY:
             self.attempt.check_time()
@@ -220,7 +225,8 @@ class LevelPlay:
             else:
                 self.killer = self.attempt.killer
                 self.crushed = cause_of(self.attempt.simulation.world) == CRUSHED
-                self.context.died(self.attempt)
+                self.sayings.on_death()
+                self.first_death = self.context.died(self.attempt)
         elif self.phase in {Phase.DEAD, Phase.PASSED}:
             self.after_end += 1
             self.changed = self.changed or self.after_end == DEATH_PAUSE + 1

@@ -17,6 +17,7 @@ from ninja_game.formats.load import load_levels
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.level.screen import play_level
+from ninja_game.play.menus.episodes import draw_look
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text, where_from
@@ -163,7 +164,9 @@ class Browser(ThumbnailScreen):
 
     def play(self, index: int, *, practice: bool = False) -> None:
         if index < len(self.shown):
-            self.message = play_level(self.app, self.shown[index], practice=practice)
+            self.message = self.player.lock_of(self.shown[index]) or play_level(
+                self.app, self.shown[index], practice=practice
+            )
 
     def _change(self) -> None:
         if self._edit is not None and self.selected is not None:
@@ -199,7 +202,7 @@ class Browser(ThumbnailScreen):
         for number, text in enumerate(filter(None, (entry.named.comment, teaches))):
             theme.text(surface, text, SIDE, 364 + 13 * number, size=11, width=SIDE_WIDTH)
         best = self.bests.get(entry.digest)
-        text = f"Your best: {seconds_text(best.score)} with {best.gold} gold" if best else "Not passed yet"
+        text = f"Your best: {seconds_text(best.score)} s left with {best.gold} gold" if best else "Not passed yet"
         theme.text(surface, text, SIDE, 390, size=12, colour=palette.good if best else palette.faint)
         mark = self.marks.get(entry.digest)
         if mark:
@@ -221,11 +224,13 @@ class Browser(ThumbnailScreen):
         self.thumbnails.draw(surface, entry, x + 4, y + 4, PICTURE)
         left = x + PICTURE + 14
         theme.text(surface, entry.title, left, y + 11, size=12, bold=chosen, width=200)
+        if self.player.lock_of(entry):
+            draw_look(surface, theme, "locked", (x + 4 + PICTURE / 2 - 11, y + 16, 22, 22))
         source = entry.named.author or ("your folder" if entry.source == "yours" else "")
         theme.text(surface, source, left, y + 32, size=10, colour=palette.faint, width=190)
         best = self.bests.get(entry.digest)
         if best:
-            score = seconds_text(best.score)
+            score = f"{seconds_text(best.score)} s left"
             theme.text(surface, score, x + w - 8, y + 11, size=12, colour=palette.good, align="right")
         all_gold_and_medal(surface, theme, entry, self.marks.get(entry.digest), x + w - 16, y + 37)
         if entry.pars and entry.pars.difficulty is not None:

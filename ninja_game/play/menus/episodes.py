@@ -239,7 +239,9 @@ class EpisodeGrid(ThumbnailScreen):
         head = f"Episode {episode.number}: {episode.name}"
         theme.text(surface, head, SIDE, 66, size=16, bold=True, width=364)
         best = self.player.records.episode_best(episode.key)
-        text = f"Your best: {seconds_text(best.score)}" if best else f"{len(episode.levels)} levels, not passed yet"
+        text = (
+            f"Your best: {seconds_text(best.score)} s left" if best else f"{len(episode.levels)} levels, not passed yet"
+        )
         theme.text(surface, self._hint() if self._state(episode.number) == LOCKED else text, SIDE, 96, size=11,
                    colour=palette.good if best else palette.faint)  # fmt: skip
 
@@ -305,7 +307,11 @@ class EpisodeGrid(ThumbnailScreen):
         all_gold_and_medal(surface, theme, entry, mark, x + w - 14, y + 19)
         best = self.player.records.level_best(entry.digest)
         played = self.player.statistics.played(entry.digest)
-        text = f"best {seconds_text(best.score)}, {best.gold} of {entry.all_gold} gold" if best else "not passed yet"
+        text = (
+            f"best {seconds_text(best.score)} s left, {best.gold} of {entry.all_gold} gold"
+            if best
+            else "not passed yet"
+        )
         colour = theme.palette.good if best else theme.palette.faint
         theme.text(surface, text, left, y + 32, size=11, colour=colour)
         theme.text(surface, time_and_par(entry, mark), left, y + 48, size=10)

@@ -16,6 +16,7 @@ from ninja_game.play.app import App, Screen
 from ninja_game.play.clock import RunClock
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.lab.screen import LabScreen
+from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.episodes import EpisodeGrid
@@ -27,6 +28,7 @@ from ninja_game.play.menus.replays import ReplaysScreen
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.playback import Playback
 from ninja_game.player.catalogue import Entry
+from ninja_game.player.playthrough import EpisodeRun, next_run
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.theme import Area
@@ -43,16 +45,27 @@ TITLE = "NINJA"
 
 
 class MainMenu(MenuScreen):
-    """Where the game begins and where every way back ends."""
+    """Where the game begins and where every way back ends. ``run``: with which play goes on."""
 
     def __init__(self, app: App) -> None:
         super().__init__(app)
         self.attract = Attract(app)
+        self.run: EpisodeRun | None = None
+
+    def enter(self) -> None:
+        """Look where play goes on."""
+        self.run = next_run(self.player, practice_mode=self.player.settings.practice)
+        super().enter()
+
+    def _play(self) -> None:
+        if self.run is not None:
+            self.app.push(LevelScreen(self.app, self.run))
 
     def entries(self) -> list[Row]:
         """One for each screen; the panel is as high as they need."""
         return [
-            ("Play", self._opener(EpisodeGrid), "Play the episodes"),
+            ("Play", self._play, f"Go on: {self.run.title}" if self.run else "There are no levels"),
+            ("Episodes", self._opener(EpisodeGrid), "Choose an episode, or one of its levels"),
             ("Daily", self._opener(DailyScreen), "The level of the day, made from its date"),
             ("Levels", self._opener(self._browser), "Single levels, and your own files"),
             ("Records", self._opener(RecordsScreen), "Your best runs, and what killed you"),

@@ -62,12 +62,12 @@ class EpisodePassed(ThumbnailScreen):
             self.thumbnails.draw(surface, entry, x, 124, PICTURE)
             theme.text(surface, entry.title, x + PICTURE / 2, 232, size=10, align="centre")
             best = self.player.records.level_best(entry.digest)
-            score = f"best {seconds_text(best.score)}" if best else ""
+            score = f"best {seconds_text(best.score)} s" if best else ""
             theme.text(surface, score, x + PICTURE / 2, 247, size=10, colour=palette.faint, align="centre")
             mark = self.player.marks.of(entry.digest)
             all_gold_and_medal(surface, theme, entry, mark, x + PICTURE - 11, 135)
-        theme.text(surface, seconds_text(self.run.score), WIDTH / 2, 290, size=44, align="centre", bold=True)
-        what = "practice" if self.run.practice_mode else "seconds left on the clock"
+        theme.text(surface, f"{seconds_text(self.run.score)} s", WIDTH / 2, 290, size=44, align="centre", bold=True)
+        what = "practice" if self.run.practice_mode else "left on the clock: the score of the episode"
         theme.text(surface, what, WIDTH / 2, 340, size=11, colour=palette.faint, align="centre")
         for line, notice in enumerate(self.run.notices[-4:]):
             theme.text(surface, notice, WIDTH / 2, 364 + 17 * line, size=12, colour=palette.good, align="centre")

@@ -307,10 +307,11 @@ class SettingsScreen(MenuScreen):
             Label((LEFT, TOP + STEP + 10, 200, 14), "Your name, in replays:"),
             TextEntry((LEFT + 220, TOP + STEP, WIDTH_OF_ROW - 220, HEIGHT_OF_ROW), "unnamed",
                       self.player.settings.name, lambda text: self.change(name=text)),
+            self._choice(2, "Texts of levels", "level_texts", SWITCH, "Levels that you have not passed say how"),
         ]  # fmt: skip
         if overclock_unlocked(self.player.columns_complete, self.player.columns_present):
             widgets.append(
-                Slider(self._area(2), "Overclock, ms", (0, FASTEST_TICK_GAIN, 1), lambda: self.app.overclock,
+                Slider(self._area(3), "Overclock, ms", (0, FASTEST_TICK_GAIN, 1), lambda: self.app.overclock,
                        lambda value: setattr(self.app, "overclock", round(value)),
                        hint="Shorter ticks, until the game ends; scores count as usual")
             )  # fmt: skip

@@ -10,7 +10,7 @@ from pathlib import Path
 from ninja_game.errors import FileError
 from ninja_game.files.reading import SUFFIXES
 from ninja_game.files.shown_text import shown_text
-from ninja_game.formats.pack.pars import MARGINS
+from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.records import seconds_text
 from ninja_game.web.board.ranking import FASTEST, HIGHEST, Ranked, Ranking
@@ -121,7 +121,7 @@ class BoardPages:
         return page("Board", lead, tag("p", said), newest, leading, links=self.links)
 
     def _players(self, most: int) -> Markup:
-        heads = ("Player", "Levels", "Runs", "Fastest", "Highest", *(medal.capitalize() for medal in MARGINS))
+        heads = ("Player", "Levels", "Runs", "Fastest", "Highest", *(medal.capitalize() for medal in MEDALS))
         rows: list[tuple[Content, ...]] = [
             (self._name(each.player), each.levels, each.runs, *each.records.values(), *each.medals.values())
             for each in self.ranking.standings[:most]

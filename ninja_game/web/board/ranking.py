@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from ninja_game.formats.pack.pars import MARGINS
+from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.player.catalogue import Episode
 from ninja_game.web.board.runs import Run, ValidatedRuns
 from ninja_game.web.pages.published import PublishedLevels
@@ -43,7 +43,7 @@ class Standing:
     player: str
     levels: int = 0
     runs: int = 0
-    medals: dict[str, int] = field(default_factory=lambda: dict.fromkeys(MARGINS, 0))
+    medals: dict[str, int] = field(default_factory=lambda: dict.fromkeys(MEDALS, 0))
     records: dict[str, int] = field(default_factory=lambda: dict.fromkeys(ORDERS, 0))
 
 

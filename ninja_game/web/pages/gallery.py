@@ -9,7 +9,7 @@ from pathlib import Path
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.links.making import level_link
-from ninja_game.formats.pack.pars import MARGINS, Pars
+from ninja_game.formats.pack.pars import MARGINS, MEDALS, Pars
 from ninja_game.formats.recording import Recording
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.records import seconds_text
@@ -94,12 +94,13 @@ def objects_text(entry: Entry) -> str:
 
 def _pars(pars: Pars) -> Markup:
     rows = [(medal_mark(medal), medal.capitalize(), f"{seconds_text(pars.par(medal))} s") for medal in MARGINS]
+    rows.append((medal_mark(MEDALS[-1]), MEDALS[-1].capitalize(), "any"))
     return table("To the exit in at most", ("", "Medal", "Time"), rows)
 
 
 def medal_mark(medal: str) -> Content:
     """A small mark for a medal, "" for none; its letter tells it rejected, not only its colour."""
-    return tag("span", medal[0].upper(), class_=f"medal {medal}", title=medal) if medal in MARGINS else joined()
+    return tag("span", medal[0].upper(), class_=f"medal {medal}", title=medal) if medal in MEDALS else joined()
 
 
 FOLDER, BOARD = "gallery", "board"

@@ -36,7 +36,7 @@ def overlap(a: Widget, b: Widget) -> bool:
     return ax < bx + bw and bx < ax + aw and ay < by + bh and by < ay + ah
 
 
-@pytest.mark.parametrize("entry", ["Play", "Levels", "Records", "Replays", "Settings", "Help", "Quit"])
+@pytest.mark.parametrize("entry", ["Episodes", "Levels", "Records", "Replays", "Settings", "Help", "Quit"])
 def test_widgets_lie_in_the_stage_and_not_over_each_other(driver: MenuDriver, entry: str) -> None:
     screen = driver.open(entry)
     assert isinstance(screen, MenuScreen)
@@ -47,7 +47,7 @@ def test_widgets_lie_in_the_stage_and_not_over_each_other(driver: MenuDriver, en
     assert not any(overlap(a, b) for a, b in combinations(able, 2))
 
 
-@pytest.mark.parametrize("count", [3, 7, 8, 10, 14])
+@pytest.mark.parametrize("count", [3, 7, 8, 11, 14])
 def test_panel_of_the_main_menu_holds_its_entries(
     driver: MenuDriver, monkeypatch: pytest.MonkeyPatch, count: int
 ) -> None:
@@ -65,7 +65,7 @@ def test_panel_of_the_main_menu_holds_its_entries(
 
 
 def test_grid_shows_only_the_episodes_that_there_are(driver: MenuDriver) -> None:
-    grid = driver.open("Play")
+    grid = driver.open("Episodes")
     assert isinstance(grid, EpisodeGrid)
     episodes = driver.player.catalogue.episodes
     assert sorted(number for number in grid.grid.numbers if number >= 0) == sorted(episodes)

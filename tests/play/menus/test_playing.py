@@ -19,7 +19,7 @@ from tests.support.menu_driver import MenuDriver
 
 
 def test_first_episode_is_played_to_its_end(driver: MenuDriver) -> None:
-    driver.open("Play")
+    driver.open("Episodes")
     driver.press("return")
     for number in range(1, 6):
         level = driver.shown(LevelScreen)
@@ -98,7 +98,7 @@ def test_best_run_of_a_level_runs_along_the_next_time(driver: MenuDriver, tmp_pa
 
 
 def test_deaths_are_counted_and_retry_is_one_key(driver: MenuDriver) -> None:
-    driver.open("Play")
+    driver.open("Episodes")
     driver.press("return", "space")
     level = driver.shown(LevelScreen)
     driver.press("k")
@@ -109,7 +109,7 @@ def test_deaths_are_counted_and_retry_is_one_key(driver: MenuDriver) -> None:
 
 
 def test_practice_saves_no_record_and_unlocks_nothing(driver: MenuDriver) -> None:
-    grid = driver.open("Play")
+    grid = driver.open("Episodes")
     assert isinstance(grid, EpisodeGrid)
     grid._set_practice(True)
     driver.press("return")

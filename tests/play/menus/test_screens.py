@@ -28,7 +28,8 @@ from ninja_game.play.replay.screen import ReplayScreen
 from tests.support.menu_driver import MenuDriver
 
 ENTRIES = {
-    "Play": EpisodeGrid,
+    "Play": LevelScreen,
+    "Episodes": EpisodeGrid,
     "Daily": DailyScreen,
     "Levels": Browser,
     "Records": RecordsScreen,
@@ -38,8 +39,8 @@ ENTRIES = {
     "Settings": SettingsScreen,
     "Help": HelpScreen,
 }
-WITH_FOCUS = [entry for entry in ENTRIES if entry != "Editor"]
-"""Screens on which the arrows move a focus and Escape leads back at once; in the editor they move the pointer."""
+WITH_FOCUS = [entry for entry in ENTRIES if entry not in {"Play", "Editor"}]
+"""Screens on which the arrows move a focus and Escape leads back at once; elsewhere they move ninja and pointer."""
 DIRECTIONS = ("down", "down", "right", "up", "left", "left", "up", "right", "pagedown", "pageup", "end", "home")
 
 
@@ -184,7 +185,7 @@ def test_level_without_a_ninja_is_refused_with_a_message(driver: MenuDriver) -> 
 
 
 def test_pause_offers_going_on_retry_and_leaving(driver: MenuDriver) -> None:
-    driver.open("Play")
+    driver.open("Episodes")
     driver.press("return", "space")
     level = driver.shown(LevelScreen)
     driver.press("p")
@@ -202,7 +203,7 @@ def test_pause_offers_going_on_retry_and_leaving(driver: MenuDriver) -> None:
 
 
 def test_settings_and_help_open_from_the_pause(driver: MenuDriver) -> None:
-    driver.open("Play")
+    driver.open("Episodes")
     driver.press("return", "space", "p", "down", "down", "down", "return")
     assert isinstance(driver.top(), SettingsScreen)
     driver.press("escape", "down", "return")
@@ -212,7 +213,7 @@ def test_settings_and_help_open_from_the_pause(driver: MenuDriver) -> None:
 
 
 def test_locked_episode_does_not_start(driver: MenuDriver) -> None:
-    driver.open("Play")
+    driver.open("Episodes")
     driver.press("down", "return")
     assert isinstance(driver.top(), EpisodeGrid)
 
@@ -260,7 +261,7 @@ def test_damaged_rows_are_told_of_where_they_are_missing(driver: MenuDriver) -> 
     driver.player.store.connection.execute("INSERT INTO death VALUES ('mine', 'often')")
     driver.player.store.connection.execute("INSERT INTO progress VALUES ('', 0, 'far', 0, 0, 0)")
     driver.player.store.epoch += 1
-    driver.open("Play")
+    driver.open("Episodes")
     assert "Some of the records are damaged" in driver.app.notice
     driver.app.notify("")
     driver.press("escape")

@@ -1,0 +1,68 @@
+"""What a level says to the player, and when: the header `says` of our ASCII format (docs/level-format.md)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import NamedTuple
+
+from ninja_game.errors import LevelError
+from ninja_game.sim.level import COLUMNS, ROWS
+
+MOST_SAYINGS, MOST_LETTERS = 4, 120
+KEYS = ("left", "right", "jump", "retry", "suicide", "pause", "replay")
+"""Actions whose key a text may name: {jump} becomes the key or button of whoever plays."""
+
+_KEY = re.compile(r"\{([^{}]*)\}")
+_DEATH = re.compile(r"death ([1-9][0-9]?)")
+_PLACE = re.compile(r"at ([0-9]{1,2}),([0-9]{1,2})")
+_WHEN = "start, switch, gold, 'death 3' or 'at 12,5'"
+
+
+class Saying(NamedTuple):
+    """``when``: "start", "switch", "gold", "death" or "at"; ``deaths``: after how many; ``cell``: column and row."""
+
+    when: str
+    text: str
+    deaths: int = 0
+    cell: tuple[int, int] = (0, 0)
+
+
+def read_sayings(value: str) -> tuple[Saying, ...]:
+    """The texts in a header's value, parted by bars. Raises LevelError.
+
+    >>> read_sayings("start: {jump} jumps | death 3: Wait for the drone")[1]
+    Saying(when='death', text='Wait for the drone', deaths=3, cell=(0, 0))
+    """
+    parts = value.split("|") if value.strip() else []
+    if len(parts) > MOST_SAYINGS:
+        raise LevelError("too many texts in 'says'", found=str(len(parts)), expected=f"at most {MOST_SAYINGS}")
+    return tuple(map(_read, parts))
+
+
+def _read(part: str) -> Saying:
+    when, colon, text = (each.strip() for each in part.partition(":"))
+    found = repr(part.strip()[:40])
+    if not colon or not text:
+        raise LevelError("not a text in 'says'", found=found, expected="WHEN: text", hint=f"WHEN is {_WHEN}")
+    if len(text) > MOST_LETTERS or not text.isprintable():
+        raise LevelError("a text in 'says'", found=found, expected=f"at most {MOST_LETTERS} printable letters")
+    for name in _KEY.findall(text):
+        if name not in KEYS:
+            raise LevelError("an unknown key in 'says'", found=f"{{{name[:40]}}}", expected=", ".join(KEYS))
+    if when in {"start", "switch", "gold"}:
+        return Saying(when, text)
+    if match := _DEATH.fullmatch(when):
+        return Saying("death", text, deaths=int(match[1]))
+    if (match := _PLACE.fullmatch(when)) and 1 <= int(match[1]) <= COLUMNS and 1 <= int(match[2]) <= ROWS:
+        return Saying("at", text, cell=(int(match[1]), int(match[2])))
+    raise LevelError("an unknown moment in 'says'", found=repr(when[:40]), expected=_WHEN)
+
+
+def named_keys(text: str, name: Callable[[str], str]) -> str:
+    """A text with its keys in the words of whoever plays. ``name``: what to press for an action.
+
+    >>> named_keys("{jump} jumps", {"jump": "Z"}.__getitem__)
+    'Z jumps'
+    """
+    return _KEY.sub(lambda match: name(match[1]), text)

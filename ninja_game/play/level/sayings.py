@@ -1,0 +1,75 @@
+"""What a level says while it is played, and why the ninja died when that happens for the first time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ninja_game.formats.sayings import Saying
+from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN
+from ninja_game.sim.memory.schema import World
+from ninja_game.sim.rules import CELL
+
+NEAR = 2.5 * CELL
+"""px from the middle of its cell within which a text with a place is said."""
+
+SHOWN_TICKS = 240
+"""How long a text stays after its event."""
+
+_WHEN = {EXIT_OPENED: "switch", GOLD_TAKEN: "gold"}
+
+WHY = {
+    "zap drone": "It follows the walls and kills at a touch: wait until it has passed.",
+    "laser drone": "It stops, aims, then burns all in a straight line: leave the line while it aims.",
+    "chaingun drone": "It fires when it sees you: stay behind walls, or keep moving.",
+    "gauss turret": "Its cross follows you, then it fires: run on, or break its line of sight.",
+    "floor guard": "It rushes at you along its floor: jump over it.",
+    "thwump": "It falls when you are below it and climbs back slowly; only its face kills.",
+    "homing rocket": "It turns slowly: lead it into a wall.",
+    "mine": "Mines never move: keep a body's width away.",
+}
+"""What helps against each killer, said after its first kill."""
+
+
+class Sayings:
+    """The texts of one level. Each event's text is said once; those of the start until the exit is open.
+
+    ``text``: what is to be read now, or "".
+    """
+
+    def __init__(self, sayings: Sequence[Saying]) -> None:
+        self._sayings = sayings
+        self._said: set[Saying] = set()
+        self._deaths = 0
+        self.at_start()
+
+    def at_start(self) -> None:
+        """The level waits at its start."""
+        due = [each for each in self._sayings if each.when == "death" and each.deaths == self._deaths]
+        start = [each for each in self._sayings if each.when == "start" and each not in self._said]
+        self.text = next((each.text for each in (*due, *start)), "")
+        self._left = SHOWN_TICKS
+
+    def on_death(self) -> None:
+        self._deaths += 1
+        self.text = ""
+
+    def on_tick(self, world: World) -> bool:
+        """After a tick of play; whether there is something else to read."""
+        before = self.text
+        self._left -= 1
+        if self._left <= 0:
+            self.text = ""
+        happened = {_WHEN.get(event.kind) for event in world.events[: world.event_count]}
+        if "switch" in happened:
+            # The goal is understood: no need to say how it begins again.
+            self._said.update(each for each in self._sayings if each.when == "start")
+        for each in self._sayings:
+            if each not in self._said and (each.when in happened or (each.when == "at" and _is_near(world, each))):
+                self._said.add(each)
+                self.text, self._left = each.text, SHOWN_TICKS
+        return self.text != before
+
+
+def _is_near(world: World, saying: Saying) -> bool:
+    x, y = ((number + 0.5) * CELL for number in saying.cell)
+    return max(abs(world.ninja.x - x), abs(world.ninja.y - y)) <= NEAR

@@ -1,0 +1,42 @@
+"""What levels say: read from their header, refused with the reason where it cannot be."""
+
+from __future__ import annotations
+
+import pytest
+
+from ninja_game.errors import LevelError
+from ninja_game.formats.ascii.reader import parse_ascii_level
+from ninja_game.formats.sayings import MOST_LETTERS, read_sayings
+
+PICTURE = "\n".join(["|" + "." * 31 + "|"] * 22 + ["|@" + "." * 30 + "|"])
+
+
+@pytest.mark.parametrize(
+    "value, words",
+    [
+        ("jump!", "expected WHEN: text"),
+        ("start:", "expected WHEN: text"),
+        ("later: jump", "unknown moment in 'says'; found 'later'; expected start, switch, gold"),
+        ("death 0: jump", "unknown moment"),
+        ("at 32,5: jump", "unknown moment"),
+        ("start: press {fly}", "unknown key in 'says'; found {fly}; expected left, right, jump"),
+        ("start: " + "x" * (MOST_LETTERS + 1), "at most 120 printable letters"),
+        ("start: \x07", "printable"),
+        (" | ".join(["start: a"] * 5), "too many texts in 'says'; found 5; expected at most 4"),
+    ],
+)
+def test_what_cannot_be_said_is_refused_with_its_line(value: str, words: str) -> None:
+    with pytest.raises(LevelError, match=r"^a\.txt:3: ") as caught:
+        parse_ascii_level(f"ninja-game level 1\nname: A\nsays: {value}\n{PICTURE}", file="a.txt")
+    assert words in str(caught.value)
+
+
+def test_each_moment_is_read() -> None:
+    says = "start: a | switch: b | death 12: c | at 31,23: d"
+    read = parse_ascii_level(f"ninja-game level 1\nsays: {says}\n{PICTURE}").says
+    assert [(each.when, each.text, each.deaths, each.cell) for each in read_sayings(read)] == [
+        ("start", "a", 0, (0, 0)),
+        ("switch", "b", 0, (0, 0)),
+        ("death", "c", 12, (0, 0)),
+        ("at", "d", 0, (31, 23)),
+    ]
