@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
@@ -18,10 +18,11 @@ from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.formats.pack.files import PackFiles, is_pack
+from ninja_game.formats.pack.files import PackFiles, certificate_name, is_pack
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.pack.pars import Pars
+from ninja_game.formats.replay.text import Replay, parse_replay
 from ninja_game.player.records import episode_key
 
 
@@ -145,6 +146,19 @@ class Catalogue:
                 found[pack.key] = pack
         self._known = found
         return list(found.values())
+
+    def author_run(self, entry: Entry) -> Replay | None:
+        """The certificate to the exit that lies beside a level of a pack; None where there is none for this level."""
+        pack = self.ours if entry.source == "game" else self._known.get(entry.source)
+        if pack is None or pack.files is None:
+            return None
+        name = certificate_name(Path(entry.named.file).name, "exit")
+        try:
+            replay = parse_replay(pack.files.text(name)) if name in pack.files.names else None
+        except (NinjaGameError, OSError):
+            return None
+        own = replay is not None and replay.level_digest == entry.digest
+        return replace(replay, level=entry.named.level) if replay and own else None
 
     def episode_of(self, entry: Entry) -> Episode | None:
         """The episode that a level belongs to, if any."""

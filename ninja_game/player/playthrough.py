@@ -12,6 +12,7 @@ from dataclasses import replace
 from enum import Enum
 from functools import partial
 from pathlib import Path
+from typing import NamedTuple
 
 from ninja_game.errors import LevelError
 from ninja_game.formats.load import load_levels
@@ -31,6 +32,13 @@ from ninja_game.player.store import Work
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.simulation import Body, Simulation
+
+
+class PacedRun(NamedTuple):
+    """A run to race against; ``pace``: its ticks for each tick of the clock, at most 1."""
+
+    inputs: bytes
+    pace: float = 1.0
 
 
 class Navigation(Enum):
@@ -55,7 +63,7 @@ class LevelContext:
         self.practice_mode = practice_mode
         self.lifetime = LIFETIME
         self.notices: list[str] = []
-        self._ghosts: tuple[tuple[str, int], list[bytes]] = ("", -1), []
+        self._ghosts: tuple[tuple[str, int, str], list[PacedRun]] = ("", -1, ""), []
 
     @property
     def leads_on(self) -> bool:
@@ -87,14 +95,31 @@ class LevelContext:
         """Whether the keys are explained at its start: to a player who has passed no level yet."""
         return not self.data.statistics.played().passes
 
-    def ghosts(self) -> list[bytes]:
-        """The inputs of the personal best; read again only when there is another one, since every retry asks."""
+    def ghosts(self) -> list[PacedRun]:
+        """What to race against; read again only when it is another run, since every retry asks."""
         best = self.data.records.level_best(self.entry.digest, self.body)
-        wanted = self.entry.digest, best.id if best else -1
+        medal = self._raced_medal()
+        wanted = self.entry.digest, best.id if best else -1, medal
         if wanted != self._ghosts[0]:
-            replay = self.data.records.replay(best.id) if best else None
-            self._ghosts = wanted, [replay.inputs] if replay else []
+            author = self.data.catalogue.author_run(self.entry) if medal else None
+            if author and self.pars:
+                # The certificate, slowed down so that it just earns the medal.
+                runs = [PacedRun(author.inputs, author.final_tick / self.pars.par(medal))]
+            else:
+                replay = self.data.records.replay(best.id) if best else None
+                runs = [PacedRun(replay.inputs)] if replay else []
+            self._ghosts = wanted, runs
         return self._ghosts[1]
+
+    def _raced_medal(self) -> str:
+        """The medal at whose pace a ghost is wanted; "" for the player's best."""
+        wanted, pars = self.data.settings.ghost, self.pars
+        if wanted == "best" or pars is None:
+            return ""
+        if wanted != "next":
+            return wanted
+        mark = self.data.marks.of(self.entry.digest)
+        return pars.next_medal(mark.fastest) if mark else "silver"
 
     def passed(self, attempt: Attempt) -> list[str]:
         """Called once, right after the tick of the exit contact: saves; gives notices to show."""

@@ -34,6 +34,9 @@ DEFAULT_PALETTE = "classic"
 DEFAULT_COLOUR = ""
 """The ninja's colour that comes with the palette."""
 
+GHOSTS = ("best", "next", "silver", "gold", "author")
+"""What may play along: the player's best run, or the pace of the next medal or of one."""
+
 MOST_INPUTS = 16
 """Keys or buttons of one action at most."""
 
@@ -58,6 +61,7 @@ class Settings:
     reduced_motion: bool = False
     reduced_gore: bool = False
     show_ghost: bool = True
+    ghost: str = "best"
     show_keys: bool = False
     show_frame_time: bool = False
     frame_limit: int = 0
@@ -150,7 +154,10 @@ RULES = {
     "smooth": _flag("look", "positions between two ticks are drawn"),
     "reduced_motion": _flag("look", "fewer particles; nothing plays behind the menus"),
     "reduced_gore": _flag("look", "no blood"),
-    "show_ghost": _flag("look", "the best run plays along"),
+    "show_ghost": _flag("look", "a run to race against plays along"),
+    "ghost": Rule(
+        "look", GHOSTS.__contains__, "'best', 'next', 'silver', 'gold' or 'author'", "your best run, or a medal's pace"
+    ),
     "show_keys": _flag("look", "the keys that are held, while one plays"),
     "show_frame_time": _flag("look", "ms that a picture takes"),
     "frame_limit": _whole("look", 0, 1000, "pictures a second; 0: as the display"),

@@ -10,7 +10,7 @@ from ninja_game.play.app import App
 from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.playthrough import LevelRun
+from ninja_game.player.playthrough import LevelRun, PacedRun
 from ninja_game.sim import kinds
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.ui.input.bindings import Bindings
@@ -67,9 +67,9 @@ class Restless(Bindings):
 class BusyRun(LevelRun):
     """A level with a ghost."""
 
-    def ghosts(self) -> list[bytes]:
+    def ghosts(self) -> list[PacedRun]:
         """One that runs to and fro."""
-        return [bytes(2 if k % 90 < 60 else 1 for k in range(600))]
+        return [PacedRun(bytes(2 if k % 90 < 60 else 1 for k in range(600)))]
 
 
 def busy_screen(app: App, level: Level | None = None) -> LevelScreen:

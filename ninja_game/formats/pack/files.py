@@ -26,6 +26,15 @@ MOST_BYTES = 4 * 2**20
 LEVEL_FILES = re.compile(r"[^/\\:]+\.txt", re.IGNORECASE)
 
 
+def certificate_name(file: str, kind: str) -> str:
+    """Where the certificate of a level file, "exit" or "gold", lies in its pack.
+
+    >>> certificate_name("a.txt", "exit")
+    'certificates/a.exit.replay.txt'
+    """
+    return f"{CERTIFICATES}/{file.rpartition('.')[0]}.{kind}.replay.txt"
+
+
 class PackFiles:
     """What lies in a pack: ``names``, as "pack.toml" or "certificates/a.exit.replay.txt", sorted.
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from ninja_game.errors import NinjaGameError, PackError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel, parse_levels
-from ninja_game.formats.pack.files import CERTIFICATES, INDEX, PARS, PackFiles
+from ninja_game.formats.pack.files import INDEX, PARS, PackFiles, certificate_name
 from ninja_game.formats.pack.index import LEVELS_PER_EPISODE, EpisodeIndex, parse_index
 from ninja_game.formats.pack.pars import Pars, parse_pars
 
@@ -72,9 +72,6 @@ class Pack:
         return {file: pars for file, pars in found.items() if digests.get(file, "").startswith(pars.level or "?")}
 
     def certificate(self, file: str, kind: str) -> str | None:
-        """The name of a level file's certificate, "exit" or "gold"; None where there is none.
-
-        The certificate of ``a.txt`` is ``certificates/a.exit.replay.txt``.
-        """
-        name = f"{CERTIFICATES}/{file.rpartition('.')[0]}.{kind}.replay.txt"
+        """The name of a level file's certificate, "exit" or "gold"; None where there is none."""
+        name = certificate_name(file, kind)
         return name if name in self.files.names else None

@@ -10,7 +10,7 @@ from ninja_game.play.app import App
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.playthrough import LevelContext, Navigation
+from ninja_game.player.playthrough import LevelContext, Navigation, PacedRun
 from ninja_game.sim.level import Level
 
 Left = Callable[[bytes], object]
@@ -20,7 +20,7 @@ Left = Callable[[bytes], object]
 class TryContext(LevelContext):
     """A level that is only tried out: with practice tools and without a clock; nothing counts."""
 
-    def ghosts(self) -> list[bytes]:
+    def ghosts(self) -> list[PacedRun]:
         """None: nobody has a best on a level that is being made."""
         return []
 

@@ -89,8 +89,8 @@ class LevelPlay:
         self.notices: list[str] = []
         self.aim = self.context.aim()
         runs = self.context.ghosts()
-        if runs != [ghost.inputs for ghost in self.ghosts]:
-            self.ghosts = [Ghost(run, self.context.level, self.context.body) for run in runs]
+        if runs != [(ghost.inputs, ghost.pace) for ghost in self.ghosts]:
+            self.ghosts = [Ghost(run, self.context.level, self.context.body, pace=pace) for run, pace in runs]
             self.view.ghosts = self.ghosts
         self.view.on_seek()
 

@@ -22,7 +22,7 @@ from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text, where_from
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.marks import Mark
+from ninja_game.player.marks import Mark, medal_of
 from ninja_game.player.records import SavedReplay, seconds_text
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import ListView
@@ -64,7 +64,8 @@ class Browser(ThumbnailScreen):
             (44, 112, 376, 8 * ROW), ROW, self._draw_row, self.play, empty="No level has these words",
             hint="Enter plays; right leads to the buttons, up to the search", selected=self._select,
         )  # fmt: skip
-        self.watch_best = Button((SIDE, 510, 154, 32), "Watch your best", self._watch)
+        self.watch_best = Button((SIDE, 510, 98, 32), "Watch best", self._watch)
+        self.watch_author = Button((SIDE + 104, 510, 98, 32), "Author's run", self._watch_author)
         self.entry_field = TextEntry((44, 66, 236, 32), "Search name or author", "", self._search)
 
     def enter(self) -> None:
@@ -92,9 +93,10 @@ class Browser(ThumbnailScreen):
             lambda: self.play(self.list.index, practice=True),
             hint=PRACTICE_HINT,
         )
-        change = Button((SIDE + 166, 510, 71, 32), "Edit", self._change, hint="Open it in the editor")
-        link = Button((SIDE + 249, 510, 71, 32), "Copy link", self._copy_link, hint="Whoever opens the link plays it")
-        return [*self.choosers(), play, practice, self.watch_best, *([change] * bool(self._edit)), link]
+        change = Button((SIDE + 208, 510, 46, 32), "Edit", self._change, hint="Open it in the editor")
+        link = Button((SIDE + 260, 510, 60, 32), "Link", self._copy_link, hint="Copy a link that plays this level")
+        watch = self.watch_best, self.watch_author
+        return [*self.choosers(), play, practice, *watch, *([change] * bool(self._edit)), link]
 
     def handle(self, event: InputEvent) -> None:
         """A file dropped on the window is copied into the player's folder; coming back to the window looks again."""
@@ -158,6 +160,9 @@ class Browser(ThumbnailScreen):
         """Only what has been passed can be watched."""
         selected = self.selected
         self.watch_best.enabled = selected is not None and selected.digest in self.bests
+        medal = medal_of(selected, self.marks.get(selected.digest)) if selected else ""
+        self.watch_author.enabled = medal in {"gold", "author"}
+        self.watch_author.hint = "" if self.watch_author.enabled else "A gold medal opens it"
         self.watch_best.hint = "" if self.watch_best.enabled else "This level has not been passed yet"
 
     # --- go ---
@@ -175,6 +180,10 @@ class Browser(ThumbnailScreen):
     def _copy_link(self) -> None:
         if self.selected is not None:
             copy_level_link(self.app, self.selected.named, self.selected.title)
+
+    def _watch_author(self) -> None:
+        if self.selected is not None:
+            watch(self.app, [self.player.catalogue.author_run(self.selected)])
 
     def _watch(self) -> None:
         best = self.bests.get(self.selected.digest) if self.selected else None

@@ -12,6 +12,7 @@ from ninja_game.play.app import App, Screen
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import CANCEL, Menu, Row
 from ninja_game.player.progress import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
+from ninja_game.player.settings import GHOSTS
 from ninja_game.ui.canvas import WIDTH
 from ninja_game.ui.input.bindings import ACTIONS, InputEvent
 from ninja_game.ui.input.gamepad import pad_label
@@ -206,6 +207,7 @@ class BindingTable(ListView):
 
 PAGES = ("Picture", "Sound", "Play", "Keyboard", "Gamepad")
 SWITCH = [("off", False), ("on", True)]
+RACED = [("your best", "best"), ("next medal", "next"), *((medal, medal) for medal in GHOSTS[2:])]
 RATES = [("match display", 0), ("30", 30), ("60", 60), ("120", 120), ("144", 144), ("240", 240)]
 COLOUR_NAMES = ("default", "pink", "olive", "teal", "mauve", "maroon", "white", "gold", "slate", "silver")
 PRACTICE_HINT = "No clock; quick save, rewind, slow motion; no records"
@@ -280,7 +282,7 @@ class SettingsScreen(MenuScreen):
             self._choice(4, "Frame rate", "frame_limit", RATES),
             self._choice(5, "Reduced motion", "reduced_motion", SWITCH, "Fewer particles; nothing plays behind menus"),
             self._choice(6, "Reduced gore", "reduced_gore", SWITCH, "No blood"),
-            self._choice(7, "Ghost of your best run", "show_ghost", SWITCH),
+            self._choice(7, "Ghost", "ghost", RACED, f"{self.app.controls.name('ghost')} shows or hides it in play"),
             self._choice(8, "Show keys in play", "show_keys", SWITCH),
             self._choice(9, "Show frame time", "show_frame_time", SWITCH),
         ]

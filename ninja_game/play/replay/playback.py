@@ -95,11 +95,13 @@ class Ghost:
     """One recording, ticking along.
 
     ``behind``: ticks that it lags behind after a leap: it catches up by the work of a turn with each tick. Not
-    ``alone``: only when it is told to.
+    ``alone``: only when it is told to. ``pace``: its ticks for each tick of the clock, at most 1.
     """
 
-    def __init__(self, inputs: bytes, level: Level, body: Body, *, alone: bool = True) -> None:
+    def __init__(self, inputs: bytes, level: Level, body: Body, *, alone: bool = True, pace: float = 1.0) -> None:
         self.inputs = inputs
+        self.pace = pace
+        self._due = 0.0
         self.simulation = Simulation(level, body=body)
         self._playback = Playback(self.simulation, inputs, spacing=0)
         self.ninja_animation = NinjaAnimation(self.simulation.world, Random(1))  # noqa: S311 - presentation
@@ -118,6 +120,10 @@ class Ghost:
 
     def on_tick(self) -> None:
         self._before = self._now
+        self._due += self.pace
+        if self._due < 1:
+            return
+        self._due -= 1
         if self.behind:
             self.behind += 1
             self.catch_up(self._turn)
@@ -128,6 +134,7 @@ class Ghost:
 
     def on_seek(self, tick: int) -> None:
         """Be where the recording is after that many ticks, or on the way to there."""
+        tick, self._due = int(tick * self.pace), tick * self.pace % 1
         if tick < self.simulation.tick or self.over:
             self._playback.seek(0)
         self.behind = tick - self.simulation.tick

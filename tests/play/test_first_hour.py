@@ -1,0 +1,172 @@
+"""What a new player is told and offered: texts of levels, causes of death, open levels, runs to race against."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from ninja_game.formats.sayings import read_sayings
+from ninja_game.play.level.hud import cause_of_death, hud_view
+from ninja_game.play.level.play import Phase
+from ninja_game.play.level.sayings import SHOWN_TICKS, Sayings
+from ninja_game.play.level.screen import LevelScreen, play_level
+from ninja_game.play.menus.browser import Browser
+from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.replay.screen import ReplayScreen
+from ninja_game.player.playthrough import LevelRun
+from ninja_game.simulation import Simulation
+from tests.support.menu_driver import MenuDriver
+from tests.support.players import deadly_level, entry, short_level
+
+
+@pytest.fixture
+def driver(tmp_path: Path) -> Iterator[MenuDriver]:
+    driver = MenuDriver(tmp_path)
+    yield driver
+    driver.close()
+
+
+def said(level: LevelScreen) -> str:
+    """What the level says on the screen now."""
+    shown = hud_view(level.play).said
+    return shown[0] if shown else ""
+
+
+def test_first_level_says_its_goal_with_the_keys_of_whoever_plays(driver: MenuDriver) -> None:
+    driver.press("return")
+    level = driver.shown(LevelScreen)
+    assert said(level).startswith("Left and Right run, ")
+    assert "Touch the switch, then go through the exit" in said(level)
+    driver.app.controls.pad_used = True
+    assert said(level).startswith("D-pad left and ")
+    driver.app.change_settings(level_texts=False)
+    level.play.sayings = Sayings(level.context.sayings())
+    assert said(level) == ""
+
+
+def test_goal_is_not_said_again_in_a_level_that_was_passed(driver: MenuDriver) -> None:
+    driver.press("return")
+    level = driver.shown(LevelScreen)
+    level.begin()
+    driver.play_replay(1)
+    assert level.phase is Phase.PASSED
+    assert not level.context.sayings()
+
+
+def test_each_text_has_its_moment(driver: MenuDriver) -> None:
+    says = read_sayings("start: go | switch: open | gold: gold | death 2: wait")
+    sayings = Sayings(says)
+    simulation = Simulation(short_level(gold=1))
+    seen = [sayings.text]
+    for _ in range(60):
+        simulation.step_keys(2)
+        if sayings.on_tick(simulation.world):
+            seen.append(sayings.text)
+    assert seen in (["go", "gold", "open"], ["go", "open", "gold"])
+    for _ in range(SHOWN_TICKS):
+        sayings.on_tick(simulation.world)
+    assert sayings.text == ""
+    sayings.at_start()
+    assert sayings.text == "", "the switch was touched: the start needs no words any more"
+    sayings.on_death()
+    sayings.on_death()
+    sayings.at_start()
+    assert sayings.text == "wait"
+
+
+def test_text_at_a_place_is_said_there_once() -> None:
+    simulation = Simulation(short_level())
+    column = int(simulation.world.ninja.x // 24)
+    row = int(simulation.world.ninja.y // 24)
+    near, far = (
+        Sayings(read_sayings(f"at {column},{row}: here")),
+        Sayings(read_sayings(f"at {column + 5},{row}: there")),
+    )
+    simulation.step_keys(0)
+    assert near.on_tick(simulation.world)
+    assert not far.on_tick(simulation.world)
+    assert (near.text, far.text) == ("here", "")
+
+
+def test_first_death_of_each_kind_says_why(driver: MenuDriver) -> None:
+    run = LevelRun(driver.player, entry(deadly_level()))
+    driver.app.push(LevelScreen(driver.app, run))
+    level = driver.shown(LevelScreen)
+    texts = []
+    for _ in range(2):
+        level.begin()
+        driver.keys.script = [2] * 60
+        driver.frames(60)
+        assert level.phase is Phase.DEAD
+        texts.append(cause_of_death(level.play))
+        level.retry()
+    assert texts == ["Killed by a mine. Mines never move: keep a body's width away.", "Killed by a mine."]
+
+
+def test_levels_of_a_locked_episode_are_locked_everywhere(driver: MenuDriver) -> None:
+    browser = driver.open("Levels")
+    assert isinstance(browser, Browser)
+    place = next(k for k, each in enumerate(browser.shown) if each.episode == "01-0")
+    browser.play(place)
+    assert browser.message == "Locked: pass episode 0 first"
+    assert driver.top() is browser
+    for level in range(5):
+        driver.player.progress.level_passed((0, level), legitimate=True)
+    browser.play(place)
+    assert isinstance(driver.top(), LevelScreen)
+
+
+def test_play_goes_on_with_the_next_level(driver: MenuDriver) -> None:
+    menu = driver.shown(MainMenu)
+    assert menu.focus is not None
+    assert menu.focus.hint == "Go on: Episode 0 Level 0: First Steps"
+    driver.press("return")
+    level = driver.shown(LevelScreen)
+    level.begin()
+    driver.play_replay(1)
+    driver.press("q")
+    assert driver.top() is menu
+    assert menu.focus.hint == "Go on: Episode 0 Level 1: Mind the Gap"
+    driver.press("return")
+    assert driver.shown(LevelScreen).context.lifetime > 3000, "with the time that was left"
+
+
+@pytest.mark.parametrize("wanted, medal", [("silver", "silver"), ("author", "author"), ("next", "silver")])
+def test_ghost_of_a_medal_just_earns_it(driver: MenuDriver, wanted: str, medal: str) -> None:
+    driver.app.change_settings(ghost=wanted)
+    first = driver.player.catalogue.episodes[0].levels[0]
+    assert first.pars is not None
+    assert play_level(driver.app, first) == ""
+    level = driver.shown(LevelScreen)
+    level.begin()
+    (ghost,) = level.play.ghosts
+    ticks = 0
+    while not ghost.over:
+        ghost.on_tick()
+        ticks += 1
+    assert ticks <= first.pars.par(medal) + 2
+    assert ticks >= first.pars.par(medal) - 2
+
+
+def test_gold_medal_opens_the_authors_run(driver: MenuDriver) -> None:
+    browser = driver.open("Levels")
+    assert isinstance(browser, Browser)
+    first = browser.shown[0]
+    assert first.pars is not None
+    opened = []
+    for late in (1, 0):
+        driver.player.marks.passed(first.digest, first.pars.par("gold") + late, 0)
+        browser.enter()
+        opened.append(browser.watch_author.enabled)
+    assert opened == [False, True]
+    browser.watch_author.action()
+    driver.shown(ReplayScreen)
+
+
+def test_level_without_its_certificate_races_the_best_run(driver: MenuDriver) -> None:
+    driver.app.change_settings(ghost="gold")
+    own = replace(entry(short_level()), source="yours")
+    assert LevelRun(driver.player, own).ghosts() == []
