@@ -27,6 +27,6 @@ def kept_place(store: Store) -> tuple[str, list[Replay]]:
         try:
             key, *texts = json.loads(value)
             return str(key), [parse_replay(text) for text in texts]
-        except (NinjaGameError, ValueError, TypeError, AttributeError):
+        except (NinjaGameError, ValueError, TypeError, AttributeError, RecursionError):
             break
     return "", []

@@ -65,7 +65,7 @@ def test_practice_neither_keeps_a_place_nor_goes_on_from_one(tmp_path: Path) -> 
     data.close()
 
 
-@pytest.mark.parametrize("value", ["", "[]", "{}", '["nobody", "x"]', "[1, 2]", "5"])
+@pytest.mark.parametrize("value", ["", "[]", "{}", '["nobody", "x"]', "[1, 2]", "5", "[" * 100_000])
 def test_damaged_place_is_forgotten(tmp_path: Path, value: str) -> None:
     data = player_data(tmp_path, episode(*LEVELS))
     data.store.connection.execute("INSERT INTO fact VALUES ('episode left half-way', ?)", (value,))

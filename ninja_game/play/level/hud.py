@@ -139,16 +139,17 @@ class Hud:
         return rect
 
     def said(self, surface: pygame.Surface, text: str, y: float) -> pygame.Rect:
-        """A text of the level in a panel from ``y`` on; in the border below, one line."""
+        """A text of the level in a panel from ``y`` on; in the border below, one line beside the gold."""
         theme = self.theme
-        lines = wrapped(theme, text, 560, SAID) if y < IN_BORDER else [theme.fit(text, 730, SAID)]
-        w = max(theme.width(line, SAID) for line in lines) + 28
-        high = SAID + 5
-        rect = theme.panel(surface, (WIDTH - w) / 2, y, w, high * len(lines) + (12 if y < IN_BORDER else 4), 4)
-        theme.canvas.fill_rect(surface, theme.palette.accent, (WIDTH - w) / 2, y + 3, 3, high * len(lines) - 2)
+        in_border = y >= IN_BORDER
+        size = min(SAID, SAID * BESIDE_GOLD / theme.width(text, SAID)) if in_border else SAID
+        lines = [text] if in_border else wrapped(theme, text, 500, size)
+        margin, high = (3, 17) if in_border else (10, 20)
+        w = max(theme.width(line, size) for line in lines) + 28
+        rect = theme.panel(surface, (WIDTH - w) / 2, y, w, high * len(lines) + 2 * margin - 1, 4)
         for k, line in enumerate(lines):
-            top = y + high * k + (7 if y < IN_BORDER else 3)
-            theme.text(surface, line, WIDTH / 2, top, size=SAID, align="centre", bold=True)
+            top = y + margin + high * k + (high - size) / 2
+            theme.text(surface, line, WIDTH / 2, top, size=size, align="centre")
         return rect
 
     def keys(self, surface: pygame.Surface, held: int, x: float = 366) -> pygame.Rect:
@@ -168,8 +169,8 @@ class Hud:
 ABOVE, BELOW = 34.0, 494.0
 """Where the panel of a passed level begins: near the upper or the lower border."""
 
-SAID, IN_BORDER = 12.5, 577.0
-"""Size of a text that the level says, and where it stands in play: in the border, where it hides nothing."""
+SAID, IN_BORDER, BESIDE_GOLD = 13.5, 576.0, 570.0
+"""Size of a text that the level says; where it stands in play, in the border, hiding nothing; its width there."""
 
 KeyName = Callable[[str], str]
 """Gives what to press for an action."""
@@ -197,7 +198,7 @@ def hud_view(play: LevelPlay) -> HudView:
     return HudView(
         play.shown_lifetime,
         practice if context.practice_mode else "",
-        (title, hint or f"gold {gold}"),
+        ("" if text and play.phase is Phase.PLAY else title, hint or f"gold {gold}"),
         keys=play.keys if settings.show_keys and not hint else None,
         frame_ms=app.frame_ms if settings.show_frame_time else None,
         said=said,
@@ -220,7 +221,8 @@ def _reached(play: LevelPlay, gold: str) -> list[str]:
 def _hint(play: LevelPlay, key: KeyName) -> str:
     """What to press now, or what a pass has brought; "" in play."""
     if play.phase is Phase.READY:
-        return _ready_hint(key, practice_mode=play.context.practice_mode, show_tutorial=play.show_tutorial)
+        show_tutorial = play.show_tutorial and not play.sayings.text
+        return _ready_hint(key, practice_mode=play.context.practice_mode, show_tutorial=show_tutorial)
     if play.phase is Phase.PASSED:
         return "    ".join(play.notices)
     if play.phase is Phase.DEAD and play.after_end > DEATH_PAUSE:
