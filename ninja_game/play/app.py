@@ -14,6 +14,7 @@ from ninja_game.files.user_folder import data_folder, export_path
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
 from ninja_game.play.window import TITLE, Window, save_picture
+from ninja_game.play.wipe import Wipe
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import FASTEST_TICK_GAIN
 from ninja_game.player.settings import Settings
@@ -30,10 +31,11 @@ class Screen:
 
     ``see_through``: the screen below is drawn first. ``below_runs``: the screen below is updated too. ``redraw``: the
     app sets it when the whole window must be drawn again (resized, uncovered, another palette). ``notice_area``: where
-    notices are shown, logical px.
+    notices are shown, logical px. ``wipes``: whether it comes and goes with a wipe.
     """
 
     see_through = False
+    wipes = True
     below_runs = False
     notice_area: Area = (0, HEIGHT - 24, WIDTH, 24)
 
@@ -146,6 +148,9 @@ class ScreenStack:
         return self._screens[max(first, 0) :]
 
 
+UNSEEN = {"dummy", "offscreen", "emscripten"}
+"""Drivers of SDL without a wipe: where nobody looks on, and in a page, where whole pictures cost too much."""
+
 FALLBACK_RATE = 60
 """Pictures per second where the display does not say its rate."""
 
@@ -185,6 +190,8 @@ class App:
         self.notice = ""
         self._notice_ms = 0
         self.window = Window(size, self.settings)
+        self.wipe = Wipe()
+        self.wipes = pygame.display.get_driver() not in UNSEEN
         pygame.font.init()
         self._lay_out()
 
@@ -241,13 +248,22 @@ class App:
         return self.stack.top
 
     def push(self, screen: Screen) -> None:
+        self.wipe_from(screen)
         self.stack.push(screen)
 
     def replace(self, screen: Screen) -> None:
+        self.wipe_from(screen)
         self.stack.replace(screen)
+
+    def wipe_from(self, screen: Screen) -> None:
+        """Let what is seen now give way to another screen, or another level, within a moment."""
+        wanted = self.wipes and screen.wipes and not screen.see_through and not self.settings.reduced_motion
+        if wanted and self.stack:
+            self.wipe.begin(self.surface)
 
     def pop(self) -> None:
         """Go back to the screen below; from the lowest one, end."""
+        self.wipe_from(self.top)
         self.stack.pop()
         if not self.stack:
             self.running = False
@@ -288,6 +304,9 @@ class App:
             self._handle(event)
             if not (self.running and self.stack):
                 return
+        if self.wipe.going_on:
+            self.wipe.update(real_ms)
+            self.stack.redraw_all()
         for screen in self.stack.running():
             screen.update(real_ms)
         if self.notice:
@@ -335,6 +354,7 @@ class App:
     def draw(self) -> None:
         """Draw the screens that are seen and show what changed."""
         changed = self.stack.draw(self.surface)
+        self.wipe.draw(self.surface, self.theme)
         if self.notice and not isinstance(self.top, BossScreen):
             theme, (x, y, w, h) = self.top.theme, self.top.notice_area
             rect = theme.canvas.fill_rect(self.surface, theme.palette.panel, x, y, w, h)

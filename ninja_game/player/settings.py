@@ -60,6 +60,8 @@ class Settings:
     smooth: bool = True
     reduced_motion: bool = False
     reduced_gore: bool = False
+    shake: int = 50
+    particles: int = 100
     show_ghost: bool = True
     ghost: str = "best"
     show_keys: bool = False
@@ -152,8 +154,10 @@ RULES = {
     ),
     "fullscreen": _flag("look", "the whole screen instead of a window"),
     "smooth": _flag("look", "positions between two ticks are drawn"),
-    "reduced_motion": _flag("look", "fewer particles; nothing plays behind the menus"),
+    "reduced_motion": _flag("look", "fewer particles, no shake, no wipes, no freeze; nothing plays behind the menus"),
     "reduced_gore": _flag("look", "no blood"),
+    "shake": _whole("look", 0, 100, "of the picture at explosions, percent"),
+    "particles": _whole("look", 0, 100, "share of the particles that are shown, percent"),
     "show_ghost": _flag("look", "a run to race against plays along"),
     "ghost": Rule(
         "look", GHOSTS.__contains__, "'best', 'next', 'silver', 'gold' or 'author'", "your best run, or a medal's pace"

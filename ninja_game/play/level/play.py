@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from enum import Enum
 from random import Random
 
@@ -22,8 +23,20 @@ _FILL_SHARE = 0.05
 DEATH_PAUSE = 41
 """Ticks after a death before the message comes."""
 
+FREEZE_MS = 50
+"""How long the picture stands still at the exit."""
+
+STAMP_TICKS = 14
+"""Ticks after the exit contact until the medal is stamped."""
+
+TRIES_FROM, TRIES_TICKS, MOST_TRIES = 40, 80, 24
+"""The failed tries run together: from so many ticks after the exit contact, for so many, the newest so many."""
+
 SLOW_TICK_MS = 100
 """A tick in slow motion: a quarter of the speed."""
+
+SHORTEST_TRY = 20
+"""Ticks of a try that is worth being seen again."""
 
 REWIND_TICKS = 2
 """Ticks back for each tick's time that the rewind key is held."""
@@ -55,10 +68,11 @@ _PHASE_OF_OUTCOME = {"running": Phase.PLAY, "dead": Phase.DEAD, "exit": Phase.PA
 class LevelPlay:
     """One level of a context, tried again and again.
 
-    ``view`` shows every tick. ``after_end``: ticks since the exit contact or death; ``killer``: what killed, one of
-    ``statistics.KILLERS``, ``crushed`` whether by being crushed, ``first_death`` whether it never did before. ``keys``:
-    those of the last tick. ``notices``: what a pass has brought. ``aim``: the next par, while it waits at the start.
-    ``changed``: more than a tick has happened, so that everything has to be drawn again.
+    ``view`` shows every tick. ``tries``: the failed ones, inputs. ``after_end``: ticks since the exit contact or death;
+    ``killer``: what killed, one of ``statistics.KILLERS``, ``crushed`` whether by being crushed, ``first_death``
+    whether it never did before. ``keys``: those of the last tick. ``notices``: what a pass has brought. ``aim``: the
+    next par, while it waits at the start. ``changed``: more than a tick has happened, so that everything has to be
+    drawn again.
     """
 
     def __init__(self, app: App, context: LevelContext) -> None:
@@ -76,6 +90,8 @@ class LevelPlay:
         self.sayings = Sayings(context.sayings())
         self.shown_lifetime = 0.0
         self.ghosts: list[Ghost] = []
+        self.tries: deque[bytes] = deque(maxlen=MOST_TRIES)
+        self._frozen_ms = 0
         self._phase_before = Phase.READY
         self._wait_at_start()
 
@@ -114,6 +130,9 @@ class LevelPlay:
 
     def retry(self, *, ignored: int = 0) -> None:
         """Back to the level's start. What is held is meant for this try, but for the keys ``ignored``."""
+        if self.attempt.outcome != "exit" and not self.attempt.assisted and len(self.attempt.inputs) > SHORTEST_TRY:
+            self.tries.append(bytes(self.attempt.inputs))
+        self.view.ghosts = self.ghosts
         self.attempt.restart()
         self.tools.restarted()
         self.shown_lifetime = float(self.attempt.lifetime)
@@ -175,6 +194,8 @@ class LevelPlay:
         elif self.phase is not Phase.PAUSED:
             if self.tools.rewinding:
                 self._rewind(real_ms)
+            elif self._frozen_ms > 0:
+                self._frozen_ms -= real_ms
             elif not self.tools.stepping:
                 tick_ms = SLOW_TICK_MS if self.tools.slow else self.app.tick_ms
                 self.run_ticks(self.clock.ticks_due(real_ms, tick_ms))
@@ -222,6 +243,7 @@ class LevelPlay:
             if self.phase is Phase.PASSED:
                 self.shown_lifetime = float(self.attempt.lifetime)
                 self.notices = self.context.passed(self.attempt)
+                self._frozen_ms = 0 if self.app.settings.reduced_motion else FREEZE_MS
             else:
                 self.killer = self.attempt.killer
                 self.crushed = cause_of(self.attempt.simulation.world) == CRUSHED
@@ -230,6 +252,30 @@ class LevelPlay:
         elif self.phase in {Phase.DEAD, Phase.PASSED}:
             self.after_end += 1
             self.changed = self.changed or self.after_end == DEATH_PAUSE + 1
+            if self.phase is Phase.PASSED:
+                self._celebrate()
+
+    def _celebrate(self) -> None:
+        """The medal is stamped; then all failed tries run together, as fast as fits into two seconds."""
+        quiet = self.app.settings.reduced_motion
+        if self.after_end == (1 if quiet else STAMP_TICKS) and self.medal:
+            self.app.audio_output.play("medal")
+        if self.after_end == TRIES_FROM and self.tries and not quiet:
+            pace = max(1.0, max(map(len, self.tries)) / TRIES_TICKS)
+            self.view.ghosts = [Ghost(run, self.context.level, self.context.body, pace=pace) for run in self.tries]
+        elif self.after_end == TRIES_FROM + TRIES_TICKS:
+            self.view.ghosts = self.ghosts
+
+    @property
+    def medal(self) -> str:
+        """The medal of a passed run, "" for none."""
+        pars = self.context.pars
+        return pars.medal(self.attempt.ended_tick) if pars and self.phase is Phase.PASSED else ""
+
+    @property
+    def stamp(self) -> float:
+        """How far the stamp of the medal has come, 0…1."""
+        return 1.0 if self.app.settings.reduced_motion else min(1.0, (self.after_end + self.fraction) / STAMP_TICKS)
 
 
 class PracticeTools:

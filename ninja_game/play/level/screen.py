@@ -104,6 +104,7 @@ class LevelScreen(Screen):
         if where is Navigation.SAME_LEVEL:
             self.retry()
         elif where is Navigation.NEXT_LEVEL:
+            self.app.wipe_from(self)
             self._start_level()
         else:
             self._leave_to(where)
