@@ -72,8 +72,8 @@ def test_safe_palettes_mark_danger_by_shape(palette: Palette, key: SpriteKey) ->
     if not palette.danger_by_shape:
         return
     ink = {role: pygame.Color("black") for role in ROLES}
-    plain = SpriteBook(4.0, Palette("plain", danger_by_shape=False, **ink)).sprite(key).surface
-    marked = SpriteBook(4.0, Palette("marked", danger_by_shape=True, **ink)).sprite(key).surface
+    plain = SpriteBook(4.0, Palette("plain", danger_by_shape=False, scenery="", **ink)).sprite(key).surface
+    marked = SpriteBook(4.0, Palette("marked", danger_by_shape=True, scenery="", **ink)).sprite(key).surface
     assert pygame.mask.from_surface(plain).count() != pygame.mask.from_surface(marked).count()
 
 

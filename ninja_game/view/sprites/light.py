@@ -20,9 +20,9 @@ class Look(NamedTuple):
     strength: int
 
 
-EXIT_OPEN = Look("exit_light", 74, 150)
+EXIT_OPEN = Look("exit_light", 74, 126)
 LOOKS = {
-    kinds.EXIT: Look("exit", 46, 70),
+    kinds.EXIT: Look("exit_light", 46, 70),
     kinds.SWITCH: Look("exit_light", 36, 110),
     kinds.MINE: Look("mine", 15, 54),
     kinds.TURRET: Look("turret", 26, 60),
