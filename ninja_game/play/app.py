@@ -17,13 +17,13 @@ from ninja_game.play.window import TITLE, Window, save_picture
 from ninja_game.play.wipe import Wipe
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import FASTEST_TICK_GAIN
-from ninja_game.player.settings import Settings
+from ninja_game.player.settings import BY_COLUMN, Settings
 from ninja_game.sim.rules import TICK_MS
 from ninja_game.ui.audio.player import AudioOutput, AudioPlayer
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.ui.input.bindings import Bindings, InputEvent
 from ninja_game.ui.spreadsheet import draw_spreadsheet
-from ninja_game.ui.theme import PALETTES, Area, Theme, palette_named
+from ninja_game.ui.theme import PALETTES, Area, Palette, Theme, palette_named
 
 
 class Screen:
@@ -47,6 +47,11 @@ class Screen:
     def theme(self) -> Theme:
         """The look of what it draws, and where on the window that is."""
         return self.app.theme
+
+    @property
+    def column(self) -> int:
+        """The column of episodes whose mood it has; by default that of the screen before."""
+        return self.app.column
 
     def enter(self) -> None:
         """Called when this becomes the top screen: pushed, or uncovered again."""
@@ -167,6 +172,7 @@ class App:
     ``controls``: keys to actions. ``player``: the player's data with the settings, which ``change_settings`` changes.
     ``overclock``: ms by which ticks are shorter until the program ends, 0 to 10 (game.md §1.1). ``tas_editor``:
     opens a run in the TAS editor, with others beside it, at a tick; None where there is none, as in a page.
+    ``column``: of episodes, whose mood is shown.
     ``size``: px of the window. Raises NinjaGameError where there is no display.
     """
 
@@ -187,6 +193,7 @@ class App:
         self.stack = ScreenStack()
         self.running = True
         self.frame_ms = 0.0
+        self.column = 0
         self.notice = ""
         self._notice_ms = 0
         self.window = Window(size, self.settings)
@@ -238,8 +245,18 @@ class App:
     def _lay_out(self) -> None:
         """Draw everything again, at the window's present size and in the present palette."""
         self.canvas = Canvas(self.surface.get_size())
-        self.theme = Theme(palette_named(self.settings.palette), self.canvas)
+        self.theme = Theme(self.palette_in(self.column), self.canvas)
         self.stack.redraw_all()
+
+    def palette_in(self, column: int) -> Palette:
+        """The palette that the player has chosen, as it is in a column of episodes."""
+        return palette_named(self.settings.palette, column)
+
+    def follow_mood(self, column: int) -> None:
+        """Look as that column of episodes does."""
+        self.column = column
+        if self.palette_in(column) is not self.theme.palette:
+            self._lay_out()
 
     # --- the screens ---
 
@@ -353,6 +370,7 @@ class App:
 
     def draw(self) -> None:
         """Draw the screens that are seen and show what changed."""
+        self.follow_mood(self.top.column)
         changed = self.stack.draw(self.surface)
         self.wipe.draw(self.surface, self.theme)
         if self.notice and not isinstance(self.top, BossScreen):
@@ -411,8 +429,8 @@ def build_app(
     player.open_records()
     if bindings.unknown:
         player.report(f"settings.toml: no key is called {shown_text(', '.join(bindings.unknown), 60)}.")
-    if settings.palette not in PALETTES:
-        player.report(f"settings.toml: there is no palette {settings.palette}: {', '.join(PALETTES)}.")
+    if settings.palette not in (BY_COLUMN, *PALETTES):
+        player.report(f"settings.toml: there is no palette {settings.palette}: {', '.join((BY_COLUMN, *PALETTES))}.")
     app.report_problems()
     return app
 

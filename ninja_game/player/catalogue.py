@@ -49,6 +49,11 @@ class Entry:
         return self.named.level.gold
 
     @property
+    def column(self) -> int:
+        """The column of its episode; 0 for a level in none."""
+        return int(self.episode[:2]) // EPISODES_PER_COLUMN if self.episode else 0
+
+    @property
     def title(self) -> str:
         """What the level is called in lists."""
         return self.named.name or Path(self.named.file).stem or "nameless"

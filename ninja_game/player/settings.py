@@ -30,7 +30,9 @@ MAX_BYTES = 2**16
 
 LOCK_SECONDS = 1.0
 
-DEFAULT_PALETTE = "classic"
+BY_COLUMN = "by-column"
+"""The palette that is another one in each column of episodes."""
+DEFAULT_PALETTE = BY_COLUMN
 DEFAULT_COLOUR = ""
 """The ninja's colour that comes with the palette."""
 

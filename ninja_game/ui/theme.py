@@ -81,7 +81,10 @@ class Theme:
 
 @dataclass(frozen=True)
 class Palette:
-    """Colours by role. ``danger_by_shape``: danger is marked by spikes and bars too, not only by colour."""
+    """Colours by role. ``danger_by_shape``: danger is marked by spikes and bars too, not only by colour.
+
+    ``scenery``: what lies behind levels, one of ``scenery.SCENERIES``; "": nothing but the background.
+    """
 
     name: str
     danger_by_shape: bool
@@ -132,7 +135,16 @@ class Palette:
     ember: pygame.Color
     smoke: pygame.Color
     dust: pygame.Color
+    # Behind everything, with the background at the horizon; only where there is a scenery.
+    sky: pygame.Color
+    far: pygame.Color
+    near: pygame.Color
 
+    scenery: str = ""
+
+
+ROLES = tuple(entry.name for entry in fields(Palette) if entry.name not in {"name", "danger_by_shape", "scenery"})
+"""All colour roles."""
 
 _CLASSIC = dict(  # noqa: C408 - one form for all palettes
     background="#cacad0", tile="#787887", text="#17171c", faint="#62626f", on_tile="#e4e4ea", panel="#dcdce1",
@@ -146,10 +158,15 @@ _CLASSIC = dict(  # noqa: C408 - one form for all palettes
 )  # fmt: skip
 
 
-def _palette(name: str, *, danger_by_shape: bool = False, **colours: str) -> Palette:
-    """A palette: the classic one with some colours changed."""
-    inks = {role: pygame.Color(colour) for role, colour in (_CLASSIC | colours).items()}
-    return Palette(name, danger_by_shape, **inks)
+def _palette(
+    name: str, base: Palette | None = None, *, danger_by_shape: bool = False, scenery: str = "", **colours: str
+) -> Palette:
+    """A palette: another one, or the classic one, with some colours changed."""
+    before = _CLASSIC if base is None else {role: getattr(base, role) for role in ROLES}
+    horizon = colours.get("background", _CLASSIC["background"])
+    changed = {"sky": horizon, "far": horizon, "near": horizon} | colours
+    inks = {role: pygame.Color(colour) for role, colour in (before | changed).items()}
+    return Palette(name, danger_by_shape, **inks, scenery=scenery)
 
 
 CLASSIC = _palette("classic")
@@ -198,16 +215,54 @@ SAFE_DARK = _palette(
     flame="#fff0b0", ember="#f0a820", smoke="#6d737c", dust="#7d848f",
 )  # fmt: skip
 
-PALETTES: dict[str, Palette] = {palette.name: palette for palette in (CLASSIC, DARK, CONTRAST, SAFE, SAFE_DARK)}
+# A mood for each column of episodes. What lies behind stays near the sky in lightness, the tiles far from both.
+MORNING = _palette(
+    "morning", scenery="hills", background="#fae3d2", sky="#c9d3f2", far="#e3d3dd", near="#cdbfd6", tile="#46557f",
+    text="#1c1730", faint="#5b5472", on_tile="#f6eef2", panel="#fbeee4", panel_edge="#a497b4", ninja="#1b1730",
+    accent="#a8324a", band="#a8324a", bar_full="#c0d4ff", dark="#4f4868", middle="#6a6289", light="#857da8",
+    gold="#c48a00", exit="#6a3ca4", exit_light="#fff6e0", electric="#0058a8", dust="#a596a8", smoke="#8a8296",
+)  # fmt: skip
+
+NOON = _palette(
+    "noon", scenery="clouds", background="#e4f5f4", sky="#86c8ee", far="#b5def0", near="#d3edf4", tile="#2b6554",
+    text="#0d2026", faint="#3d5c64", on_tile="#eaf6ee", panel="#eff9f7", panel_edge="#86abaf", ninja="#0d1c24",
+    accent="#b03a18", band="#d0401c", bar_full="#bfe6ff", dark="#3f5662", middle="#52707e", light="#6c8692",
+    exit="#6a3ca4", exit_light="#fff8dc", electric="#0046a0", dust="#8fa8ac", smoke="#86969a",
+)  # fmt: skip
+
+AFTERNOON = _palette(
+    "afternoon", scenery="dunes", background="#fde6c8", sky="#f3ba94", far="#f4cfa6", near="#e8b98d", tile="#7c3d33",
+    text="#2a120c", faint="#6e4a38", on_tile="#fdeedd", panel="#fdefdc", panel_edge="#bd9276", ninja="#22110f",
+    accent="#8a1f5c", band="#1f6a8a", bar_full="#cfe0ff", dark="#4a4c58", middle="#6d7180", light="#868da0",
+    gold="#b47800", gold_light="#fff3a0", exit="#6a3ca4", exit_light="#fffbe8", electric="#0070b0", dust="#b08a70",
+    smoke="#937c70",
+)  # fmt: skip
+
+DUSK = _palette(
+    "dusk", DARK, scenery="towers", background="#763a5c", sky="#513e7c", far="#754674", near="#66406f", tile="#150e26",
+    text="#fbf2ff", faint="#d8c8e2", on_tile="#f0e4f6", panel="#3a2752", panel_edge="#8d6fa0", ninja="#fff4ea",
+    accent="#ffb072", band="#ffb072", good="#8fe0a0", bad="#ff9a94", weapon="#ff6f64", middle="#b0a4c6",
+    light="#d6cde6", exit="#58d6cc", exit_light="#dcfff8", turret="#ffa6d2", launcher="#ffb08a", electric="#5cd2ff",
+    drone="#dcd8ec", dust="#b892b0", smoke="#a0869e",
+)  # fmt: skip
+
+NIGHT = _palette(
+    "night", DARK, scenery="crystals", background="#24406a", sky="#0d1430", far="#1e3560", near="#172750",
+    tile="#586c9c", text="#eaf1ff", faint="#a9b8d8", on_tile="#f2f6ff", panel="#1c2747", panel_edge="#5d71a3",
+    ninja="#f4f7ff", accent="#7fd8ff", band="#ff8a5c", good="#7fe0b0", bad="#ff8f88", bar_full="#b4c8ff",
+    bar_empty="#ff9d90", exit="#b98ff0", turret="#ff98cc", launcher="#ffa27c", electric="#5cd2ff", drone="#c8d2ea",
+)  # fmt: skip
+
+MOODS = (MORNING, NOON, AFTERNOON, DUSK, NIGHT)
+"""By column of episodes; a pack with more columns begins again."""
+
+PALETTES: dict[str, Palette] = {palette.name: palette for palette in (CLASSIC, DARK, CONTRAST, SAFE, SAFE_DARK, *MOODS)}
 
 
-def palette_named(name: str) -> Palette:
-    """The palette of a name; the classic one for an unknown name, which a settings file may hold."""
-    return PALETTES.get(name, CLASSIC)
+def palette_named(name: str, column: int = 0) -> Palette:
+    """The palette of a name; for ``settings.BY_COLUMN``, and for an unknown name, the mood of a column."""
+    return PALETTES.get(name) or MOODS[column % len(MOODS)]
 
-
-ROLES = tuple(entry.name for entry in fields(Palette) if entry.name not in {"name", "danger_by_shape"})
-"""All colour roles."""
 
 NINJA_COLOURS = ("", "#d9127f", "#7d7700", "#1a6488", "#765484", "#6a2424", "#f7f7f7", "#c79400", "#787887", "#bfbfc6")
 """The ninja's colours: the palette's own, then one per completed column (game.md §8)."""

@@ -6,8 +6,9 @@ import pygame
 import pytest
 
 from ninja_game.play.level.hud import trough
-from ninja_game.player.settings import DEFAULT_PALETTE, Settings
-from ninja_game.ui.theme import CLASSIC, PALETTES, ROLES, Palette, palette_named
+from ninja_game.player.settings import BY_COLUMN, DEFAULT_PALETTE, Settings
+from ninja_game.ui.scenery import SCENERIES
+from ninja_game.ui.theme import MOODS, PALETTES, ROLES, Palette, palette_named
 from ninja_game.view.effects import particles
 from ninja_game.view.sprites import moving_sprites as moving, static_sprites as static
 from ninja_game.view.sprites.drawing import Drawing, SpriteBook, SpriteKey
@@ -33,10 +34,16 @@ def contrast(a: pygame.Color, b: pygame.Color) -> float:
     return (high + 0.05) / (low + 0.05)
 
 
-def test_settings_accept_every_palette_and_an_unknown_one_is_the_first() -> None:
-    for name in PALETTES:
+def test_settings_accept_every_palette_and_an_unknown_one_is_the_default() -> None:
+    for name in (BY_COLUMN, *PALETTES):
         assert Settings().changed(palette=name).palette == name
-    assert palette_named(DEFAULT_PALETTE) is palette_named("of-another-version") is CLASSIC
+    assert palette_named(DEFAULT_PALETTE) is palette_named("of-another-version") is MOODS[0]
+
+
+def test_each_column_has_its_own_mood_and_a_chosen_palette_stays() -> None:
+    assert [palette_named(BY_COLUMN, column) for column in range(10)] == [*MOODS, *MOODS]
+    assert palette_named("dark", 0) is palette_named("dark", 3) is PALETTES["dark"]
+    assert len({mood.scenery for mood in MOODS}) == len(MOODS) == len(SCENERIES)
 
 
 @pytest.mark.parametrize("palette", PALETTES.values(), ids=lambda palette: palette.name)
@@ -65,8 +72,8 @@ def test_safe_palettes_mark_danger_by_shape(palette: Palette, key: SpriteKey) ->
     if not palette.danger_by_shape:
         return
     ink = {role: pygame.Color("black") for role in ROLES}
-    plain = SpriteBook(4.0, Palette("plain", danger_by_shape=False, **ink)).sprite(key).surface
-    marked = SpriteBook(4.0, Palette("marked", danger_by_shape=True, **ink)).sprite(key).surface
+    plain = SpriteBook(4.0, Palette("plain", danger_by_shape=False, scenery="", **ink)).sprite(key).surface
+    marked = SpriteBook(4.0, Palette("marked", danger_by_shape=True, scenery="", **ink)).sprite(key).surface
     assert pygame.mask.from_surface(plain).count() != pygame.mask.from_surface(marked).count()
 
 

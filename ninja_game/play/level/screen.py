@@ -40,8 +40,14 @@ class LevelScreen(Screen):
     def _start_level(self) -> None:
         """The context's present level."""
         self.app.audio_output.quiet()
+        self.app.follow_mood(self.column)
         self.play = LevelPlay(self.app, self.context)
         self.play.view.overlays = self.overlays
+
+    @property
+    def column(self) -> int:
+        """That of the level."""
+        return self.context.entry.column
 
     @property
     def phase(self) -> Phase:

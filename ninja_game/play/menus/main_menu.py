@@ -52,6 +52,11 @@ class MainMenu(MenuScreen):
         self.attract = Attract(app)
         self.run: EpisodeRun | None = None
 
+    @property
+    def column(self) -> int:
+        """That in which play goes on."""
+        return self.run.entry.column if self.run else 0
+
     def enter(self) -> None:
         """Look where play goes on."""
         self.run = next_run(self.player, practice_mode=self.player.settings.practice)

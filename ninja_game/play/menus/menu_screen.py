@@ -12,6 +12,7 @@ from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.input.keys import HeldKey, scancode_of
 from ninja_game.ui.list_view import ListView
+from ninja_game.ui.scenery import lay_ground
 from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.widgets import Widget
 
@@ -220,7 +221,8 @@ class MenuScreen(Screen):
         """The background: a room in the stage's colours, the title above, the hint below."""
         theme, canvas, palette = self.theme, self.theme.canvas, self.theme.palette
         surface.fill(palette.tile)
-        canvas.fill_rect(surface, palette.background, 24, 52, WIDTH - 48, HEIGHT - 52 - 36, 6)
+        lay_ground(surface, palette, canvas.stage, canvas.rect(24, 52, WIDTH - 48, HEIGHT - 52 - 36))
+        canvas.frame_rect(surface, palette.tile, 18, 46, WIDTH - 36, HEIGHT - 52 - 24, 6, 12)
         theme.text(surface, self.title, 36, 17, size=TITLE_SIZE, colour=palette.on_tile, bold=True, width=WIDTH - 72)
         hint = (self.focus.hint if self.focus is not None else "") or self.foot
         theme.text(

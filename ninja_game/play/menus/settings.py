@@ -12,7 +12,7 @@ from ninja_game.play.app import App, Screen
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import CANCEL, Menu, Row
 from ninja_game.player.progress import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
-from ninja_game.player.settings import GHOSTS
+from ninja_game.player.settings import BY_COLUMN, GHOSTS
 from ninja_game.ui.canvas import WIDTH
 from ninja_game.ui.input.bindings import ACTIONS, InputEvent
 from ninja_game.ui.input.gamepad import pad_label
@@ -271,7 +271,7 @@ class SettingsScreen(MenuScreen):
     def _picture(self) -> list[Widget]:
         columns, present = self.player.columns_complete, self.player.columns_present
         count = len(NINJA_COLOURS) if custom_colour_unlocked(columns, present) else 1 + unlocked_colours(columns)
-        palettes = [(name, name) for name in PALETTES]
+        palettes = [("by column", BY_COLUMN), *((name, name) for name in PALETTES)]
         colours = list(zip(COLOUR_NAMES, NINJA_COLOURS, strict=True))[:count]
         more = "Complete columns of episodes for more" if count < len(NINJA_COLOURS) else ""
         return [

@@ -7,8 +7,10 @@ import pygame
 from ninja_game.sim.kinds import GOLD, MINE
 from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.ui.canvas import Canvas
+from ninja_game.ui.scenery import lay_ground
 from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.drawing import SpriteBook, is_near
+from ninja_game.view.sprites.light import Light, light_of, light_picture
 from ninja_game.view.sprites.object_animation import ObjectAnimation
 from ninja_game.view.sprites.sketch import Sprite
 from ninja_game.view.sprites.static_sprites import SETTLED_TICKS, PlacedSprite, static_sprites_of
@@ -16,7 +18,7 @@ from ninja_game.view.sprites.tile_sheet import TileSheet
 
 
 class Backdrop:
-    """Background, static sprites and tiles of a level in one size, as far as they are seen.
+    """Scenery, light, static sprites and tiles of a level in one size, as far as they are seen.
 
     Px here count from the upper left corner of what is seen of the stage.
     """
@@ -33,6 +35,7 @@ class Backdrop:
         self._blits: dict[int, list[tuple[Sprite, int, int]]] = {}
         self._order: list[int] = []
         self._rects: dict[int, pygame.Rect] = {}
+        self._lights: dict[int, tuple[Light, pygame.Surface, pygame.Rect]] = {}
         self._moving: set[int] = set()
         self._drawn = False
 
@@ -46,8 +49,10 @@ class Backdrop:
             self._order, self._drawn = order, True
             self._blits.clear()
             self._rects.clear()
+            self._lights.clear()
             for slot in order:
                 self._place(slot, static_sprites_of(world, slot, animation, 1.0))
+                self._light(world, slot)
             changed = [self.picture.get_rect()]
         else:
             changed = []
@@ -56,6 +61,7 @@ class Backdrop:
                 rect = self._place(slot, static_sprites_of(world, slot, animation, 1.0))
                 if self._blits[slot] != before:
                     changed.append(rect)
+                changed += self._light(world, slot)
         for rect in changed:
             self._mend(rect)
         return changed
@@ -79,10 +85,29 @@ class Backdrop:
             self._rects[slot] = rect
         return (rect or old or pygame.Rect(0, 0, 0, 0)).union(old or rect or pygame.Rect(0, 0, 0, 0))
 
+    def _light(self, world: World, slot: int) -> list[pygame.Rect]:
+        """Have the light around an object as it is now; the px that changed."""
+        light = light_of(world, slot) if self.palette.scenery else None
+        before = self._lights.get(slot)
+        if light == (before and before[0]):
+            return []
+        self._lights.pop(slot, None)
+        changed = [before[2]] if before else []
+        if light is not None and is_near(light.x, light.y):
+            picture = light_picture(light.look, self.canvas.scale, self.palette)
+            px, py = self.canvas.point(light.x, light.y)
+            middle = px - self._corner[0], py - self._corner[1]
+            self._lights[slot] = light, picture, picture.get_rect(center=middle)
+            changed.append(self._lights[slot][2])
+        return changed
+
     def _mend(self, area: pygame.Rect) -> None:
         """Draw a part of the picture again."""
         self.picture.set_clip(area)
-        self.picture.fill(self.palette.background)
+        lay_ground(self.picture, self.palette, self.picture.get_rect(), area)
+        for _, glow, place in self._lights.values():
+            if place.colliderect(area):
+                self.picture.blit(glow, place)
         for slot in self._order:
             rect = self._rects.get(slot)
             if rect is not None and rect.colliderect(area):
@@ -100,8 +125,8 @@ class Backdrop:
             sprites = static_sprites_of(world, slot, animation, fraction)
             if animation.age(slot, fraction) > SETTLED_TICKS:
                 self._moving.discard(slot)
-            rect = self._place(slot, sprites)
-            if rect.width:
-                self._mend(rect)
-                mended.append(rect)
+            for rect in (self._place(slot, sprites), *self._light(world, slot)):
+                if rect.width:
+                    self._mend(rect)
+                    mended.append(rect)
         return mended

@@ -12,6 +12,7 @@ from ninja_game.sim.loader import grid_tiles
 from ninja_game.sim.memory.schema import TileMap
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
+from ninja_game.ui.scenery import lay_ground
 from ninja_game.ui.theme import PALETTES, Palette
 from ninja_game.view.ninja.figure import STAND, ninja_sprite
 from ninja_game.view.sprites.backdrop import Backdrop
@@ -36,7 +37,7 @@ def thumbnail(level: Level, palette: Palette, width: int) -> pygame.Surface:
         static = TileMap()
         static.tiles = grid_tiles(level)
         picture = pygame.Surface(canvas.size)
-        picture.fill(palette.background)
+        lay_ground(picture, palette, picture.get_rect(), picture.get_rect())
         picture.blit(Backdrop(canvas, palette, book, static).tiles, (0, 0), special_flags=pygame.BLEND_PREMULTIPLIED)
         return picture
     animation = ObjectAnimation(run.world)

@@ -1,0 +1,136 @@
+"""What lies far behind a level: a sky and still layers of soft shapes, in the colours and the kind of a palette."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import lru_cache
+from math import pi, sin
+
+import pygame
+
+from ninja_game.ui.canvas import Point
+from ninja_game.ui.theme import Palette, mixed
+
+_WIDE, _HIGH = 396, 300
+"""Px of the sheet on which the layers are painted."""
+
+_LAYERS = ((0.0, 8), (0.35, 5), (0.7, 3), (1.0, 2))
+"""How near each layer is, 0…1, and how many px of the sheet become one: what is farther off is softer."""
+
+_BAND, _HORIZON = 3, 140
+"""The sky's colour changes in bands so high, down to the horizon, px of the sheet."""
+
+_KEPT = 12
+"""Grounds of so many sizes and moods stay in memory: thumbnails, menus and levels go to and fro between a few."""
+
+Numbers = Iterator[float]
+
+
+def lay_ground(surface: pygame.Surface, palette: Palette, stage: pygame.Rect, area: pygame.Rect) -> None:
+    """Draw what is behind everything into the part ``area`` of a stage, px."""
+    if palette.scenery:
+        surface.blit(ground(stage.size, palette), area, area.move(-stage.x, -stage.y))
+    else:
+        surface.fill(palette.background, area)
+
+
+def ground(size: tuple[int, int], palette: Palette) -> pygame.Surface:
+    """The sky and the layers of a palette that has a scenery, painted once; nobody may draw on it."""
+    return _painted(size, palette.scenery, *(tuple(getattr(palette, role)) for role in GROUND_ROLES))
+
+
+GROUND_ROLES = "sky", "background", "far", "near"
+"""From the upper edge of the sky to the lower one, then from the farthest layer to the nearest one."""
+
+
+@lru_cache(maxsize=_KEPT)
+def _painted(size: tuple[int, int], scenery: str, *colours: tuple[int, ...]) -> pygame.Surface:
+    sky, horizon, far, near = map(pygame.Color, colours)
+    # A sheet without alpha, so that the page too scales px and not shapes.
+    sheet = pygame.Surface((_WIDE, _HIGH))
+    for y in range(0, _HIGH, _BAND):
+        sheet.fill(mixed(sky, horizon, y / _HORIZON), (0, y, _WIDE, _BAND))
+    numbers = _numbers(scenery)
+    for nearness, softness in _LAYERS:
+        SCENERIES[scenery](sheet, mixed(far, near, nearness), _HIGH * (0.3 + 0.5 * nearness), numbers)
+        small = pygame.transform.smoothscale(sheet, (_WIDE // softness, _HIGH // softness))
+        sheet = pygame.transform.smoothscale(small, (_WIDE, _HIGH))
+    return pygame.transform.smoothscale(sheet, size)
+
+
+def _numbers(name: str) -> Numbers:
+    """Numbers from 0 to 1, the same for a name on every machine and in the page."""
+    state = int.from_bytes(name.encode(), "big") % 2**31
+    while True:
+        state = (state * 1103515245 + 12345) % 2**31
+        yield (state >> 8) / 2**23
+
+
+def _ridge(sheet: pygame.Surface, colour: pygame.Color, height: Callable[[float], float]) -> None:
+    """Everything below a line."""
+    line: list[Point] = [(x, height(x)) for x in range(-4, _WIDE + 8, 4)]
+    pygame.draw.polygon(sheet, colour, [*line, (_WIDE + 4, _HIGH), (-4, _HIGH)])
+
+
+def _hills(sheet: pygame.Surface, colour: pygame.Color, base: float, numbers: Numbers) -> None:
+    waves = [
+        ((12 + 26 * next(numbers)) / k, 2 * pi * next(numbers), k * (0.008 + 0.004 * next(numbers))) for k in (1, 2, 3)
+    ]
+    _ridge(sheet, colour, lambda x: base - sum(high * sin(start + fast * x) for high, start, fast in waves))
+
+
+def _dunes(sheet: pygame.Surface, colour: pygame.Color, base: float, numbers: Numbers) -> None:
+    """Each rises slowly and falls fast behind its crest."""
+    wide, high = 150 + 120 * next(numbers), 34 + 26 * next(numbers)
+    start, crest = next(numbers), 0.62 + 0.2 * next(numbers)
+
+    def height(x: float) -> float:
+        along = (x / wide + start) % 1
+        risen = along / crest if along < crest else (1 - along) / (1 - crest)
+        return base - high * risen * risen * (3 - 2 * risen) - 6 * sin(x / 47)
+
+    _ridge(sheet, colour, height)
+
+
+def _clouds(sheet: pygame.Surface, colour: pygame.Color, base: float, numbers: Numbers) -> None:
+    """A bank of them: towers of discs that swell and sink."""
+    start = 2 * pi * next(numbers)
+
+    def height(x: float) -> float:
+        return base - 26 * sin(start + x / 38) - 18 * sin(2 * start + x / 21)
+
+    for x in range(-20, _WIDE + 20, 9):
+        pygame.draw.circle(sheet, colour, (x, height(x) + 8 * next(numbers)), 16 + 16 * next(numbers))
+    _ridge(sheet, colour, lambda x: height(x) + 8)
+
+
+def _towers(sheet: pygame.Surface, colour: pygame.Color, base: float, numbers: Numbers) -> None:
+    """Houses and towers with flat or pointed roofs."""
+    x = -20.0 * next(numbers)
+    while x < _WIDE:
+        wide, top = 14 + 26 * next(numbers), base + 30 - 110 * next(numbers) ** 2
+        pygame.draw.rect(sheet, colour, (x, top, wide + 1, _HIGH - top))
+        if next(numbers) < 0.45:
+            pygame.draw.polygon(sheet, colour, [(x - 2, top), (x + wide / 2, top - wide), (x + wide + 2, top)])
+        x += wide + (10 * next(numbers) if next(numbers) < 0.4 else 0)
+
+
+def _crystals(sheet: pygame.Surface, colour: pygame.Color, base: float, numbers: Numbers) -> None:
+    """Spikes that lean to either side, out of the ground."""
+    _ridge(sheet, colour, lambda x: base + 44 - 10 * sin(x / 31 + base))
+    x = 10 * next(numbers)
+    while x < _WIDE + 20:
+        wide, top, lean = 10 + 18 * next(numbers), base + 20 - 100 * next(numbers), 70 * (next(numbers) - 0.5)
+        tip = x + lean, top
+        shoulder = wide * 0.5
+        pygame.draw.polygon(
+            sheet, colour,
+            [(x - wide, _HIGH), (tip[0] - shoulder, top + 24), tip, (tip[0] + shoulder, top + 34), (x + wide, _HIGH)],
+        )  # fmt: skip
+        x += 16 + 30 * next(numbers)
+
+
+SCENERIES: dict[str, Callable[[pygame.Surface, pygame.Color, float, Numbers], None]] = {
+    "hills": _hills, "clouds": _clouds, "dunes": _dunes, "towers": _towers, "crystals": _crystals,
+}  # fmt: skip
+"""What a layer's shapes are, by kind: each draws one, of a colour, about a height (px of the sheet)."""

@@ -1,0 +1,74 @@
+"""Light around what opens and what kills: soft, still, part of the backdrop."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import pygame
+
+from ninja_game.sim import kinds
+from ninja_game.sim.memory.schema import World
+from ninja_game.ui.theme import Palette
+
+
+class Look(NamedTuple):
+    """``role``: of the palette; ``reach``: logical px; ``strength``: how solid it is in its middle, 0…255."""
+
+    role: str
+    reach: int
+    strength: int
+
+
+EXIT_OPEN = Look("exit_light", 74, 126)
+LOOKS = {
+    kinds.EXIT: Look("exit_light", 46, 70),
+    kinds.SWITCH: Look("exit_light", 36, 110),
+    kinds.MINE: Look("mine", 15, 54),
+    kinds.TURRET: Look("turret", 26, 60),
+    kinds.LAUNCHER: Look("launcher", 26, 60),
+}
+"""By kind, until something changes."""
+
+
+class Light(NamedTuple):
+    """A light about a point, px."""
+
+    look: Look
+    x: float
+    y: float
+
+
+def light_of(world: World, slot: int) -> Light | None:
+    """The light around an object as it is now."""
+    o = world.objects[slot]
+    look = LOOKS.get(o.kind)
+    if look is None or (o.kind == kinds.MINE and o.exploded):
+        return None
+    if o.kind == kinds.SWITCH and world.objects[o.partner].is_open:
+        return None
+    if o.kind == kinds.EXIT and o.is_open:
+        look = EXIT_OPEN
+    x, y = (o.base_x, o.base_y) if o.kind == kinds.LAUNCHER else (o.x, o.y)
+    return Light(look, x, y)
+
+
+_DISCS = 14
+"""Layers of a light, so that no edge is seen."""
+
+
+def light_picture(look: Look, scale: float, palette: Palette) -> pygame.Surface:
+    """A light: discs of one colour over each other, each a bit smaller, all faint. Nobody may draw on it."""
+    return _painted(max(1, round(look.reach * scale)), look.strength, *getattr(palette, look.role)[:3])
+
+
+@lru_cache(maxsize=64)
+def _painted(reach: int, strength: int, red: int, green: int, blue: int) -> pygame.Surface:
+    size = 2 * reach + 1, 2 * reach + 1
+    picture = pygame.Surface(size, pygame.SRCALPHA)
+    colour = red, green, blue, round(strength / _DISCS)
+    for number in range(_DISCS):
+        disc = pygame.Surface(size, pygame.SRCALPHA)
+        pygame.draw.circle(disc, colour, (reach, reach), reach * (1 - number / _DISCS))
+        picture.blit(disc, (0, 0))
+    return picture

@@ -1,0 +1,131 @@
+"""In every mood, for every kind of sight, what matters stands out from the scenery, lit or not."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+import pygame
+import pytest
+from numpy.typing import NDArray
+
+from ninja_game.sim import kinds
+from ninja_game.ui.scenery import ground
+from ninja_game.ui.theme import MOODS, PALETTES, Palette
+from ninja_game.view.sprites import moving_sprites as moving, static_sprites as static
+from ninja_game.view.sprites.drawing import SpriteBook, SpriteKey
+from ninja_game.view.sprites.light import EXIT_OPEN, LOOKS, Look, light_picture
+
+Colours = NDArray[np.float64]
+
+SIGHTS = {
+    "normal": (1, 0, 0, 0, 1, 0, 0, 0, 1),
+    "protan": (0.152286, 1.052583, -0.204868, 0.114503, 0.786281, 0.099216, -0.003882, -0.048116, 1.051998),
+    "deutan": (0.367322, 0.860646, -0.227968, 0.280085, 0.672501, 0.047413, -0.011820, 0.042940, 0.968881),
+    "tritan": (1.255528, -0.076749, -0.178779, -0.078411, 0.930809, 0.147602, 0.004733, 0.691367, 0.303900),
+}
+"""Machado, Oliveira, Fernandes 2009: the matrix to what is seen of linear RGB, at severity 1.0."""
+
+LEAST = 18.0
+"""Difference in CIE Lab from which on two colours are told apart at a glance."""
+
+LEAST_SHARE = 0.3
+"""How much of a drawing has to stand out; the rest is shading and highlights."""
+
+THINGS: dict[str, tuple[SpriteKey, Look | None]] = {
+    "mine": (static.mine(), LOOKS[kinds.MINE]), "turret": (static.turret_base(0), LOOKS[kinds.TURRET]),
+    "launcher": (static.launcher_base(0), LOOKS[kinds.LAUNCHER]), "drone": (moving.drone(0, 0, 0, 0), None),
+    "thwump": (moving.thwump(0, 0), None), "floor guard": (moving.floor_guard(0, 0), None),
+    "rocket": (moving.rocket(1), None), "block": (moving.bounce_block(1), None), "pad": (static.launch_pad(0), None),
+    "one-way": (static.one_way(), None), "exit": (static.exit_door(0), LOOKS[kinds.EXIT]),
+    "open exit": (static.exit_door(8), EXIT_OPEN), "switch": (static.exit_switch(0), LOOKS[kinds.SWITCH]),
+    "door": (static.door(1, 0), None), "trap": (static.door_switch(2, 0), None),
+    "lock": (static.door_switch(1, 0), None), "gold": (static.gold(), None),
+}  # fmt: skip
+"""What kills, carries or opens, with the light around it."""
+
+LINES = ("ninja", "ghost", "laser", "electric")
+"""Roles of what is drawn as thin lines, or all in one colour."""
+
+moods = pytest.mark.parametrize("palette", MOODS, ids=lambda palette: palette.name)
+
+
+def seen(colours: Colours, sight: str) -> Colours:
+    """Colours of 0…255 as CIE Lab, as somebody with that sight has them."""
+    c = colours / 255
+    linear = np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
+    linear = np.clip(linear @ np.reshape(SIGHTS[sight], (3, 3)).T, 0, 1)
+    xyz = linear @ np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]]).T
+    t = xyz / np.array([0.9505, 1.0, 1.089])
+    f = np.where(t > 0.008856, np.cbrt(t), 7.787 * t + 16 / 116)
+    return np.stack([116 * f[:, 1] - 16, 500 * (f[:, 0] - f[:, 1]), 200 * (f[:, 1] - f[:, 2])], axis=1)
+
+
+def differences(a: Colours, b: Colours, sight: str) -> Colours:
+    """Of each colour to each other one."""
+    return np.asarray(np.linalg.norm(seen(a, sight)[:, None] - seen(b, sight)[None], axis=2))
+
+
+def rgba(surface: pygame.Surface) -> Colours:
+    data = np.frombuffer(pygame.image.tobytes(surface, "RGBA"), np.uint8)
+    return data.reshape(-1, 4).astype(np.float64)
+
+
+@lru_cache
+def plain_ground(name: str) -> Colours:
+    """The colours of a mood's ground without light."""
+    return np.unique(rgba(ground((66, 50), PALETTES[name]))[:, :3] // 6 * 6 + 3, axis=0)
+
+
+def lit(colours: Colours, palette: Palette, look: Look, share: float = 1.0) -> Colours:
+    """Those colours in the middle of a light, or with some share of it."""
+    glow = light_picture(look, 1.0, palette)
+    *colour, alpha = glow.get_at(glow.get_rect().center)
+    return np.asarray(colours + (np.array(colour) - colours) * share * alpha / 255)
+
+
+@lru_cache
+def grounds(name: str, own: Look | None = None) -> Colours:
+    """What may lie around a thing with that light: the ground, in its light, and half way out in that of others."""
+    plain, palette = plain_ground(name), PALETTES[name]
+    lights = [lit(plain, palette, look, 0.5) for look in (*LOOKS.values(), EXIT_OPEN)]
+    return np.concatenate([plain, *lights, lit(plain, palette, own) if own else plain])
+
+
+@moods
+@pytest.mark.parametrize("sight", SIGHTS)
+@pytest.mark.parametrize("thing", THINGS)
+def test_things_stand_out_from_the_scenery(palette: Palette, sight: str, thing: str) -> None:
+    key, look = THINGS[thing]
+    drawn = rgba(SpriteBook(2.0, palette).sprite(key).surface)
+    solid = drawn[drawn[:, 3] > 250][:, :3]
+    told = (differences(solid, grounds(palette.name, look), sight) >= LEAST).mean(axis=0)
+    assert told.min() >= LEAST_SHARE
+
+
+@moods
+@pytest.mark.parametrize("sight", SIGHTS)
+@pytest.mark.parametrize("role", LINES)
+def test_lines_stand_out_from_the_scenery(palette: Palette, sight: str, role: str) -> None:
+    colour = np.array([getattr(palette, role)[:3]], np.float64)
+    assert differences(colour, grounds(palette.name), sight).min() >= LEAST
+
+
+@moods
+@pytest.mark.parametrize("sight", SIGHTS)
+def test_tiles_are_never_taken_for_scenery(palette: Palette, sight: str) -> None:
+    """The tiles' lightness is far from the scenery's, wherever that is; the scenery's own is nearly one."""
+    tile = seen(np.array([palette.tile[:3]], np.float64), sight)[0, 0]
+    lightness = seen(plain_ground(palette.name), sight)[:, 0]
+    assert abs(lightness - tile).min() >= 16
+    assert np.ptp(lightness) <= 1.25 * abs(lightness - tile).min()
+
+
+@moods
+def test_text_can_be_read_on_the_scenery(palette: Palette) -> None:
+    """WCAG's contrast ratio: 4.5 for text, 3 for what is said beside it."""
+    for role, least in (("text", 6.0), ("faint", 3.0)):
+        colours = np.concatenate([np.array([getattr(palette, role)[:3]], np.float64), plain_ground(palette.name)])
+        light = (seen(colours, "normal")[:, 0] + 16) / 116
+        luminance = light**3 + 0.05
+        assert (np.maximum(luminance[1:], luminance[0]) / np.minimum(luminance[1:], luminance[0])).min() >= least
