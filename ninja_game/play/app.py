@@ -209,6 +209,7 @@ class App:
         after = self.settings
         self.controls.bind(after.keys, after.pad)
         self.controls.pads.dead_zone = after.dead_zone
+        self.controls.tap_to_run = after.tap_to_run
         self.audio_output.set_volumes(after.volume, after.loop_volume)
         self.window.set_fullscreen(wanted=after.fullscreen)
         if (after.palette, after.fullscreen) != (before.palette, before.fullscreen):
@@ -383,7 +384,9 @@ def build_app(
     """
     player = PlayerData(folder)
     settings = player.settings
-    bindings = controls or Bindings(settings.keys, settings.pad, dead_zone=settings.dead_zone)
+    bindings = controls or Bindings(
+        settings.keys, settings.pad, dead_zone=settings.dead_zone, tap_to_run=settings.tap_to_run
+    )
     sound = audio_output or AudioPlayer(
         data_folder("assets") / "sounds", volume=settings.volume, loop_volume=settings.loop_volume
     )

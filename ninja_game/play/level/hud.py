@@ -165,9 +165,11 @@ def hud_view(play: LevelPlay) -> HudView:
         # At the far side from the ninja, so that neither its dance nor the way that it came is hidden.
         y = ABOVE if attempt.simulation.world.ninja.y > HEIGHT / 2 else BELOW
         message = f"Passed with {seconds_text(attempt.score)}", [*_reached(play, gold), keys], y
-        medal = context.pars.medal(attempt.ended_tick) if context.pars else ""
+        medal = context.pars.medal(attempt.ended_tick) if context.pars and not attempt.assisted else ""
     hint = _hint(play, key)
     title = f"{context.title}    {play.aim}" if play.phase is Phase.READY and play.aim else context.title
+    if (settings.game_speed < 100 or play.invincible or attempt.assisted) and not context.practice_mode:
+        title += "    assisted: no record"
     practice = "Practice" + (", slow motion" if play.tools.slow else "")
     return HudView(
         play.shown_lifetime,

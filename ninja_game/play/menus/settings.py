@@ -204,11 +204,13 @@ class BindingTable(ListView):
                 theme.text(surface, text, x + width / 2, top + 0.5, size=10, align="centre", width=width - 10)
 
 
-PAGES = ("Picture", "Sound", "Play", "Keyboard", "Gamepad")
+PAGES = ("Picture", "Sound", "Play", "Accessibility", "Keyboard", "Gamepad")
 SWITCH = [("off", False), ("on", True)]
 RATES = [("match display", 0), ("30", 30), ("60", 60), ("120", 120), ("144", 144), ("240", 240)]
 COLOUR_NAMES = ("default", "pink", "olive", "teal", "mauve", "maroon", "white", "gold", "slate", "silver")
 PRACTICE_HINT = "No clock; quick save, rewind, slow motion; no records"
+TEXT_SIZES = [("normal", 100), ("large", 125), ("largest", 150)]
+ASSISTED_HINT = "such runs are marked as assisted: no records"
 LEFT, TOP, STEP, HEIGHT_OF_ROW = 216, 72, 42, 32
 WIDTH_OF_ROW = WIDTH - 36 - LEFT - 12
 
@@ -248,7 +250,12 @@ class SettingsScreen(MenuScreen):
     def _page_widgets(self) -> list[Widget]:
         if self.page in ("Keyboard", "Gamepad"):
             return binding_widgets(self, "keys" if self.page == "Keyboard" else "pad")
-        return {"Picture": self._picture, "Sound": self._sound, "Play": self._play}[self.page]()
+        return {
+            "Picture": self._picture,
+            "Sound": self._sound,
+            "Play": self._play,
+            "Accessibility": self._accessibility,
+        }[self.page]()
 
     # --- changing ---
 
@@ -278,11 +285,9 @@ class SettingsScreen(MenuScreen):
             self._choice(2, "Full screen", "fullscreen", SWITCH, "F11 at any time"),
             self._choice(3, "Smooth motion", "smooth", SWITCH, "Draw between the 40 ticks of a second"),
             self._choice(4, "Frame rate", "frame_limit", RATES),
-            self._choice(5, "Reduced motion", "reduced_motion", SWITCH, "Fewer particles; nothing plays behind menus"),
-            self._choice(6, "Reduced gore", "reduced_gore", SWITCH, "No blood"),
-            self._choice(7, "Ghost of your best run", "show_ghost", SWITCH),
-            self._choice(8, "Show keys in play", "show_keys", SWITCH),
-            self._choice(9, "Show frame time", "show_frame_time", SWITCH),
+            self._choice(5, "Ghost of your best run", "show_ghost", SWITCH),
+            self._choice(6, "Show keys in play", "show_keys", SWITCH),
+            self._choice(7, "Show frame time", "show_frame_time", SWITCH),
         ]
 
     def _sound(self) -> list[Widget]:
@@ -316,6 +321,21 @@ class SettingsScreen(MenuScreen):
             )  # fmt: skip
         text = f"Your levels: {self.player.folder / LEVELS}"
         return [*widgets, Label((LEFT, TOP + STEP * 10 + 16, 500, 12), text, size=9.5, faint=True)]
+
+    def _accessibility(self) -> list[Widget]:
+        return [
+            self._choice(0, "Text size", "text_size", TEXT_SIZES),
+            Slider(self._area(1), "Game speed", (50, 100, 5), lambda: self.player.settings.game_speed,
+                   lambda value: self.change(game_speed=round(value)), show="{:.0f} %".format,
+                   hint=f"Time goes slower; {ASSISTED_HINT}"),
+            self._choice(2, "Invincible", "invincible", SWITCH,
+                         f"Only crushing, the clock and giving up end a run; {ASSISTED_HINT}"),
+            self._choice(3, "Running keys", "tap_to_run", [("hold", False), ("tap", True)],
+                         "Tap: a press runs on until the next press"),
+            self._choice(4, "Marks for warning sounds", "sound_cues", SWITCH, "Rocket, laser, chase and turret"),
+            self._choice(5, "Reduced motion", "reduced_motion", SWITCH, "Fewer particles; nothing plays behind menus"),
+            self._choice(6, "Reduced gore", "reduced_gore", SWITCH, "No blood"),
+        ]  # fmt: skip
 
     # --- picture ---
 
