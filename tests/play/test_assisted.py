@@ -30,7 +30,8 @@ def test_an_invincible_ninja_survives_every_death_of_the_help(page: Page) -> Non
         attempt.tick(keys & 7, invincible=True)
     assert mortal.outcome == "dead"
     assert attempt.outcome == "running"
-    assert attempt.spared and attempt.assisted
+    assert attempt.spared
+    assert attempt.assisted
     assert attempt.simulation.tick == len(page.inputs)
 
 
