@@ -18,7 +18,8 @@ from ninja_game.ui.widgets import draw_medal
 
 _BAR_LEFT, _BAR_MIDDLE = 24.0, 12.0
 _BAR_LONGEST = 700.0
-_BAR_PER_TICK = 1200.0 / LIFETIME
+_BAR_AT_START = 600.0
+"""Length of the bar with the lifetime that a level begins with."""
 _WARNING_TICKS = 1800
 _FOOT_WIDTH = 744.0
 
@@ -29,6 +30,16 @@ _KEYS = (
     (40, KEY_RIGHT, ((3, 0), (-2, -4), (-2, 4))),
 )
 """Where the keys of left, jump and right are drawn, their bits and their arrows."""
+
+
+def bar_length(lifetime: float) -> float:
+    """Length of the time bar, px, for a lifetime in ticks: whatever is left, less of it is shorter.
+
+    >>> bar_length(1800), bar_length(3600), bar_length(7200)
+    (300.0, 600.0, 650.0)
+    """
+    more = _BAR_LONGEST - _BAR_AT_START
+    return _BAR_LONGEST - more * LIFETIME / lifetime if lifetime > LIFETIME else _BAR_AT_START * lifetime / LIFETIME
 
 
 def trough(palette: Palette) -> pygame.Color:
@@ -76,7 +87,7 @@ class Hud:
         """The lifetime (ticks) as a bar that grows thick and red as it runs out, and as seconds."""
         palette, canvas = self.theme.palette, self.theme.canvas
         left = max(0.0, lifetime)
-        length = min(_BAR_LONGEST, left * _BAR_PER_TICK)
+        length = bar_length(left)
         danger = min(1.0, max(0.0, 1 - left / _WARNING_TICKS))
         thick = 5 + 8 * danger
         colour = mixed(palette.bar_full, palette.bar_empty, danger)
@@ -148,6 +159,10 @@ class Hud:
 ABOVE, BELOW = 34.0, 494.0
 """Where the panel of a passed level begins: near the upper or the lower border."""
 
+_TOOLS = {"quick_save": "save", "quick_load": "load", "rewind": "rewind", "slow": "slow", "step": "step"}
+_TOOLS_NAMED = 600
+"""Ticks of a practice run in which the keys of its tools are named: where they work, and not for ever."""
+
 KeyName = Callable[[str], str]
 """Gives what to press for an action."""
 
@@ -204,6 +219,8 @@ def _hint(play: LevelPlay, key: KeyName) -> str:
         return f"{again}    {key('replay')}: watch it" if play.may_watch else again
     if play.tools.stepping:
         return f"{key('step')}: one tick    {key('confirm')} or any move: go on"
+    if play.context.practice_mode and play.attempt.simulation.tick < _TOOLS_NAMED:
+        return "    ".join(f"{key(action)}: {name}" for action, name in _TOOLS.items())
     return ""
 
 
@@ -212,9 +229,7 @@ def _ready_hint(key: KeyName, *, practice_mode: bool, show_tutorial: bool) -> st
     if show_tutorial:
         return f"{key('left')} and {key('right')}: run    {key('jump')}: jump, hold it to jump higher    {begin}"
     if practice_mode:
-        tools = ("quick_save", "save"), ("quick_load", "load"), ("rewind", "rewind"), ("slow", "slow"), ("step", "step")
-        named = [f"{key(action)}: {name}" for action, name in tools]
-        return "    ".join([begin, *named, f"{key('overlay_hitboxes')} to {key('overlay_cells')}: look inside"])
+        return f"{begin}    {key('overlay_hitboxes')} to {key('overlay_cells')}: look inside"
     return begin
 
 

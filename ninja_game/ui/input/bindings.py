@@ -140,6 +140,11 @@ class Bindings:
             return pad_label(pad[0])
         return key_label(keys[0]) if keys else pad_label(pad[0]) if pad else "(no key)"
 
+    def all_names(self, action: str) -> tuple[str, str]:
+        """All that can be pressed for an action: on the keyboard, on a gamepad as most have it."""
+        buttons = [name for name in self.pad[action] if not name.startswith(("hat-", "axis-", "button-"))]
+        return ", ".join(map(key_label, self.keys[action])), ", ".join(map(pad_label, buttons))
+
 
 class Action(NamedTuple):
     """``label``: for the settings screen; ``keys`` and ``pad``: names of the default inputs."""
@@ -152,7 +157,7 @@ class Action(NamedTuple):
 ACTIONS: dict[str, Action] = {
     "left": Action("Run left", ("left", "a"), ("dpad-left", "leftx-", "hat-left", "axis-0-")),
     "right": Action("Run right", ("right", "d"), ("dpad-right", "leftx+", "hat-right", "axis-0+")),
-    "jump": Action("Jump", ("lshift", "rshift", "z", "up", "w"), ("a", "button-0")),
+    "jump": Action("Jump", ("z", "up", "w", "lshift", "rshift"), ("a", "button-0")),
     "confirm": Action("Begin, continue", ("space", "return"), ("a", "button-0")),
     "back": Action("Back", ("escape",), ("b", "button-1")),
     "pause": Action("Pause", ("p",), ("start", "button-7")),
