@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from operator import attrgetter
 from pathlib import Path
 
 import pygame
@@ -212,7 +213,8 @@ class App:
         self.controls.tap_to_run = after.tap_to_run
         self.audio_output.set_volumes(after.volume, after.loop_volume)
         self.window.set_fullscreen(wanted=after.fullscreen)
-        if (after.palette, after.fullscreen) != (before.palette, before.fullscreen):
+        look = attrgetter("palette", "fullscreen", "text_size")
+        if look(after) != look(before):
             self._lay_out()
         self.stack.redraw_all()
         if message:
@@ -232,7 +234,7 @@ class App:
     def _lay_out(self) -> None:
         """Draw everything again, at the window's present size and in the present palette."""
         self.canvas = Canvas(self.surface.get_size())
-        self.theme = Theme(palette_named(self.settings.palette), self.canvas)
+        self.theme = Theme(palette_named(self.settings.palette), self.canvas, self.settings.text_size)
         self.stack.redraw_all()
 
     # --- the screens ---

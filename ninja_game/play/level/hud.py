@@ -110,10 +110,13 @@ class Hud:
 
     def _border_line(self, surface: pygame.Surface, left: str, right: str, y: float) -> pygame.Rect:
         theme, colour = self.theme, self.theme.palette.on_tile
-        right = theme.fit(right, _FOOT_WIDTH, 9)
-        room = _FOOT_WIDTH - theme.width(right, 9) - 14
-        rect = theme.text(surface, right, 768, y, size=9, colour=colour, align="right")
-        return rect.union(theme.text(surface, theme.fit(left, room, 9), 24, y, size=9, colour=colour))
+        gap = 14 if left and right else 0
+        # The right text grows only where that takes nothing from the left one.
+        beside = min(_FOOT_WIDTH / 2, theme.lettering.width(left, 9))
+        room = max(min(_FOOT_WIDTH, theme.lettering.width(right, 9)), _FOOT_WIDTH - beside - gap)
+        rect = theme.text(surface, right, 768, y, size=9, colour=colour, align="right", width=room)
+        room = _FOOT_WIDTH - rect.width / theme.canvas.scale - gap
+        return rect.union(theme.text(surface, left, 24, y, size=9, colour=colour, width=room))
 
     def head(self, surface: pygame.Surface, left: str, right: str) -> pygame.Rect:
         """A line in the border above the level, like ``foot`` below it."""

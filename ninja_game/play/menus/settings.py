@@ -18,7 +18,7 @@ from ninja_game.ui.input.gamepad import pad_label
 from ninja_game.ui.input.keys import key_label
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.text_entry import TextEntry
-from ninja_game.ui.theme import NINJA_COLOURS, PALETTES, Area, Theme
+from ninja_game.ui.theme import NINJA_COLOURS, PALETTES, TEXT_SIZES, Area, Theme
 from ninja_game.ui.widgets import TEXT, Button, Choice, Label, Slider, Widget
 
 IN_REPLAYS_ONLY = frozenset({"faster", "slower", "frame_back", "frame_forward", "edit"})
@@ -209,7 +209,6 @@ SWITCH = [("off", False), ("on", True)]
 RATES = [("match display", 0), ("30", 30), ("60", 60), ("120", 120), ("144", 144), ("240", 240)]
 COLOUR_NAMES = ("default", "pink", "olive", "teal", "mauve", "maroon", "white", "gold", "slate", "silver")
 PRACTICE_HINT = "No clock; quick save, rewind, slow motion; no records"
-TEXT_SIZES = [("normal", 100), ("large", 125), ("largest", 150)]
 ASSISTED_HINT = "such runs are marked as assisted: no records"
 LEFT, TOP, STEP, HEIGHT_OF_ROW = 216, 72, 42, 32
 WIDTH_OF_ROW = WIDTH - 36 - LEFT - 12
@@ -324,7 +323,7 @@ class SettingsScreen(MenuScreen):
 
     def _accessibility(self) -> list[Widget]:
         return [
-            self._choice(0, "Text size", "text_size", TEXT_SIZES),
+            self._choice(0, "Text size", "text_size", list(TEXT_SIZES.items())),
             Slider(self._area(1), "Game speed", (50, 100, 5), lambda: self.player.settings.game_speed,
                    lambda value: self.change(game_speed=round(value)), show="{:.0f} %".format,
                    hint=f"Time goes slower; {ASSISTED_HINT}"),
