@@ -94,9 +94,9 @@ class Label(Widget):
         self.faint = faint
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
-        x, y, _, _ = self.area
+        x, y, w, h = self.area
         colour = theme.palette.faint if self.faint else theme.palette.text
-        theme.text(surface, self.text, x, y, size=self.size, colour=colour)
+        theme.text(surface, self.text, x, y, size=self.size, colour=colour, width=w, height=h)
 
 
 class Button(Widget):

@@ -200,11 +200,12 @@ class Browser(ThumbnailScreen):
             theme.text(surface, text, SIDE, 364 + 13 * number, size=11, width=SIDE_WIDTH)
         best = self.bests.get(entry.digest)
         text = f"Your best: {seconds_text(best.score)} with {best.gold} gold" if best else "Not passed yet"
-        theme.text(surface, text, SIDE, 390, size=12, colour=palette.good if best else palette.faint)
+        colour = palette.good if best else palette.faint
+        theme.text(surface, text, SIDE, 390, size=12, colour=colour, width=SIDE_WIDTH - 90)
         mark = self.marks.get(entry.digest)
         if mark:
             time = f"in {seconds_text(mark.fastest)} s"
-            theme.text(surface, time, SIDE + SIDE_WIDTH, 390, size=12, colour=palette.good, align="right")
+            theme.text(surface, time, SIDE + SIDE_WIDTH, 390, size=12, colour=palette.good, align="right", width=84)
         played = self.player.statistics.played(entry.digest)
         if played.attempts:
             theme.text(surface, tries_text(played), SIDE, 408, size=10.5, colour=palette.faint)

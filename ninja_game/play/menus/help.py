@@ -141,7 +141,7 @@ class HelpScreen(MenuScreen):
         super().__init__(app)
         self.pages = read_pages()
         self.topics = [page.title for page in self.pages] + [KEYS_TITLE]
-        self.list = ListView((44, 66, 168, 18 * 26), 26, self._draw_topic, lambda _: None, selected=self._show)
+        self.list = ListView((44, 66, 190, 18 * 26), 26, self._draw_topic, lambda _: None, selected=self._show)
         self.list.hint = "Up and down: choose a topic"
         x, y, w, _ = WINDOW
         self.keys = ListView((x, y + 54, w, 17 * KEY_ROW), KEY_ROW, self._draw_action, lambda _: None,
@@ -184,21 +184,19 @@ class HelpScreen(MenuScreen):
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)
         theme = self.app.theme
-        x, y, _, h = WINDOW
+        x, y, w, h = WINDOW
         if self.page is None:
             self._draw_table_head(surface, theme)
             return
         theme.text(surface, self.page.title, x, y + h + 54, size=18, bold=True)
-        lines = [line for text in self.page.text for line in wrapped(theme, text, WINDOW[2], 12.5)]
-        for place, line in enumerate(lines):
-            theme.text(surface, line, x, y + h + 84 + 19 * place, size=12.5)
+        theme.paragraph(surface, self.page.text, (x, y + h + 84, w, 64), 12.5, 19)
 
     def _draw_topic(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         x, y, w, h = area
         chosen = index == self.list.index
         if chosen:
             theme.row(surface, (x, y + 1, w, h - 2), chosen=True, focused=focused, radius=3)
-        theme.text(surface, self.topics[index], x + 10, y + 7, size=11.5, bold=chosen)
+        theme.text(surface, self.topics[index], x + 8, y + 7, size=11.5, bold=chosen, width=w - 10, height=h)
 
     def _draw_keys_pressed(self, surface: pygame.Surface, keys: int) -> pygame.Rect:
         """The three keys of a demonstration, lit while they are down."""

@@ -308,7 +308,7 @@ class SettingsScreen(MenuScreen):
     def _play(self) -> list[Widget]:
         widgets: list[Widget] = [
             self._choice(0, "Practice mode", "practice", SWITCH, PRACTICE_HINT),
-            Label((LEFT, TOP + STEP + 10, 200, 14), "Your name, in replays:"),
+            Label((LEFT, TOP + STEP + 10, 212, 14), "Your name, in replays:"),
             TextEntry((LEFT + 220, TOP + STEP, WIDTH_OF_ROW - 220, HEIGHT_OF_ROW), "unnamed",
                       self.player.settings.name, lambda text: self.change(name=text)),
         ]  # fmt: skip
@@ -319,7 +319,7 @@ class SettingsScreen(MenuScreen):
                        hint="Shorter ticks, until the game ends; scores count as usual")
             )  # fmt: skip
         text = f"Your levels: {self.player.folder / LEVELS}"
-        return [*widgets, Label((LEFT, TOP + STEP * 10 + 16, 500, 12), text, size=9.5, faint=True)]
+        return [*widgets, Label((LEFT, TOP + STEP * 10 + 16, WIDTH_OF_ROW, 13), text, size=9.5, faint=True)]
 
     def _accessibility(self) -> list[Widget]:
         return [
