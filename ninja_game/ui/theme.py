@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields
 
 import pygame
@@ -80,6 +80,10 @@ class Theme:
             if high and self.lettering.width(text, size * scale, bold=bold) <= width:
                 return scale
         return self.scales[-1]
+
+    def common_height(self, texts: Iterable[str], size: float, width: float) -> float:
+        """The height with which bold texts of a list that is so wide all get the same scale."""
+        return size * HEIGHT * min(self.largest(text, size, width, bold=True) for text in texts)
 
     def width(self, text: str, size: float = 8, *, bold: bool = False) -> float:
         """Width of a text that has room, logical px."""

@@ -8,7 +8,6 @@ from pathlib import Path
 from unittest.mock import patch
 
 import pygame
-import pytest
 
 from ninja_game.files.user_folder import CHECKOUT
 from ninja_game.ui.theme import TEXT_SIZES
@@ -35,10 +34,9 @@ def pack_of_long_names(folder: Path) -> Path:
     return pack
 
 
-@pytest.mark.parametrize("names", ["usual", "longest"])
-def test_nothing_leaves_its_place_on_any_screen(tmp_path: Path, names: str) -> None:
+def test_nothing_leaves_its_place_on_any_screen(tmp_path: Path) -> None:
     found: set[str] = set()
-    pack = pack_of_long_names(tmp_path) if names == "longest" else PACK
+    pack = pack_of_long_names(tmp_path)
 
     def show(driver: MenuDriver, name: str) -> None:
         app = driver.app

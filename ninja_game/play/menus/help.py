@@ -196,7 +196,8 @@ class HelpScreen(MenuScreen):
         chosen = index == self.list.index
         if chosen:
             theme.row(surface, (x, y + 1, w, h - 2), chosen=True, focused=focused, radius=3)
-        theme.text(surface, self.topics[index], x + 8, y + 7, size=11.5, bold=chosen, width=w - 10, height=h)
+        high = min(h, theme.common_height(self.topics, 11.5, w - 10))
+        theme.text(surface, self.topics[index], x + 8, y + 7, size=11.5, bold=chosen, width=w - 10, height=high)
 
     def _draw_keys_pressed(self, surface: pygame.Surface, keys: int) -> pygame.Rect:
         """The three keys of a demonstration, lit while they are down."""
