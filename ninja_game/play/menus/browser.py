@@ -20,7 +20,7 @@ from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text, where_from
-from ninja_game.player.catalogue import Entry
+from ninja_game.player.catalogue import Entry, author_name
 from ninja_game.player.marks import Mark
 from ninja_game.player.records import SavedReplay, seconds_text
 from ninja_game.ui.input.bindings import InputEvent
@@ -193,7 +193,7 @@ class Browser(ThumbnailScreen):
             return
         self.thumbnails.draw(surface, entry, SIDE, 66, SIDE_WIDTH)
         theme.text(surface, entry.title, SIDE, 320, size=17, bold=True, width=SIDE_WIDTH - 44)
-        by = f"by {entry.named.author}" if entry.named.author else "author unknown"
+        by = f"by {author_name(entry.named.author)}" if entry.named.author else "author unknown"
         theme.text(surface, by, SIDE, 346, size=11, colour=palette.faint, width=SIDE_WIDTH)
         teaches = entry.named.teaches and f"Teaches: {entry.named.teaches}"
         for number, text in enumerate(filter(None, (entry.named.comment, teaches))):
@@ -222,7 +222,7 @@ class Browser(ThumbnailScreen):
         self.thumbnails.draw(surface, entry, x + 4, y + 4, PICTURE)
         left = x + PICTURE + 14
         theme.text(surface, entry.title, left, y + 11, size=12, bold=chosen, width=200)
-        source = entry.named.author or ("your folder" if entry.source == "yours" else "")
+        source = author_name(entry.named.author) or ("your folder" if entry.source == "yours" else "")
         theme.text(surface, source, left, y + 32, size=10, colour=palette.faint, width=190)
         best = self.bests.get(entry.digest)
         if best:
