@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from operator import attrgetter
 from pathlib import Path
 
 import pygame
@@ -223,9 +224,11 @@ class App:
         after = self.settings
         self.controls.bind(after.keys, after.pad)
         self.controls.pads.dead_zone = after.dead_zone
+        self.controls.tap_to_run = after.tap_to_run
         self.audio_output.set_volumes(after.volume, after.loop_volume)
         self.window.set_fullscreen(wanted=after.fullscreen)
-        if (after.palette, after.fullscreen) != (before.palette, before.fullscreen):
+        look = attrgetter("palette", "fullscreen", "text_size")
+        if look(after) != look(before):
             self._lay_out()
         self.stack.redraw_all()
         if message:
@@ -245,7 +248,7 @@ class App:
     def _lay_out(self) -> None:
         """Draw everything again, at the window's present size and in the present palette."""
         self.canvas = Canvas(self.surface.get_size())
-        self.theme = Theme(self.palette_in(self.column), self.canvas)
+        self.theme = Theme(self.palette_in(self.column), self.canvas, self.settings.text_size)
         self.stack.redraw_all()
 
     def palette_in(self, column: int) -> Palette:
@@ -421,7 +424,9 @@ def build_app(
     """
     player = PlayerData(folder)
     settings = player.settings
-    bindings = controls or Bindings(settings.keys, settings.pad, dead_zone=settings.dead_zone)
+    bindings = controls or Bindings(
+        settings.keys, settings.pad, dead_zone=settings.dead_zone, tap_to_run=settings.tap_to_run
+    )
     sound = audio_output or AudioPlayer(
         data_folder("assets") / "sounds", volume=settings.volume, loop_volume=settings.loop_volume
     )

@@ -79,6 +79,11 @@ class Settings:
     play_speed: int = 100
     practice: bool = False
     level_texts: bool = True
+    game_speed: int = 100
+    invincible: bool = False
+    tap_to_run: bool = False
+    text_size: int = 100
+    sound_cues: bool = False
     name: str = ""
     site: str = ""
     dead_zone: float = 0.35
@@ -181,6 +186,11 @@ RULES = {
     "play_speed": _whole("tas", 10, 800, "of playing in the TAS editor, percent"),
     "practice": _flag("play", "practice mode: saving states, rewinding, slow motion; nothing counts"),
     "level_texts": _flag("play", "levels that have not been passed say how they are meant"),
+    "game_speed": _whole("accessibility", 50, 100, "of play, percent; below 100 a run is assisted: no record"),
+    "invincible": _flag("accessibility", "nothing that is met kills; a run is assisted: no record"),
+    "tap_to_run": _flag("accessibility", "a press of a running key runs until the next one"),
+    "text_size": _whole("accessibility", 100, 150, "of all texts but those of the TAS editor, percent"),
+    "sound_cues": _flag("accessibility", "marks where a sound warns: rocket, laser, chase, turret"),
     "name": Rule("play", _is_name, "at most 40 printable characters", "of the player, in replays"),
     "site": Rule(
         "play",

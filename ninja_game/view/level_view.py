@@ -21,6 +21,7 @@ from ninja_game.view.effects.effects import Effects
 from ninja_game.view.effects.particles import Particles
 from ninja_game.view.ninja.ninja_animation import NinjaAnimation, draw_ghost, draw_ninja, draw_ragdoll
 from ninja_game.view.ninja.ragdoll import Ragdoll
+from ninja_game.view.sound_cues import draw_sound_cues
 from ninja_game.view.sprites.backdrop import Backdrop
 from ninja_game.view.sprites.drawing import DrawTarget, SpriteBook
 from ninja_game.view.sprites.moving_sprites import draw_moving
@@ -236,6 +237,8 @@ class LevelView:
                 draw_ghost(target, ghost.ninja_animation, ghost.place(fraction), fraction, ghost.colour(target.palette))
         self._draw_ninja(fraction)
         Particles.draw(self.particles.front, target, now)
+        if self.context.settings.sound_cues:
+            draw_sound_cues(target, self.simulation.world)
 
     def _draw_ninja(self, fraction: float) -> None:
         if self.ragdoll is not None:

@@ -28,6 +28,8 @@ VALUES = {
     "level_width": st.integers(0, 99),
     "tabs_height": st.integers(0, 99),
     "play_speed": st.integers(10, 800),
+    "game_speed": st.integers(50, 100),
+    "text_size": st.integers(100, 150),
     "name": PRINTABLE,
     "site": st.sampled_from(["", "https://example.org/game/?a=b&c=%20"]),
     "dead_zone": st.floats(0.05, 0.95),

@@ -21,7 +21,8 @@ from ninja_game.ui.widgets import draw_medal
 
 _BAR_LEFT, _BAR_MIDDLE = 24.0, 12.0
 _BAR_LONGEST = 700.0
-_BAR_PER_TICK = 1200.0 / LIFETIME
+_BAR_AT_START = 600.0
+"""Length of the bar with the lifetime that a level begins with."""
 _WARNING_TICKS = 1800
 _FOOT_WIDTH = 744.0
 
@@ -32,6 +33,16 @@ _KEYS = (
     (40, KEY_RIGHT, ((3, 0), (-2, -4), (-2, 4))),
 )
 """Where the keys of left, jump and right are drawn, their bits and their arrows."""
+
+
+def bar_length(lifetime: float) -> float:
+    """Length of the time bar, px, for a lifetime in ticks: whatever is left, less of it is shorter.
+
+    >>> bar_length(1800), bar_length(3600), bar_length(7200)
+    (300.0, 600.0, 650.0)
+    """
+    more = _BAR_LONGEST - _BAR_AT_START
+    return _BAR_LONGEST - more * LIFETIME / lifetime if lifetime > LIFETIME else _BAR_AT_START * lifetime / LIFETIME
 
 
 def trough(palette: Palette) -> pygame.Color:
@@ -84,7 +95,7 @@ class Hud:
         """The lifetime (ticks) as a bar that grows thick and red as it runs out, and as seconds."""
         palette, canvas = self.theme.palette, self.theme.canvas
         left = max(0.0, lifetime)
-        length = min(_BAR_LONGEST, left * _BAR_PER_TICK)
+        length = bar_length(left)
         danger = min(1.0, max(0.0, 1 - left / _WARNING_TICKS))
         thick = 5 + 8 * danger
         colour = mixed(palette.bar_full, palette.bar_empty, danger)
@@ -107,10 +118,13 @@ class Hud:
 
     def _border_line(self, surface: pygame.Surface, left: str, right: str, y: float) -> pygame.Rect:
         theme, colour = self.theme, self.theme.palette.on_tile
-        right = theme.fit(right, _FOOT_WIDTH, 9)
-        room = _FOOT_WIDTH - theme.width(right, 9) - 14
-        rect = theme.text(surface, right, 768, y, size=9, colour=colour, align="right")
-        return rect.union(theme.text(surface, theme.fit(left, room, 9), 24, y, size=9, colour=colour))
+        gap = 14 if left and right else 0
+        # The right text grows only where that takes nothing from the left one.
+        beside = min(_FOOT_WIDTH / 2, theme.lettering.width(left, 9))
+        room = max(min(_FOOT_WIDTH, theme.lettering.width(right, 9)), _FOOT_WIDTH - beside - gap)
+        rect = theme.text(surface, right, 768, y, size=9, colour=colour, align="right", width=room)
+        room = _FOOT_WIDTH - rect.width / theme.canvas.scale - gap
+        return rect.union(theme.text(surface, left, 24, y, size=9, colour=colour, width=room))
 
     def head(self, surface: pygame.Surface, left: str, right: str) -> pygame.Rect:
         """A line in the border above the level, like ``foot`` below it."""
@@ -184,6 +198,9 @@ TITLE, LINE, MEDAL_SIZE = 20.0, 10.5, 27.0
 
 SAID, IN_BORDER, BESIDE_GOLD = 13.5, 576.0, 570.0
 """Size of a text that the level says; where it stands in play, in the border, hiding nothing; its width there."""
+_TOOLS = {"quick_save": "save", "quick_load": "load", "rewind": "rewind", "slow": "slow", "step": "step"}
+_TOOLS_NAMED = 600
+"""Ticks of a practice run in which the keys of its tools are named: where they work, and not for ever."""
 
 KeyName = Callable[[str], str]
 """Gives what to press for an action."""
@@ -206,6 +223,8 @@ def hud_view(play: LevelPlay) -> HudView:
         message = f"Passed in {seconds_text(attempt.ended_tick)} s", [*_reached(play, gold), keys], y
     hint = _hint(play, key)
     title = f"{context.title}    {play.aim}" if play.phase is Phase.READY and play.aim else context.title
+    if (settings.game_speed < 100 or play.invincible or attempt.assisted) and not context.practice_mode:
+        title += "    assisted: no record"
     practice = "Practice" + (", slow motion" if play.tools.slow else "")
     return HudView(
         play.shown_lifetime,
@@ -225,9 +244,9 @@ def _reached(play: LevelPlay, gold: str) -> list[str]:
     tick, pars = play.attempt.ended_tick, play.context.pars
     all_of_it = ", all of it" if play.attempt.gold == play.all_gold > 0 else ""
     lines = [f"{gold} gold{all_of_it}    {seconds_text(play.attempt.score)} s left on the clock: your score"]
-    if pars:
+    if pars and play.medal:
         following = next_par(pars, Mark(tick, 0))
-        lines.insert(0, f"{pars.medal(tick).capitalize()} medal" + (f"    {following}" if following else ""))
+        lines.insert(0, f"{play.medal.capitalize()} medal" + (f"    {following}" if following else ""))
     return lines
 
 
@@ -243,6 +262,8 @@ def _hint(play: LevelPlay, key: KeyName) -> str:
         return f"{again}    {key('replay')}: watch it" if play.may_watch else again
     if play.tools.stepping:
         return f"{key('step')}: one tick    {key('confirm')} or any move: go on"
+    if play.context.practice_mode and play.attempt.simulation.tick < _TOOLS_NAMED:
+        return "    ".join(f"{key(action)}: {name}" for action, name in _TOOLS.items())
     return ""
 
 
@@ -251,9 +272,7 @@ def _ready_hint(key: KeyName, *, practice_mode: bool, show_tutorial: bool) -> st
     if show_tutorial:
         return f"{key('left')} and {key('right')}: run    {key('jump')}: jump, hold it to jump higher    {begin}"
     if practice_mode:
-        tools = ("quick_save", "save"), ("quick_load", "load"), ("rewind", "rewind"), ("slow", "slow"), ("step", "step")
-        named = [f"{key(action)}: {name}" for action, name in tools]
-        return "    ".join([begin, *named, f"{key('overlay_hitboxes')} to {key('overlay_cells')}: look inside"])
+        return f"{begin}    {key('overlay_hitboxes')} to {key('overlay_cells')}: look inside"
     return begin
 
 

@@ -97,6 +97,7 @@ class LevelPlay:
 
     def _wait_at_start(self) -> None:
         self._go_to(Phase.READY)
+        self.app.controls.stop_running()
         self._held_before = self.app.controls.poll()
         self.keys = 0
         self.after_end = 0
@@ -125,6 +126,7 @@ class LevelPlay:
         self._go_to(Phase.PAUSED)
 
     def resume(self) -> None:
+        self.app.controls.stop_running()
         self._held_before = self.app.controls.poll()
         self._go_to(self._phase_before)
 
@@ -150,7 +152,7 @@ class LevelPlay:
     def may_watch(self) -> bool:
         """Whether the attempt can be watched: passed, or dead for a while and not by the player's own hand."""
         if self.phase is Phase.PASSED:
-            return True
+            return not self.attempt.spared
         return self.phase is Phase.DEAD and self.after_end > DEATH_PAUSE and not self.attempt.own_hand
 
     # --- practice ---
@@ -197,7 +199,7 @@ class LevelPlay:
             elif self._frozen_ms > 0:
                 self._frozen_ms -= real_ms
             elif not self.tools.stepping:
-                tick_ms = SLOW_TICK_MS if self.tools.slow else self.app.tick_ms
+                tick_ms = SLOW_TICK_MS if self.tools.slow else self.app.tick_ms * 100 // self.app.settings.game_speed
                 self.run_ticks(self.clock.ticks_due(real_ms, tick_ms))
         if self.attempt.outcome != "exit":
             self.shown_lifetime = followed(
@@ -217,12 +219,18 @@ class LevelPlay:
         if held & ~self._held_before:
             self.begin()
 
+    @property
+    def invincible(self) -> bool:
+        """Whether deaths are refused; practice, which can go back in time, has no need of it."""
+        return self.app.settings.invincible and not self.context.practice_mode
+
     def run_ticks(self, due: int) -> None:
         """So many ticks, each with the keys of its moment."""
+        self.attempt.assisted |= bool(due) and self.phase is Phase.PLAY and self.app.settings.game_speed < 100
         for _ in range(due):
             # Sampled right before the tick: as late as can be.
             self.keys = self.app.controls.poll() if self.phase is Phase.PLAY else 0
-            self.attempt.tick(self.keys)
+            self.attempt.tick(self.keys, invincible=self.invincible)
             self.view.on_tick()
             self.tools.on_tick()
             if self.phase is Phase.PLAY and self.sayings.on_tick(self.attempt.simulation.world):
@@ -244,6 +252,8 @@ class LevelPlay:
                 self.shown_lifetime = float(self.attempt.lifetime)
                 self.notices = self.context.passed(self.attempt)
                 self._frozen_ms = 0 if self.app.settings.reduced_motion else FREEZE_MS
+                if self.attempt.assisted and not self.context.practice_mode:
+                    self.notices = ["Assisted: no record", *self.notices]
             else:
                 self.killer = self.attempt.killer
                 self.crushed = cause_of(self.attempt.simulation.world) == CRUSHED
@@ -269,8 +279,8 @@ class LevelPlay:
     @property
     def medal(self) -> str:
         """The medal of a passed run, "" for none."""
-        pars = self.context.pars
-        return pars.medal(self.attempt.ended_tick) if pars and self.phase is Phase.PASSED else ""
+        counts = self.phase is Phase.PASSED and not self.attempt.assisted
+        return self.context.pars.medal(self.attempt.ended_tick) if self.context.pars and counts else ""
 
     @property
     def stamp(self) -> float:

@@ -159,9 +159,19 @@ class LevelScreen(Screen):
 
     def keep_replay(self) -> None:
         """Put this run among the player's replays, whatever it is worth."""
+        if self._is_spared():
+            return
         self.app.notify(keep_replay(self.app.player, self._replay()))
 
+    def _is_spared(self) -> bool:
+        """Whether the run was survived only by being invincible: then its keys alone are no replay, and it is said."""
+        if self.attempt.spared:
+            self.app.notify("There is no replay of a run that only the invincible survive")
+        return self.attempt.spared
+
     def copy_link(self) -> None:
+        if self._is_spared():
+            return
         copy_link(self.app, lambda: replay_link([self._replay()]), title=self.context.title)
 
     # --- events ---

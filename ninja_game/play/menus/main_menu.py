@@ -126,8 +126,10 @@ class MainMenu(MenuScreen):
         theme.text(surface, f"version {__version__}", x + w / 2, y + 68, size=9, colour=palette.faint, align="centre")
         self.draw_widgets(surface)
         foot = theme.canvas.fill_rect(surface, palette.tile, 0, HEIGHT - 24, WIDTH, 24)
-        hint = theme.fit(self.focus.hint if self.focus else "", WIDTH - 40, 10.5)
-        theme.text(surface, hint, WIDTH / 2, HEIGHT - 18, size=10.5, colour=palette.on_tile, align="centre")
+        hint = self.focus.hint if self.focus else ""
+        theme.text(
+            surface, hint, WIDTH / 2, HEIGHT - 18, size=10.5, colour=palette.on_tile, align="centre", width=WIDTH - 40
+        )
         written = [rect.inflate(4, 4), foot]
         if self.attract.view is not None:
             for each in written:
