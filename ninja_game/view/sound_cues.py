@@ -14,7 +14,7 @@ from ninja_game.sim.states import (
     TURRET_PRE_FIRE,
     TURRET_TARGETING,
 )
-from ninja_game.ui.canvas import HEIGHT, WIDTH
+from ninja_game.ui.canvas import HEIGHT, WIDTH, Point
 from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.drawing import DrawTarget, drawing
 from ninja_game.view.sprites.sketch import Sketch
