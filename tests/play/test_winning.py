@@ -115,9 +115,8 @@ def test_wipe_shows_both_pictures_and_delays_no_key(driver: MenuDriver) -> None:
     middle = picture(driver)
     driver.frames(WIPE_MS // FRAME_MS)
     after = picture(driver)
-    width, right = 792 * 3, 3 * 760
-    row = 300 * width
-    assert middle[row + right : row + width] == before[row + right : row + width] != after[row + right : row + width]
+    right = [slice(3 * (792 * row + 700), 3 * 792 * (row + 1)) for row in range(600)]
+    assert [middle[part] for part in right] == [before[part] for part in right] != [after[part] for part in right]
     level.go_on()
     level.begin()
     driver.keys.script = [2] * 4

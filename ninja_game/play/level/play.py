@@ -100,7 +100,7 @@ class LevelPlay:
         self.app.controls.stop_running()
         self._held_before = self.app.controls.poll()
         self.keys = 0
-        self.after_end = 0
+        self.after_end = self._frozen_ms = 0
         self.killer, self.crushed, self.first_death = "", False, False
         self.sayings.at_start()
         self.notices: list[str] = []

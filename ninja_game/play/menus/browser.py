@@ -233,7 +233,7 @@ class Browser(ThumbnailScreen):
         theme.row(surface, (x, y + 1, w, h - 2), chosen=chosen, focused=focused)
         self.thumbnails.draw(surface, entry, x + 4, y + 4, PICTURE)
         left = x + PICTURE + 14
-        theme.text(surface, entry.title, left, y + 11, size=12, bold=chosen, width=200)
+        theme.text(surface, entry.title, left, y + 11, size=12, bold=chosen, width=186)
         if self.player.lock_of(entry):
             draw_look(surface, theme, "locked", (x + 4 + PICTURE / 2 - 11, y + 16, 22, 22))
         source = author_name(entry.named.author) or ("your folder" if entry.source == "yours" else "")
@@ -241,7 +241,7 @@ class Browser(ThumbnailScreen):
         best = self.bests.get(entry.digest)
         if best:
             score = f"{seconds_text(best.score)} s left"
-            theme.text(surface, score, x + w - 8, y + 11, size=12, colour=palette.good, align="right")
+            theme.text(surface, score, x + w - 8, y + 11, size=12, colour=palette.good, align="right", width=100)
         all_gold_and_medal(surface, theme, entry, self.marks.get(entry.digest), x + w - 16, y + 37)
         if entry.pars and entry.pars.difficulty is not None:
             difficulty = f"{entry.pars.difficulty:.1f}"

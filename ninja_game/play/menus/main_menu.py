@@ -122,7 +122,7 @@ class MainMenu(MenuScreen):
         theme, palette = self.app.theme, self.app.theme.palette
         x, y, w, h = self.panel
         rect = theme.window(surface, x, y, w, h)
-        theme.text(surface, TITLE, x + w / 2, y + 22, size=40, align="centre", bold=True)
+        theme.text(surface, TITLE, x + w / 2, y + 22, size=40, align="centre", bold=True, height=44)
         theme.text(surface, f"version {__version__}", x + w / 2, y + 68, size=9, colour=palette.faint, align="centre")
         self.draw_widgets(surface)
         foot = theme.canvas.fill_rect(surface, palette.tile, 0, HEIGHT - 24, WIDTH, 24)
