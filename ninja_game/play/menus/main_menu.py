@@ -45,6 +45,8 @@ TITLE = "NINJA"
 class MainMenu(MenuScreen):
     """Where the game begins and where every way back ends."""
 
+    offers_back = False
+
     def __init__(self, app: App) -> None:
         super().__init__(app)
         self.attract = Attract(app)
