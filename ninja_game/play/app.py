@@ -174,7 +174,7 @@ class App:
     ``overclock``: ms by which ticks are shorter until the program ends, 0 to 10 (game.md §1.1). ``tas_editor``:
     opens a run in the TAS editor, with others beside it, at a tick; None where there is none, as in a page.
     ``column``: of episodes, whose mood is shown.
-    ``size``: px of the window. Raises NinjaGameError where there is no display.
+    ``size``: px of the window; ``window``: one that is open already. Raises NinjaGameError where there is no display.
     """
 
     def __init__(
@@ -185,6 +185,7 @@ class App:
         *,
         size: tuple[int, int] | None = None,
         tas_editor: TasEditorOpener | None = None,
+        window: Window | None = None,
     ) -> None:
         self.player = player
         self.controls = controls
@@ -197,7 +198,7 @@ class App:
         self.column = 0
         self.notice = ""
         self._notice_ms = 0
-        self.window = Window(size, self.settings)
+        self.window = window or Window(size, self.settings)
         self.wipe = Wipe()
         self.wipes = pygame.display.get_driver() not in UNSEEN
         pygame.font.init()
@@ -414,11 +415,12 @@ def build_app(
     controls: Bindings | None = None,
     audio_output: AudioOutput | None = None,
     tas_editor: TasEditorOpener | None = None,
+    window: Window | None = None,
 ) -> App:
     """The app as the player's settings have it; a notice tells what is wrong with the player's files.
 
     ``folder``: the player's, instead of the usual one. ``controls``: instead of the player's bindings.
-    ``audio_output``: instead of the sound device. ``tas_editor``: as of ``App``.
+    ``audio_output``: instead of the sound device. ``tas_editor``, ``window``: as of ``App``.
 
     Raises NinjaGameError where there is no display.
     """
@@ -430,7 +432,7 @@ def build_app(
     sound = audio_output or AudioPlayer(
         data_folder("assets") / "sounds", volume=settings.volume, loop_volume=settings.loop_volume
     )
-    app = App(player, bindings, sound, size=size, tas_editor=tas_editor)
+    app = App(player, bindings, sound, size=size, tas_editor=tas_editor, window=window)
     player.open_records()
     if bindings.unknown:
         player.report(f"settings.toml: no key is called {shown_text(', '.join(bindings.unknown), 60)}.")

@@ -228,6 +228,15 @@ def read_settings(path: Path) -> tuple[Settings, list[str]]:
     return _settings_of(data)
 
 
+def glance(path: Path) -> Settings:
+    """The settings in a file as far as they can be used, for what cannot wait; nothing is told, and nothing moved."""
+    try:
+        with _long_numbers():
+            return _settings_of(parse_toml(read_utf8(path, MAX_BYTES), any_number=True))[0]
+    except (OSError, FileError, ValueError):
+        return Settings()
+
+
 @contextmanager
 def _long_numbers() -> Iterator[None]:
     """Numbers of any length are read within, so that one only costs its own setting."""

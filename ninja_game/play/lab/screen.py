@@ -36,6 +36,7 @@ class LabScreen(MenuScreen):
     """Ten figures about how the world works. ``name``: the one to begin with."""
 
     title = "Lab"
+    offers_back = False
 
     def __init__(self, app: App, name: str = "") -> None:
         super().__init__(app)

@@ -181,8 +181,12 @@ class LevelScreen(Screen):
             self.pause()
         if self.context.practice_mode and self.phase in {Phase.PLAY, Phase.DEAD, Phase.PASSED}:
             self._dispatch_practice(event)
-        clicked = event.raw.type == pygame.MOUSEBUTTONDOWN and event.raw.button == 1 and self.phase is not Phase.PLAY
-        self._dispatch_action((*event.pressed, "confirm") if clicked else event.pressed)
+        pressed = event.pressed
+        if event.raw.type == pygame.MOUSEBUTTONDOWN and event.raw.button == pygame.BUTTON_RIGHT:
+            pressed = ("back",)
+        elif event.raw.type == pygame.MOUSEBUTTONDOWN and event.raw.button == 1 and self.phase is not Phase.PLAY:
+            pressed = (*pressed, "confirm")
+        self._dispatch_action(pressed)
 
     def _dispatch_action(self, pressed: tuple[str, ...]) -> None:
         """Do the first thing that the pressed actions mean in this phase."""

@@ -89,6 +89,7 @@ class HelpPage(MenuScreen):
     """All that can be done, on one page: ``words``, then the table of ``commands``."""
 
     foot = "Esc goes back"
+    offers_back = False
 
     def __init__(self, app: App, title: str, words: str, commands: Sequence[Command]) -> None:
         super().__init__(app)
@@ -136,6 +137,7 @@ class HelpScreen(MenuScreen):
     """Topics at the left; the selected one's demonstration and text at the right."""
 
     title = "Help"
+    offers_back = False
 
     def __init__(self, app: App) -> None:
         super().__init__(app)

@@ -27,6 +27,7 @@ from ninja_game.play.menus.records import RecordsScreen
 from ninja_game.play.menus.replays import ReplaysScreen
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.playback import Playback
+from ninja_game.play.window import LOGO
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import EpisodeRun, next_run
 from ninja_game.simulation import Simulation
@@ -41,11 +42,11 @@ LEFT, WIDE, MIDDLE = 44, 232, 306
 HEAD, ROW, FOOT = 98, 43, 12
 """Heights of the title, of a row, and of what is below the last row."""
 
-TITLE = "NINJA"
-
 
 class MainMenu(MenuScreen):
     """Where the game begins and where every way back ends. ``run``: with which play goes on."""
+
+    offers_back = False
 
     def __init__(self, app: App) -> None:
         super().__init__(app)
@@ -122,7 +123,7 @@ class MainMenu(MenuScreen):
         theme, palette = self.app.theme, self.app.theme.palette
         x, y, w, h = self.panel
         rect = theme.window(surface, x, y, w, h)
-        theme.text(surface, TITLE, x + w / 2, y + 22, size=40, align="centre", bold=True, height=44)
+        theme.text(surface, LOGO, x + w / 2, y + 22, size=40, align="centre", bold=True, height=44)
         theme.text(surface, f"version {__version__}", x + w / 2, y + 68, size=9, colour=palette.faint, align="centre")
         self.draw_widgets(surface)
         foot = theme.canvas.fill_rect(surface, palette.tile, 0, HEIGHT - 24, WIDTH, 24)
