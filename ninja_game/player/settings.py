@@ -155,7 +155,9 @@ def _bindings(what: str, example: str) -> Rule:
 
 
 RULES = {
-    "palette": Rule("look", _is_word, "the name of a palette, such as 'classic'", "colours of the picture"),
+    "palette": Rule(
+        "look", _is_word, "the name of a palette, such as 'classic'", "colours; by-column: each column has its own"
+    ),
     "ninja_colour": Rule(
         "look", _is_colour, "'' or a colour such as '#186285'", "of the ninja; empty: as the palette has it"
     ),

@@ -10,10 +10,10 @@ import pytest
 
 from ninja_game.formats.load import load_replays
 from ninja_game.sim.events import EXIT_OPENED
-from ninja_game.sim.kinds import SWITCH
+from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
-from ninja_game.ui.theme import CLASSIC
+from ninja_game.ui.theme import CLASSIC, MOODS, NIGHT, Palette
 from ninja_game.view.sprites import moving_sprites
 from ninja_game.view.sprites.backdrop import Backdrop
 from ninja_game.view.sprites.drawing import DrawTarget, SpriteBook
@@ -25,7 +25,7 @@ CANVAS = Canvas((396, 300))
 
 
 def painted(run: Simulation, animation: ObjectAnimation, book: SpriteBook) -> Backdrop:
-    backdrop = Backdrop(CANVAS, CLASSIC, book, run.tiles)
+    backdrop = Backdrop(CANVAS, book.palette, book, run.tiles)
     backdrop.reset(run.world, animation)
     return backdrop
 
@@ -37,7 +37,8 @@ def pixels(backdrop: Backdrop) -> bytes:
 @pytest.mark.parametrize("path", REPLAYS, ids=lambda path: path.name.split(".")[0])
 def test_mended_backdrop_is_the_backdrop_painted_anew(path: Path) -> None:
     recording = load_replays(path)[0]
-    run, book = Simulation(recording.level), SpriteBook(CANVAS.scale, CLASSIC)
+    palette = (CLASSIC, *MOODS)[REPLAYS.index(path) % 6]
+    run, book = Simulation(recording.level), SpriteBook(CANVAS.scale, palette)
     animation = ObjectAnimation(run.world)
     backdrop = painted(run, animation, book)
     for tick, keys in enumerate(recording.inputs):
@@ -64,6 +65,27 @@ def test_exit_switch_looks_pressed_from_its_tick_on() -> None:
             break
         assert pygame.transform.average_color(backdrop.picture, place) == lit
     assert pygame.transform.average_color(backdrop.picture, place) != lit
+
+
+@pytest.mark.parametrize("palette", [CLASSIC, NIGHT], ids=lambda palette: palette.name)
+def test_light_goes_from_the_switch_to_the_open_exit_where_there_is_a_scenery(palette: Palette) -> None:
+    recording = load_replays(REPLAYS[0])[0]
+    run, book = Simulation(recording.level), SpriteBook(CANVAS.scale, palette)
+    animation = ObjectAnimation(run.world)
+    backdrop = painted(run, animation, book)
+    slots = {o.kind: o for o in run.world.objects[: run.world.slots_used] if o.kind in {SWITCH, EXIT}}
+    beside = {kind: pygame.Rect(CANVAS.point(o.x - 4, o.y - 26), (4, 4)) for kind, o in slots.items()}
+
+    def brightness(kind: int) -> int:
+        return sum(pygame.transform.average_color(backdrop.picture, beside[kind])[:3])
+
+    before = {kind: brightness(kind) for kind in beside}
+    for keys in recording.inputs:
+        run.step_keys(keys)
+        animation.on_tick(run.world)
+        backdrop.update(run.world, animation, 1.0)
+    change = {kind: brightness(kind) - light for kind, light in before.items()}
+    assert (change[SWITCH] < 0 < change[EXIT]) if palette.scenery else not any(change.values())
 
 
 def test_whatever_is_drawn_lies_in_what_is_told_to_be_covered() -> None:

@@ -9,6 +9,13 @@ import pygame
 import pytest
 from numpy.typing import NDArray
 
+from ninja_game.play.app import App
+from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.menus.help import HelpScreen
+from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.menus.thumbnails import Thumbnails
+from ninja_game.player.catalogue import Entry
+from ninja_game.player.playthrough import LevelRun
 from ninja_game.sim import kinds
 from ninja_game.ui.scenery import ground
 from ninja_game.ui.theme import MOODS, PALETTES, Palette
@@ -129,3 +136,62 @@ def test_text_can_be_read_on_the_scenery(palette: Palette) -> None:
         light = (seen(colours, "normal")[:, 0] + 16) / 116
         luminance = light**3 + 0.05
         assert (np.maximum(luminance[1:], luminance[0]) / np.minimum(luminance[1:], luminance[0])).min() >= least
+
+
+def in_column(app: App, column: int) -> LevelScreen:
+    """A level of a column, as it is played."""
+    named = app.player.catalogue.ours.levels[0].named
+    return LevelScreen(app, LevelRun(app.player, Entry(named, "game", f"{10 * column:02d}-1")))
+
+
+def test_the_picture_follows_the_column_of_what_is_shown(app: App) -> None:
+    app.push(MainMenu(app))
+    app.frame(0)
+    assert app.theme.palette is MOODS[0]
+    app.push(in_column(app, 3))
+    app.frame(0)
+    assert app.theme.palette is MOODS[3]
+    app.push(HelpScreen(app))
+    app.frame(0)
+    assert app.theme.palette is MOODS[3]
+    app.pop()
+    app.pop()
+    app.frame(0)
+    assert app.theme.palette is MOODS[0]
+
+
+def test_a_level_is_laid_out_once_in_its_mood(app: App) -> None:
+    app.push(MainMenu(app))
+    app.frame(0)
+    screen = in_column(app, 4)
+    backdrop = screen.play.view._backdrop
+    app.push(screen)
+    app.frame(0)
+    assert screen.play.view._backdrop is backdrop
+    assert backdrop.palette is MOODS[4]
+
+
+def test_a_chosen_palette_is_the_same_in_every_column(app: App) -> None:
+    app.change_settings(palette="dark")
+    for column in (0, 2):
+        app.push(in_column(app, column))
+        app.frame(0)
+        assert app.theme.palette is PALETTES["dark"]
+
+
+def test_thumbnails_have_the_mood_of_their_level(app: App) -> None:
+    thumbnails = Thumbnails(app)
+    named = app.player.catalogue.ours.levels[0].named
+    entries = [Entry(named, "game", f"{10 * column:02d}-1") for column in range(5)]
+    for entry in entries:
+        thumbnails.get(entry, 60)
+    while thumbnails.work():
+        pass
+    pictures = [thumbnails.get(entry, 60) for entry in entries]
+    assert len({pygame.image.tobytes(picture, "RGB") for picture in pictures if picture}) == 5
+
+
+def test_each_mood_has_a_ground_of_its_own_painted_once() -> None:
+    for palette in MOODS:
+        assert ground((132, 100), palette) is ground((132, 100), palette)
+    assert len({pygame.image.tobytes(ground((66, 50), palette), "RGB") for palette in MOODS}) == len(MOODS)

@@ -104,16 +104,16 @@ def edited(app: App) -> EditorScreen:
 def scenes(*make: Any) -> list[Scene]:
     """All of them. ``make``: of busy.py."""
     return [
-        ("busy 40", "classic", busy(40, make)), ("replay", "classic", replay(0, 90)),
-        ("settings", "classic", screen(SettingsScreen)), ("editor", "classic", screen(edited)),
-        ("busy 60", "dark", busy(60, make)), ("replay dark", "dark", replay(77, 150, *OVERLAY_ACTIONS[::3])),
-        ("help", "dark", screen(HelpScreen)), ("lab", "dark", screen(LabScreen)),
-        ("busy 90", "contrast", busy(90, make)), ("replay end", "contrast", replay(120, 60, *OVERLAY_ACTIONS)),
-        ("episodes", "contrast", screen(EpisodeGrid)), ("paused", "contrast", paused(30, make)),
-        ("busy 120", "safe", busy(120, make)), ("replay safe", "safe", replay(150, 200)),
-        ("records", "safe", screen(RecordsScreen)), ("boss", "safe", screen(BossScreen)),
-        ("busy 150", "safe-dark", busy(150, make)), ("replay late", "safe-dark", replay(190, 250)),
-        ("levels", "safe-dark", screen(Browser)), ("editor late", "safe-dark", screen(edited)),
+        ("busy 40", "classic", busy(40, make)), ("replay", "morning", replay(0, 90)),
+        ("settings", "classic", screen(SettingsScreen)), ("editor", "noon", screen(edited)),
+        ("busy 60", "dark", busy(60, make)), ("replay dark", "afternoon", replay(77, 150, *OVERLAY_ACTIONS[::3])),
+        ("help", "dark", screen(HelpScreen)), ("lab", "dusk", screen(LabScreen)),
+        ("busy 90", "contrast", busy(90, make)), ("replay end", "night", replay(120, 60, *OVERLAY_ACTIONS)),
+        ("episodes", "morning", screen(EpisodeGrid)), ("paused", "contrast", paused(30, make)),
+        ("busy 120", "safe", busy(120, make)), ("replay safe", "noon", replay(150, 200)),
+        ("records", "dusk", screen(RecordsScreen)), ("boss", "safe", screen(BossScreen)),
+        ("busy 150", "safe-dark", busy(150, make)), ("replay late", "night", replay(190, 250)),
+        ("levels", "afternoon", screen(Browser)), ("editor late", "safe-dark", screen(edited)),
     ]  # fmt: skip
 
 

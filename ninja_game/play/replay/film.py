@@ -25,8 +25,10 @@ from ninja_game.player.settings import Settings
 from ninja_game.runtime import require_desktop, run_in_background
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
+from ninja_game.ui.scenery import GROUND_ROLES
 from ninja_game.ui.theme import ROLES, Palette, mixed, palette_named
 from ninja_game.view.level_view import LevelView, OffscreenContext
+from ninja_game.view.sprites.light import EXIT_OPEN, LOOKS
 
 _TAIL = TICKS_PER_SECOND
 """Ticks after the end that a film shows."""
@@ -210,6 +212,11 @@ def film_colours(palette: Palette) -> list[int]:
     found += [mixed(colour, palette.outline, 0.5) for colour in roles]
     found += [mixed(palette.tile, palette.background, k / 12) for k in range(1, 12)]
     found += [mixed(palette.tile, palette.on_tile, k / 6) for k in range(1, 6)]
+    if palette.scenery:
+        behind = [getattr(palette, role) for role in GROUND_ROLES]
+        found += [mixed(one, other, k / 12) for one, other in pairwise(behind) for k in range(1, 12)]
+        lights = sorted({look.role for look in (*LOOKS.values(), EXIT_OPEN)})
+        found += [mixed(palette.near, getattr(palette, role), k / 16) for role in lights for k in (1, 2, 3, 5, 7)]
     return [channel for colour in found[:256] for channel in colour[:3]]
 
 

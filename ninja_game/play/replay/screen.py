@@ -245,7 +245,9 @@ class ReplayScreen(Screen):
     def start_export(self) -> None:
         """Make a film of this run among the player's exports."""
         if self.export is None:
-            self.export = FilmJob(self.run, self.app.settings, self.app.player.folder)
+            self.export = FilmJob(
+                self.run, self.app.settings.changed(palette=self.theme.palette.name), self.app.player.folder
+            )
 
     def copy_link(self) -> None:
         copy_link(self.app, lambda: replay_link([_with_claims(self.run)]), title=self.run.title)
