@@ -299,7 +299,7 @@ class SettingsScreen(MenuScreen):
 
     def _set_volume(self, name: str, value: float) -> None:
         self.change(**{name: round(value)})
-        self.chime("gold" if name == "volume" else "menu-move")
+        self.chime("gold-1" if name == "volume" else "menu-move")
 
     def _play(self) -> list[Widget]:
         widgets: list[Widget] = [
