@@ -15,6 +15,7 @@ import soundfile
 
 from tools import ROOT
 from tools.sounds.effects import RECIPES
+from tools.sounds.music import TRACKS, music
 from tools.sounds.synthesis import RATE, Wave, at_level
 
 FOLDER = ROOT / "assets" / "sounds"
@@ -52,11 +53,13 @@ def write_sound(path: Path, wave: Wave, quality: float) -> None:
 
 
 def main() -> None:
-    FOLDER.mkdir(parents=True, exist_ok=True)
+    (FOLDER / "music").mkdir(parents=True, exist_ok=True)
     for name in RECIPES:
         write_sound(FOLDER / f"{name}.ogg", made(name), SOUND_QUALITY)
+    for track in TRACKS:
+        write_sound(FOLDER / "music" / f"{track}.ogg", music(track), MUSIC_QUALITY)
     total = sum(path.stat().st_size for path in FOLDER.rglob("*.ogg"))
-    print(f"{len(RECIPES)} sounds, {total / 1024:.0f} KiB in {FOLDER.relative_to(ROOT)}")
+    print(f"{len(RECIPES)} sounds, {len(TRACKS)} layers of music, {total / 1024:.0f} KiB in {FOLDER.relative_to(ROOT)}")
 
 
 if __name__ == "__main__":

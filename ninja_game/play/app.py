@@ -46,6 +46,11 @@ class Screen:
         """The look of what it draws, and where on the window that is."""
         return self.app.theme
 
+    @property
+    def music(self) -> str:
+        """What is heard while it is on top (ui/audio/music.py); "" what plays already."""
+        return ""
+
     def enter(self) -> None:
         """Called when this becomes the top screen: pushed, or uncovered again."""
 
@@ -209,7 +214,7 @@ class App:
         after = self.settings
         self.controls.bind(after.keys, after.pad)
         self.controls.pads.dead_zone = after.dead_zone
-        self.audio_output.set_volumes(after.volume, after.loop_volume)
+        self.audio_output.set_volumes(after.volume, after.loop_volume, after.music_volume)
         self.window.set_fullscreen(wanted=after.fullscreen)
         if (after.palette, after.fullscreen) != (before.palette, before.fullscreen):
             self._lay_out()
@@ -295,6 +300,7 @@ class App:
             if self._notice_ms <= 0:
                 self.notify("")
         if self.stack:
+            self.audio_output.music(self.top.music, real_ms)
             self.draw()
         self.frame_ms = 1000 * (time.perf_counter() - started)
 
@@ -385,7 +391,10 @@ def build_app(
     settings = player.settings
     bindings = controls or Bindings(settings.keys, settings.pad, dead_zone=settings.dead_zone)
     sound = audio_output or AudioPlayer(
-        data_folder("assets") / "sounds", volume=settings.volume, loop_volume=settings.loop_volume
+        data_folder("assets") / "sounds",
+        volume=settings.volume,
+        loop_volume=settings.loop_volume,
+        music_volume=settings.music_volume,
     )
     app = App(player, bindings, sound, size=size, tas_editor=tas_editor)
     player.open_records()

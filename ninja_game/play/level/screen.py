@@ -8,6 +8,7 @@ import pygame
 
 from ninja_game.errors import LevelError, NinjaGameError, reason
 from ninja_game.formats.links.making import replay_link
+from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
 from ninja_game.play.app import App, Screen
@@ -24,6 +25,7 @@ from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import EpisodeRun, LevelContext, LevelRun, Navigation
 from ninja_game.player.saving import keep_replay
 from ninja_game.sim.inputs import JUMP_HELD
+from ninja_game.ui.audio.music import BY_COLUMN, SILENCE
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.view.overlays import Overlays
 
@@ -42,6 +44,15 @@ class LevelScreen(Screen):
         self.app.audio_output.quiet()
         self.play = LevelPlay(self.app, self.context)
         self.play.view.overlays = self.overlays
+
+    @property
+    def music(self) -> str:
+        """That of its column; of other levels always the same one."""
+        if self.context.practice_mode and not self.app.settings.music_in_practice:
+            return SILENCE
+        entry = self.context.entry
+        column = int(entry.episode[:2]) // EPISODES_PER_COLUMN if entry.episode else int(entry.digest[:8], 16)
+        return BY_COLUMN[column % len(BY_COLUMN)]
 
     @property
     def phase(self) -> Phase:

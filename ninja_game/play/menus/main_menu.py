@@ -28,6 +28,7 @@ from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.playback import Playback
 from ninja_game.player.catalogue import Entry
 from ninja_game.simulation import Simulation
+from ninja_game.ui.audio.music import MENU
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.theme import Area
 from ninja_game.ui.widgets import Button, Widget
@@ -44,6 +45,8 @@ TITLE = "NINJA"
 
 class MainMenu(MenuScreen):
     """Where the game begins and where every way back ends."""
+
+    music = MENU
 
     def __init__(self, app: App) -> None:
         super().__init__(app)

@@ -15,6 +15,7 @@ from ninja_game.runtime import run_in_background
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import WORLD_WIDTH
+from ninja_game.ui.audio.music import CALM, LAYERS, Music, heard_in_music, music_levels
 from ninja_game.ui.audio.patterns import Footsteps, GoldLadder, Variants
 from ninja_game.ui.audio.table import CORPSE, GOLD, LOOPS, STEPS, by_hardness, event_sound, has_loop, loop_levels
 
@@ -42,29 +43,37 @@ class AudioOutput:
     def play(self, name: str) -> None:
         """Play a sound of the menus once."""
 
-    def set_volumes(self, volume: int, loop_volume: int) -> None:
+    def music(self, name: str, real_ms: int) -> None:
+        """Called for every picture: which music is to be heard, "" the one that plays; ms since the last one."""
+
+    def set_volumes(self, volume: int, loop_volume: int, music_volume: int) -> None:
         """Take other volumes, 0 to 99."""
 
     def quiet(self) -> None:
-        """End all sounds."""
+        """End all sounds but the music, which becomes calm."""
 
 
 class AudioPlayer(AudioOutput):
-    """Plays what happens. ``volume`` and ``loop_volume``: 0 to 99. Without a sound device it is silent.
+    """Plays what happens. Volumes: 0 to 99; ``volume`` is of everything. Without a sound device it is silent.
 
     ``folder``: where the Ogg files are; missing ones are silent.
     """
 
-    def __init__(self, folder: Path, *, volume: int = LOUDEST, loop_volume: int = LOUDEST) -> None:
+    def __init__(
+        self, folder: Path, *, volume: int = LOUDEST, loop_volume: int = LOUDEST, music_volume: int = 0
+    ) -> None:
         self.folder = folder
         self.volume = volume
         self.loop_volume = loop_volume
+        self.music_volume = music_volume
+        self._music = Music(folder / "music", len(LOOPS))
         self._variants = Variants()
         self._ladder = GoldLadder(len(GOLD))
         self._steps = Footsteps()
         self._sounds: dict[str, pygame.mixer.Sound | None] = {}
         self._world: World | None = None
         self._machines: list[Object] = []
+        self._hunters: list[Object] = []
         self._corpse_at = 0.0
         self.works = _open_mixer()
         if self.works:
@@ -79,6 +88,7 @@ class AudioPlayer(AudioOutput):
         if world is not self._world:
             self._world = world
             self._machines = [o for o in world.objects[1:] if has_loop(o)]
+            self._hunters = [o for o in world.objects[1:] if heard_in_music(o)]
         heard = set()
         for event in world.events[: world.event_count]:
             names, level = event_sound(event, world.ninja)
@@ -90,6 +100,11 @@ class AudioPlayer(AudioOutput):
             self.play(self._variants.choose(STEPS), x=world.ninja.x, level=step)
         for name, level in loop_levels(world, self._machines).items():
             self._loop(name, level)
+        self._music.levels = music_levels(world, self._hunters)
+
+    def music(self, name: str, real_ms: int) -> None:
+        if self.works and self.volume and self.music_volume:
+            self._music.update(name, self.volume * self.music_volume / LOUDEST**2, real_ms)
 
     def corpse(self, speed: float) -> None:
         """A part of the corpse hit something, at ``speed`` px/tick into it (presentation.md §4)."""
@@ -99,8 +114,11 @@ class AudioPlayer(AudioOutput):
             self.play(self._variants.choose(names))
 
     def quiet(self) -> None:
+        self._music.levels = CALM
         if self.works:
-            pygame.mixer.stop()
+            for number in range(CHANNELS):
+                if not 0 <= number - len(LOOPS) < len(LAYERS):
+                    pygame.mixer.Channel(number).stop()
 
     def play(self, name: str, *, x: float = WORLD_WIDTH / 2, level: float = 1.0) -> None:
         """Play a sound once at this share of its loudness, heard from ``x`` px of the stage."""
@@ -114,11 +132,13 @@ class AudioPlayer(AudioOutput):
 
     # --- how ---
 
-    def set_volumes(self, volume: int, loop_volume: int) -> None:
+    def set_volumes(self, volume: int, loop_volume: int, music_volume: int) -> None:
         """Take other volumes, 0 to 99."""
-        self.volume, self.loop_volume = volume, loop_volume
+        self.volume, self.loop_volume, self.music_volume = volume, loop_volume, music_volume
         if not volume:
             self.quiet()
+        if self.works and not (volume and music_volume):
+            self._music.silence()
 
     def _loop(self, name: str, level: float) -> None:
         """Keep a loop going at this share of its loudness; 0 ends it. Each loop has a channel of its own."""
@@ -172,7 +192,7 @@ def _open_mixer() -> bool:
             with _quiet_libraries():
                 pygame.mixer.init(RATE, -16, 2, BUFFER)
         pygame.mixer.set_num_channels(CHANNELS)
-        pygame.mixer.set_reserved(len(LOOPS))
+        pygame.mixer.set_reserved(len(LOOPS) + len(LAYERS))
     except (pygame.error, NotImplementedError):
         return False
     return True
