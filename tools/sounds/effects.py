@@ -214,8 +214,8 @@ RECIPES: Recipes = {
     "trap-close": (0.55, lambda: sum_of([servo(0.4, 260, 90, 26), later(thud(0.4, 60, 27, grit=1.2, edge=0.6), 0.33)])),
     "launch": (0.50, launch_pad),
     **several("mine", 0.85, [partial(blast, 0.49, 28), partial(blast, 0.55, 128, depth=62)]),
-    "rocket-launch": (0.50, rocket_launch),
-    "rocket-flight": (0.30, lambda: noise(1.3, 120, 900, 32) + 0.12 * noise(1.3, 2500, 14_000, 33)
+    "rocket-launch": (0.60, rocket_launch),
+    "rocket-flight": (0.50, lambda: noise(1.3, 150, 1600, 32) + 0.2 * noise(1.3, 2500, 14_000, 33)
                       + 0.3 * hum(1.3, 92, 9, BRIGHT, 0.0)),
     **several("rocket-explode", 0.85, [partial(blast, 0.55, 33, depth=80), partial(blast, 0.62, 133, depth=66)]),
     "turret-lock": (0.35, lambda: echo(bell(988.0, 0.09, 0.03), 0.11, 0.9, 3)),

@@ -49,7 +49,7 @@ BEDS = {
 """By name: a calm D, a warm G, A that turns like a machine, a wide C, an E that drives, B with its dark second."""
 
 LAYERS = ("base", "danger", "speed", "exit")
-LOUDNESS = {"base": -21.0, "danger": -23.0, "speed": -25.0, "exit": -24.0}
+LOUDNESS = {"base": -22.5, "danger": -26.5, "speed": -28.0, "exit": -26.0}
 """Of each layer, LUFS."""
 
 
@@ -143,7 +143,7 @@ def danger(bed: Bed) -> Wave:
                 root * 4 * 2 ** (1 / 12), 1.1 * BEATS * track.beat, 900
             )
             track.add(rub, time, 0.05)
-    return filtered(track.wave, 35, 1800) + 0.15 * spaced(track.wave, 0.9, bed.seed + 20)
+    return filtered(track.wave, 35, 900) + 0.15 * spaced(track.wave, 0.9, bed.seed + 20)
 
 
 def speed(bed: Bed) -> Wave:

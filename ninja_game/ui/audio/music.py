@@ -129,10 +129,9 @@ class Music:
 
     def _read(self, name: str) -> None:
         """Read the layers; none where a file is missing or no music."""
-        sounds = []
         try:
-            for layer in LAYERS_OF.get(name, ()):
-                sounds.append(pygame.mixer.Sound(self.folder / f"{name}-{layer}.ogg"))
+            files = [self.folder / f"{name}-{layer}.ogg" for layer in LAYERS_OF.get(name, ())]
+            sounds = [pygame.mixer.Sound(file) for file in files]
         except (pygame.error, OSError):
             sounds = []
         if self._asked == name:
