@@ -54,6 +54,11 @@ class Screen:
         """The column of episodes whose mood it has; by default that of the screen before."""
         return self.app.column
 
+    @property
+    def music(self) -> str:
+        """What is heard while it is on top (ui/audio/music.py); "" what plays already."""
+        return ""
+
     def enter(self) -> None:
         """Called when this becomes the top screen: pushed, or uncovered again."""
 
@@ -226,7 +231,7 @@ class App:
         self.controls.bind(after.keys, after.pad)
         self.controls.pads.dead_zone = after.dead_zone
         self.controls.tap_to_run = after.tap_to_run
-        self.audio_output.set_volumes(after.volume, after.loop_volume)
+        self.audio_output.set_volumes(after.volume, after.loop_volume, after.music_volume)
         self.window.set_fullscreen(wanted=after.fullscreen)
         look = attrgetter("palette", "fullscreen", "text_size")
         if look(after) != look(before):
@@ -335,6 +340,7 @@ class App:
             if self._notice_ms <= 0:
                 self.notify("")
         if self.stack:
+            self.audio_output.music(self.top.music, real_ms)
             self.draw()
         self.frame_ms = 1000 * (time.perf_counter() - started)
 
@@ -430,7 +436,10 @@ def build_app(
         settings.keys, settings.pad, dead_zone=settings.dead_zone, tap_to_run=settings.tap_to_run
     )
     sound = audio_output or AudioPlayer(
-        data_folder("assets") / "sounds", volume=settings.volume, loop_volume=settings.loop_volume
+        data_folder("assets") / "sounds",
+        volume=settings.volume,
+        loop_volume=settings.loop_volume,
+        music_volume=settings.music_volume,
     )
     app = App(player, bindings, sound, size=size, tas_editor=tas_editor, window=window)
     player.open_records()

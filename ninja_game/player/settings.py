@@ -73,6 +73,8 @@ class Settings:
     window_height: int = 0
     volume: int = 70
     loop_volume: int = 99
+    music_volume: int = 45
+    music_in_practice: bool = True
     text_scale: int = 0
     level_width: int = 0
     tabs_height: int = 0
@@ -176,8 +178,10 @@ RULES = {
     "frame_limit": _whole("look", 0, 1000, "pictures a second; 0: as the display"),
     "window_width": _whole("look", 0, 16384, "px; 0: as it fits the screen"),
     "window_height": _whole("look", 0, 16384, "px; 0: as it fits the screen"),
-    "volume": _whole("sound", 0, 99, "of single sounds"),
-    "loop_volume": _whole("sound", 0, 99, "of sounds that go on"),
+    "volume": _whole("sound", 0, 99, "of all that is heard"),
+    "loop_volume": _whole("sound", 0, 99, "of sounds that go on, a share of the volume"),
+    "music_volume": _whole("sound", 0, 99, "of the music, a share of the volume"),
+    "music_in_practice": _flag("sound", "music in practice mode too"),
     "text_scale": _whole("tas", 0, 400, "size of the text in the TAS editor, percent; 0: as it suits the window"),
     "level_width": _whole(
         "tas", 0, 99, "of the level in the TAS editor, percent of the window; 0: as it suits the window"

@@ -24,6 +24,8 @@ VALUES = {
     "window_height": st.integers(0, 16384),
     "volume": st.integers(0, 99),
     "loop_volume": st.integers(0, 99),
+    "music_volume": st.integers(0, 99),
+    "music_in_practice": st.booleans(),
     "text_scale": st.integers(0, 400),
     "level_width": st.integers(0, 99),
     "tabs_height": st.integers(0, 99),

@@ -24,6 +24,7 @@ from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import EpisodeRun, LevelContext, LevelRun, Navigation
 from ninja_game.player.saving import keep_replay
 from ninja_game.sim.inputs import JUMP_HELD
+from ninja_game.ui.audio.music import BY_COLUMN, SILENCE
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.view.overlays import Overlays
 
@@ -48,6 +49,15 @@ class LevelScreen(Screen):
     def column(self) -> int:
         """That of the level."""
         return self.context.entry.column
+
+    @property
+    def music(self) -> str:
+        """That of its column; of other levels always the same one."""
+        if self.context.practice_mode and not self.app.settings.music_in_practice:
+            return SILENCE
+        entry = self.context.entry
+        column = entry.column if entry.episode else int(entry.digest[:8], 16)
+        return BY_COLUMN[column % len(BY_COLUMN)]
 
     @property
     def phase(self) -> Phase:

@@ -31,6 +31,7 @@ from ninja_game.play.window import LOGO
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import EpisodeRun, next_run
 from ninja_game.simulation import Simulation
+from ninja_game.ui.audio.music import MENU
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.theme import Area
 from ninja_game.ui.widgets import Button, Widget
@@ -47,6 +48,8 @@ class MainMenu(MenuScreen):
     """Where the game begins and where every way back ends. ``run``: with which play goes on."""
 
     offers_back = False
+
+    music = MENU
 
     def __init__(self, app: App) -> None:
         super().__init__(app)

@@ -307,11 +307,13 @@ class SettingsScreen(MenuScreen):
         return [
             slider(0, "Volume", "volume", "0 is silence"),
             slider(1, "Ambient loops", "loop_volume", "Skids, slides, rockets, lasers: share of the volume"),
+            slider(2, "Music", "music_volume", "Share of the volume; 0 is none"),
+            self._choice(3, "Music in practice", "music_in_practice", SWITCH),
         ]
 
     def _set_volume(self, name: str, value: float) -> None:
         self.change(**{name: round(value)})
-        self.chime("gold" if name == "volume" else "menu-move")
+        self.chime("gold-1" if name == "volume" else "menu-move")
 
     def _play(self) -> list[Widget]:
         widgets: list[Widget] = [
