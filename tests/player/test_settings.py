@@ -17,7 +17,7 @@ from tools.draw import settings_page
 PRINTABLE = st.text(st.characters(exclude_categories=["Cs", "Cc", "Cf", "Zl", "Zp", "Zs", "Co", "Cn"]), max_size=30)
 BINDINGS = st.dictionaries(PRINTABLE, st.lists(PRINTABLE, max_size=3).map(tuple), max_size=4)
 VALUES = {
-    "palette": st.sampled_from(["classic", "dark", "safe-dark"]),
+    "palette": st.sampled_from(["by-column", "classic", "dark", "safe-dark"]),
     "ninja_colour": st.sampled_from(["", "#000000", "#aB12Ff"]),
     "frame_limit": st.integers(0, 1000),
     "window_width": st.integers(0, 16384),
@@ -208,7 +208,7 @@ def test_wrong_value_falls_back_alone_and_is_named(tmp_path: Path) -> None:
     path = tmp_path / "settings.toml"
     path.write_text('version = 1\n[sound]\nvolume = "loud"\nloop-volume = 3\n[keys]\njump = "z"\n[look]\npalette = 7\n')
     settings, messages = read_settings(path)
-    assert (settings.volume, settings.loop_volume, settings.palette) == (Settings().volume, 3, "classic")
+    assert (settings.volume, settings.loop_volume, settings.palette) == (Settings().volume, 3, "by-column")
     assert len(messages) == 3
     assert "sound.volume is 'loud'" in " ".join(messages)
 

@@ -25,6 +25,7 @@ from ninja_game.play.menus.records import RecordsScreen
 from ninja_game.play.menus.replays import ReplaysScreen
 from ninja_game.play.menus.settings import PAGES, SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
+from ninja_game.player.settings import DEFAULT_PALETTE
 from tests.support.menu_driver import MenuDriver
 
 ENTRIES = {
@@ -135,7 +136,7 @@ def test_palette_is_changed_shown_and_saved(driver: MenuDriver) -> None:
     driver.press("right", "right")
     driver.shown(SettingsScreen)
     chosen = driver.player.settings.palette
-    assert chosen != "classic"
+    assert chosen != DEFAULT_PALETTE
     assert driver.app.theme.palette.name == chosen
     assert f'palette = "{chosen}"' in (driver.player.folder / "settings.toml").read_text()
 
