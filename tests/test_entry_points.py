@@ -25,7 +25,6 @@ OURS = {
     "play/lab/figure": "the program's own figures", "play/menus/help": "its own help",
     "learn/levels/curriculum": "its own levels", "sim/memory/declare": "its own code, made from its own rules",
     "web/site/compiling": "its own code", "web/site/game_archive": "its own files",
-    "web/sounds": "its own sounds",
 }  # fmt: skip
 """Modules that read only what is part of the program, or nothing."""
 

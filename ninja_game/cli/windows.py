@@ -68,6 +68,10 @@ def play(
     if level_path is not None and replay is None:
         raise click.UsageError("--level is the level of what --replay names")
     path = next((str(each) for each in (level, level_path) if each is not None), None)
+    from ninja_game.play.window import open_at_once
+
+    # What is wrong with a file is said in the terminal before a window opens.
+    opened = open_at_once(window["size"]) if path is None else None
     from ninja_game.play.main import main
     from ninja_game.tas_editor.opening import open_tas_editor
 
@@ -75,7 +79,7 @@ def play(
     ctx.exit(
         main(
             path, body=body, replay_path=replay_path, practice=practice, record=record, tas_editor=open_tas_editor,
-            **window,
+            **window, window=opened,
         )
     )  # fmt: skip
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from operator import attrgetter
 from pathlib import Path
 
 import pygame
@@ -14,6 +15,7 @@ from ninja_game.files.user_folder import data_folder, export_path
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
 from ninja_game.play.window import TITLE, Window, save_picture
+from ninja_game.play.wipe import Wipe
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import FASTEST_TICK_GAIN
 from ninja_game.player.settings import BY_COLUMN, Settings
@@ -30,10 +32,11 @@ class Screen:
 
     ``see_through``: the screen below is drawn first. ``below_runs``: the screen below is updated too. ``redraw``: the
     app sets it when the whole window must be drawn again (resized, uncovered, another palette). ``notice_area``: where
-    notices are shown, logical px.
+    notices are shown, logical px. ``wipes``: whether it comes and goes with a wipe.
     """
 
     see_through = False
+    wipes = True
     below_runs = False
     notice_area: Area = (0, HEIGHT - 24, WIDTH, 24)
 
@@ -50,6 +53,11 @@ class Screen:
     def column(self) -> int:
         """The column of episodes whose mood it has; by default that of the screen before."""
         return self.app.column
+
+    @property
+    def music(self) -> str:
+        """What is heard while it is on top (ui/audio/music.py); "" what plays already."""
+        return ""
 
     def enter(self) -> None:
         """Called when this becomes the top screen: pushed, or uncovered again."""
@@ -151,6 +159,9 @@ class ScreenStack:
         return self._screens[max(first, 0) :]
 
 
+UNSEEN = {"dummy", "offscreen", "emscripten"}
+"""Drivers of SDL without a wipe: where nobody looks on, and in a page, where whole pictures cost too much."""
+
 FALLBACK_RATE = 60
 """Pictures per second where the display does not say its rate."""
 
@@ -168,7 +179,7 @@ class App:
     ``overclock``: ms by which ticks are shorter until the program ends, 0 to 10 (game.md §1.1). ``tas_editor``:
     opens a run in the TAS editor, with others beside it, at a tick; None where there is none, as in a page.
     ``column``: of episodes, whose mood is shown.
-    ``size``: px of the window. Raises NinjaGameError where there is no display.
+    ``size``: px of the window; ``window``: one that is open already. Raises NinjaGameError where there is no display.
     """
 
     def __init__(
@@ -179,6 +190,7 @@ class App:
         *,
         size: tuple[int, int] | None = None,
         tas_editor: TasEditorOpener | None = None,
+        window: Window | None = None,
     ) -> None:
         self.player = player
         self.controls = controls
@@ -191,7 +203,9 @@ class App:
         self.column = 0
         self.notice = ""
         self._notice_ms = 0
-        self.window = Window(size, self.settings)
+        self.window = window or Window(size, self.settings)
+        self.wipe = Wipe()
+        self.wipes = pygame.display.get_driver() not in UNSEEN
         pygame.font.init()
         self._lay_out()
 
@@ -216,9 +230,11 @@ class App:
         after = self.settings
         self.controls.bind(after.keys, after.pad)
         self.controls.pads.dead_zone = after.dead_zone
-        self.audio_output.set_volumes(after.volume, after.loop_volume)
+        self.controls.tap_to_run = after.tap_to_run
+        self.audio_output.set_volumes(after.volume, after.loop_volume, after.music_volume)
         self.window.set_fullscreen(wanted=after.fullscreen)
-        if (after.palette, after.fullscreen) != (before.palette, before.fullscreen):
+        look = attrgetter("palette", "fullscreen", "text_size")
+        if look(after) != look(before):
             self._lay_out()
         self.stack.redraw_all()
         if message:
@@ -238,7 +254,7 @@ class App:
     def _lay_out(self) -> None:
         """Draw everything again, at the window's present size and in the present palette."""
         self.canvas = Canvas(self.surface.get_size())
-        self.theme = Theme(self.palette_in(self.column), self.canvas)
+        self.theme = Theme(self.palette_in(self.column), self.canvas, self.settings.text_size)
         self.stack.redraw_all()
 
     def palette_in(self, column: int) -> Palette:
@@ -258,13 +274,22 @@ class App:
         return self.stack.top
 
     def push(self, screen: Screen) -> None:
+        self.wipe_from(screen)
         self.stack.push(screen)
 
     def replace(self, screen: Screen) -> None:
+        self.wipe_from(screen)
         self.stack.replace(screen)
+
+    def wipe_from(self, screen: Screen) -> None:
+        """Let what is seen now give way to another screen, or another level, within a moment."""
+        wanted = self.wipes and screen.wipes and not screen.see_through and not self.settings.reduced_motion
+        if wanted and self.stack:
+            self.wipe.begin(self.surface)
 
     def pop(self) -> None:
         """Go back to the screen below; from the lowest one, end."""
+        self.wipe_from(self.top)
         self.stack.pop()
         if not self.stack:
             self.running = False
@@ -305,6 +330,9 @@ class App:
             self._handle(event)
             if not (self.running and self.stack):
                 return
+        if self.wipe.going_on:
+            self.wipe.update(real_ms)
+            self.stack.redraw_all()
         for screen in self.stack.running():
             screen.update(real_ms)
         if self.notice:
@@ -312,6 +340,7 @@ class App:
             if self._notice_ms <= 0:
                 self.notify("")
         if self.stack:
+            self.audio_output.music(self.top.music, real_ms)
             self.draw()
         self.frame_ms = 1000 * (time.perf_counter() - started)
 
@@ -353,6 +382,7 @@ class App:
         """Draw the screens that are seen and show what changed."""
         self.follow_mood(self.top.column)
         changed = self.stack.draw(self.surface)
+        self.wipe.draw(self.surface, self.theme)
         if self.notice and not isinstance(self.top, BossScreen):
             theme, (x, y, w, h) = self.top.theme, self.top.notice_area
             rect = theme.canvas.fill_rect(self.surface, theme.palette.panel, x, y, w, h)
@@ -391,21 +421,27 @@ def build_app(
     controls: Bindings | None = None,
     audio_output: AudioOutput | None = None,
     tas_editor: TasEditorOpener | None = None,
+    window: Window | None = None,
 ) -> App:
     """The app as the player's settings have it; a notice tells what is wrong with the player's files.
 
     ``folder``: the player's, instead of the usual one. ``controls``: instead of the player's bindings.
-    ``audio_output``: instead of the sound device. ``tas_editor``: as of ``App``.
+    ``audio_output``: instead of the sound device. ``tas_editor``, ``window``: as of ``App``.
 
     Raises NinjaGameError where there is no display.
     """
     player = PlayerData(folder)
     settings = player.settings
-    bindings = controls or Bindings(settings.keys, settings.pad, dead_zone=settings.dead_zone)
-    sound = audio_output or AudioPlayer(
-        data_folder("assets") / "sounds", volume=settings.volume, loop_volume=settings.loop_volume
+    bindings = controls or Bindings(
+        settings.keys, settings.pad, dead_zone=settings.dead_zone, tap_to_run=settings.tap_to_run
     )
-    app = App(player, bindings, sound, size=size, tas_editor=tas_editor)
+    sound = audio_output or AudioPlayer(
+        data_folder("assets") / "sounds",
+        volume=settings.volume,
+        loop_volume=settings.loop_volume,
+        music_volume=settings.music_volume,
+    )
+    app = App(player, bindings, sound, size=size, tas_editor=tas_editor, window=window)
     player.open_records()
     if bindings.unknown:
         player.report(f"settings.toml: no key is called {shown_text(', '.join(bindings.unknown), 60)}.")

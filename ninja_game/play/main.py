@@ -18,7 +18,7 @@ from ninja_game.formats.pack.files import is_pack
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App, Screen, TasEditorOpener, build_app
-from ninja_game.play.window import save_picture
+from ninja_game.play.window import Window, save_picture
 from ninja_game.player.playthrough import FileRun
 from ninja_game.runtime import run_in_background
 from ninja_game.sim.level import Level
@@ -36,6 +36,7 @@ def main(
     practice: bool = False,
     record: int = 0,
     tas_editor: TasEditorOpener | None = None,
+    window: Window | None = None,
 ) -> int:
     """Play: the program `ninja-game play`. Gives the exit code.
 
@@ -43,13 +44,13 @@ def main(
     to one of them or to replays; without it the main menu.
     ``replay_path``: watch the recordings of a file or link; ``level_path`` is then the level of those without one.
     ``frames``: end after this many pictures. ``screenshot``: write the last picture to this PNG file.
-    ``tas_editor``: as of ``App``.
+    ``tas_editor``, ``window``: as of ``App``.
 
     Raises NinjaGameError for a file that cannot be read or written, and where there is no display.
     """
     # Read before a window opens: what is wrong with a file is said in the terminal.
     first = first_screen(level_path, replay_path, body=body, practice=practice, record=record)
-    return run_app(first, size=size, frames=frames, screenshot=screenshot, tas_editor=tas_editor)
+    return run_app(first, size=size, frames=frames, screenshot=screenshot, tas_editor=tas_editor, window=window)
 
 
 def run_app(
@@ -59,13 +60,14 @@ def run_app(
     frames: int | None = None,
     screenshot: str | None = None,
     tas_editor: TasEditorOpener | None = None,
+    window: Window | None = None,
 ) -> int:
     """Open a window with a first screen and run until it ends; the exit code. The rest is as of ``main``.
 
     Raises NinjaGameError where there is no display.
     """
     try:
-        app = build_app(size=size, tas_editor=tas_editor)
+        app = build_app(size=size, tas_editor=tas_editor, window=window)
         try:
             app.push(first(app))
             # Who certifies or searches later does not wait for the compiler then.

@@ -10,13 +10,16 @@ from pathlib import Path
 import pygame
 
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.user_folder import SETTINGS, user_folder
 from ninja_game.files.writing import write_atomically
-from ninja_game.player.settings import Settings
-from ninja_game.ui.canvas import HEIGHT, WIDTH
-from ninja_game.ui.theme import PALETTES
+from ninja_game.player.settings import Settings, glance
+from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
+from ninja_game.ui.theme import PALETTES, Theme, palette_named
 
 TITLE = "ninja-game"
 """What the window is called."""
+LOGO = "NINJA"
+"""What stands over the main menu, and on the first picture."""
 
 _INVISIBLE = {"dummy", "offscreen", "evdev"}
 _ICON = 64
@@ -35,11 +38,15 @@ class Window:
             pygame.display.quit()
             raise NinjaGameError("there is no display; SDL_VIDEODRIVER=dummy plays without one")
         _prefer_shared_memory()
+        if not settings.frame_limit:
+            # Where SDL shows pictures through a renderer, one is shown whole, as the display asks for it.
+            os.environ.setdefault("SDL_RENDER_VSYNC", "1")
         pygame.display.set_icon(icon(_ICON))
         pygame.display.set_mode(size or fitting_size((settings.window_width, settings.window_height)), pygame.RESIZABLE)
         pygame.display.set_caption(TITLE)
         self.fullscreen = False
         self._place: tuple[int, int] | None = None
+        self._managed = pygame.display.get_driver() != "x11" or _has_window_manager()
         self._size = pygame.display.get_window_size()
         self._own_size = None if size else self._size
         if settings.fullscreen:
@@ -67,12 +74,40 @@ class Window:
         self.fullscreen = wanted
         if wanted:
             self._size, self._place = window.size, window.position
+        if not self._managed:
+            # SDL asks the window manager for a full screen, and believes that it has it.
+            window.size = pygame.display.get_desktop_sizes()[0] if wanted else self._size
+            window.position = (0, 0) if wanted or self._place is None else self._place
+        elif wanted:
             window.set_fullscreen(desktop=True)
         else:
             window.set_windowed()
             window.size = self._size
             if self._place is not None:
                 window.position = self._place
+
+
+def open_at_once(size: tuple[int, int] | None) -> Window:
+    """The window with its first picture: the game's name, while the rest of the program is loaded.
+
+    ``size``: as of ``Window``. Raises NinjaGameError where there is no display.
+    """
+    settings = glance(user_folder() / SETTINGS)
+    try:
+        window = Window(size, settings)
+    except pygame.error as error:
+        raise NinjaGameError(f"the window cannot be opened: {error}") from None
+    pygame.font.init()
+    theme = Theme(palette_named(settings.palette), Canvas(window.surface.get_size()), settings.text_size)
+    window.surface.fill(theme.palette.background)
+    theme.text(window.surface, LOGO, WIDTH / 2, HEIGHT / 2 - 60, size=72, align="centre", bold=True)
+    theme.text(
+        window.surface, "loading", WIDTH / 2, HEIGHT / 2 + 30, size=12, colour=theme.palette.faint, align="centre"
+    )
+    # A window that was just opened must be told of before it shows something.
+    pygame.event.pump()
+    pygame.display.flip()
+    return window
 
 
 def save_picture(surface: pygame.Surface, path: Path) -> None:
@@ -103,6 +138,31 @@ def _prefer_shared_memory() -> None:
     """
     if pygame.display.get_driver() == "x11":
         os.environ.setdefault("SDL_FRAMEBUFFER_ACCELERATION", "0")
+
+
+def _has_window_manager() -> bool:
+    """Whether a window manager has put its name on the X display's root window, as all do that know full screen."""
+    import ctypes
+
+    try:
+        x = ctypes.CDLL("libX11.so.6")
+    except OSError:
+        return True
+    x.XOpenDisplay.restype = ctypes.c_void_p
+    x.XDefaultRootWindow.argtypes, x.XDefaultRootWindow.restype = [ctypes.c_void_p], ctypes.c_ulong
+    x.XInternAtom.argtypes, x.XInternAtom.restype = [ctypes.c_void_p, ctypes.c_char_p, ctypes.c_int], ctypes.c_ulong
+    x.XListProperties.argtypes = [ctypes.c_void_p, ctypes.c_ulong, ctypes.POINTER(ctypes.c_int)]
+    x.XListProperties.restype = ctypes.POINTER(ctypes.c_ulong)
+    x.XFree.argtypes = x.XCloseDisplay.argtypes = [ctypes.c_void_p]
+    display, count = x.XOpenDisplay(None), ctypes.c_int()
+    if not display:
+        return True
+    names = x.XListProperties(display, x.XDefaultRootWindow(display), count)
+    found = x.XInternAtom(display, b"_NET_SUPPORTING_WM_CHECK", 0) in names[: count.value]
+    if names:
+        x.XFree(names)
+    x.XCloseDisplay(display)
+    return found
 
 
 def fitting_size(wished: tuple[int, int] = (0, 0)) -> tuple[int, int]:

@@ -7,6 +7,7 @@ from typing import Any
 
 from ninja_game.budget import NO_LIMIT
 from ninja_game.formats.replay.text import Replay
+from ninja_game.player.invincible import spared_tick
 from ninja_game.player.records import level_score
 from ninja_game.player.statistics import SELF, killer_of
 from ninja_game.runs.run import record_replay
@@ -25,7 +26,8 @@ class Attempt:
 
     ``lifetime``: ticks left, which gold adds to. ``inputs``: the recording, one byte per tick. ``score``: ticks, taken
     at the exit contact. ``ended_tick``: the tick of the first exit contact or death, counted from 0. ``assisted``:
-    tools were used (or it is practice), so it does not count as a record.
+    tools were used (or it is practice), so it does not count as a record. ``spared``: a death was refused, so that its
+    keys alone no longer make this run.
     """
 
     def __init__(
@@ -44,6 +46,7 @@ class Attempt:
         self.ended_tick = -1
         self.own_hand = False
         self.assisted = self.practice_mode
+        self.spared = False
 
     @property
     def outcome(self) -> str:
@@ -59,14 +62,18 @@ class Attempt:
         """What killed the ninja, one of ``statistics.KILLERS``: asked right after the tick of its death."""
         return SELF if self.own_hand else killer_of(self.simulation.world)
 
-    def tick(self, held: int) -> None:
-        """Run one tick with what is held: 1 left + 2 right + 4 jump."""
+    def tick(self, held: int, *, invincible: bool = False) -> None:
+        """Run one tick with what is held: 1 left + 2 right + 4 jump. ``invincible``: a death in it is refused."""
         world = self.simulation.world
         was_held = world.ninja.jump_held
         gold = world.gold
         running = world.outcome == 0
         keys = pressed(held, was_held)
-        self.simulation.step_keys(keys)
+        if invincible and running:
+            self.assisted = True
+            self.spared |= spared_tick(self.simulation, keys)
+        else:
+            self.simulation.step_keys(keys)
         # The input is sampled after all physics of the tick, and only by a ninja that lives and is not celebrating.
         if world.ninja.state not in {DEAD, CELEBRATING} and running:
             self.inputs.append(keys)

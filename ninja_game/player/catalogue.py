@@ -25,6 +25,9 @@ from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.replay.text import Replay, parse_replay
 from ninja_game.player.records import episode_key
 
+OURS = "ninja-game"
+"""In the name of every author that is part of the project."""
+
 
 @dataclass(frozen=True)
 class Entry:
@@ -99,6 +102,15 @@ class EpisodeSet(NamedTuple):
     def levels(self) -> list[Entry]:
         """Every level, those of the episodes first, in their order."""
         return [entry for number in sorted(self.episodes) for entry in self.episodes[number].levels] + [*self.singles]
+
+
+def author_name(author: str) -> str:
+    """What an author is called on screens: who or what of the project made a thing tells a player nothing.
+
+    >>> author_name("the ninja-game team"), author_name("ninja-game check"), author_name("Ann")
+    ('ninja-game', 'ninja-game', 'Ann')
+    """
+    return OURS if OURS in author else author
 
 
 def episode_set(pack: Pack, key: str) -> EpisodeSet:

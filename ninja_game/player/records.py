@@ -61,6 +61,16 @@ class EpisodeBest(NamedTuple):
     made_at: str
 
 
+def has_words(words: Iterable[str], *texts: str) -> bool:
+    """Whether each word (casefolded) stands in one of some texts.
+
+    >>> has_words(["first", "ann"], "First Steps", "Anna"), has_words(["first", "bob"], "First Steps", "Anna")
+    (True, False)
+    """
+    text = " ".join(texts).casefold()
+    return all(word in text for word in words)
+
+
 def now_text() -> str:
     """The time, UTC, as the records have it."""
     return datetime.now(UTC).isoformat(timespec="seconds")
@@ -88,9 +98,14 @@ class Records:
         with self.store.change() as db:
             return self._insert(db, replay, kept=True)
 
-    def replays(self) -> list[SavedReplay]:
-        """The replays, newest first."""
-        return self._saved("ORDER BY made_at DESC, id DESC LIMIT ?", NEWEST_SHOWN)
+    def replays(self, words: Sequence[str] = ()) -> list[SavedReplay]:
+        """The replays whose name and player have all these words (casefolded), newest first; NEWEST_SHOWN at most."""
+        if not words:
+            # Ids grow with time, and this order needs no look at all the others.
+            return self._saved("ORDER BY id DESC LIMIT ?", NEWEST_SHOWN)
+        rows = self.store.rows("SELECT id, name, player FROM replay ORDER BY id DESC", (), (int, str, str))
+        found = [number for number, *texts in rows if has_words(words, *texts)][:NEWEST_SHOWN]
+        return self._saved(f"WHERE id IN ({', '.join('?' * len(found))}) ORDER BY id DESC", *found)
 
     def replay(self, number: int) -> Replay | None:
         """A whole replay by its id, with its level inside; None if it has gone or is damaged."""

@@ -62,6 +62,8 @@ class Settings:
     smooth: bool = True
     reduced_motion: bool = False
     reduced_gore: bool = False
+    shake: int = 50
+    particles: int = 100
     show_ghost: bool = True
     ghost: str = "best"
     show_keys: bool = False
@@ -71,12 +73,19 @@ class Settings:
     window_height: int = 0
     volume: int = 70
     loop_volume: int = 99
+    music_volume: int = 45
+    music_in_practice: bool = True
     text_scale: int = 0
     level_width: int = 0
     tabs_height: int = 0
     play_speed: int = 100
     practice: bool = False
     level_texts: bool = True
+    game_speed: int = 100
+    invincible: bool = False
+    tap_to_run: bool = False
+    text_size: int = 100
+    sound_cues: bool = False
     name: str = ""
     site: str = ""
     dead_zone: float = 0.35
@@ -156,8 +165,10 @@ RULES = {
     ),
     "fullscreen": _flag("look", "the whole screen instead of a window"),
     "smooth": _flag("look", "positions between two ticks are drawn"),
-    "reduced_motion": _flag("look", "fewer particles; nothing plays behind the menus"),
+    "reduced_motion": _flag("look", "fewer particles, no shake, no wipes, no freeze; nothing plays behind the menus"),
     "reduced_gore": _flag("look", "no blood"),
+    "shake": _whole("look", 0, 100, "of the picture at explosions, percent"),
+    "particles": _whole("look", 0, 100, "share of the particles that are shown, percent"),
     "show_ghost": _flag("look", "a run to race against plays along"),
     "ghost": Rule(
         "look", GHOSTS.__contains__, "'best', 'next', 'silver', 'gold' or 'author'", "your best run, or a medal's pace"
@@ -167,8 +178,10 @@ RULES = {
     "frame_limit": _whole("look", 0, 1000, "pictures a second; 0: as the display"),
     "window_width": _whole("look", 0, 16384, "px; 0: as it fits the screen"),
     "window_height": _whole("look", 0, 16384, "px; 0: as it fits the screen"),
-    "volume": _whole("sound", 0, 99, "of single sounds"),
-    "loop_volume": _whole("sound", 0, 99, "of sounds that go on"),
+    "volume": _whole("sound", 0, 99, "of all that is heard"),
+    "loop_volume": _whole("sound", 0, 99, "of sounds that go on, a share of the volume"),
+    "music_volume": _whole("sound", 0, 99, "of the music, a share of the volume"),
+    "music_in_practice": _flag("sound", "music in practice mode too"),
     "text_scale": _whole("tas", 0, 400, "size of the text in the TAS editor, percent; 0: as it suits the window"),
     "level_width": _whole(
         "tas", 0, 99, "of the level in the TAS editor, percent of the window; 0: as it suits the window"
@@ -179,6 +192,11 @@ RULES = {
     "play_speed": _whole("tas", 10, 800, "of playing in the TAS editor, percent"),
     "practice": _flag("play", "practice mode: saving states, rewinding, slow motion; nothing counts"),
     "level_texts": _flag("play", "levels that have not been passed say how they are meant"),
+    "game_speed": _whole("accessibility", 50, 100, "of play, percent; below 100 a run is assisted: no record"),
+    "invincible": _flag("accessibility", "nothing that is met kills; a run is assisted: no record"),
+    "tap_to_run": _flag("accessibility", "a press of a running key runs until the next one"),
+    "text_size": _whole("accessibility", 100, 150, "of all texts but those of the TAS editor, percent"),
+    "sound_cues": _flag("accessibility", "marks where a sound warns: rocket, laser, chase, turret"),
     "name": Rule("play", _is_name, "at most 40 printable characters", "of the player, in replays"),
     "site": Rule(
         "play",
@@ -214,6 +232,15 @@ def read_settings(path: Path) -> tuple[Settings, list[str]]:
     if data.get("version", VERSION) != VERSION:
         return Settings(), [f"The settings file is from another version of the game. {_put_aside(path, 'newer')}"]
     return _settings_of(data)
+
+
+def glance(path: Path) -> Settings:
+    """The settings in a file as far as they can be used, for what cannot wait; nothing is told, and nothing moved."""
+    try:
+        with _long_numbers():
+            return _settings_of(parse_toml(read_utf8(path, MAX_BYTES), any_number=True))[0]
+    except (OSError, FileError, ValueError):
+        return Settings()
 
 
 @contextmanager

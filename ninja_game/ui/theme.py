@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from bisect import bisect_right
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields
 
 import pygame
 
 from ninja_game.ui.canvas import Canvas, Colour
-from ninja_game.ui.lettering import Lettering
+from ninja_game.ui.lettering import HEIGHT, Lettering
 
 Area = tuple[float, float, float, float]
 """x, y, width, height, logical px."""
@@ -20,41 +21,104 @@ def inside(area: Area, x: float, y: float) -> bool:
     return left <= x < left + w and top <= y < top + h
 
 
+EDGE = 2
+"""px that stay free between a text and the window's edge."""
+
 NARROWEST = 0.2
 """Width of the narrowest letter with its space, as a share of the size: longer texts need not be measured."""
 
 
-class Theme:
-    """Palette and lettering for a canvas; made again when either changes."""
+TEXT_SIZES = {"normal": 100, "large": 125, "largest": 150}
+"""Sizes of text, percent."""
 
-    def __init__(self, palette: Palette, canvas: Canvas) -> None:
+
+class Theme:
+    """Palette and lettering for a canvas; made again when either changes.
+
+    ``text_size``: percent. Every text is as large as that where it fits, else in the next smaller of the sizes; its
+    middle stays where it is. What does not fit in the normal size is shortened by dots.
+    """
+
+    def __init__(self, palette: Palette, canvas: Canvas, text_size: int = 100) -> None:
         self.palette = palette
         self.canvas = canvas
         self.lettering = Lettering(canvas)
+        self.scales = [
+            size / 100 for size in sorted({text_size, *TEXT_SIZES.values()}, reverse=True) if size <= text_size
+        ]
 
     def text(
         self, surface: pygame.Surface | None, text: str, x: float, y: float, *, size: float = 8,
         colour: Colour | None = None, align: str = "left", bold: bool = False, width: float | None = None,
+        height: float | None = None,
     ) -> pygame.Rect:  # fmt: skip
-        """Draw a text (or, without a surface, only measure it); its px rectangle. ``y``: its top.
+        """Draw a text (or, without a surface, only measure it); its px rectangle. ``y``: its top in the normal size.
 
-        ``width``: logical px to which it is shortened by dots.
+        ``width``, ``height``: the room that it has, logical px; without a width it ends at the window's edge, without
+        a height it is as high as it likes.
         """
-        if width is not None:
-            text = self.fit(text, width, size, bold=bold)
-        return self.lettering.draw(surface, text, x, y, size, colour or self.palette.text, align=align, bold=bold)
+        room = self._room(x, align) if width is None else min(width, self._room(x, align))
+        scale = self.largest(text, size, room, bold=bold, height=height)
+        text = self._fit(text, room, size * scale, bold=bold)
+        y -= (scale - 1) * size * HEIGHT / 2
+        return self.lettering.draw(
+            surface, text, x, y, size * scale, colour or self.palette.text, align=align, bold=bold
+        )
+
+    def _room(self, x: float, align: str) -> float:
+        """From a text's place to the window's edges."""
+        left, right = self.canvas.logical((0, 0))[0], self.canvas.logical(self.canvas.window)[0]
+        beside = {"left": right - x, "right": x - left}
+        return beside.get(align, 2 * min(right - x, x - left)) - EDGE
+
+    def largest(
+        self, text: str, size: float, width: float, *, bold: bool = False, height: float | None = None
+    ) -> float:
+        """The largest scale in which a text has room; the smallest where it has none. ``size``: in the normal one."""
+        for scale in self.scales[:-1]:
+            high = height is None or size * scale * HEIGHT <= height
+            if high and self.lettering.width(text, size * scale, bold=bold) <= width:
+                return scale
+        return self.scales[-1]
+
+    def common_height(self, texts: Iterable[str], size: float, width: float) -> float:
+        """The height with which bold texts of a list that is so wide all get the same scale."""
+        return size * HEIGHT * min(self.largest(text, size, width, bold=True) for text in texts)
 
     def width(self, text: str, size: float = 8, *, bold: bool = False) -> float:
-        """Width of a text, logical px."""
-        return self.lettering.width(text, size, bold=bold)
+        """Width of a text that has room, logical px."""
+        return self.lettering.width(text, size * self.scales[0], bold=bold)
+
+    def paragraph(
+        self, surface: pygame.Surface, texts: Sequence[str], area: Area, size: float, spacing: float, *,
+        colour: Colour | None = None, align: str = "left",
+    ) -> None:  # fmt: skip
+        """Texts in lines as wide as an area, from its top on, as large as it has room for them; more is left out."""
+        x, y, w, h = area
+        scale, lines = self.scales[-1], [""]
+        for scale in self.scales:
+            lines = [line for text in texts for line in wrapped(self, text, w, size * scale / self.scales[0])]
+            if len(lines) * spacing * scale <= h:
+                break
+        most = max(1, int(h / (spacing * scale)))
+        if len(lines) > most:
+            lines = [*lines[: most - 1], " ".join(lines[most - 1 :])]
+        left = x + {"left": 0.0, "centre": w / 2, "right": w}[align]
+        for place, line in enumerate(lines):
+            drawn = self._fit(line, w, size * scale)
+            top = y + spacing * scale * place
+            self.lettering.draw(surface, drawn, left, top, size * scale, colour or self.palette.text, align=align)
 
     def fit(self, text: str, width: float, size: float, *, bold: bool = False) -> str:
-        """The text, shortened by dots to fit a width."""
-        most = int(width / (NARROWEST * size)) + 1
-        if len(text) <= most and self.width(text, size, bold=bold) <= width:
+        """The text, shortened by dots to fit a width in the normal size."""
+        return self._fit(text, width, size * self.scales[-1], bold=bold)
+
+    def _fit(self, text: str, width: float, size: float, *, bold: bool = False) -> str:
+        most = int(max(0.0, width) / (NARROWEST * size)) + 1
+        if len(text) <= most and self.lettering.width(text, size, bold=bold) <= width:
             return text
         lengths = range(min(len(text), most) + 1)
-        kept = bisect_right(lengths, width, key=lambda n: self.width(text[:n] + "...", size, bold=bold)) - 1
+        kept = bisect_right(lengths, width, key=lambda n: self.lettering.width(text[:n] + "...", size, bold=bold)) - 1
         return text[: max(0, kept)].rstrip() + "..."
 
     def panel(self, surface: pygame.Surface, x: float, y: float, w: float, h: float, radius: float = 3) -> pygame.Rect:

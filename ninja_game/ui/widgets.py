@@ -94,9 +94,9 @@ class Label(Widget):
         self.faint = faint
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
-        x, y, _, _ = self.area
+        x, y, w, h = self.area
         colour = theme.palette.faint if self.faint else theme.palette.text
-        theme.text(surface, self.text, x, y, size=self.size, colour=colour)
+        theme.text(surface, self.text, x, y, size=self.size, colour=colour, width=w, height=h)
 
 
 class Button(Widget):
@@ -118,9 +118,11 @@ class Button(Widget):
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         self.draw_base(surface, theme, focused=focused)
         colour = theme.palette.text if self.enabled else theme.palette.faint
-        text = theme.fit(self.text, self.area[2] - 2 * PAD, self.size, bold=focused)
         x, y = self.centre
-        theme.text(surface, text, x, y - self.size / 2, size=self.size, colour=colour, align="centre", bold=focused)
+        theme.text(
+            surface, self.text, x, y - self.size / 2, size=self.size, colour=colour, align="centre", bold=focused,
+            width=self.area[2] - 2 * PAD, height=self.area[3],
+        )  # fmt: skip
 
 
 class Choice(Widget, Generic[T]):
@@ -244,7 +246,9 @@ def draw_medal(
         canvas.circle(surface, palette.panel_edge, (x, y), size / 2, 1)
     ink = _INK if reached else palette.faint
     letter = size * 0.58
-    theme.text(surface, medal[0].upper(), x, y - letter / 2, size=letter, colour=ink, align="centre", bold=True)
+    theme.text(
+        surface, medal[0].upper(), x, y - letter / 2, size=letter, colour=ink, align="centre", bold=True, height=size
+    )
 
 
 def draw_all_gold(surface: pygame.Surface, theme: Theme, x: float, y: float, size: float = 11) -> None:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import cos, hypot, sin
 from random import Random
 from typing import TYPE_CHECKING, Protocol
 
 import pygame
 
 from ninja_game.player.settings import Settings
-from ninja_game.sim.events import DIED
+from ninja_game.sim.events import DIED, MINE_EXPLODED, ROCKET_EXPLODED
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import DEAD
 from ninja_game.simulation import Simulation
@@ -20,6 +21,7 @@ from ninja_game.view.effects.effects import Effects
 from ninja_game.view.effects.particles import Particles
 from ninja_game.view.ninja.ninja_animation import NinjaAnimation, draw_ghost, draw_ninja, draw_ragdoll
 from ninja_game.view.ninja.ragdoll import Ragdoll
+from ninja_game.view.sound_cues import draw_sound_cues
 from ninja_game.view.sprites.backdrop import Backdrop
 from ninja_game.view.sprites.drawing import DrawTarget, SpriteBook
 from ninja_game.view.sprites.moving_sprites import draw_moving
@@ -27,6 +29,10 @@ from ninja_game.view.sprites.object_animation import ObjectAnimation
 
 if TYPE_CHECKING:
     from ninja_game.view.overlays import Overlays
+
+
+SHAKE, SHAKE_KEPT, SHAKE_REACH = 9.0, 0.78, 200.0
+"""Of an explosion at the ninja: px, the share that is left a tick later, px from which on it is not felt."""
 
 
 class DrawnGhost(Protocol):
@@ -66,6 +72,7 @@ class LevelView:
         self.object_animation = ObjectAnimation(simulation.world)
         self.ninja_animation = NinjaAnimation(simulation.world, self._rng)
         self.ragdoll: Ragdoll | None = None
+        self._shake = 0.0
         self._covered: list[pygame.Rect] = []
         self._look: tuple[object, ...] = ()
         self._book: SpriteBook | None = None
@@ -81,6 +88,7 @@ class LevelView:
         self.ninja_animation.on_tick(world)
         self.effects.on_tick(self.simulation.tiles, world)
         self._follow_death(world)
+        self._follow_blasts(world)
         for ghost in self.ghosts:
             ghost.on_tick()
         if self.audible:
@@ -102,6 +110,7 @@ class LevelView:
         self.ninja_animation.reset(world)
         self.effects.reset()
         self.ragdoll = None
+        self._shake = 0.0
         self._mended += self._backdrop.reset(world, self.object_animation)
         for ghost in self.ghosts:
             ghost.on_seek(world.tick)
@@ -111,7 +120,17 @@ class LevelView:
     def _follow_options(self) -> None:
         options = self.context.settings
         self.effects.gore = not options.reduced_gore
-        self.particles.thin = 0.35 if options.reduced_motion else 1.0
+        self.particles.thin = (0.35 if options.reduced_motion else 1.0) * options.particles / 100
+        self.ninja_animation.squashes = not options.reduced_motion
+
+    def _follow_blasts(self, world: World) -> None:
+        """Explosions shake the picture, the more the nearer they are to the ninja."""
+        self._shake *= SHAKE_KEPT
+        options = self.context.settings
+        for event in world.events[: world.event_count]:
+            if event.kind in (MINE_EXPLODED, ROCKET_EXPLODED) and not options.reduced_motion:
+                far = hypot(event.x - world.ninja.x, event.y - world.ninja.y)
+                self._shake = max(self._shake, SHAKE * options.shake / 100 * max(0.0, 1 - far / SHAKE_REACH))
 
     def _follow_death(self, world: World) -> None:
         """Become a corpse, or go on as one; a revived ninja (objects.md §3) gets up."""
@@ -187,6 +206,10 @@ class LevelView:
         surface.set_clip(None)
         changed = self._covered + self.target.covered + mended
         self._covered = self.target.covered
+        if self._shake > 0.25:
+            turn, reach = 2.4 * self.effects.now, self._shake * self.canvas.scale
+            surface.blit(surface.copy(), (round(reach * cos(turn)), round(reach * sin(turn))))
+            whole = self._whole = True
         return None if whole else changed
 
     def _restore(self, surface: pygame.Surface, whole: bool, fraction: float) -> list[pygame.Rect]:
@@ -214,6 +237,8 @@ class LevelView:
                 draw_ghost(target, ghost.ninja_animation, ghost.place(fraction), fraction, ghost.colour(target.palette))
         self._draw_ninja(fraction)
         Particles.draw(self.particles.front, target, now)
+        if self.context.settings.sound_cues:
+            draw_sound_cues(target, self.simulation.world)
 
     def _draw_ninja(self, fraction: float) -> None:
         if self.ragdoll is not None:

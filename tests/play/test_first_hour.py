@@ -1,4 +1,4 @@
-"""What a new player is told and offered: texts of levels, causes of death, open levels, runs to race against."""
+"""What a new player learns and is offered: texts of levels, causes of death, open levels, runs to race against."""
 
 from __future__ import annotations
 

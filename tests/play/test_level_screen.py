@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App
-from ninja_game.play.level.hud import cause_of_death
+from ninja_game.play.level.hud import bar_length, cause_of_death, hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.replay.screen import ReplayScreen
@@ -228,3 +229,19 @@ def test_it_says_what_the_ninja_died_of(stage: tuple[App, ScriptedControls], rec
     frames(app, DEATH_PAUSE + 4)
     assert screen.play.crushed
     assert cause_of_death(screen.play) == "You were crushed."
+
+
+def test_the_time_bar_moves_whatever_time_is_left() -> None:
+    lengths = [bar_length(lifetime) for lifetime in range(0, 4 * LIFETIME, 40)]
+    assert all(b > a for a, b in pairwise(lengths))
+    assert lengths[-1] < 700
+
+
+def test_keys_of_practice_are_named_where_they_work(app: App, recording: Recording) -> None:
+    screen = open_level(app, recording, practice_mode=True)
+    assert "rewind" not in hud_view(screen.play).foot[1]
+    press("confirm")
+    frames(app, 3)
+    assert "Rewind: rewind" in hud_view(screen.play).foot[1]
+    frames(app, 620)
+    assert "rewind" not in hud_view(screen.play).foot[1]

@@ -47,7 +47,7 @@ def test_link_of_a_level_is_copied_under_levels_and_played(driver: MenuDriver, c
     driver.app.change_settings(site="https://example.org/game/")
     browser = driver.open("Levels")
     assert isinstance(browser, Browser)
-    next(each for each in browser.widgets if getattr(each, "text", "") == "Copy link").confirm()
+    next(each for each in browser.widgets if getattr(each, "text", "") == "Link").confirm()
     (link,) = clipboard
     assert link.startswith("https://example.org/game/#level=1.")
     opened(driver, link)

@@ -2,32 +2,36 @@
 
 from __future__ import annotations
 
-import wave
 from collections.abc import Iterator
+from itertools import pairwise
 from pathlib import Path
 from unittest.mock import Mock
 
-import numpy as np
 import pygame
 import pytest
 
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim import states
-from ninja_game.sim.events import DIED, EVENT_NAMES
+from ninja_game.sim.events import DIED, EVENT_NAMES, LANDED
 from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER
 from ninja_game.simulation import Simulation
-from ninja_game.ui.audio.player import (
+from ninja_game.ui.audio.patterns import CHAIN_TICKS, STRIDE, Footsteps, GoldLadder, Variants
+from ninja_game.ui.audio.player import AudioPlayer
+from ninja_game.ui.audio.table import (
     BY_DEATH,
     BY_EVENT,
     CORPSE,
+    LANDING,
     LOOPS,
     OTHER_DEATH,
-    AudioPlayer,
-    _has_loop,
+    STEPS,
+    event_sound,
+    has_loop,
     loop_levels,
 )
+from ninja_game.view.ninja.figure import CYCLE
 from tests.support.recorded import hold_against
-from tools.make_sounds import RATE, RECIPES, samples
+from tools.sounds.effects import RECIPES
 
 FLAT = parse_level_string("0" * 713 + "|5^100,566!0^140,566!11^400,564,500,564")
 
@@ -38,34 +42,11 @@ def folder(root: Path) -> Path:
 
 
 def test_every_sound_of_the_tables_has_a_recipe_and_a_file(folder: Path) -> None:
-    named = {name for names in [*BY_EVENT.values(), *BY_DEATH.values(), OTHER_DEATH] for name in names}
-    named |= {name for _, names in CORPSE for name in names} | set(LOOPS)
-    assert named <= set(RECIPES)
-    assert {path.stem for path in folder.glob("*.wav")} == set(RECIPES)
-
-
-@pytest.mark.parametrize("name", RECIPES)
-def test_file_is_what_the_script_makes(folder: Path, name: str) -> None:
-    """Regenerate with `python3 tools/dev.py tool make_sounds`."""
-    with wave.open(str(folder / f"{name}.wav"), "rb") as file:
-        found = np.frombuffer(file.readframes(file.getnframes()), "<i2").astype(int)
-    made = np.frombuffer(samples(name), "<i2").astype(int)
-    assert len(found) == len(made)
-    # Other NumPy builds may round a sine differently.
-    assert np.abs(found - made).max() <= 4
-
-
-@pytest.mark.parametrize("name", LOOPS)
-def test_loops_end_as_they_begin(name: str) -> None:
-    made = np.frombuffer(samples(name), "<i2").astype(float)
-    steps = np.abs(np.diff(made))
-    assert abs(made[0] - made[-1]) <= steps.max()
-
-
-@pytest.mark.parametrize("name", sorted(set(RECIPES) - set(LOOPS)))
-def test_other_sounds_die_away_before_they_end(name: str) -> None:
-    made = np.abs(np.frombuffer(samples(name), "<i2").astype(float))
-    assert made[-RATE // 100 :].max() <= 0.3 * made.max()
+    named = {name for names in [*BY_EVENT.values(), *BY_DEATH.values(), OTHER_DEATH, STEPS] for name in names}
+    named |= {name for _, names in (*CORPSE, *LANDING) for name in names}
+    named |= {name for names in LOOPS.values() for name in names}
+    assert set(RECIPES) - named == {"medal", "menu-choose", "menu-move"}
+    assert {path.stem for path in folder.glob("*.ogg")} == set(RECIPES) >= named
 
 
 SOUNDS = Path(__file__).parent / "golden" / "sounds.txt"
@@ -77,7 +58,7 @@ def heard(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
     monkeypatch.setattr(player, "works", True)
     monkeypatch.setattr(player, "play", lambda name, **_: played.append(name))
     monkeypatch.setattr(player, "_loop", lambda *_: None)
-    monkeypatch.setattr(player, "_rng", Mock(choice=" or ".join))
+    monkeypatch.setattr(player, "_variants", Mock(choose=" or ".join))
     world = Simulation(FLAT).world
     world.event_count = 1
     for kind, name in enumerate(EVENT_NAMES):
@@ -105,7 +86,7 @@ def heard(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
     for name, (kind, routine) in lasting.items():
         weapon = states.WEAPON_CHAINGUN if "chaingun" in name else states.WEAPON_LASER
         machine = Mock(kind=kind, routine=routine, weapon=weapon)
-        found = [loop for loop, level in loop_levels(world, [machine] if _has_loop(machine) else []).items() if level]
+        found = [loop for loop, level in loop_levels(world, [machine] if has_loop(machine) else []).items() if level]
         yield f"{name}: {', '.join(found) or 'nothing'}"
 
 
@@ -153,12 +134,67 @@ def test_no_sound_device_is_no_error(folder: Path, monkeypatch: pytest.MonkeyPat
     run.step(jump=True)
     sound.play_events(run.world)
     sound.corpse(4.0)
-    sound.play("gold")
-    sound.set_volumes(0, 0)
+    sound.play("gold-1")
+    sound.set_volumes(0, 0, 0)
     sound.quiet()
 
 
 def test_missing_files_are_silent(tmp_path: Path) -> None:
     sound = AudioPlayer(tmp_path)
-    sound.play("gold")
+    sound.play("gold-1")
     sound.corpse(5.0)
+
+
+def test_a_variant_never_sounds_twice_in_a_row() -> None:
+    variants = Variants()
+    heard = [variants.choose(STEPS) for _ in range(200)]
+    assert all(one != two for one, two in pairwise(heard))
+    assert set(heard) == set(STEPS)
+    assert {variants.choose(("mine",)) for _ in range(3)} == {"mine"}
+
+
+def test_gold_climbs_in_a_chain_and_falls_back_after_a_pause_or_a_restart() -> None:
+    ladder = GoldLadder(4)
+    assert [ladder.climb(tick) for tick in (5, 5, 5 + CHAIN_TICKS, 100, 101)] == [0, 1, 2, 3, 3]
+    assert ladder.climb(102 + CHAIN_TICKS) == 0
+    assert ladder.climb(103 + CHAIN_TICKS) == 1
+    assert ladder.climb(20) == 0
+
+
+def test_gold_of_a_run_is_heard_as_a_ladder(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    row = "!".join(f"0^{x},566" for x in range(120, 260, 24))
+    run, sound, heard = (
+        Simulation(parse_level_string("0" * 713 + f"|5^100,566!{row}")),
+        AudioPlayer(folder),
+        list[str](),
+    )
+    monkeypatch.setattr(sound, "play", lambda name, **_: heard.append(name))
+    for _ in range(120):
+        run.step(right=True)
+        sound.play_events(run.world)
+    assert [name for name in heard if "gold" in name] == [f"gold-{rung}" for rung in range(1, 7)]
+
+
+def test_steps_follow_the_run_and_its_speed() -> None:
+    assert STRIDE == CYCLE / 2
+    run, steps, told = Simulation(FLAT), Footsteps(), list[float]()
+    for _ in range(80):
+        run.step(right=True)
+        told.append(steps.loudness(run.world.ninja))
+    loud = [level for level in told if level]
+    way = run.world.ninja.x - 100
+    assert abs(len(loud) - way / STRIDE) <= 1
+    assert loud[0] < loud[-1]
+    for _ in range(60):
+        run.step()
+    assert steps.loudness(run.world.ninja) == 0
+
+
+@pytest.mark.parametrize(
+    "speed, names", [(0.0, "land-soft"), (1.0, "land-soft"), (3.0, "land-medium"), (9.0, "land-hard")]
+)
+def test_a_landing_is_as_hard_as_the_hit(speed: float, names: str) -> None:
+    ninja, event = Mock(floor_x=0.0, floor_y=-1.0), Mock(kind=LANDED, dx=7.0, dy=speed)
+    heard, level = event_sound(event, ninja)
+    assert heard[0].startswith(names)
+    assert level == min(1.0, 0.5 + speed / 8)

@@ -173,3 +173,28 @@ def test_the_window_opens_as_large_as_it_was(tmp_path: Path) -> None:
     assert closed(None, (900, 640)) == usual, "one that --size made is not kept"
     assert closed(None, None) == (900, 640)
     assert fitting_size((10**5, 640)) == (pygame.display.get_desktop_sizes()[0][0], 640)
+
+
+FIRST_PICTURE = """
+import sys, time
+import pygame
+def flip():
+    print(time.clock_gettime(time.CLOCK_PROCESS_CPUTIME_ID), *sys.modules)
+    sys.stdout.flush()
+    raise SystemExit
+pygame.display.flip = flip
+from ninja_game.cli.main import main
+sys.argv = ["ninja-game", "play"]
+main()
+"""
+
+
+def test_the_first_picture_comes_before_the_game_is_loaded(root: Path) -> None:
+    """Half a second of work at most, whatever the rest takes."""
+    program = [sys.executable, "-c", FIRST_PICTURE]
+    environment = os.environ | {"PYTHONPATH": str(root)}
+    done = subprocess.run(program, cwd=root, env=environment, capture_output=True, text=True, check=False)
+    taken, *modules = done.stdout.split()
+    assert float(taken) < 0.5, done.stderr
+    assert "ninja_game.play.window" in modules
+    assert not {"ninja_game.play.app", "ninja_game.play.main", "ninja_game.sim.world", "sqlite3"} & set(modules)

@@ -25,9 +25,9 @@ pytestmark = pytest.mark.skipif(
 
 
 class Desktop:
-    """A screen of 1600 x 1000 px with a window manager and the game in a window."""
+    """A screen of 1600 x 1000 px with the game in a window, and with a window manager or without."""
 
-    def __init__(self, home: Path, root: Path) -> None:
+    def __init__(self, home: Path, root: Path, *, managed: bool = True) -> None:
         reading, writing = os.pipe()
         self.server = subprocess.Popen(
             ["Xvfb", "-displayfd", str(writing), "-screen", "0", "1600x1000x24", "-nolisten", "tcp", "-noreset"],
@@ -40,7 +40,11 @@ class Desktop:
             "DISPLAY": display, "SDL_VIDEODRIVER": "x11", "SDL_AUDIODRIVER": "dummy", "NINJA_GAME_HOME": str(home),
             "PYTHONPATH": str(root),
         }  # fmt: skip
-        self.manager = subprocess.Popen(["openbox"], env=self.environment, stderr=subprocess.DEVNULL)
+        self.managed = managed
+        manager = ["openbox"] if managed else ["sleep", "1000"]
+        self.manager = subprocess.Popen(manager, env=self.environment, stderr=subprocess.DEVNULL)
+        while managed and "window id" not in self.ask("xprop", "-root", "_NET_SUPPORTING_WM_CHECK"):
+            time.sleep(0.05)
         program = [sys.executable, "-m", "ninja_game", "play", "--size", "792x600"]
         self.game = subprocess.Popen(program, env=self.environment, cwd=home)
         self.window = ""
@@ -49,7 +53,8 @@ class Desktop:
         """Wait until the window is there, and managed."""
         self.wait_for(lambda: bool(self.ask("xdotool", "search", "--pid", str(self.game.pid))))
         self.window = self.ask("xdotool", "search", "--pid", str(self.game.pid)).split()[-1]
-        self.wait_for(lambda: "WINDOW" in self.ask("xprop", "-root", "_NET_ACTIVE_WINDOW"))
+        if self.managed:
+            self.wait_for(lambda: "WINDOW" in self.ask("xprop", "-root", "_NET_ACTIVE_WINDOW"))
 
     def ask(self, *words: str) -> str:
         """What a program answers."""
@@ -80,6 +85,21 @@ def desktop(tmp_path: Path, root: Path) -> Iterator[Desktop]:
     try:
         desktop.open()
         yield desktop
+    finally:
+        desktop.close()
+
+
+def test_full_screen_covers_a_screen_without_a_window_manager(tmp_path: Path, root: Path) -> None:
+    desktop = Desktop(tmp_path, root, managed=False)
+    try:
+        desktop.open()
+        before = desktop.geometry()
+        assert "WIDTH=792" in before
+        desktop.ask("xdotool", "windowfocus", "--sync", desktop.window)
+        desktop.ask("xdotool", "key", "F11")
+        desktop.wait_for(lambda: "X=0\nY=0\nWIDTH=1600\nHEIGHT=1000" in desktop.geometry())
+        desktop.ask("xdotool", "key", "F11")
+        desktop.wait_for(lambda: desktop.geometry() == before)
     finally:
         desktop.close()
 

@@ -11,23 +11,30 @@ import pytest
 from hypothesis import given, settings as hypothesis_settings, strategies as st
 
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.settings import MOST_INPUTS, RULES, Settings, read_settings, write_changes
+from ninja_game.player.settings import GHOSTS, MOST_INPUTS, RULES, Settings, read_settings, write_changes
 from tools.draw import settings_page
 
 PRINTABLE = st.text(st.characters(exclude_categories=["Cs", "Cc", "Cf", "Zl", "Zp", "Zs", "Co", "Cn"]), max_size=30)
 BINDINGS = st.dictionaries(PRINTABLE, st.lists(PRINTABLE, max_size=3).map(tuple), max_size=4)
 VALUES = {
-    "palette": st.sampled_from(["by-column", "classic", "dark", "safe-dark"]),
+    "palette": st.sampled_from(["classic", "dark", "safe-dark"]),
     "ninja_colour": st.sampled_from(["", "#000000", "#aB12Ff"]),
     "frame_limit": st.integers(0, 1000),
     "window_width": st.integers(0, 16384),
     "window_height": st.integers(0, 16384),
     "volume": st.integers(0, 99),
     "loop_volume": st.integers(0, 99),
+    "music_volume": st.integers(0, 99),
+    "music_in_practice": st.booleans(),
     "text_scale": st.integers(0, 400),
     "level_width": st.integers(0, 99),
     "tabs_height": st.integers(0, 99),
     "play_speed": st.integers(10, 800),
+    "game_speed": st.integers(50, 100),
+    "text_size": st.integers(100, 150),
+    "shake": st.integers(0, 100),
+    "particles": st.integers(0, 100),
+    "ghost": st.sampled_from(GHOSTS),
     "name": PRINTABLE,
     "site": st.sampled_from(["", "https://example.org/game/?a=b&c=%20"]),
     "dead_zone": st.floats(0.05, 0.95),
@@ -208,7 +215,7 @@ def test_wrong_value_falls_back_alone_and_is_named(tmp_path: Path) -> None:
     path = tmp_path / "settings.toml"
     path.write_text('version = 1\n[sound]\nvolume = "loud"\nloop-volume = 3\n[keys]\njump = "z"\n[look]\npalette = 7\n')
     settings, messages = read_settings(path)
-    assert (settings.volume, settings.loop_volume, settings.palette) == (Settings().volume, 3, "by-column")
+    assert (settings.volume, settings.loop_volume, settings.palette) == (Settings().volume, 3, Settings().palette)
     assert len(messages) == 3
     assert "sound.volume is 'loud'" in " ".join(messages)
 

@@ -24,7 +24,7 @@ from ninja_game.sim.memory.object_fields import Header, Object
 from ninja_game.sim.memory.plain import PlainWorlds
 from ninja_game.sim.objects import dispatch
 from ninja_game.sim.traces import is_traced, status_of
-from ninja_game.ui.audio.player import BY_DEATH, BY_EVENT, OTHER_DEATH
+from ninja_game.ui.audio.table import BY_DEATH, BY_EVENT, OTHER_DEATH
 from ninja_game.view.sprites.moving_sprites import PAINTERS
 from ninja_game.view.sprites.static_sprites import static_sprites_of
 from tests.support.crowded import crowded_inputs, crowded_level

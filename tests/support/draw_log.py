@@ -100,7 +100,11 @@ class DrawLog:
             (DrawTarget, "sprite", lambda _, key, x, y: f"sprite {_sprite_name(key)} at {px(x, y)}"),
             (DrawTarget, "picture", lambda _, __, x, y: f"figure at {px(x, y)}"),
             (DrawTarget, "line", self._beam),
-            (DrawTarget, "disc", lambda _, c, x, y, r: f"disc {self._colour(c)} at {px(x, y)} r {r:g}"),
+            (
+                DrawTarget,
+                "disc",
+                lambda _, c, x, y, r, w=0: f"disc {self._colour(c)} at {px(x, y)} r {r:g} width {w:g}",
+            ),
             (Thumbnails, "draw", lambda _, __, e, x, y, w: f"thumbnail of {e.title!r} at {px(x, y)} width {w:g}"),
             (Backdrop, "_place", self._place),
             (Backdrop, "update", self._backdrop),

@@ -177,7 +177,13 @@ def test_a_sound_is_heard_as_long_as_it_lasts(page: Any) -> None:
 import pygame
 pygame.mixer.set_num_channels(8)
 pygame.mixer.set_reserved(2)
-SOUND = pygame.mixer.Sound("/game/ninja_game/data/assets/sounds/jump.wav")
+SOUND = pygame.mixer.Sound("/game/ninja_game/data/assets/sounds/jump-1.ogg")
+""",
+    )
+    eventually(page, lambda: page.evaluate("() => python.runPython('SOUND.get_length()')"), "the sound is not decoded")
+    page.evaluate(
+        """text => { python.runPython(text); }""",
+        """
 CHANNEL = SOUND.play()
 LOOP = pygame.mixer.Channel(0)
 LOOP.play(SOUND, loops=-1, fade_ms=10)

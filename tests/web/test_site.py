@@ -103,7 +103,7 @@ def test_the_archive_holds_the_game_and_nothing_that_the_page_cannot_use(pyodide
     with tarfile.open(fileobj=io.BytesIO(packed)) as archive:
         names = set(archive.getnames())
     wanted = {"boot.py", "ninja_game/play/main.py", "ninja_game/web/shim/pygame/__init__.py", "tomlkit/__init__.py"}
-    assert wanted | {"ninja_game/data/levels/00-0-first-steps.txt", "ninja_game/data/assets/sounds/jump.wav"} <= names
+    assert wanted | {"ninja_game/data/levels/00-0-first-steps.txt", "ninja_game/data/assets/sounds/jump-1.ogg"} <= names
     assert not [name for name in names if "/cli/" in name or "/learn/" in name or name.endswith((".pyc", ".md"))]
     with ZipFile(tmp_path / "out" / "pyodide" / "python_stdlib.zip") as library:
         assert library.namelist() == ["encodings/utf_8.py", "json/__init__.py"]

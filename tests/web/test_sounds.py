@@ -1,73 +1,68 @@
-"""Sounds of a page: a quarter as large, nearly as clear, and read by sound.js as by us."""
+"""Sounds of a page: the browser decodes our files as we do; music comes from the host when it is wanted."""
 
 from __future__ import annotations
 
 import base64
-import io
-import wave
-from array import array
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+import soundfile
 
-from ninja_game.errors import FileError
-from ninja_game.web.sounds import CLEAREST, MAGIC, compressed, decoded
+from tests.support.visitor import eventually
 
-SAMPLES = """
+START = """
 async (text) => {
-  const { decoded } = await import("./sound.js");
-  const sound = decoded(Uint8Array.from(atob(text), (char) => char.charCodeAt(0)));
-  return sound && [sound.rate, Array.from(sound.samples, (sample) => Math.round(sample * 32768))];
+  const { Sounds } = await import("./sound.js");
+  window.sounds = new Sounds();
+  return sounds.add(Uint8Array.from(atob(text), (char) => char.charCodeAt(0)));
 }
 """
+LENGTH = "() => sounds.length(0)"
 
 
-@pytest.fixture(scope="module")
-def sounds(root: Path) -> dict[str, bytes]:
-    """Our WAV files."""
-    return {path.stem: path.read_bytes() for path in sorted((root / "assets" / "sounds").glob("*.wav"))}
+@pytest.mark.parametrize("name", ["gold-1", "jump-2", "land-hard-3", "chase"])
+def test_the_page_decodes_a_sound_as_we_do(name: str, root: Path, python: Any) -> None:
+    path = root / "assets" / "sounds" / f"{name}.ogg"
+    assert python.evaluate(START, base64.b64encode(path.read_bytes()).decode()) == 0
+    eventually(python, lambda: python.evaluate(LENGTH), "the sound is not decoded")
+    wanted, rate = soundfile.read(path)
+    assert python.evaluate(LENGTH) == pytest.approx(len(wanted) / rate)
+    assert python.evaluate("() => sounds.buffers[0].sampleRate") == rate
+    found = np.array(python.evaluate("() => Array.from(sounds.buffers[0].getChannelData(0))"))
+    assert np.abs(found - wanted)[256:].max() <= 0.001
 
 
-def samples_of(data: bytes) -> array[int]:
-    with wave.open(io.BytesIO(data)) as sound:
-        return array("h", sound.readframes(sound.getnframes()))
+def test_a_loop_has_no_seam_where_the_browser_has_dropped_samples(root: Path, python: Any) -> None:
+    path = root / "assets" / "sounds" / "laser-beam.ogg"
+    python.evaluate(START, base64.b64encode(path.read_bytes()).decode())
+    eventually(python, lambda: python.evaluate(LENGTH), "the sound is not decoded")
+    python.evaluate("() => { sounds.mend(0); sounds.mend(0); }")
+    found = np.array(python.evaluate("() => Array.from(sounds.buffers[0].getChannelData(0))"))
+    looped = np.concatenate([found[-2000:], found[1024:3000]])
+    steps = np.abs(np.diff(looped))
+    assert steps[1990:2010].max() <= np.abs(np.diff(soundfile.read(path)[0])).max()
 
 
-def test_our_sounds_are_small_and_clear(sounds: dict[str, bytes]) -> None:
-    small = {name: compressed(data) for name, data in sounds.items()}
-    packed = {name for name, data in small.items() if data.startswith(MAGIC)}
-    assert len(packed) >= len(sounds) - 3
-    assert sum(map(len, small.values())) < 0.35 * sum(map(len, sounds.values()))
-    for name in packed:
-        before, (rate, after) = samples_of(sounds[name]), decoded(small[name])
-        assert rate == 22_050
-        noise = sum((one - two) ** 2 for one, two in zip(before, after, strict=True))
-        assert noise * CLEAREST <= sum(sample * sample for sample in before), name
+@pytest.mark.parametrize("data", [b"", b"RIFF" + bytes(60), b"Ogg"])
+def test_the_page_refuses_what_is_no_sound(data: bytes, python: Any) -> None:
+    assert python.evaluate(START, base64.b64encode(data).decode()) == -1
 
 
-@pytest.mark.parametrize("data", [b"", b"RIFF", b"no sound at all"])
-def test_what_is_no_sound_is_refused(data: bytes) -> None:
-    with pytest.raises(FileError, match="WAV"):
-        compressed(data, "x.wav")
+def test_a_damaged_sound_is_silent(python: Any) -> None:
+    assert python.evaluate(START, base64.b64encode(b"OggS" + bytes(60)).decode()) == 0
+    python.wait_for_timeout(100)
+    assert python.evaluate(LENGTH) == 0
+    python.evaluate("() => { sounds.unlock(); sounds.play(0, 0, 0, 0); }")
+    assert not python.evaluate("() => sounds.busy(0)")
 
 
-def test_a_sound_in_stereo_is_refused() -> None:
-    out = io.BytesIO()
-    with wave.open(out, "wb") as sound:
-        sound.setparams((2, 2, 22_050, 1, "NONE", ""))
-        sound.writeframes(bytes(4))
-    with pytest.raises(FileError, match="mono"):
-        compressed(out.getvalue(), "x.wav")
-
-
-@pytest.mark.parametrize("name", ["gold", "jump", "land", "chase"])
-def test_the_page_reads_a_sound_as_we_do(name: str, sounds: dict[str, bytes], python: Any) -> None:
-    small = compressed(sounds[name])
-    expected = decoded(small) if small.startswith(MAGIC) else (22_050, samples_of(sounds[name]))
-    rate, samples = python.evaluate(SAMPLES, base64.b64encode(small).decode())
-    assert (rate, samples) == (expected[0], expected[1].tolist())
-
-
-def test_the_page_refuses_what_is_no_sound(python: Any) -> None:
-    assert python.evaluate(SAMPLES, base64.b64encode(b"RIFX" + bytes(60)).decode()) is None
+def test_music_is_fetched_when_it_is_wanted(site: Path, python: Any) -> None:
+    layers = sorted(path.name for path in (site / "music").glob("*.ogg"))
+    assert layers
+    number = python.evaluate(f"() => host.sound('/game/ninja_game/data/assets/sounds/music/{layers[0]}')")
+    eventually(python, lambda: python.evaluate(f"() => host.length({number})"), "the music does not come")
+    missing = python.evaluate("() => host.sound('/game/ninja_game/data/assets/sounds/music/none.ogg')")
+    python.wait_for_timeout(100)
+    assert python.evaluate(f"() => host.length({missing})") == 0

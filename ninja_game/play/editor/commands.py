@@ -45,10 +45,7 @@ W A S D turn them. Without a mouse: arrows move the pointer, Space draws, Shift 
 NAMELESS = "My level"
 """What a level is called if its maker gives it no name."""
 
-_ABOUT = {
-    "teaches": "What it teaches",
-    "says": "Says, such as start: {jump} jumps | switch: Now the exit | death 3: Wait",
-}
+_ABOUT = {"teaches": "What it teaches", "says": "Says: start: Run!"}
 """Prompts of the fields whose names say too little."""
 
 

@@ -63,7 +63,7 @@ def property_widgets(tools: EditorTools, area: Area) -> Sequence[Widget]:
         title = f"Draw: {tile_name(tools.tile)}"
         texts = ("1 to 8: shape", "Q W A S: its solid corner", "E: full    D: empty", "H, J, U: mirror, flip, turn")
         rows += [partial(Label, text=text, size=9.5, faint=True) for text in texts]
-    head = Label((x, y, w, ROW), title, size=10)
+    head = Label((x, y, w, 15), title, size=10)
     return [head, *(make((x, y + 17 + ROW * k, w, ROW - 3)) for k, make in enumerate(rows))]
 
 
@@ -108,7 +108,7 @@ TOP, TALL, GAP = 4.0, 21.0, 3.0
 _BUTTONS = (
     ("menu", "File", 36, 0), ("undo", "Undo", 40, 0), ("redo", "Redo", 40, 5),
     ("brush", "Brush", 42, 0), ("rectangle", "Box", 34, 0), ("fill", "Fill", 32, 0), ("select", "Select", 44, 0),
-    ("pick", "Pick", 34, 5), ("symmetry", "Mirror: {symmetry}", 100, 0), ("grid", "Grid: {grid}", 104, 0),
+    ("pick", "Pick", 34, 5), ("symmetry", "Mirror: {symmetry}", 114, 0), ("grid", "Grid: {grid}", 100, 0),
     ("snap_next", "Snap: {snap}", 78, 5), ("test", "Test", 42, 0), ("certify", "Certify", 52, 0),
     ("help", "Help", 40, 0),
 )  # fmt: skip
@@ -130,7 +130,15 @@ class ToolButton(Button):
         text = self.text.format(symmetry=tools.symmetry, grid=self.view.grid.name, snap=tools.snap)
         colour = theme.palette.text if self.enabled else theme.palette.faint
         theme.text(
-            surface, text, x + w / 2, y + (h - 9) / 2, size=9, colour=colour, align="centre", bold=lit or focused
+            surface,
+            text,
+            x + w / 2,
+            y + (h - 9) / 2,
+            size=9,
+            colour=colour,
+            align="centre",
+            bold=lit or focused,
+            width=w,
         )
 
 

@@ -147,9 +147,11 @@ class Sheet:
         self.theme.canvas.frame_rect(self.surface, self.palette.panel_edge, *FIGURE, 1)
 
     def text(self, text: str, x: float, y: float, *, size: float = 9, colour: Colour | None = None) -> None:
-        """A text about a point of the world; ``size`` in logical px of the screen."""
+        """A text about a point of the world; ``size`` in logical px of the screen, always: it is part of the figure."""
         at = self.theme.canvas.logical(self.canvas.point(x, y))
-        self.theme.text(self.surface, text, at[0], at[1] - size / 2, size=size, colour=colour, align="centre")
+        self.theme.text(
+            self.surface, text, at[0], at[1] - size / 2, size=size, colour=colour, align="centre", height=1.1 * size
+        )
 
     def grid(self) -> None:
         upright: list[tuple[Point, Point]] = [((CELL * k, 0), (CELL * k, HEIGHT)) for k in range(34)]

@@ -23,7 +23,7 @@ from ninja_game.play.replay.film import write_gif
 from ninja_game.play.window import save_picture
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.list_view import ListView
-from ninja_game.ui.theme import Area, Theme, wrapped
+from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Choice, Slider, Widget
 from ninja_game.view.level_view import OffscreenContext
 
@@ -36,6 +36,7 @@ class LabScreen(MenuScreen):
     """Ten figures about how the world works. ``name``: the one to begin with."""
 
     title = "Lab"
+    offers_back = False
 
     def __init__(self, app: App, name: str = "") -> None:
         super().__init__(app)
@@ -111,9 +112,7 @@ class LabScreen(MenuScreen):
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)
         theme, (x, _, w, _) = self.app.theme, FIGURE
-        lines = [line for text in self.figure.text for line in wrapped(theme, text, w, 10.5)]
-        for place, line in enumerate(lines):
-            theme.text(surface, line, x, TEXT_TOP + 13 * place, size=10.5)
+        theme.paragraph(surface, self.figure.text, (x, TEXT_TOP, w, NUMBERS_TOP - TEXT_TOP), 10.5, 13)
         for place, (name, value) in enumerate(self.figure.numbers()):
             y = NUMBERS_TOP + LINE * place
             theme.text(surface, name, x, y, size=9.5, colour=theme.palette.faint, width=120)
@@ -124,7 +123,8 @@ class LabScreen(MenuScreen):
         chosen = index == self.list.index
         if chosen:
             theme.row(surface, (x, y + 1, w, h - 2), chosen=True, focused=focused, radius=3)
-        theme.text(surface, self.figures[index].title, x + 8, y + 7, size=11, bold=chosen, width=w - 12)
+        high = theme.common_height([figure.title for figure in self.figures], 11, w - 12)
+        theme.text(surface, self.figures[index].title, x + 8, y + 7, size=11, bold=chosen, width=w - 12, height=high)
 
 
 class FigureArea(Widget):

@@ -21,7 +21,8 @@ from ninja_game.ui.widgets import draw_medal
 
 _BAR_LEFT, _BAR_MIDDLE = 24.0, 12.0
 _BAR_LONGEST = 700.0
-_BAR_PER_TICK = 1200.0 / LIFETIME
+_BAR_AT_START = 600.0
+"""Length of the bar with the lifetime that a level begins with."""
 _WARNING_TICKS = 1800
 _FOOT_WIDTH = 744.0
 
@@ -32,6 +33,16 @@ _KEYS = (
     (40, KEY_RIGHT, ((3, 0), (-2, -4), (-2, 4))),
 )
 """Where the keys of left, jump and right are drawn, their bits and their arrows."""
+
+
+def bar_length(lifetime: float) -> float:
+    """Length of the time bar, px, for a lifetime in ticks: whatever is left, less of it is shorter.
+
+    >>> bar_length(1800), bar_length(3600), bar_length(7200)
+    (300.0, 600.0, 650.0)
+    """
+    more = _BAR_LONGEST - _BAR_AT_START
+    return _BAR_LONGEST - more * LIFETIME / lifetime if lifetime > LIFETIME else _BAR_AT_START * lifetime / LIFETIME
 
 
 def trough(palette: Palette) -> pygame.Color:
@@ -46,7 +57,7 @@ class HudView:
     ``lifetime``: ticks, for the time bar; ``label``: a word in its place. ``foot``: texts at the left and the right of
     the border below. ``keys``: those of the present tick, ``frame_ms``: of the last picture; None: not shown.
     ``said``: a text of the level, and the top of its panel. ``message``: title and lines of a panel, and its top;
-    ``medal``: what stands beside its title.
+    ``medal``: what is stamped beside its title, ``stamp``: how far that has come, 0…1.
     """
 
     lifetime: float
@@ -57,6 +68,7 @@ class HudView:
     said: tuple[str, float] | None = None
     message: tuple[str, Sequence[str], float] | None = None
     medal: str = ""
+    stamp: float = 1.0
 
 
 class Hud:
@@ -76,14 +88,14 @@ class Hud:
         if view.said is not None:
             written.append(self.said(surface, *view.said))
         if view.message is not None:
-            written.append(self.message(surface, *view.message, medal=view.medal))
+            written.append(self.message(surface, *view.message, medal=view.medal, stamp=view.stamp))
         return written
 
     def time_bar(self, surface: pygame.Surface, lifetime: float) -> pygame.Rect:
         """The lifetime (ticks) as a bar that grows thick and red as it runs out, and as seconds."""
         palette, canvas = self.theme.palette, self.theme.canvas
         left = max(0.0, lifetime)
-        length = min(_BAR_LONGEST, left * _BAR_PER_TICK)
+        length = bar_length(left)
         danger = min(1.0, max(0.0, 1 - left / _WARNING_TICKS))
         thick = 5 + 8 * danger
         colour = mixed(palette.bar_full, palette.bar_empty, danger)
@@ -106,10 +118,13 @@ class Hud:
 
     def _border_line(self, surface: pygame.Surface, left: str, right: str, y: float) -> pygame.Rect:
         theme, colour = self.theme, self.theme.palette.on_tile
-        right = theme.fit(right, _FOOT_WIDTH, 9)
-        room = _FOOT_WIDTH - theme.width(right, 9) - 14
-        rect = theme.text(surface, right, 768, y, size=9, colour=colour, align="right")
-        return rect.union(theme.text(surface, theme.fit(left, room, 9), 24, y, size=9, colour=colour))
+        gap = 14 if left and right else 0
+        # The right text grows only where that takes nothing from the left one.
+        beside = min(_FOOT_WIDTH / 2, theme.lettering.width(left, 9))
+        room = max(min(_FOOT_WIDTH, theme.lettering.width(right, 9)), _FOOT_WIDTH - beside - gap)
+        rect = theme.text(surface, right, 768, y, size=9, colour=colour, align="right", width=room)
+        room = _FOOT_WIDTH - rect.width / theme.canvas.scale - gap
+        return rect.union(theme.text(surface, left, 24, y, size=9, colour=colour, width=room))
 
     def head(self, surface: pygame.Surface, left: str, right: str) -> pygame.Rect:
         """A line in the border above the level, like ``foot`` below it."""
@@ -122,20 +137,29 @@ class Hud:
         return rect.inflate(self.theme.canvas.px(12), 2)
 
     def message(
-        self, surface: pygame.Surface, title: str, lines: Sequence[str], y: float, *, medal: str = ""
+        self,
+        surface: pygame.Surface,
+        title: str,
+        lines: Sequence[str],
+        y: float,
+        *,
+        medal: str = "",
+        stamp: float = 1.0,
     ) -> pygame.Rect:
         """A panel: a title, with a medal or without, and lines under it, from ``y`` on."""
         theme = self.theme
-        wide = theme.width(title, 15, bold=True)
-        widths = [wide + (50 if medal else 0), *(theme.width(line, 9) for line in lines)]
-        w, h = max(220.0, max(widths) + 44), 40.0 + 15 * len(lines)
+        wide = theme.width(title, TITLE, bold=True)
+        widths = [wide + (70 if medal else 0), *(theme.width(line, LINE) for line in lines)]
+        w, h = max(220.0, max(widths) + 44), 44.0 + 16 * len(lines)
         x = (792 - w) / 2
         rect = theme.panel(surface, x, y, w, h, 4)
-        theme.text(surface, title, 396, y + 11, size=15, align="centre", bold=True)
-        if medal:
-            draw_medal(surface, theme, medal, 396 - wide / 2 - 15, y + 18.5, 17)
+        theme.text(surface, title, 396, y + 10, size=TITLE, align="centre", bold=True)
+        if medal and stamp > 0.2:
+            size = MEDAL_SIZE * (1 + 2.5 * (1 - stamp) ** 2)
+            draw_medal(surface, theme, medal, 396 - wide / 2 - 21, y + 20, size)
+            rect.union_ip(theme.canvas.rect(396 - wide / 2 - 75, y - 34, 110, 110))
         for k, line in enumerate(lines):
-            theme.text(surface, line, 396, y + 32 + 15 * k, size=9, colour=theme.palette.faint, align="centre")
+            theme.text(surface, line, 396, y + 37 + 16 * k, size=LINE, colour=theme.palette.faint, align="centre")
         return rect
 
     def said(self, surface: pygame.Surface, text: str, y: float) -> pygame.Rect:
@@ -166,11 +190,17 @@ class Hud:
         return rect
 
 
-ABOVE, BELOW = 34.0, 494.0
+ABOVE, BELOW = 34.0, 474.0
 """Where the panel of a passed level begins: near the upper or the lower border."""
+
+TITLE, LINE, MEDAL_SIZE = 20.0, 10.5, 27.0
+"""Sizes in the panel of a passed level."""
 
 SAID, IN_BORDER, BESIDE_GOLD = 13.5, 576.0, 570.0
 """Size of a text that the level says; where it stands in play, in the border, hiding nothing; its width there."""
+_TOOLS = {"quick_save": "save", "quick_load": "load", "rewind": "rewind", "slow": "slow", "step": "step"}
+_TOOLS_NAMED = 600
+"""Ticks of a practice run in which the keys of its tools are named: where they work, and not for ever."""
 
 KeyName = Callable[[str], str]
 """Gives what to press for an action."""
@@ -181,19 +211,20 @@ def hud_view(play: LevelPlay) -> HudView:
     app, attempt, context = play.app, play.attempt, play.context
     key, settings = app.controls.name, app.settings
     gold = f"{attempt.gold} / {play.all_gold}"
-    message, medal = None, ""
+    message = None
     # At the far side from the ninja, so that neither its dance nor the way that it came is hidden.
     y = ABOVE if attempt.simulation.world.ninja.y > HEIGHT / 2 else BELOW
-    text = play.sayings.text if play.phase in {Phase.READY, Phase.PLAY} else ""
-    said = (named_keys(text, key), y if play.phase is Phase.READY else IN_BORDER) if text else None
+    text = cause_of_death(play) if play.phase is Phase.DEAD else play.sayings.text
+    said = (named_keys(text, key), IN_BORDER if play.phase is Phase.PLAY else y) if text else None
     if play.phase is Phase.PASSED:
         keys = f"{key('confirm')}: go on    {key('retry')}: retry    {key('replay')}: replay"
         if not context.leads_on:
             keys = f"{key('confirm')}: play it again    {key('replay')}: replay    {key('back')}: leave"
         message = f"Passed in {seconds_text(attempt.ended_tick)} s", [*_reached(play, gold), keys], y
-        medal = context.pars.medal(attempt.ended_tick) if context.pars else ""
     hint = _hint(play, key)
     title = f"{context.title}    {play.aim}" if play.phase is Phase.READY and play.aim else context.title
+    if (settings.game_speed < 100 or play.invincible or attempt.assisted) and not context.practice_mode:
+        title += "    assisted: no record"
     practice = "Practice" + (", slow motion" if play.tools.slow else "")
     return HudView(
         play.shown_lifetime,
@@ -201,9 +232,10 @@ def hud_view(play: LevelPlay) -> HudView:
         ("" if text and play.phase is Phase.PLAY else title, hint or f"gold {gold}"),
         keys=play.keys if settings.show_keys and not hint else None,
         frame_ms=app.frame_ms if settings.show_frame_time else None,
-        said=said,
+        said=said if play.phase is not Phase.PASSED else None,
         message=message,
-        medal=medal,
+        medal=play.medal,
+        stamp=play.stamp,
     )
 
 
@@ -212,9 +244,9 @@ def _reached(play: LevelPlay, gold: str) -> list[str]:
     tick, pars = play.attempt.ended_tick, play.context.pars
     all_of_it = ", all of it" if play.attempt.gold == play.all_gold > 0 else ""
     lines = [f"{gold} gold{all_of_it}    {seconds_text(play.attempt.score)} s left on the clock: your score"]
-    if pars:
+    if pars and play.medal:
         following = next_par(pars, Mark(tick, 0))
-        lines.insert(0, f"{pars.medal(tick).capitalize()} medal" + (f"    {following}" if following else ""))
+        lines.insert(0, f"{play.medal.capitalize()} medal" + (f"    {following}" if following else ""))
     return lines
 
 
@@ -226,10 +258,12 @@ def _hint(play: LevelPlay, key: KeyName) -> str:
     if play.phase is Phase.PASSED:
         return "    ".join(play.notices)
     if play.phase is Phase.DEAD and play.after_end > DEATH_PAUSE:
-        again = f"{cause_of_death(play)}    {key('confirm')} or {key('jump')}: try again"
+        again = f"{key('confirm')} or {key('jump')}: try again"
         return f"{again}    {key('replay')}: watch it" if play.may_watch else again
     if play.tools.stepping:
         return f"{key('step')}: one tick    {key('confirm')} or any move: go on"
+    if play.context.practice_mode and play.attempt.simulation.tick < _TOOLS_NAMED:
+        return "    ".join(f"{key(action)}: {name}" for action, name in _TOOLS.items())
     return ""
 
 
@@ -238,9 +272,7 @@ def _ready_hint(key: KeyName, *, practice_mode: bool, show_tutorial: bool) -> st
     if show_tutorial:
         return f"{key('left')} and {key('right')}: run    {key('jump')}: jump, hold it to jump higher    {begin}"
     if practice_mode:
-        tools = ("quick_save", "save"), ("quick_load", "load"), ("rewind", "rewind"), ("slow", "slow"), ("step", "step")
-        named = [f"{key(action)}: {name}" for action, name in tools]
-        return "    ".join([begin, *named, f"{key('overlay_hitboxes')} to {key('overlay_cells')}: look inside"])
+        return f"{begin}    {key('overlay_hitboxes')} to {key('overlay_cells')}: look inside"
     return begin
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from enum import Enum
 from random import Random
 
@@ -22,8 +23,20 @@ _FILL_SHARE = 0.05
 DEATH_PAUSE = 41
 """Ticks after a death before the message comes."""
 
+FREEZE_MS = 50
+"""How long the picture stands still at the exit."""
+
+STAMP_TICKS = 14
+"""Ticks after the exit contact until the medal is stamped."""
+
+TRIES_FROM, TRIES_TICKS, MOST_TRIES = 40, 80, 24
+"""The failed tries run together: from so many ticks after the exit contact, for so many, the newest so many."""
+
 SLOW_TICK_MS = 100
 """A tick in slow motion: a quarter of the speed."""
+
+SHORTEST_TRY = 20
+"""Ticks of a try that is worth being seen again."""
 
 REWIND_TICKS = 2
 """Ticks back for each tick's time that the rewind key is held."""
@@ -55,10 +68,11 @@ _PHASE_OF_OUTCOME = {"running": Phase.PLAY, "dead": Phase.DEAD, "exit": Phase.PA
 class LevelPlay:
     """One level of a context, tried again and again.
 
-    ``view`` shows every tick. ``after_end``: ticks since the exit contact or death; ``killer``: what killed, one of
-    ``statistics.KILLERS``, ``crushed`` whether by being crushed, ``first_death`` whether it never did before. ``keys``:
-    those of the last tick. ``notices``: what a pass has brought. ``aim``: the next par, while it waits at the start.
-    ``changed``: more than a tick has happened, so that everything has to be drawn again.
+    ``view`` shows every tick. ``tries``: the failed ones, inputs. ``after_end``: ticks since the exit contact or death;
+    ``killer``: what killed, one of ``statistics.KILLERS``, ``crushed`` whether by being crushed, ``first_death``
+    whether it never did before. ``keys``: those of the last tick. ``notices``: what a pass has brought. ``aim``: the
+    next par, while it waits at the start. ``changed``: more than a tick has happened, so that everything has to be
+    drawn again.
     """
 
     def __init__(self, app: App, context: LevelContext) -> None:
@@ -76,14 +90,17 @@ class LevelPlay:
         self.sayings = Sayings(context.sayings())
         self.shown_lifetime = 0.0
         self.ghosts: list[Ghost] = []
+        self.tries: deque[bytes] = deque(maxlen=MOST_TRIES)
+        self._frozen_ms = 0
         self._phase_before = Phase.READY
         self._wait_at_start()
 
     def _wait_at_start(self) -> None:
         self._go_to(Phase.READY)
+        self.app.controls.stop_running()
         self._held_before = self.app.controls.poll()
         self.keys = 0
-        self.after_end = 0
+        self.after_end = self._frozen_ms = 0
         self.killer, self.crushed, self.first_death = "", False, False
         self.sayings.at_start()
         self.notices: list[str] = []
@@ -109,11 +126,15 @@ class LevelPlay:
         self._go_to(Phase.PAUSED)
 
     def resume(self) -> None:
+        self.app.controls.stop_running()
         self._held_before = self.app.controls.poll()
         self._go_to(self._phase_before)
 
     def retry(self, *, ignored: int = 0) -> None:
         """Back to the level's start. What is held is meant for this try, but for the keys ``ignored``."""
+        if self.attempt.outcome != "exit" and not self.attempt.assisted and len(self.attempt.inputs) > SHORTEST_TRY:
+            self.tries.append(bytes(self.attempt.inputs))
+        self.view.ghosts = self.ghosts
         self.attempt.restart()
         self.tools.restarted()
         self.shown_lifetime = float(self.attempt.lifetime)
@@ -131,7 +152,7 @@ class LevelPlay:
     def may_watch(self) -> bool:
         """Whether the attempt can be watched: passed, or dead for a while and not by the player's own hand."""
         if self.phase is Phase.PASSED:
-            return True
+            return not self.attempt.spared
         return self.phase is Phase.DEAD and self.after_end > DEATH_PAUSE and not self.attempt.own_hand
 
     # --- practice ---
@@ -175,8 +196,10 @@ class LevelPlay:
         elif self.phase is not Phase.PAUSED:
             if self.tools.rewinding:
                 self._rewind(real_ms)
+            elif self._frozen_ms > 0:
+                self._frozen_ms -= real_ms
             elif not self.tools.stepping:
-                tick_ms = SLOW_TICK_MS if self.tools.slow else self.app.tick_ms
+                tick_ms = SLOW_TICK_MS if self.tools.slow else self.app.tick_ms * 100 // self.app.settings.game_speed
                 self.run_ticks(self.clock.ticks_due(real_ms, tick_ms))
         if self.attempt.outcome != "exit":
             self.shown_lifetime = followed(
@@ -196,12 +219,18 @@ class LevelPlay:
         if held & ~self._held_before:
             self.begin()
 
+    @property
+    def invincible(self) -> bool:
+        """Whether deaths are refused; practice, which can go back in time, has no need of it."""
+        return self.app.settings.invincible and not self.context.practice_mode
+
     def run_ticks(self, due: int) -> None:
         """So many ticks, each with the keys of its moment."""
+        self.attempt.assisted |= bool(due) and self.phase is Phase.PLAY and self.app.settings.game_speed < 100
         for _ in range(due):
             # Sampled right before the tick: as late as can be.
             self.keys = self.app.controls.poll() if self.phase is Phase.PLAY else 0
-            self.attempt.tick(self.keys)
+            self.attempt.tick(self.keys, invincible=self.invincible)
             self.view.on_tick()
             self.tools.on_tick()
             if self.phase is Phase.PLAY and self.sayings.on_tick(self.attempt.simulation.world):
@@ -222,6 +251,9 @@ class LevelPlay:
             if self.phase is Phase.PASSED:
                 self.shown_lifetime = float(self.attempt.lifetime)
                 self.notices = self.context.passed(self.attempt)
+                self._frozen_ms = 0 if self.app.settings.reduced_motion else FREEZE_MS
+                if self.attempt.assisted and not self.context.practice_mode:
+                    self.notices = ["Assisted: no record", *self.notices]
             else:
                 self.killer = self.attempt.killer
                 self.crushed = cause_of(self.attempt.simulation.world) == CRUSHED
@@ -230,6 +262,30 @@ class LevelPlay:
         elif self.phase in {Phase.DEAD, Phase.PASSED}:
             self.after_end += 1
             self.changed = self.changed or self.after_end == DEATH_PAUSE + 1
+            if self.phase is Phase.PASSED:
+                self._celebrate()
+
+    def _celebrate(self) -> None:
+        """The medal is stamped; then all failed tries run together, as fast as fits into two seconds."""
+        quiet = self.app.settings.reduced_motion
+        if self.after_end == (1 if quiet else STAMP_TICKS) and self.medal:
+            self.app.audio_output.play("medal")
+        if self.after_end == TRIES_FROM and self.tries and not quiet:
+            pace = max(1.0, max(map(len, self.tries)) / TRIES_TICKS)
+            self.view.ghosts = [Ghost(run, self.context.level, self.context.body, pace=pace) for run in self.tries]
+        elif self.after_end == TRIES_FROM + TRIES_TICKS:
+            self.view.ghosts = self.ghosts
+
+    @property
+    def medal(self) -> str:
+        """The medal of a passed run, "" for none."""
+        counts = self.phase is Phase.PASSED and not self.attempt.assisted
+        return self.context.pars.medal(self.attempt.ended_tick) if self.context.pars and counts else ""
+
+    @property
+    def stamp(self) -> float:
+        """How far the stamp of the medal has come, 0…1."""
+        return 1.0 if self.app.settings.reduced_motion else min(1.0, (self.after_end + self.fraction) / STAMP_TICKS)
 
 
 class PracticeTools:

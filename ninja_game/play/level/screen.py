@@ -24,6 +24,7 @@ from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import EpisodeRun, LevelContext, LevelRun, Navigation
 from ninja_game.player.saving import keep_replay
 from ninja_game.sim.inputs import JUMP_HELD
+from ninja_game.ui.audio.music import BY_COLUMN, SILENCE
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.view.overlays import Overlays
 
@@ -48,6 +49,15 @@ class LevelScreen(Screen):
     def column(self) -> int:
         """That of the level."""
         return self.context.entry.column
+
+    @property
+    def music(self) -> str:
+        """That of its column; of other levels always the same one."""
+        if self.context.practice_mode and not self.app.settings.music_in_practice:
+            return SILENCE
+        entry = self.context.entry
+        column = entry.column if entry.episode else int(entry.digest[:8], 16)
+        return BY_COLUMN[column % len(BY_COLUMN)]
 
     @property
     def phase(self) -> Phase:
@@ -110,6 +120,7 @@ class LevelScreen(Screen):
         if where is Navigation.SAME_LEVEL:
             self.retry()
         elif where is Navigation.NEXT_LEVEL:
+            self.app.wipe_from(self)
             self._start_level()
         else:
             self._leave_to(where)
@@ -158,9 +169,19 @@ class LevelScreen(Screen):
 
     def keep_replay(self) -> None:
         """Put this run among the player's replays, whatever it is worth."""
+        if self._is_spared():
+            return
         self.app.notify(keep_replay(self.app.player, self._replay()))
 
+    def _is_spared(self) -> bool:
+        """Whether the run was survived only by being invincible: then its keys alone are no replay, and it is said."""
+        if self.attempt.spared:
+            self.app.notify("There is no replay of a run that only the invincible survive")
+        return self.attempt.spared
+
     def copy_link(self) -> None:
+        if self._is_spared():
+            return
         copy_link(self.app, lambda: replay_link([self._replay()]), title=self.context.title)
 
     # --- events ---
@@ -170,8 +191,12 @@ class LevelScreen(Screen):
             self.pause()
         if self.context.practice_mode and self.phase in {Phase.PLAY, Phase.DEAD, Phase.PASSED}:
             self._dispatch_practice(event)
-        clicked = event.raw.type == pygame.MOUSEBUTTONDOWN and event.raw.button == 1 and self.phase is not Phase.PLAY
-        self._dispatch_action((*event.pressed, "confirm") if clicked else event.pressed)
+        pressed = event.pressed
+        if event.raw.type == pygame.MOUSEBUTTONDOWN and event.raw.button == pygame.BUTTON_RIGHT:
+            pressed = ("back",)
+        elif event.raw.type == pygame.MOUSEBUTTONDOWN and event.raw.button == 1 and self.phase is not Phase.PLAY:
+            pressed = (*pressed, "confirm")
+        self._dispatch_action(pressed)
 
     def _dispatch_action(self, pressed: tuple[str, ...]) -> None:
         """Do the first thing that the pressed actions mean in this phase."""

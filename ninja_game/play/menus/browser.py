@@ -21,7 +21,7 @@ from ninja_game.play.menus.episodes import draw_look
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text, where_from
-from ninja_game.player.catalogue import Entry
+from ninja_game.player.catalogue import Entry, author_name
 from ninja_game.player.marks import Mark, medal_of
 from ninja_game.player.records import SavedReplay, seconds_text
 from ninja_game.ui.input.bindings import InputEvent
@@ -205,18 +205,19 @@ class Browser(ThumbnailScreen):
             return
         self.thumbnails.draw(surface, entry, SIDE, 66, SIDE_WIDTH)
         theme.text(surface, entry.title, SIDE, 320, size=17, bold=True, width=SIDE_WIDTH - 44)
-        by = f"by {entry.named.author}" if entry.named.author else "author unknown"
+        by = f"by {author_name(entry.named.author)}" if entry.named.author else "author unknown"
         theme.text(surface, by, SIDE, 346, size=11, colour=palette.faint, width=SIDE_WIDTH)
         teaches = entry.named.teaches and f"Teaches: {entry.named.teaches}"
         for number, text in enumerate(filter(None, (entry.named.comment, teaches))):
             theme.text(surface, text, SIDE, 364 + 13 * number, size=11, width=SIDE_WIDTH)
         best = self.bests.get(entry.digest)
         text = f"Your best: {seconds_text(best.score)} s left with {best.gold} gold" if best else "Not passed yet"
-        theme.text(surface, text, SIDE, 390, size=12, colour=palette.good if best else palette.faint)
+        colour = palette.good if best else palette.faint
+        theme.text(surface, text, SIDE, 390, size=12, colour=colour, width=SIDE_WIDTH - 90)
         mark = self.marks.get(entry.digest)
         if mark:
             time = f"in {seconds_text(mark.fastest)} s"
-            theme.text(surface, time, SIDE + SIDE_WIDTH, 390, size=12, colour=palette.good, align="right")
+            theme.text(surface, time, SIDE + SIDE_WIDTH, 390, size=12, colour=palette.good, align="right", width=84)
         played = self.player.statistics.played(entry.digest)
         if played.attempts:
             theme.text(surface, tries_text(played), SIDE, 408, size=10.5, colour=palette.faint)
@@ -232,15 +233,15 @@ class Browser(ThumbnailScreen):
         theme.row(surface, (x, y + 1, w, h - 2), chosen=chosen, focused=focused)
         self.thumbnails.draw(surface, entry, x + 4, y + 4, PICTURE)
         left = x + PICTURE + 14
-        theme.text(surface, entry.title, left, y + 11, size=12, bold=chosen, width=200)
+        theme.text(surface, entry.title, left, y + 11, size=12, bold=chosen, width=186)
         if self.player.lock_of(entry):
             draw_look(surface, theme, "locked", (x + 4 + PICTURE / 2 - 11, y + 16, 22, 22))
-        source = entry.named.author or ("your folder" if entry.source == "yours" else "")
+        source = author_name(entry.named.author) or ("your folder" if entry.source == "yours" else "")
         theme.text(surface, source, left, y + 32, size=10, colour=palette.faint, width=190)
         best = self.bests.get(entry.digest)
         if best:
             score = f"{seconds_text(best.score)} s left"
-            theme.text(surface, score, x + w - 8, y + 11, size=12, colour=palette.good, align="right")
+            theme.text(surface, score, x + w - 8, y + 11, size=12, colour=palette.good, align="right", width=100)
         all_gold_and_medal(surface, theme, entry, self.marks.get(entry.digest), x + w - 16, y + 37)
         if entry.pars and entry.pars.difficulty is not None:
             difficulty = f"{entry.pars.difficulty:.1f}"

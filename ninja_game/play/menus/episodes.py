@@ -313,7 +313,8 @@ class EpisodeGrid(ThumbnailScreen):
             else "not passed yet"
         )
         colour = theme.palette.good if best else theme.palette.faint
-        theme.text(surface, text, left, y + 32, size=11, colour=colour)
-        theme.text(surface, time_and_par(entry, mark), left, y + 48, size=10)
+        room = w - SMALL_PICTURE - 24
+        theme.text(surface, text, left, y + 32, size=11, colour=colour, width=room)
+        theme.text(surface, time_and_par(entry, mark), left, y + 48, size=10, width=room)
         if played.attempts:
             theme.text(surface, tries_text(played), left, y + 63, size=10, colour=theme.palette.faint)

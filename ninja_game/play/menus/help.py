@@ -90,6 +90,7 @@ class HelpPage(MenuScreen):
     """All that can be done, on one page: ``words``, then the table of ``commands``."""
 
     foot = "Esc goes back"
+    offers_back = False
 
     def __init__(self, app: App, title: str, words: str, commands: Sequence[Command]) -> None:
         super().__init__(app)
@@ -128,30 +129,41 @@ REST_TICKS = 60
 """How long a demonstration stands still after its last input (game.md §4.4)."""
 
 KEYS_TITLE = "Keys"
-KEYS_PER_COLUMN = 15
+KEY_ROW = 22.0
+KEY_COLUMNS = (0, 152, 340)
+"""Where an action's name, its keys and its buttons begin in their table."""
 
 
 class HelpScreen(MenuScreen):
     """Topics at the left; the selected one's demonstration and text at the right."""
 
     title = "Help"
+    offers_back = False
 
     def __init__(self, app: App) -> None:
         super().__init__(app)
         self.pages = read_pages()
         self.topics = [page.title for page in self.pages] + [KEYS_TITLE]
-        self.list = ListView((44, 66, 168, 18 * 26), 26, self._draw_topic, lambda _: None, selected=self._show)
+        self.list = ListView((44, 66, 190, 18 * 26), 26, self._draw_topic, lambda _: None, selected=self._show)
         self.list.hint = "Up and down: choose a topic"
+        x, y, w, _ = WINDOW
+        self.keys = ListView((x, y + 54, w, 17 * KEY_ROW), KEY_ROW, self._draw_action, lambda _: None,
+                             selected=self._say_action)  # fmt: skip
+        self.keys.fill(list(ACTIONS))
         self.demonstration: Demonstration | None = None
         self.list.fill(self.topics)
 
     def build(self) -> Sequence[Widget]:
-        return [self.list, Button((612, 506, 132, 30), "Back", self.back)]
+        keys = [self.keys] if self.page is None else []
+        return [self.list, *keys, Button((612, 506, 132, 30), "Back", self.back)]
 
     def _show(self, index: int) -> None:
         page = self.pages[index] if index < len(self.pages) else None
         if page is None or self.demonstration is None or self.demonstration.page is not page:
+            had_keys = self.demonstration is None
             self.demonstration = Demonstration(self.app, page) if page is not None else None
+            if self.widgets and had_keys != (page is None):
+                self.enter()
         self.redraw = True
 
     @property
@@ -175,21 +187,20 @@ class HelpScreen(MenuScreen):
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)
         theme = self.app.theme
-        x, y, _, h = WINDOW
-        theme.text(surface, self.topics[self.list.index], x, y + h + 54, size=18, bold=True)
+        x, y, w, h = WINDOW
         if self.page is None:
-            self._draw_table(surface, theme)
+            self._draw_table_head(surface, theme)
             return
-        lines = [line for text in self.page.text for line in wrapped(theme, text, WINDOW[2], 12.5)]
-        for place, line in enumerate(lines):
-            theme.text(surface, line, x, y + h + 84 + 19 * place, size=12.5)
+        theme.text(surface, self.page.title, x, y + h + 54, size=18, bold=True)
+        theme.paragraph(surface, self.page.text, (x, y + h + 84, w, 64), 12.5, 19)
 
     def _draw_topic(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         x, y, w, h = area
         chosen = index == self.list.index
         if chosen:
             theme.row(surface, (x, y + 1, w, h - 2), chosen=True, focused=focused, radius=3)
-        theme.text(surface, self.topics[index], x + 10, y + 7, size=11.5, bold=chosen)
+        high = min(h, theme.common_height(self.topics, 11.5, w - 10))
+        theme.text(surface, self.topics[index], x + 8, y + 7, size=11.5, bold=chosen, width=w - 10, height=high)
 
     def _draw_keys_pressed(self, surface: pygame.Surface, keys: int) -> pygame.Rect:
         """The three keys of a demonstration, lit while they are down."""
@@ -207,18 +218,26 @@ class HelpScreen(MenuScreen):
             theme.text(surface, label, left + 42, y + h + 19, size=11.5, colour=colour, align="centre")
         return row
 
-    def _draw_table(self, surface: pygame.Surface, theme: Theme) -> None:
-        """What every key does, as it is bound now."""
-        theme.canvas.fill_rect(surface, theme.palette.background, *WINDOW)
-        for place, (action, entry) in enumerate(ACTIONS.items()):
-            column, row = divmod(place, KEYS_PER_COLUMN)
-            x, y = WINDOW[0] + 262 * column, WINDOW[1] + 4 + 19 * row
-            theme.text(surface, self.app.controls.name(action), x, y, size=10.5, bold=True, width=76)
-            theme.text(surface, entry.label, x + 80, y, size=10.5, width=178)
-        x, y, _, h = WINDOW
-        theme.text(surface, "All keys can be changed in the settings.", x, y + h + 86, size=12.5)
-        if self.app.controls.pads.count:
-            theme.text(surface, "A gamepad works everywhere, too.", x, y + h + 106, size=12.5)
+    def _draw_table_head(self, surface: pygame.Surface, theme: Theme) -> None:
+        x, y, _, _ = WINDOW
+        theme.text(surface, KEYS_TITLE, x, y, size=18, bold=True)
+        for left, text in zip(KEY_COLUMNS, ("Action", "Keyboard", "Gamepad"), strict=True):
+            theme.text(surface, text, x + left, y + 34, size=10.5, colour=theme.palette.faint)
+
+    def _draw_action(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        """What an action is called, and all that it is bound to now."""
+        x, y, w, h = area
+        action = list(ACTIONS)[index]
+        texts = (ACTIONS[action].label, *self.app.controls.all_names(action))
+        if focused:
+            theme.row(surface, (x - 4, y, w, h), chosen=True, focused=False, radius=3)
+        for left, end, text in zip(KEY_COLUMNS, (*KEY_COLUMNS[1:], w), texts, strict=True):
+            theme.text(surface, text, x + left, y + 5, size=10.5, bold=not left and focused, width=end - left - 8)
+
+    def _say_action(self, index: int) -> None:
+        """The chosen action in the foot, where there is room for the longest list of keys."""
+        action = list(ACTIONS)[index]
+        self.keys.hint = f"{ACTIONS[action].label}: {', '.join(filter(None, self.app.controls.all_names(action)))}"
 
 
 class Demonstration:

@@ -27,9 +27,11 @@ from ninja_game.play.menus.records import RecordsScreen
 from ninja_game.play.menus.replays import ReplaysScreen
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.playback import Playback
+from ninja_game.play.window import LOGO
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import EpisodeRun, next_run
 from ninja_game.simulation import Simulation
+from ninja_game.ui.audio.music import MENU
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.theme import Area
 from ninja_game.ui.widgets import Button, Widget
@@ -41,11 +43,13 @@ LEFT, WIDE, MIDDLE = 44, 232, 306
 HEAD, ROW, FOOT = 98, 43, 12
 """Heights of the title, of a row, and of what is below the last row."""
 
-TITLE = "NINJA"
-
 
 class MainMenu(MenuScreen):
     """Where the game begins and where every way back ends. ``run``: with which play goes on."""
+
+    offers_back = False
+
+    music = MENU
 
     def __init__(self, app: App) -> None:
         super().__init__(app)
@@ -122,12 +126,14 @@ class MainMenu(MenuScreen):
         theme, palette = self.app.theme, self.app.theme.palette
         x, y, w, h = self.panel
         rect = theme.window(surface, x, y, w, h)
-        theme.text(surface, TITLE, x + w / 2, y + 22, size=40, align="centre", bold=True)
+        theme.text(surface, LOGO, x + w / 2, y + 22, size=40, align="centre", bold=True, height=44)
         theme.text(surface, f"version {__version__}", x + w / 2, y + 68, size=9, colour=palette.faint, align="centre")
         self.draw_widgets(surface)
         foot = theme.canvas.fill_rect(surface, palette.tile, 0, HEIGHT - 24, WIDTH, 24)
-        hint = theme.fit(self.focus.hint if self.focus else "", WIDTH - 40, 10.5)
-        theme.text(surface, hint, WIDTH / 2, HEIGHT - 18, size=10.5, colour=palette.on_tile, align="centre")
+        hint = self.focus.hint if self.focus else ""
+        theme.text(
+            surface, hint, WIDTH / 2, HEIGHT - 18, size=10.5, colour=palette.on_tile, align="centre", width=WIDTH - 40
+        )
         written = [rect.inflate(4, 4), foot]
         if self.attract.view is not None:
             for each in written:

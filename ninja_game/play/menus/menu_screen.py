@@ -14,6 +14,7 @@ from ninja_game.ui.input.keys import HeldKey, scancode_of
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.scenery import lay_ground
 from ninja_game.ui.text_entry import TextEntry
+from ninja_game.ui.theme import Area, inside
 from ninja_game.ui.widgets import Widget
 
 if TYPE_CHECKING:
@@ -27,15 +28,19 @@ MOUSE = (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygam
 REPEATING = frozenset({*DIRECTIONS, "page_up", "page_down"})
 
 TITLE_SIZE = 22
+BACK: Area = (WIDTH - 24 - 84, 15, 84, 26)
+"""Beside the title: what the mouse goes back with."""
 
 
 class MenuScreen(Screen):
     """Widgets, one of which has the focus. Subclasses fill ``widgets`` in ``build`` and say their ``title``.
 
-    ``foot``: the line at the bottom, where the focused widget has no hint.
+    ``foot``: the line at the bottom, where the focused widget has no hint. ``offers_back``: whether the frame has a
+    place for the mouse to go back; keys and pads have theirs, so it takes no focus.
     """
 
     title = ""
+    offers_back = True
     foot = "Arrows move, Enter chooses, Esc goes back"
 
     def __init__(self, app: App) -> None:
@@ -123,6 +128,10 @@ class MenuScreen(Screen):
             self._next()
 
     def back(self) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Go to the screen below."""
         self.app.pop()
 
     def chime(self, name: str) -> None:
@@ -180,7 +189,12 @@ class MenuScreen(Screen):
             self.focus_on(widget)
             if isinstance(widget, ListView) and widget.hover(x, y):
                 self.widgets_changed()
-        elif event.type == pygame.MOUSEBUTTONDOWN and event.button == 1:
+        elif event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_RIGHT:
+            self.act("back")
+        elif event.type == pygame.MOUSEBUTTONDOWN and self.offers_back and inside(BACK, x, y):
+            self.chime("menu-choose")
+            self.close()
+        elif event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
             widget = self._at(x, y)
             if widget is not None:
                 self._dragged = widget
@@ -223,7 +237,12 @@ class MenuScreen(Screen):
         surface.fill(palette.tile)
         lay_ground(surface, palette, canvas.stage, canvas.rect(24, 52, WIDTH - 48, HEIGHT - 52 - 36))
         canvas.frame_rect(surface, palette.tile, 18, 46, WIDTH - 36, HEIGHT - 52 - 24, 6, 12)
-        theme.text(surface, self.title, 36, 17, size=TITLE_SIZE, colour=palette.on_tile, bold=True, width=WIDTH - 72)
+        room = (BACK[0] if self.offers_back else WIDTH - 36) - 48
+        theme.text(surface, self.title, 36, 17, size=TITLE_SIZE, colour=palette.on_tile, bold=True, width=room)
+        if self.offers_back:
+            x, y, w, h = BACK
+            theme.row(surface, BACK, chosen=False, focused=False)
+            theme.text(surface, "Back", x + w / 2, y + h / 2 - 5, size=10, align="centre", width=w, height=h)
         hint = (self.focus.hint if self.focus is not None else "") or self.foot
         theme.text(
             surface, hint, WIDTH / 2, HEIGHT - 25, size=10.5, colour=palette.on_tile, align="centre", width=WIDTH - 48

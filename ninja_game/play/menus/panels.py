@@ -31,6 +31,7 @@ class Panel(MenuScreen):
     """A few buttons in a panel over the screen below."""
 
     see_through = True
+    offers_back = False
 
     def __init__(self, app: App, title: str) -> None:
         super().__init__(app)

@@ -54,20 +54,25 @@ class EpisodePassed(ThumbnailScreen):
         super().draw_frame(surface)
         theme, palette = self.app.theme, self.app.theme.palette
         episode = self.run.episode
-        theme.text(surface, episode.name, WIDTH / 2, 76, size=20, align="centre", bold=True)
+        theme.text(surface, episode.name, WIDTH / 2, 76, size=20, align="centre", bold=True, width=WIDTH - 96)
         count = len(episode.levels)
         left = (WIDTH - count * (PICTURE + 8) + 8) / 2
         for place, entry in enumerate(episode.levels):
             x = left + place * (PICTURE + 8)
             self.thumbnails.draw(surface, entry, x, 124, PICTURE)
-            theme.text(surface, entry.title, x + PICTURE / 2, 232, size=10, align="centre")
+            middle = x + PICTURE / 2
+            theme.text(surface, entry.title, middle, 232, size=10, align="centre", width=PICTURE, height=15)
             best = self.player.records.level_best(entry.digest)
             score = f"best {seconds_text(best.score)} s" if best else ""
-            theme.text(surface, score, x + PICTURE / 2, 247, size=10, colour=palette.faint, align="centre")
+            theme.text(surface, score, middle, 247, size=10, colour=palette.faint, align="centre", width=PICTURE)
             mark = self.player.marks.of(entry.digest)
             all_gold_and_medal(surface, theme, entry, mark, x + PICTURE - 11, 135)
-        theme.text(surface, f"{seconds_text(self.run.score)} s", WIDTH / 2, 290, size=44, align="centre", bold=True)
+        score = f"{seconds_text(self.run.score)} s"
+        theme.text(surface, score, WIDTH / 2, 290, size=44, align="centre", bold=True, height=60)
         what = "practice" if self.run.practice_mode else "left on the clock: the score of the episode"
         theme.text(surface, what, WIDTH / 2, 340, size=11, colour=palette.faint, align="centre")
         for line, notice in enumerate(self.run.notices[-4:]):
-            theme.text(surface, notice, WIDTH / 2, 364 + 17 * line, size=12, colour=palette.good, align="centre")
+            y = 364 + 17 * line
+            theme.text(
+                surface, notice, WIDTH / 2, y, size=12, colour=palette.good, align="centre", width=WIDTH - 96, height=17
+            )

@@ -113,8 +113,10 @@ class RecordsScreen(MenuScreen):
         theme.text(surface, row.text, left, top, size=12, bold=row.head, width=w - 200)
         if row.score is not None:
             score = seconds_text(row.score)
-            theme.text(surface, score, x + w - 90, top, size=12, colour=palette.good, align="right", bold=row.head)
-            theme.text(surface, row.when, x + w - 8, top + 1, size=10, colour=palette.faint, align="right")
+            theme.text(
+                surface, score, x + w - 90, top, size=12, colour=palette.good, align="right", bold=row.head, width=90
+            )
+            theme.text(surface, row.when, x + w - 8, top + 1, size=10, colour=palette.faint, align="right", width=76)
         elif not row.head or index == 0:
             theme.text(surface, "not passed yet", x + w - 8, top, size=10.5, colour=palette.faint, align="right")
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
+from time import perf_counter
 from typing import NamedTuple
 
 import pygame
@@ -21,14 +22,18 @@ from ninja_game.play.clipboard import copy_link
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Question
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.player.records import SavedReplay, level_score, seconds_text
+from ninja_game.player.catalogue import author_name
+from ninja_game.player.records import SavedReplay, has_words, level_score, seconds_text
 from ninja_game.player.saving import forget_replay
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import ListView
+from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Widget
 
 ROW = 34
+FIRST_SECONDS, MORE_SECONDS = 0.05, 0.008
+"""How long files are read when the screen opens, and in each picture after that."""
 FILES_SHOWN = 300
 """Recordings read from the player's folder at most."""
 
@@ -60,19 +65,49 @@ class ReplaysScreen(MenuScreen):
         super().__init__(app)
         self.rows: list[ReplayRow] = []
         self.problems: list[str] = []
-        self._files: list[ReplayRow] | None = None
-        self.list = ListView((44, 96, 712, 13 * ROW), ROW, self._draw_row, self._choose)
+        self._saved: list[ReplayRow] = []
+        self._files: list[ReplayRow] = []
+        self._unread = self._file_rows()
+        self._words: list[str] = []
+        self.field = TextEntry((44, 62, 290, 28), "Search level or player", "", self._search)
+        self.list = ListView((44, 120, 712, 12 * ROW), ROW, self._draw_row, self._choose)
         self.list.empty = "No replays yet"
         self.list.hint = self.hint
         self.message = ""
 
     def build(self) -> Sequence[Widget]:
-        """The list, the newest records first, then files."""
-        if self._files is None:
-            self._files = self._file_rows()
-        self.rows = self.arranged([*map(_row_of, self.player.records.replays()), *self._files])
+        """The list, the newest records first, then files, which may be read later."""
+        self._find()
+        self._read_files(FIRST_SECONDS)
+        self._arrange()
+        return [self.list, self.field]
+
+    def _search(self, text: str) -> None:
+        self._words = text.casefold().split()
+        self._find()
+        self._arrange()
+
+    def _find(self) -> None:
+        self._saved = list(map(_row_of, self.player.records.replays(self._words)))
+
+    def _arrange(self) -> None:
+        files = [row for row in self._files if has_words(self._words, row.text, row.who, row.what, row.when)]
+        self.rows = self.arranged([*self._saved, *files])
+        self.list.empty = "No replay has these words" if self._words else "No replays yet"
         self.list.fill(self.rows)
-        return [self.list]
+
+    def _read_files(self, seconds: float) -> bool:
+        """Read files for so long; whether there were any left."""
+        end, before = perf_counter() + seconds, len(self._files)
+        while perf_counter() < end and (rows := next(self._unread, None)) is not None:
+            self._files += rows
+        return len(self._files) > before
+
+    def update(self, real_ms: int) -> None:
+        super().update(real_ms)
+        if self._read_files(MORE_SECONDS):
+            self._arrange()
+            self.redraw = True
 
     def arranged(self, rows: list[ReplayRow]) -> list[ReplayRow]:
         return rows
@@ -81,8 +116,8 @@ class ReplaysScreen(MenuScreen):
         """Where files are looked for, and what that is called."""
         return [("Your folder", files_below(self.player.replay_folder)), ("Bundled", bundled_replays())]
 
-    def _file_rows(self) -> list[ReplayRow]:
-        rows: list[ReplayRow] = []
+    def _file_rows(self) -> Iterator[list[ReplayRow]]:
+        """The rows of one file after the other."""
         for when, files in self.places():
             for file in files:
                 if isinstance(file, LeftOut):
@@ -93,10 +128,9 @@ class ReplaysScreen(MenuScreen):
                 except (NinjaGameError, OSError):
                     self.problems.append(file.name)
                     continue
-                rows += [_row_of_recording(recording, when) for recording in recordings]
-                if len(rows) > FILES_SHOWN:
+                yield [_row_of_recording(recording, when) for recording in recordings]
+                if len(self._files) > FILES_SHOWN:
                     break
-        return rows
 
     def _choose(self, index: int) -> None:
         self.choose(self.rows[index].source)
@@ -154,9 +188,9 @@ class ReplaysScreen(MenuScreen):
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)
         theme, palette = self.app.theme, self.app.theme.palette
-        places = (54, "left"), (340, "left"), (598, "right"), (734, "right")
+        places = (54, "left"), (340, "left"), (612, "right"), (734, "right")
         for text, (x, align) in zip(self.heads, places, strict=True):
-            theme.text(surface, text, x, 72, size=10.5, colour=palette.faint, align=align)
+            theme.text(surface, text, x, 100, size=10.5, colour=palette.faint, align=align)
         message = self.message or unreadable(self.problems)
         theme.text(surface, message, 44, 545, size=10, colour=palette.faint, width=712)
 
@@ -168,10 +202,10 @@ class ReplaysScreen(MenuScreen):
         theme.row(surface, (x, y + 2, w, h - 4), chosen=chosen, focused=focused, radius=3)
         top = y + h / 2 - 6
         theme.text(surface, row.text, x + 10, top, size=12, bold=chosen, width=270)
-        theme.text(surface, row.who, 340, top + 0.5, size=11, colour=palette.faint, width=150)
+        theme.text(surface, row.who, 340, top + 0.5, size=11, colour=palette.faint, width=126)
         colour = palette.good if row.good else palette.faint
-        theme.text(surface, row.what, 598, top, size=12, colour=colour, align="right")
-        theme.text(surface, row.when, 734, top + 1, size=10, colour=palette.faint, align="right")
+        theme.text(surface, row.what, 612, top, size=12, colour=colour, align="right", width=140)
+        theme.text(surface, row.when, 734, top + 1, size=10, colour=palette.faint, align="right", width=114)
 
 
 def _row_of(saved: SavedReplay) -> ReplayRow:
@@ -185,15 +219,16 @@ def _row_of_recording(recording: Recording, when: str) -> ReplayRow:
     if replay.unclaimed:
         result = f"recording, {seconds_text(recording.ticks)}"
     else:
-        result = _result(replay.outcome, replay.gold, replay.final_tick)
+        result = _result(replay.outcome, replay.gold, replay.final_tick, recording.level.gold)
     passed = replay.outcome == "exit"
-    return ReplayRow(recording.name or "unnamed", recording.author, result, when, passed, recording)
+    return ReplayRow(recording.name or "unnamed", author_name(recording.author), result, when, passed, recording)
 
 
-def _result(outcome: str, gold: int, final_tick: int) -> str:
-    """The score of a passed level; of any other run, how it ended and after which time."""
+def _result(outcome: str, gold: int, final_tick: int, all_gold: int = 0) -> str:
+    """The score of a passed level, and its gold; of any other run, how it ended and after which time."""
     if outcome == "exit":
-        return seconds_text(level_score(gold, final_tick))
+        what = "all gold" if gold == all_gold > 0 else f"{gold} gold" if gold else "exit"
+        return f"{what}, {seconds_text(level_score(gold, final_tick))}"
     return f"{OUTCOMES[outcome]}, {seconds_text(final_tick + 1)}"
 
 

@@ -19,7 +19,7 @@ from ninja_game.ui.input.gamepad import pad_label
 from ninja_game.ui.input.keys import key_label
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.text_entry import TextEntry
-from ninja_game.ui.theme import NINJA_COLOURS, PALETTES, Area, Theme
+from ninja_game.ui.theme import NINJA_COLOURS, PALETTES, TEXT_SIZES, Area, Theme
 from ninja_game.ui.widgets import TEXT, Button, Choice, Label, Slider, Widget
 
 IN_REPLAYS_ONLY = frozenset({"faster", "slower", "frame_back", "frame_forward", "edit"})
@@ -205,12 +205,13 @@ class BindingTable(ListView):
                 theme.text(surface, text, x + width / 2, top + 0.5, size=10, align="centre", width=width - 10)
 
 
-PAGES = ("Picture", "Sound", "Play", "Keyboard", "Gamepad")
+PAGES = ("Picture", "Sound", "Play", "Accessibility", "Keyboard", "Gamepad")
 SWITCH = [("off", False), ("on", True)]
 RACED = [("your best", "best"), ("next medal", "next"), *((medal, medal) for medal in GHOSTS[2:])]
 RATES = [("match display", 0), ("30", 30), ("60", 60), ("120", 120), ("144", 144), ("240", 240)]
 COLOUR_NAMES = ("default", "pink", "olive", "teal", "mauve", "maroon", "white", "gold", "slate", "silver")
 PRACTICE_HINT = "No clock; quick save, rewind, slow motion; no records"
+ASSISTED_HINT = "such runs are marked as assisted: no records"
 LEFT, TOP, STEP, HEIGHT_OF_ROW = 216, 72, 42, 32
 WIDTH_OF_ROW = WIDTH - 36 - LEFT - 12
 
@@ -250,7 +251,12 @@ class SettingsScreen(MenuScreen):
     def _page_widgets(self) -> list[Widget]:
         if self.page in ("Keyboard", "Gamepad"):
             return binding_widgets(self, "keys" if self.page == "Keyboard" else "pad")
-        return {"Picture": self._picture, "Sound": self._sound, "Play": self._play}[self.page]()
+        return {
+            "Picture": self._picture,
+            "Sound": self._sound,
+            "Play": self._play,
+            "Accessibility": self._accessibility,
+        }[self.page]()
 
     # --- changing ---
 
@@ -268,6 +274,12 @@ class SettingsScreen(MenuScreen):
             lambda value: self.change(**{name: value}), hint=hint,
         )  # fmt: skip
 
+    def _percent(self, place: int, text: str, name: str, range_: tuple[float, float, float], hint: str = "") -> Slider:
+        return Slider(
+            self._area(place), text, range_, lambda: getattr(self.player.settings, name),
+            lambda value: self.change(**{name: round(value)}), show="{:.0f} %".format, hint=hint,
+        )  # fmt: skip
+
     def _picture(self) -> list[Widget]:
         columns, present = self.player.columns_complete, self.player.columns_present
         count = len(NINJA_COLOURS) if custom_colour_unlocked(columns, present) else 1 + unlocked_colours(columns)
@@ -280,11 +292,9 @@ class SettingsScreen(MenuScreen):
             self._choice(2, "Full screen", "fullscreen", SWITCH, "F11 at any time"),
             self._choice(3, "Smooth motion", "smooth", SWITCH, "Draw between the 40 ticks of a second"),
             self._choice(4, "Frame rate", "frame_limit", RATES),
-            self._choice(5, "Reduced motion", "reduced_motion", SWITCH, "Fewer particles; nothing plays behind menus"),
-            self._choice(6, "Reduced gore", "reduced_gore", SWITCH, "No blood"),
-            self._choice(7, "Ghost", "ghost", RACED, f"{self.app.controls.name('ghost')} shows or hides it in play"),
-            self._choice(8, "Show keys in play", "show_keys", SWITCH),
-            self._choice(9, "Show frame time", "show_frame_time", SWITCH),
+            self._choice(5, "Ghost", "ghost", RACED, f"{self.app.controls.name('ghost')} shows or hides it in play"),
+            self._choice(6, "Show keys in play", "show_keys", SWITCH),
+            self._choice(7, "Show frame time", "show_frame_time", SWITCH),
         ]
 
     def _sound(self) -> list[Widget]:
@@ -297,16 +307,18 @@ class SettingsScreen(MenuScreen):
         return [
             slider(0, "Volume", "volume", "0 is silence"),
             slider(1, "Ambient loops", "loop_volume", "Skids, slides, rockets, lasers: share of the volume"),
+            slider(2, "Music", "music_volume", "Share of the volume; 0 is none"),
+            self._choice(3, "Music in practice", "music_in_practice", SWITCH),
         ]
 
     def _set_volume(self, name: str, value: float) -> None:
         self.change(**{name: round(value)})
-        self.chime("gold" if name == "volume" else "menu-move")
+        self.chime("gold-1" if name == "volume" else "menu-move")
 
     def _play(self) -> list[Widget]:
         widgets: list[Widget] = [
             self._choice(0, "Practice mode", "practice", SWITCH, PRACTICE_HINT),
-            Label((LEFT, TOP + STEP + 10, 200, 14), "Your name, in replays:"),
+            Label((LEFT, TOP + STEP + 10, 212, 14), "Your name, in replays:"),
             TextEntry((LEFT + 220, TOP + STEP, WIDTH_OF_ROW - 220, HEIGHT_OF_ROW), "unnamed",
                       self.player.settings.name, lambda text: self.change(name=text)),
             self._choice(2, "Texts of levels", "level_texts", SWITCH, "Levels that you have not passed say how"),
@@ -318,7 +330,22 @@ class SettingsScreen(MenuScreen):
                        hint="Shorter ticks, until the game ends; scores count as usual")
             )  # fmt: skip
         text = f"Your levels: {self.player.folder / LEVELS}"
-        return [*widgets, Label((LEFT, TOP + STEP * 10 + 16, 500, 12), text, size=9.5, faint=True)]
+        return [*widgets, Label((LEFT, TOP + STEP * 10 + 16, WIDTH_OF_ROW, 13), text, size=9.5, faint=True)]
+
+    def _accessibility(self) -> list[Widget]:
+        return [
+            self._choice(0, "Text size", "text_size", list(TEXT_SIZES.items())),
+            self._percent(1, "Game speed", "game_speed", (50, 100, 5), f"Time goes slower; {ASSISTED_HINT}"),
+            self._choice(2, "Invincible", "invincible", SWITCH,
+                         f"Only crushing, the clock and giving up end a run; {ASSISTED_HINT}"),
+            self._choice(3, "Running keys", "tap_to_run", [("hold", False), ("tap", True)],
+                         "Tap: a press runs on until the next press"),
+            self._choice(4, "Marks for warning sounds", "sound_cues", SWITCH, "Rocket, laser, chase and turret"),
+            self._choice(5, "Reduced motion", "reduced_motion", SWITCH, "Fewer particles; no shake, freeze or wipes"),
+            self._choice(6, "Reduced gore", "reduced_gore", SWITCH, "No blood"),
+            self._percent(7, "Shake at explosions", "shake", (0, 100, 5)),
+            self._percent(8, "Particles", "particles", (0, 100, 5)),
+        ]  # fmt: skip
 
     # --- picture ---
 

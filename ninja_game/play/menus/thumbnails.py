@@ -14,6 +14,7 @@ from ninja_game.player.catalogue import Entry
 from ninja_game.player.marks import Mark, has_all_gold, medal_of, next_par
 from ninja_game.player.records import seconds_text
 from ninja_game.player.statistics import Played
+from ninja_game.ui.audio.music import MENU
 from ninja_game.ui.theme import Theme
 from ninja_game.ui.widgets import MEDALS, draw_all_gold, draw_medal
 from ninja_game.view.sprites.thumbnail import thumbnail
@@ -71,6 +72,8 @@ class Thumbnails:
 
 class ThumbnailScreen(MenuScreen):
     """A menu that shows pictures of levels."""
+
+    music = MENU
 
     def __init__(self, app: App) -> None:
         super().__init__(app)

@@ -95,7 +95,7 @@ class Ghost:
     """One recording, ticking along.
 
     ``behind``: ticks that it lags behind after a leap: it catches up by the work of a turn with each tick. Not
-    ``alone``: only when it is told to. ``pace``: its ticks for each tick of the clock, at most 1.
+    ``alone``: only when it is told to. ``pace``: its ticks for each tick of the clock.
     """
 
     def __init__(self, inputs: bytes, level: Level, body: Body, *, alone: bool = True, pace: float = 1.0) -> None:
@@ -121,16 +121,15 @@ class Ghost:
     def on_tick(self) -> None:
         self._before = self._now
         self._due += self.pace
-        if self._due < 1:
-            return
-        self._due -= 1
-        if self.behind:
-            self.behind += 1
-            self.catch_up(self._turn)
-        elif not self.over:
-            self._playback.step()
-            self.ninja_animation.on_tick(self.simulation.world)
-            self._now = self._place()
+        while self._due >= 1:
+            self._due -= 1
+            if self.behind:
+                self.behind += 1
+                self.catch_up(self._turn)
+            elif not self.over:
+                self._playback.step()
+                self.ninja_animation.on_tick(self.simulation.world)
+                self._now = self._place()
 
     def on_seek(self, tick: int) -> None:
         """Be where the recording is after that many ticks, or on the way to there."""

@@ -199,7 +199,8 @@ class ReplayScreen(Screen):
         if event.menu in {"first", "last"}:
             self.seek(0 if event.menu == "first" else self.end)
             return
-        for action in event.pressed:
+        right = event.raw.type == pygame.MOUSEBUTTONDOWN and event.raw.button == pygame.BUTTON_RIGHT
+        for action in ("back",) if right else event.pressed:
             if self._act(action):
                 break
 

@@ -11,6 +11,7 @@ from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MOUSE, MenuScreen
 from ninja_game.play.workspace.commands import CommandTable, HeldCommand
 from ninja_game.play.workspace.part import Part
+from ninja_game.ui.audio.music import SILENCE
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.widgets import Widget
@@ -24,6 +25,7 @@ class WorkspaceScreen(MenuScreen):
     """
 
     table: ClassVar[CommandTable]
+    music = SILENCE
 
     def __init__(self, app: App) -> None:
         super().__init__(app)

@@ -122,7 +122,7 @@ class OtherRunScreen(ReplaysScreen):
         self.list.empty = "No other run of this level is known. There may be one in a file"
 
     def build(self) -> Sequence[Widget]:
-        return [*super().build(), Button((622, 14, 134, 26), "From a file ...", self._ask, hint="Any file with runs")]
+        return [*super().build(), Button((538, 15, 134, 26), "From a file ...", self._ask, hint="Any file with runs")]
 
     def arranged(self, rows: list[ReplayRow]) -> list[ReplayRow]:
         """Those of the same level, the fastest first; those in files by the names of their files."""

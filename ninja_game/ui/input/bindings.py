@@ -29,12 +29,22 @@ class Bindings:
 
     ``keys`` and ``pad``: what the player has changed, by action; the other actions have their defaults. Unknown names
     are ignored, and stand in ``unknown``; an action that has only such keys keeps its defaults.
+    ``tap_to_run``: a press of left or right runs on until the next press of either.
     """
 
-    def __init__(self, keys: Inputs | None = None, pad: Inputs | None = None, *, dead_zone: float = 0.35) -> None:
+    def __init__(
+        self,
+        keys: Inputs | None = None,
+        pad: Inputs | None = None,
+        *,
+        dead_zone: float = 0.35,
+        tap_to_run: bool = False,
+    ) -> None:
         self.pads = Gamepads(dead_zone)
         self.pad_used = False
         self._tapped = -inf
+        self.tap_to_run = tap_to_run
+        self._running = 0
         self.bind(keys or {}, pad or {})
 
     def bind(self, keys: Inputs, pad: Inputs) -> None:
@@ -77,7 +87,11 @@ class Bindings:
         if monotonic() - self._tapped <= TAP_SECONDS:
             bits |= JUMP_HELD
         self._tapped = -inf
-        return bits
+        return bits & JUMP_HELD | self._running if self.tap_to_run else bits
+
+    def stop_running(self) -> None:
+        """Forget that a tap runs on."""
+        self._running = 0
 
     def decode(self, event: pygame.Event) -> InputEvent:
         """What an event means. Called once for each: pads, layout and taps of the jump key are followed."""
@@ -111,9 +125,12 @@ class Bindings:
         return self._noted(InputEvent(event, pressed=actions, menu=menu, source=("keys", name)))
 
     def _noted(self, event: InputEvent) -> InputEvent:
-        """The event; the time of a press of the jump key is kept for the next tick."""
+        """The event; the time of a press of the jump key is kept for the next tick, and a tap that runs on."""
         if "jump" in event.pressed:
             self._tapped = monotonic()
+        for action, bit in MOVES[:2]:
+            if action in event.pressed:
+                self._running = 0 if self._running else bit
         return event
 
     def name(self, action: str) -> str:
@@ -122,6 +139,11 @@ class Bindings:
         if self.pad_used and pad:
             return pad_label(pad[0])
         return key_label(keys[0]) if keys else pad_label(pad[0]) if pad else "(no key)"
+
+    def all_names(self, action: str) -> tuple[str, str]:
+        """All that can be pressed for an action: on the keyboard, on a gamepad as most have it."""
+        buttons = [name for name in self.pad[action] if not name.startswith(("hat-", "axis-", "button-"))]
+        return ", ".join(map(key_label, self.keys[action])), ", ".join(map(pad_label, buttons))
 
 
 class Action(NamedTuple):
@@ -135,7 +157,7 @@ class Action(NamedTuple):
 ACTIONS: dict[str, Action] = {
     "left": Action("Run left", ("left", "a"), ("dpad-left", "leftx-", "hat-left", "axis-0-")),
     "right": Action("Run right", ("right", "d"), ("dpad-right", "leftx+", "hat-right", "axis-0+")),
-    "jump": Action("Jump", ("lshift", "rshift", "z", "up", "w"), ("a", "button-0")),
+    "jump": Action("Jump", ("z", "up", "w", "lshift", "rshift"), ("a", "button-0")),
     "confirm": Action("Begin, continue", ("space", "return"), ("a", "button-0")),
     "back": Action("Back", ("escape",), ("b", "button-1")),
     "pause": Action("Pause", ("p",), ("start", "button-7")),

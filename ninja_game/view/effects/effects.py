@@ -63,9 +63,9 @@ class Effects:
             far = reach * self.rng.uniform(0.4, 1.0)
             self.add(kind, x, y, far * cos(angle), far * sin(angle), life=life)
 
-    def puffs(self, x: float, y: float, nx: float, ny: float, angle: float, length: float) -> None:
-        """Four puffs of dust from a surface with normal (nx, ny), to alternating sides."""
-        for k in range(4):
+    def puffs(self, x: float, y: float, nx: float, ny: float, angle: float, length: float, count: int = 4) -> None:
+        """Puffs of dust from a surface with normal (nx, ny), to alternating sides."""
+        for k in range(count):
             turn = radians((angle + self.rng.uniform(-10, 10)) * (1 if k % 2 else -1))
             tx, ty = -ny * (1 if k % 2 else -1), nx * (1 if k % 2 else -1)
             dx = tx * cos(turn) + nx * abs(sin(turn))
@@ -131,8 +131,16 @@ def _jumped(e: Effects, level: TileMap, world: World, event: Event) -> None:
 
 def _landed(e: Effects, level: TileMap, world: World, event: Event) -> None:
     n = world.ninja
-    hardness = 4 + abs(event.dx) + max(0.0, event.dy)
-    e.puffs(event.x - n.floor_x * 10, event.y - n.floor_y * 10, n.floor_x, n.floor_y, 40, hardness)
+    impact = hypot(event.dx, event.dy)
+    x, y = event.x - n.floor_x * 10, event.y - n.floor_y * 10
+    e.puffs(x, y, n.floor_x, n.floor_y, 40, 4 + 1.6 * impact, count=2 + min(8, round(impact)))
+
+
+def _won(e: Effects, level: TileMap, world: World, event: Event) -> None:
+    """Light spreads behind the ninja, and sparks before it."""
+    for k in range(3):
+        e.add("halo", event.x, event.y, life=40 + 14 * k, size=1.0 + 0.35 * k, rear=True)
+    e.spread("spark", event.x, event.y, 12, 60, life=40)
 
 
 def _died(e: Effects, level: TileMap, world: World, event: Event) -> None:
@@ -197,6 +205,7 @@ REACTIONS: dict[int, Callable[[Effects, TileMap, World, Event], None]] = {
     ev.LANDED: _landed,
     ev.LAUNCHED: _launched,
     ev.DIED: _died,
+    ev.WON: _won,
     ev.GOLD_TAKEN: _gold,
     ev.MINE_EXPLODED: _explosion,
     ev.ROCKET_EXPLODED: _explosion,

@@ -131,6 +131,13 @@ def _muzzle(p: Particle, target: DrawTarget, t: float) -> None:
     target.sprite(muzzle(min(7, int(8 * t))).turned(_turn(p)), p.x, p.y)
 
 
+def _halo(p: Particle, target: DrawTarget, t: float) -> None:
+    """A ring of light that widens and goes out."""
+    palette = target.palette
+    colour = mixed(palette.exit_light, palette.background, t * t)
+    target.disc(colour, p.x, p.y, 10 + 80 * p.size * (1 - (1 - t) ** 2), 5 * (1 - t))
+
+
 def _charge(p: Particle, target: DrawTarget, t: float) -> None:
     """A drop that falls inward, faster and faster."""
     way = t * t
@@ -153,6 +160,7 @@ PAINTERS: dict[str, Callable[[Particle, DrawTarget, float], None]] = {
     "gold": _streak_of_gold,
     "muzzle": _muzzle,
     "charge": _charge,
+    "halo": _halo,
 }
 """How each kind is drawn."""
 

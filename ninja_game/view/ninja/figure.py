@@ -11,6 +11,9 @@ from ninja_game.ui.canvas import Point
 from ninja_game.ui.theme import Palette, mixed
 from ninja_game.view.sprites.sketch import Sketch, Sprite
 
+FEET = 9.7
+"""px from the centre down to the floor."""
+
 
 class Pose(NamedTuple):
     """Where the joints are. ``near`` limbs are drawn over the trunk, ``far`` ones behind it."""
@@ -35,6 +38,10 @@ class Pose(NamedTuple):
             return Pose(*((x * facing, y) for x, y in self)) if facing < 0 else self
         c, s = cos(radians(turn)), sin(radians(turn))
         return Pose(*((x * facing * c - y * s, x * facing * s + y * c) for x, y in self))
+
+    def pressed(self, share: float) -> Pose:
+        """Pressed together towards the feet by a share of its height, and as much wider."""
+        return Pose(*((x * (1 + 0.6 * share), FEET - (FEET - y) * (1 - share)) for x, y in self))
 
     def moved(self, dx: float, dy: float) -> Pose:
         return Pose(*((x + dx, y + dy) for x, y in self))

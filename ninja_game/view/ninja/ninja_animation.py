@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from math import atan2, degrees
+from math import atan2, degrees, hypot
 from random import Random
 
 import pygame
 
+from ninja_game.sim.events import LANDED
 from ninja_game.sim.memory.schema import Ninja, World
 from ninja_game.sim.states import CELEBRATING, DEAD, FALLING, JUMPING, RUNNING, SKIDDING, SLIDING
 from ninja_game.ui.canvas import Point
@@ -32,15 +33,21 @@ from ninja_game.view.sprites.sketch import Sketch
 
 _BLEND_TICKS = 3.0
 """A new state's pose takes over from the old one in this many ticks."""
+SQUASH, MOST_SQUASH, SQUASH_KEPT = 0.045, 0.32, 0.72
+"""How much a landing presses the figure together for each px/tick, at most, and the share left a tick later."""
 _UPRIGHT = 0.9
 """Share of its rotation that a body in the air keeps each tick."""
 
 
 class NinjaAnimation:
-    """The ninja's figure between ticks. ``rng``: picks the dances, never read by the world."""
+    """The ninja's figure between ticks. ``rng``: picks the dances, never read by the world.
+
+    ``squashes``: whether a landing presses it together.
+    """
 
     def __init__(self, world: World, rng: Random) -> None:
         self._rng = rng
+        self.squashes = True
         self.reset(world)
 
     def reset(self, world: World) -> None:
@@ -53,6 +60,7 @@ class NinjaAnimation:
         self.since = 100.0
         self.velocity = (0.0, 0.0)
         self.dance = -1
+        self.squash = 0.0
         self._from = STAND
         self._face(n)
 
@@ -82,6 +90,10 @@ class NinjaAnimation:
         else:
             self.since += 1.0
         self._face(n)
+        self.squash *= SQUASH_KEPT
+        for event in world.events[: world.event_count] if self.squashes else ():
+            if event.kind == LANDED:
+                self.squash = min(MOST_SQUASH, SQUASH * hypot(event.dx, event.dy))
         self.velocity = n.x - n.prev_x, n.y - n.prev_y
         self.phase_before = self.phase
         if n.state == RUNNING:
@@ -122,7 +134,10 @@ class NinjaAnimation:
         turn = self.turn_before + (self.turn - self.turn_before) * fraction
         if self.state == CELEBRATING and self.dance >= 0:
             turn += DANCES[self.dance].at(self.since + fraction)[1] * self.facing
-        return self.local_pose(fraction).placed(self.facing, turn)
+        pose = self.local_pose(fraction)
+        if self.squash > 0.02:
+            pose = pose.pressed(self.squash * SQUASH_KEPT**fraction)
+        return pose.placed(self.facing, turn)
 
 
 def draw_ninja(target: DrawTarget, animation: NinjaAnimation, at: Point, fraction: float, colour: pygame.Color) -> None:

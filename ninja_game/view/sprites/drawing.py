@@ -101,11 +101,10 @@ class DrawTarget:
             rect = pygame.draw.aaline(self.surface, colour, a, b, thick)
             self.covered.append(rect.inflate(2, 2))
 
-    def disc(self, colour: Colour, x: float, y: float, radius: float) -> None:
+    def disc(self, colour: Colour, x: float, y: float, radius: float, width: float = 0) -> None:
+        """A disc, or a ring of some ``width``."""
         if is_near(x, y):
-            px = max(1, round(radius * self.canvas.scale))
-            rect = pygame.draw.aacircle(self.surface, colour, self.canvas.point(x, y), px)
-            self.covered.append(rect.inflate(2, 2))
+            self.covered.append(self.canvas.circle(self.surface, colour, (x, y), radius, width).inflate(2, 2))
 
 
 _KEPT = 3000

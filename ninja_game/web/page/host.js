@@ -99,7 +99,12 @@ class Host {
   }
 
   sound(path) {
-    return this.sounds.add(this.files.readFile(path));
+    const music = path.split("/sounds/music/")[1];
+    return music ? this.sounds.fetch(`music/${music}`) : this.sounds.add(this.files.readFile(path));
+  }
+
+  length(sound) {
+    return this.sounds.length(sound);
   }
 
   play(channel, sound, loops, fadeMs) {

@@ -1,45 +1,76 @@
 // Plays the sounds of shim/pygame/mixer.py with WebAudio.
 
-const STEPS = Array.from({ length: 89 }, (_, k) => Math.min(32767, Math.round(7 * 1.1 ** k)));
-const CHANGES = [-1, -1, -1, -1, 2, 4, 6, 8];
+const OGG = 0x4f676753; // "OggS"
 
-// Samples (-1 to 1) of a sound that ninja_game/web/sounds.py has made smaller: the same there as `decoded`.
-function unpacked(bytes, view) {
-  const samples = new Float32Array(view.getUint32(8, true));
-  let [value, place] = [0, bytes[12]];
-  for (let k = 0; k < samples.length; k++) {
-    const nibble = (bytes[13 + (k >> 1)] >> (4 * (k & 1))) & 15;
-    const moved = (STEPS[place] * (2 * (nibble & 7) + 1)) >> 3;
-    value = Math.max(-32768, Math.min(32767, nibble & 8 ? value - moved : value + moved));
-    place = Math.max(0, Math.min(STEPS.length - 1, place + CHANGES[nibble & 7]));
-    samples[k] = value / 32768;
-  }
-  return { rate: view.getUint32(4, true), samples };
-}
+const LOST = 256; // first samples that may be missing
+const SEAM = 1024; // at the end of a loop so many less LOST become those before it
 
-// Samples (-1 to 1) of such a sound, or of a WAV file of 16 bits, mono; null for anything else.
-export function decoded(bytes) {
-  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  if (bytes.length >= 13 && view.getUint32(0) === 0x4e475331) return unpacked(bytes, view);
-  if (bytes.length < 44 || view.getUint32(0) !== 0x52494646) return null;
-  const samples = new Float32Array((bytes.length - 44) >> 1);
-  for (let k = 0; k < samples.length; k++) samples[k] = view.getInt16(44 + 2 * k, true) / 32768;
-  return { rate: view.getUint32(24, true), samples };
+// Samples of an Ogg file, by the last of its pages.
+function lengthOf(data) {
+  const view = new DataView(data);
+  let at = data.byteLength - 14;
+  while (at > 0 && view.getUint32(at) !== OGG) at--;
+  return at > 0 ? view.getUint32(at + 6, true) : 0;
 }
 
 export class Sounds {
   constructor() {
-    this.decoded = []; // by number
-    this.buffers = [];
+    this.buffers = []; // by number; null until it is decoded
     this.channels = [];
     this.audio = null;
     this.muted = false;
+    this.mended = new Set(); // numbers of the sounds that can loop
+    // Decodes before there is a device.
+    this.decoder = new OfflineAudioContext(1, 1, 44100);
   }
 
-  // The number of a sound; -1 for bytes that are none.
+  // The number of a sound; -1 for bytes that are none. The browser decodes it.
   add(bytes) {
-    const sound = decoded(bytes);
-    return sound ? this.decoded.push(sound) - 1 : -1;
+    const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+    return bytes.length >= 4 && view.getUint32(0) === OGG ? this.decode(Promise.resolve(bytes.slice().buffer)) : -1;
+  }
+
+  // The number of a sound that comes from the host of the page; one that does not come stays silent.
+  fetch(url) {
+    return this.decode(
+      fetch(url).then((answer) => (answer.ok ? answer.arrayBuffer() : Promise.reject(answer.status))),
+    );
+  }
+
+  decode(coming) {
+    const number = this.buffers.push(null) - 1;
+    coming
+      .then(async (data) => {
+        const length = lengthOf(data);
+        this.buffers[number] = this.whole(await this.decoder.decodeAudioData(data), length);
+      })
+      .catch((why) => console.warn("a sound stays silent:", why));
+    return number;
+  }
+
+  // Browsers drop the first samples, not always as many: they come back as silence, so that layers stay in step.
+  whole(decoded, length) {
+    if (decoded.length >= length) return decoded;
+    const buffer = this.decoder.createBuffer(1, length, decoded.sampleRate);
+    buffer.copyToChannel(decoded.getChannelData(0), 0, length - decoded.length);
+    return buffer;
+  }
+
+  // Have a sound loop without its first samples and without a seam: its end becomes what comes before the place SEAM.
+  mend(sound) {
+    if (this.mended.has(sound)) return;
+    this.mended.add(sound);
+    const samples = this.buffers[sound].getChannelData(0);
+    for (let k = LOST; k < SEAM; k++) {
+      const share = (k - LOST) / (SEAM - LOST);
+      const end = samples.length - SEAM + k;
+      samples[end] = samples[end] * (1 - share) + samples[k] * share;
+    }
+  }
+
+  // Seconds; 0 while it is not decoded.
+  length(sound) {
+    return this.buffers[sound] ? this.buffers[sound].duration : 0;
   }
 
   // Browsers allow sound only after the player pressed something.
@@ -66,17 +97,17 @@ export class Sounds {
   }
 
   play(number, sound, loops, fadeMs) {
-    if (!this.audio || !this.decoded[sound]) return;
-    if (!this.buffers[sound]) {
-      const { rate, samples } = this.decoded[sound];
-      this.buffers[sound] = this.audio.createBuffer(1, Math.max(1, samples.length), rate);
-      this.buffers[sound].copyToChannel(samples, 0);
-    }
+    if (!this.audio || !this.buffers[sound]) return;
     const channel = this.channel(number);
     if (channel.source) channel.source.stop();
     const source = this.audio.createBufferSource();
     source.buffer = this.buffers[sound];
     source.loop = loops !== 0;
+    if (source.loop) {
+      this.mend(sound);
+      source.loopStart = SEAM / source.buffer.sampleRate;
+      source.loopEnd = source.buffer.duration;
+    }
     const now = this.audio.currentTime;
     channel.end = loops < 0 ? Infinity : now + source.buffer.duration * (loops + 1);
     channel.source = source;

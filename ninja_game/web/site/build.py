@@ -16,7 +16,7 @@ from ninja_game import __version__
 from ninja_game.errors import DAMAGED, FileError, NinjaGameError
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.tree import Tree, leads_below
-from ninja_game.files.user_folder import PACKAGE
+from ninja_game.files.user_folder import PACKAGE, data_folder
 from ninja_game.web.site.game_archive import compiled, game_archive, game_files, licence_of
 from ninja_game.web.site.pyodide_files import library_files, library_of, pyodide_files
 
@@ -54,7 +54,7 @@ def build_site(out: Path, pyodide: Path | None, cache: Path) -> list[SiteFile]:
     library, game = compiled(library_files(python["python_stdlib.zip"]), dict(game_files()), python)
     python["python_stdlib.zip"] = library_of(library)
     files = {f"pyodide/{name}": content for name, content in python.items() if not name.endswith(".json")}
-    files |= {"game.tar.gz": game_archive(game)} | _page() | _icons() | _licences()
+    files |= {"game.tar.gz": game_archive(game)} | _page() | _icons() | _licences() | _music()
     files |= _stamped(files, about)
     site = Tree(out)
     for name, content in files.items():
@@ -101,6 +101,12 @@ def _licences() -> dict[str, bytes]:
     return {f"licences/{name}": content for name, content in (own | packages).items()}
 
 
+def _music() -> dict[str, bytes]:
+    """The layers of the music, which the page fetches when they are to be heard."""
+    folder = data_folder("assets") / "sounds" / "music"
+    return {f"music/{path.name}": path.read_bytes() for path in sorted(folder.glob("*.ogg"))}
+
+
 def _stamped(files: dict[str, bytes], about: dict[str, str]) -> dict[str, bytes]:
     """The manifest, and what knows the version: index.html and the service worker. ``about``: Pyodide's."""
     manifest = json.dumps(_manifest(), indent=1).encode()
@@ -111,7 +117,7 @@ def _stamped(files: dict[str, bytes], about: dict[str, str]) -> dict[str, bytes]
         "pyodide": about,
         "sizes": {name: len(files[name]) for name in LARGE},
         "small": sorted(
-            name for name in everything if name not in LARGE and not name.startswith(("licences/", "sw.js"))
+            name for name in everything if name not in LARGE and not name.startswith(("licences/", "music/", "sw.js"))
         ),
     }
     # Within a script element; no "<" may stand in it.
@@ -154,6 +160,7 @@ TYPES = {
     ".js": "text/javascript",
     ".webmanifest": "application/manifest+json",
     ".gz": "application/gzip",
+    ".ogg": "audio/ogg",
 }
 """What a browser insists on, whatever this system says."""
 

@@ -15,11 +15,10 @@ from pathlib import Path
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.user_folder import PACKAGE, data_folder
-from ninja_game.web.sounds import compressed
 
 LEFT_OUT = (
-    "batch", "cli", "generated.tsv.xz", "data", "learn", "search", "tas", "verification", "web/board", "web/pages",
-    "web/licences", "web/page", "web/site",
+    "batch", "cli", "generated.tsv.xz", "data", "learn", "search", "sounds/music", "tas", "verification", "web/board",
+    "web/pages", "web/licences", "web/page", "web/site",
 )  # fmt: skip
 """What of the package a page has no use for."""
 
@@ -45,10 +44,8 @@ def game_files() -> Iterator[tuple[str, bytes]]:
     for folder in ("levels", "assets"):
         root = data_folder(folder)
         for path in root.rglob("*"):
-            if path.is_file() and path.suffix != ".md" and path.relative_to(root).parts[0] not in LEFT_OUT:
-                data = path.read_bytes()
-                name = f"ninja_game/data/{folder}/{path.relative_to(root).as_posix()}"
-                yield name, compressed(data, str(path)) if path.suffix == ".wav" else data
+            if path.is_file() and path.suffix != ".md" and not path.relative_to(root).as_posix().startswith(LEFT_OUT):
+                yield f"ninja_game/data/{folder}/{path.relative_to(root).as_posix()}", path.read_bytes()
     for path in _package("tomlkit").rglob("*.py"):
         yield f"tomlkit/{path.relative_to(_package('tomlkit')).as_posix()}", path.read_bytes()
 

@@ -136,7 +136,7 @@ def test_labels_follow_the_device_used_last(bindings: Bindings) -> None:
     bindings.decode(axis(1.0))
     assert bindings.name("jump") == "A"
     bindings.decode(key("z"))
-    assert bindings.name("jump") == "Shift"
+    assert bindings.name("jump") == "Z"
 
 
 def test_the_two_directions_of_an_axis_have_names_of_their_own() -> None:

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+import pygame
 import pytest
 
 from ninja_game.errors import LevelError
 from ninja_game.play.menus.help import HelpScreen, Page, read_pages, room_level, strokes
 from ninja_game.sim.kinds import KIND_NAMES
 from ninja_game.simulation import Simulation
+from ninja_game.ui.input.bindings import ACTIONS
+from ninja_game.ui.input.keys import key_label
+from ninja_game.ui.lettering import Lettering
 from tests.support.menu_driver import MenuDriver
 
 PAGES = read_pages()
@@ -50,3 +56,25 @@ def test_every_page_plays_and_loops(driver: MenuDriver) -> None:
     screen.list._select(len(PAGES))
     driver.frames(2)
     assert screen.demonstration is None
+
+
+def test_the_keys_page_has_every_key_of_every_action(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> None:
+    screen = driver.open("Help")
+    assert isinstance(screen, HelpScreen)
+    driver.press("end", "right")
+    assert screen.focus is screen.keys
+    drawn: set[str] = set()
+    draw = Lettering.draw
+
+    def noted(self: Lettering, surface: pygame.Surface | None, text: str, *args: Any, **options: Any) -> pygame.Rect:
+        drawn.add(text)
+        rect = draw(self, surface, text, *args, **options)
+        assert driver.app.surface.get_rect().contains(rect), text
+        return rect
+
+    monkeypatch.setattr(Lettering, "draw", noted)
+    for _ in ACTIONS:
+        driver.press("down")
+    for action, entry in ACTIONS.items():
+        assert entry.label in drawn
+        assert ", ".join(map(key_label, entry.keys)) in drawn, action

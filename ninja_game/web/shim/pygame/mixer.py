@@ -34,7 +34,7 @@ def set_reserved(count: int) -> None:
 def stop() -> None:
     for channel in _Mixer.channels:
         if channel.sound:
-            channel.fadeout(0)
+            channel.stop()
 
 
 class Sound:
@@ -44,6 +44,10 @@ class Sound:
         self.number = LINK.page.sound(fspath(path))
         if self.number < 0:
             raise error(f"{path} is not a sound")
+
+    def get_length(self) -> float:
+        """Seconds; 0 until the page has decoded it."""
+        return float(LINK.page.length(self.number))
 
     def play(self) -> Channel | None:
         """Play it once on a free channel, which this gives."""
@@ -70,6 +74,9 @@ class Channel:
     def fadeout(self, ms: int) -> None:
         self.sound = None
         LINK.page.stop(self.number, ms)
+
+    def stop(self) -> None:
+        self.fadeout(0)
 
     def get_busy(self) -> bool:
         return self.sound is not None and (self.endless or bool(LINK.page.busy(self.number)))

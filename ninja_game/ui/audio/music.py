@@ -1,0 +1,138 @@
+"""Music: a loop in layers for each place, which come in with danger, speed and the open exit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from math import exp, hypot
+from pathlib import Path
+from typing import NamedTuple
+
+import pygame
+
+from ninja_game.runtime import run_in_background
+from ninja_game.sim import states
+from ninja_game.sim.kinds import DRONE, EXIT, FLOOR_GUARD, LAUNCHER, TURRET
+from ninja_game.sim.memory.object_fields import Object
+from ninja_game.sim.memory.schema import World
+
+MENU = "menu"
+BY_COLUMN = ("ground", "machines", "places", "trials", "hardest")
+"""The music of each column of episodes."""
+
+SILENCE = "silence"
+"""A music without layers."""
+
+LAYERS = ("base", "danger", "speed", "exit")
+LAYERS_OF: dict[str, tuple[str, ...]] = {MENU: LAYERS[:1], **dict.fromkeys(BY_COLUMN, LAYERS)}
+
+FADE_MS = 350
+"""From one music to the next, each way."""
+
+FOLLOW_MS = 700
+"""How slowly a layer follows its level: after so long it has gone 63 % of the way."""
+
+NEAR, FAR = 120.0, 420.0
+"""px within which danger is as high as it gets, and from which on there is none."""
+
+FAST = 3.2
+"""px/tick at which the layer of speed is at its loudest; none at half of it."""
+
+
+class MusicLevels(NamedTuple):
+    """How much of each layer is wanted, 0 to 1."""
+
+    base: float = 1.0
+    danger: float = 0.0
+    speed: float = 0.0
+    exit: float = 0.0
+
+
+CALM = MusicLevels()
+
+
+def heard_in_music(o: Object) -> bool:
+    """Whether an object may be a danger that hunts, or is an exit."""
+    return o.kind in (LAUNCHER, FLOOR_GUARD, DRONE, TURRET, EXIT)
+
+
+def _hunts(o: Object) -> bool:
+    """Whether it is after the ninja now."""
+    if o.kind == DRONE:
+        return bool(o.chasing) or o.routine != states.DRONE_MOVE
+    if o.kind == TURRET:
+        return o.think == states.TURRET_TARGETING
+    return o.routine == (states.LAUNCHER_FLIGHT if o.kind == LAUNCHER else states.GUARD_CHASE)
+
+
+def music_levels(world: World, objects: Iterable[Object]) -> MusicLevels:
+    """The levels for a moment of play. ``objects``: those of the world that are ``heard_in_music``."""
+    ninja = world.ninja
+    danger, is_open = 0.0, 0.0
+    for o in objects:
+        if o.kind == EXIT:
+            is_open = max(is_open, float(o.is_open))
+        elif _hunts(o):
+            danger = max(danger, (FAR - hypot(o.x - ninja.x, o.y - ninja.y)) / (FAR - NEAR))
+    speed = 2 * hypot(ninja.x - ninja.prev_x, ninja.y - ninja.prev_y) / FAST - 1
+    alive = world.outcome == states.OUTCOME_RUNNING
+    return MusicLevels(1.0, min(1.0, danger) * alive, min(1.0, max(0.0, speed)) * alive, is_open)
+
+
+class Music:
+    """Plays one music at a time. ``folder``: of its files; ``first``: its first channel, one for each layer.
+
+    The layers start together, all of them, and only their volumes differ.
+    """
+
+    def __init__(self, folder: Path, first: int) -> None:
+        self.folder = folder
+        self.first = first
+        self.levels = CALM
+        self.playing = self._asked = ""
+        self._sounds: Sequence[pygame.mixer.Sound] | None = None
+        self._share = 0.0
+        self._heard = list(CALM)
+
+    def update(self, name: str, volume: float, real_ms: int) -> None:
+        """Let time pass. ``name``: what is to be heard, "" as it is; ``volume``: a share."""
+        if name == self.playing or not name:
+            self._share = min(1.0, self._share + real_ms / FADE_MS)
+        else:
+            self._share = max(0.0, self._share - real_ms / FADE_MS)
+            if self._share == 0.0:
+                self._change(name)
+        follow = 1 - exp(-real_ms / FOLLOW_MS)
+        for layer in range(len(LAYERS_OF.get(self.playing, ()))):
+            self._heard[layer] += (self.levels[layer] - self._heard[layer]) * follow
+            pygame.mixer.Channel(self.first + layer).set_volume(volume * self._share * self._heard[layer])
+
+    def silence(self) -> None:
+        """Stop at once; what is asked for next begins again."""
+        for layer in range(len(LAYERS)):
+            pygame.mixer.Channel(self.first + layer).stop()
+        self.playing, self._share = "", 0.0
+
+    def _change(self, name: str) -> None:
+        """Begin another music when it has been read; the one before is over."""
+        if self._asked != name:
+            self._asked, self._sounds = name, None
+            run_in_background(lambda: self._read(name), lambda _: None)
+        sounds = self._sounds
+        if sounds is None or not all(sound.get_length() for sound in sounds):
+            return
+        self.silence()
+        self.playing, self._heard = name, list(self.levels)
+        for layer, sound in enumerate(sounds):
+            channel = pygame.mixer.Channel(self.first + layer)
+            channel.play(sound, loops=-1)
+            channel.set_volume(0)
+
+    def _read(self, name: str) -> None:
+        """Read the layers; none where a file is missing or no music."""
+        try:
+            files = [self.folder / f"{name}-{layer}.ogg" for layer in LAYERS_OF.get(name, ())]
+            sounds = [pygame.mixer.Sound(file) for file in files]
+        except (pygame.error, OSError):
+            sounds = []
+        if self._asked == name:
+            self._sounds = sounds

@@ -1,0 +1,127 @@
+"""What is heard when: the files of each event, by what strength, and the loops of what goes on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from math import floor
+
+from ninja_game.sim import events, states
+from ninja_game.sim.events import DIED
+from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER
+from ninja_game.sim.memory.object_fields import Object
+from ninja_game.sim.memory.schema import Event, Ninja, World
+
+Names = tuple[str, ...]
+"""Variants of a sound, of which one is chosen by chance, never the last one again."""
+
+
+def several(name: str, count: int) -> Names:
+    """The names of the variants of a sound."""
+    return tuple(f"{name}-{number}" for number in range(1, count + 1))
+
+
+GOLD = several("gold", 12)
+"""A ladder of pitches."""
+
+STEPS = several("step", 5)
+
+LANDING = (
+    (4.0, several("land-hard", 3)),
+    (2.0, several("land-medium", 3)),
+    (0.0, several("land-soft", 3)),
+)  # fmt: skip
+CORPSE = ((3.0, several("corpse-hard", 3)), (2.0, several("corpse-medium", 2)), (1.2, several("corpse-soft", 2)))
+"""Slowest speed (px/tick) of each hardness, hardest first; of the ninja's feet, and of parts of a corpse."""
+
+BY_EVENT: dict[int, Names] = {
+    events.JUMPED: several("jump", 4),
+    events.WALL_JUMPED: several("wall-jump", 4),
+    events.LANDED: LANDING[-1][1],
+    events.LAUNCHED: ("launch",),
+    events.WON: ("passed",),
+    events.GOLD_TAKEN: GOLD,
+    events.MINE_EXPLODED: several("mine", 2),
+    events.EXIT_OPENED: ("exit-open",),
+    events.DOOR_OPENED: ("door-open",),
+    events.DOOR_CLOSED: ("door-close",),
+    events.LOCK_OPENED: ("lock-open",),
+    events.TRAP_CLOSED: ("trap-close",),
+    events.CHASE_STARTED: ("chase",),
+    events.ROCKET_LAUNCHED: ("rocket-launch",),
+    events.ROCKET_EXPLODED: several("rocket-explode", 2),
+    events.TURRET_LOCKED: ("turret-lock",),
+    events.TURRET_FIRED: several("turret-fire", 2),
+    events.LASER_CHARGING: ("laser-charge",),
+    events.CHAINGUN_CHARGING: ("chaingun-charge",),
+    events.CHAINGUN_SHOT: several("chaingun-shot", 3),
+    events.CHAINGUN_OFF: ("chaingun-off",),
+}
+
+BY_DEATH: dict[int, Names] = {
+    states.EXPLOSIVE: several("death-explosive", 2),
+    states.FALL: ("death-fall",),
+    states.LASER: ("death-laser",),
+    states.ELECTRIC: ("death-electric",),
+}
+OTHER_DEATH = several("death-bullet", 2)
+
+
+def by_hardness(table: tuple[tuple[float, Names], ...], speed: float) -> Names:
+    """The sounds of a hit at a speed, px/tick; none if it is slower than all."""
+    return next((names for slowest, names in table if speed > slowest), ())
+
+
+def event_sound(event: Event, ninja: Ninja) -> tuple[Names, float]:
+    """The sounds of an event, and how loud it is, a share."""
+    if event.kind == DIED:
+        return BY_DEATH.get(event.cause, OTHER_DEATH), 1.0
+    if event.kind == events.LANDED:
+        speed = abs(event.dx * ninja.floor_x + event.dy * ninja.floor_y)
+        return by_hardness(LANDING, speed) or BY_EVENT[events.LANDED], min(1.0, 0.5 + speed / 8)
+    level = 1.0
+    if event.kind in (events.JUMPED, events.WALL_JUMPED):
+        level = min(1.0, 0.4 + 0.1 * (abs(ninja.x - ninja.prev_x) + abs(ninja.y - ninja.prev_y)))
+    return BY_EVENT.get(event.kind, ()), level
+
+
+LOOPS: dict[str, Names] = {
+    "skid": several("skid", 3),
+    "slide": several("slide", 3),
+    "rocket-flight": ("rocket-flight",),
+    "laser-beam": ("laser-beam",),
+    "guard": ("guard",),
+}
+"""Sounds that go on, with their variants. Each has a channel of its own."""
+
+_LASTING = {
+    LAUNCHER: (states.LAUNCHER_FLIGHT, "rocket-flight"),
+    DRONE: (states.DRONE_FIRING, "laser-beam"),
+    FLOOR_GUARD: (states.GUARD_CHASE, "guard"),
+}
+"""By kind: the routine that lasts, and its loop."""
+
+
+def has_loop(o: Object) -> bool:
+    """Whether an object makes a lasting sound at times."""
+    return o.kind in (LAUNCHER, FLOOR_GUARD) or (o.kind == DRONE and o.weapon == states.WEAPON_LASER)
+
+
+def loop_levels(world: World, machines: Iterable[Object]) -> dict[str, float]:
+    """How loud each loop is, 0 to 1. ``machines``: the launchers, floor guards and laser drones of the world."""
+    levels = dict.fromkeys(LOOPS, 0.0)
+    ninja = world.ninja
+    vx, vy = ninja.x - ninja.prev_x, ninja.y - ninja.prev_y
+    if ninja.state == states.SKIDDING:
+        levels["skid"] = _percent(100 * abs(vx * -ninja.floor_y + vy * ninja.floor_x))
+    elif ninja.state == states.SLIDING:
+        levels["slide"] = _percent(70 * abs(vy))
+    for machine in machines:
+        routine, name = _LASTING[machine.kind]
+        if machine.routine == routine:
+            levels[name] = 1.0
+    return levels
+
+
+def _percent(value: float) -> float:
+    """A volume in whole per cent, as a share."""
+    return min(100, floor(value)) / 100

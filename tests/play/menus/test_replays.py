@@ -1,0 +1,67 @@
+"""The list of replays: opens at once whatever there is, is searched, and says what each run is."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from time import process_time
+
+from ninja_game.files.user_folder import bundled_replays
+from ninja_game.formats.load import load_replays
+from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.text import Replay
+from ninja_game.play.menus.help import room_level
+from ninja_game.play.menus.replays import FIRST_SECONDS, ReplaysScreen, _row_of_recording
+from ninja_game.player.player_data import PlayerData
+from tests.support.menu_driver import MenuDriver
+
+MANY = 10_000
+
+
+def with_replays(folder: Path, count: int) -> None:
+    """Records with so many replays of one level, each with a name of its own."""
+    player = PlayerData(folder)
+    player.open_records()
+    recording = load_replays(bundled_replays()[0])[0]
+    first = player.records.keep_replay(replace(recording.replay, level=recording.level))
+    columns = [row[1] for row in player.store.connection.execute("PRAGMA table_info(replay)") if row[1] != "id"]
+    chosen = ", ".join({"name": "'Level ' || ?"}.get(column, column) for column in columns)
+    with player.store.change() as db:
+        query = f"INSERT INTO replay ({', '.join(columns)}) SELECT {chosen} FROM replay WHERE id = ?"
+        db.executemany(query, [(number, first) for number in range(count)])
+    player.close()
+
+
+def test_ten_thousand_replays_open_within_a_tenth_of_a_second_and_all_are_found(tmp_path: Path) -> None:
+    with_replays(tmp_path, MANY)
+    driver = MenuDriver(tmp_path)
+    try:
+        before = process_time()
+        screen = driver.open("Replays")
+        taken = process_time() - before
+        assert isinstance(screen, ReplaysScreen)
+        assert taken < 0.1 + FIRST_SECONDS
+        assert screen.rows[0].text == f"Level {MANY - 1}", "the newest first"
+        driver.mouse(*screen.field.centre)
+        driver.type("level 37")
+        assert {row.text for row in screen.rows} >= {"Level 37", "Level 3700"}
+        driver.type("00")
+        assert [row.text for row in screen.rows] == ["Level 3700"]
+        driver.type("x")
+        assert not screen.rows
+        driver.press("e")
+        assert screen.list.empty == "No replay has these words"
+    finally:
+        driver.close()
+
+
+def test_rows_say_exit_or_gold_and_authors_have_one_name(driver: MenuDriver) -> None:
+    screen = driver.open("Replays")
+    assert isinstance(screen, ReplaysScreen)
+    driver.wait(lambda: len(screen.rows) >= len(bundled_replays()))
+    assert "exit" in {row.what.split(", ")[0] for row in screen.rows}
+    level = room_level(["@.o.o"], ())
+    full = Replay(b"", 9, "exit", gold=level.gold, level=level)
+    assert _row_of_recording(Recording(level, full), "").what == "all gold, 93.775"
+    theirs = replace(full, author="ninja-game check")
+    assert _row_of_recording(Recording(level, theirs), "").who == "ninja-game"

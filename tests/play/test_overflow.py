@@ -1,0 +1,61 @@
+"""No text or widget leaves its place, overlaps another, or is cut: every screen, all sizes of text, any window."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from pathlib import Path
+from unittest.mock import patch
+
+import pygame
+
+from ninja_game.files.user_folder import CHECKOUT
+from ninja_game.ui.theme import TEXT_SIZES
+from ninja_game.view.level_view import LevelView
+from tests.support.game_screens import run_tour
+from tests.support.layout import Layout, noted
+from tests.support.menu_driver import MenuDriver
+from tests.support.own_pack import PACK
+
+SIZES = ((640, 480), (792, 600), (2560, 1600))
+LONGEST = 40 * "W"
+NAMES = re.compile(r"(?m)^(name|author|level|level-author|comment|teaches): .*$")
+TITLES = re.compile(r'"[A-Z][^"]*"')
+
+
+def pack_of_long_names(folder: Path) -> Path:
+    """A copy of the tests' pack in which all that has a name has the longest."""
+    pack = folder / "pack"
+    shutil.copytree(PACK, pack)
+    for file in pack.rglob("*.txt"):
+        file.write_text(NAMES.sub(rf"\1: {LONGEST}", file.read_text("utf-8")), "utf-8")
+    titles = pack / "pack.toml"
+    titles.write_text(TITLES.sub(f'"{LONGEST}"', titles.read_text("utf-8")), "utf-8")
+    return pack
+
+
+def test_nothing_leaves_its_place_on_any_screen(tmp_path: Path) -> None:
+    found: set[str] = set()
+    pack = pack_of_long_names(tmp_path)
+
+    def show(driver: MenuDriver, name: str) -> None:
+        app = driver.app
+        with patch.object(LevelView, "draw", lambda *_, **__: None):
+            for size in SIZES:
+                pygame.display.set_mode(size, pygame.RESIZABLE)
+                for words, percent in TEXT_SIZES.items():
+                    app.change_settings(text_size=percent, name=LONGEST)
+                    app._lay_out()
+                    layouts.append(Layout())
+                    app.draw()
+                    where = f"{name}: {size[0]} x {size[1]}, {words}"
+                    found.update(f"{where}: {each}" for each in layouts.pop().problems(app))
+        pygame.display.set_mode(SIZES[1], pygame.RESIZABLE)
+        app._lay_out()
+
+    with (
+        noted() as layouts,
+        patch("tests.support.game_screens.instead_of_ours", lambda: patch.dict(CHECKOUT, levels=pack)),
+    ):
+        run_tour(tmp_path / "player", SIZES[1], show)
+    assert not found, f"{len(found)} findings\n" + "\n".join(sorted(found))

@@ -1,0 +1,179 @@
+"""What a pass and a death look like: a freeze, a stamped medal, the failed tries, a wipe; all of it can be off."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pygame
+import pytest
+
+from ninja_game.play.level.hud import hud_view
+from ninja_game.play.level.play import STAMP_TICKS, TRIES_FROM, TRIES_TICKS, Phase
+from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.wipe import WIPE_MS
+from ninja_game.player.playthrough import LevelRun
+from ninja_game.sim.events import LANDED, MINE_EXPLODED
+from tests.support.menu_driver import FRAME_MS, MenuDriver
+from tests.support.players import deadly_level, entry
+
+
+@pytest.fixture
+def driver(tmp_path: Path) -> Iterator[MenuDriver]:
+    driver = MenuDriver(tmp_path)
+    yield driver
+    driver.close()
+
+
+@pytest.fixture
+def heard(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The names of the sounds that were asked for."""
+    names: list[str] = []
+    monkeypatch.setattr(driver.app.audio_output, "play", lambda name, **_: names.append(name))
+    return names
+
+
+def passed_level(driver: MenuDriver, *, failures: int = 0) -> LevelScreen:
+    """The first level, in the tick of its exit contact."""
+    driver.press("return")
+    level = driver.shown(LevelScreen)
+    first = driver.player.catalogue.episodes[0].levels[0]
+    for ticks in range(30, 30 + failures):
+        level.begin()
+        driver.keys.script = [2] * ticks
+        driver.frames(ticks)
+        level.retry()
+    level.begin()
+    run = driver.player.catalogue.author_run(first)
+    assert run is not None
+    driver.keys.script = list(run.inputs)
+    for _ in range(len(run.inputs) + 5):
+        driver.frames(1)
+        if level.attempt.outcome != "running":
+            return level
+    raise AssertionError("the level is not passed")
+
+
+def picture(driver: MenuDriver) -> bytes:
+    return pygame.image.tobytes(driver.app.surface, "RGB")
+
+
+def test_picture_stands_still_for_two_frames_and_the_run_is_not_touched(driver: MenuDriver) -> None:
+    level = passed_level(driver)
+    tick, inputs = level.attempt.simulation.tick, bytes(level.attempt.inputs)
+    driver.frames(2)
+    assert level.attempt.simulation.tick == tick
+    driver.frames(1)
+    assert level.attempt.simulation.tick == tick + 1
+    assert bytes(level.attempt.inputs) == inputs
+
+
+def test_medal_comes_down_and_is_heard_when_it_lands(driver: MenuDriver, heard: list[str]) -> None:
+    level = passed_level(driver)
+    stamps = []
+    for _ in range(40):
+        stamps.append((level.play.after_end, level.play.stamp, heard.count("medal")))
+        driver.frames(1)
+    assert stamps == sorted(stamps)
+    assert next(ticks for ticks, _, sounds in stamps if sounds) == STAMP_TICKS
+    assert all((stamp == 1.0) == (ticks >= STAMP_TICKS) for ticks, stamp, _ in stamps)
+    assert heard.count("medal") == 1
+    assert hud_view(level.play).medal == "author"
+
+
+def test_failed_tries_run_together_for_two_seconds(driver: MenuDriver) -> None:
+    level = passed_level(driver, failures=3)
+    shown = []
+    for _ in range(TRIES_FROM + TRIES_TICKS + 10):
+        driver.frames(1)
+        shown.append(len(level.play.view.ghosts))
+    assert shown.count(3) == TRIES_TICKS
+    assert shown[-1] == 0
+    assert len(level.play.tries) == 3
+
+
+def test_reduced_motion_has_none_of_it(driver: MenuDriver) -> None:
+    driver.app.change_settings(reduced_motion=True)
+    driver.app.wipes = True
+    level = passed_level(driver, failures=2)
+    tick = level.attempt.simulation.tick
+    driver.frames(1)
+    assert level.attempt.simulation.tick == tick + 1
+    assert level.play.stamp == 1.0
+    driver.frames(TRIES_FROM + 5)
+    assert not level.play.view.ghosts
+    level.go_on()
+    driver.frames(1)
+    assert driver.app.wipe._before is None
+
+
+def test_wipe_shows_both_pictures_and_delays_no_key(driver: MenuDriver) -> None:
+    driver.app.wipes = True
+    before = picture(driver)
+    driver.press("return")
+    level = driver.shown(LevelScreen)
+    middle = picture(driver)
+    driver.frames(WIPE_MS // FRAME_MS)
+    after = picture(driver)
+    right = [slice(3 * (792 * row + 700), 3 * 792 * (row + 1)) for row in range(600)]
+    assert [middle[part] for part in right] == [before[part] for part in right] != [after[part] for part in right]
+    level.go_on()
+    level.begin()
+    driver.keys.script = [2] * 4
+    driver.frames(4)
+    assert driver.app.wipe._before is not None
+    assert bytes(level.attempt.inputs) == b"\2\2\2\2"
+
+
+def test_cause_of_death_stands_large_at_once(driver: MenuDriver) -> None:
+    driver.app.push(LevelScreen(driver.app, LevelRun(driver.player, entry(deadly_level()))))
+    level = driver.shown(LevelScreen)
+    level.begin()
+    driver.keys.script = [2] * 60
+    driver.frames(60)
+    assert level.phase is Phase.DEAD
+    said = hud_view(level.play).said
+    assert said is not None
+    assert said[0].startswith("Killed by a mine.")
+
+
+@pytest.mark.parametrize("shake", [0, 100])
+def test_explosion_shakes_the_picture_as_much_as_is_wished(driver: MenuDriver, shake: int) -> None:
+    driver.app.change_settings(shake=shake)
+    driver.app.push(LevelScreen(driver.app, LevelRun(driver.player, entry(deadly_level()))))
+    level = driver.shown(LevelScreen)
+    level.begin()
+    driver.keys.script = [2] * 60
+    until(driver, level, MINE_EXPLODED)
+    assert (level.play.view._shake > 0) is bool(shake)
+    pictures = []
+    for _ in range(2):
+        driver.app.stack.redraw_all()
+        driver.frames(1, ms=0)
+        pictures.append(picture(driver))
+        level.play.view._shake = 0.0
+    assert (pictures[0] != pictures[1]) is bool(shake)
+
+
+def test_landing_presses_the_figure_together_by_its_impact(driver: MenuDriver) -> None:
+    driver.press("return")
+    level = driver.shown(LevelScreen)
+    squashes = []
+    for held in (2, 40):
+        level.retry()
+        level.begin()
+        driver.keys.script = [0] * 10 + [4] * held + [0] * 200
+        driver.frames(14)
+        until(driver, level, LANDED)
+        squashes.append(level.play.view.ninja_animation.squash)
+    assert 0 < squashes[0] < squashes[1]
+
+
+def until(driver: MenuDriver, level: LevelScreen, kind: int) -> None:
+    """Go on until an event of a kind has happened."""
+    world = level.attempt.simulation.world
+    for _ in range(300):
+        driver.frames(1)
+        if kind in {event.kind for event in world.events[: world.event_count]}:
+            return
+    raise AssertionError("the event does not come")

@@ -1,0 +1,1 @@
+"""Sounds and music: what they are made of, and how."""
