@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import lru_cache
-from math import pi, sin
+from math import cos, pi, sin
 
 import pygame
 
@@ -14,8 +14,11 @@ from ninja_game.ui.theme import Palette, mixed
 _WIDE, _HIGH = 396, 300
 """Px of the sheet on which the layers are painted."""
 
-_LAYERS = ((0.0, 8), (0.35, 5), (0.7, 3), (1.0, 2))
-"""How near each layer is, 0…1, and how many px of the sheet become one: what is farther off is softer."""
+_LAYERS = ((0.0, 5.0), (0.35, 4.0), (0.7, 3.0), (1.0, 2.0))
+"""How near each layer is, 0…1, and how wide its haze, px of the sheet: what is farther off is softer."""
+
+_COPIES, _FAINT = 6, (255, 255, 255, 60)
+"""Around a shape lies haze: so many copies about a circle, each so faint."""
 
 _BAND, _HORIZON = 3, 140
 """The sky's colour changes in bands so high, down to the horizon, px of the sheet."""
@@ -51,10 +54,15 @@ def _painted(size: tuple[int, int], scenery: str, *colours: tuple[int, ...]) -> 
     for y in range(0, _HIGH, _BAND):
         sheet.fill(mixed(sky, horizon, y / _HORIZON), (0, y, _WIDE, _BAND))
     numbers = _numbers(scenery)
-    for nearness, softness in _LAYERS:
-        SCENERIES[scenery](sheet, mixed(far, near, nearness), _HIGH * (0.3 + 0.5 * nearness), numbers)
-        small = pygame.transform.smoothscale(sheet, (_WIDE // softness, _HIGH // softness))
-        sheet = pygame.transform.smoothscale(small, (_WIDE, _HIGH))
+    for nearness, wide in _LAYERS:
+        layer = pygame.Surface((_WIDE, _HIGH), pygame.SRCALPHA)
+        SCENERIES[scenery](layer, mixed(far, near, nearness), _HIGH * (0.3 + 0.5 * nearness), numbers)
+        haze = layer.copy()
+        haze.fill(_FAINT, special_flags=pygame.BLEND_RGBA_MULT)
+        for copy in range(_COPIES):
+            turn = 2 * pi * copy / _COPIES
+            sheet.blit(haze, (round(wide * cos(turn)), round(wide * sin(turn))))
+        sheet.blit(layer, (0, 0))
     return pygame.transform.smoothscale(sheet, size)
 
 

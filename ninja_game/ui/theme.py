@@ -303,7 +303,7 @@ AFTERNOON = _palette(
 )  # fmt: skip
 
 DUSK = _palette(
-    "dusk", DARK, scenery="towers", background="#763a5c", sky="#513e7c", far="#754674", near="#66406f", tile="#150e26",
+    "dusk", DARK, scenery="towers", background="#763a5c", sky="#513e7c", far="#6d3f69", near="#56376b", tile="#150e26",
     text="#fbf2ff", faint="#d8c8e2", on_tile="#f0e4f6", panel="#3a2752", panel_edge="#8d6fa0", ninja="#fff4ea",
     accent="#ffb072", band="#ffb072", good="#8fe0a0", bad="#ff9a94", weapon="#ff6f64", middle="#b0a4c6",
     light="#d6cde6", exit="#58d6cc", exit_light="#dcfff8", turret="#ffa6d2", launcher="#ffb08a", electric="#5cd2ff",

@@ -96,8 +96,9 @@ class Backdrop:
         if light is not None and is_near(light.x, light.y):
             picture = light_picture(light.look, self.canvas.scale, self.palette)
             px, py = self.canvas.point(light.x, light.y)
-            middle = px - self._corner[0], py - self._corner[1]
-            self._lights[slot] = light, picture, picture.get_rect(center=middle)
+            reach = picture.width // 2
+            corner = px - self._corner[0] - reach, py - self._corner[1] - reach
+            self._lights[slot] = light, picture, picture.get_rect(topleft=corner)
             changed.append(self._lights[slot][2])
         return changed
 
