@@ -44,6 +44,7 @@ VALUES: dict[str, tuple[Any, ...]] = {
     **dict.fromkeys(("mechanism", "mood", "variant"), (0, 1, 2)),
     **dict.fromkeys(("flame", "look", "weapon"), (0, 1, 2, 3)),
     "colour": ("ninja",), "heat": (0, 5), "role": ("dust", "smoke"), "step": (0, 3, 7),
+    "warning": ("rocket", "weapon", "chase", "turret"),
 }  # fmt: skip
 """What the parameters of drawings are, by their names."""
 
