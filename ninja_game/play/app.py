@@ -19,6 +19,7 @@ from ninja_game.play.wipe import Wipe
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import FASTEST_TICK_GAIN
 from ninja_game.player.settings import BY_COLUMN, Settings
+from ninja_game.runtime import in_page_or_not
 from ninja_game.sim.rules import TICK_MS
 from ninja_game.ui.audio.player import AudioOutput, AudioPlayer
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
@@ -159,8 +160,8 @@ class ScreenStack:
         return self._screens[max(first, 0) :]
 
 
-UNSEEN = {"dummy", "offscreen", "emscripten"}
-"""Drivers of SDL without a wipe: where nobody looks on, and in a page, where whole pictures cost too much."""
+UNSEEN = {"dummy", "offscreen"}
+"""Drivers of SDL without a wipe: nobody looks on."""
 
 FALLBACK_RATE = 60
 """Pictures per second where the display does not say its rate."""
@@ -205,7 +206,8 @@ class App:
         self._notice_ms = 0
         self.window = window or Window(size, self.settings)
         self.wipe = Wipe()
-        self.wipes = pygame.display.get_driver() not in UNSEEN
+        # In a page whole pictures in a row cost too much.
+        self.wipes = in_page_or_not(page=False, desktop=pygame.display.get_driver() not in UNSEEN)
         pygame.font.init()
         self._lay_out()
 

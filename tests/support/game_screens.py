@@ -13,7 +13,9 @@ from threading import Thread
 from typing import Self
 from unittest.mock import Mock, patch
 
+import numpy as np
 import pygame
+from numpy.typing import NDArray
 
 from ninja_game import __version__
 from ninja_game.editor.certify import Search
@@ -441,6 +443,11 @@ def run_tour(folder: Path, size: tuple[int, int], show: Callable[[MenuDriver, st
             each.stop()  # type: ignore[attr-defined]
 
 
+def _pixels(surface: pygame.Surface) -> NDArray[np.int64]:
+    """The px of a surface; nothing of one of the page's."""
+    return pygame.surfarray.array3d(surface).astype(int) if "surfarray" in vars(pygame) else np.zeros(1, int)
+
+
 def screens_as_texts(
     folder: Path, size: tuple[int, int] = (792, 600), steps: Tour = tour, log: DrawLog | None = None
 ) -> dict[str, str]:
@@ -451,12 +458,12 @@ def screens_as_texts(
     def show(driver: MenuDriver, name: str) -> None:
         with log.noting_calls():
             driver.app.draw()
-        by_steps = pygame.surfarray.array3d(driver.app.surface).astype(int)
+        by_steps = _pixels(driver.app.surface)
         driver.app.stack.redraw_all()
         with log.recording(driver.app.theme.palette) as lines:
             driver.app.draw()
         # A line that is cut off may differ by one where it is smoothed.
-        if abs(pygame.surfarray.array3d(driver.app.surface) - by_steps).max() > 3:
+        if abs(_pixels(driver.app.surface) - by_steps).max() > 3:
             log.stale.append(name)
         assert name not in shown
         shown[name] = "\n".join(lines).replace(str(folder), "FOLDER").replace(__version__, "VERSION") + "\n"
