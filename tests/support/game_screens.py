@@ -206,6 +206,9 @@ def _levels(driver: MenuDriver) -> Iterator[str]:
             driver.press("4")
             yield "shooting-rays"
             driver.press("4")
+            driver.app.change_settings(sound_cues=True)
+            yield "shooting-with-marks-for-sounds"
+            driver.app.change_settings(sound_cues=False)
     driver.press("escape")
     home(driver)
     driver.open("Levels")
