@@ -54,7 +54,7 @@ def test_the_page_refuses_what_is_no_sound(data: bytes, python: Any) -> None:
 def test_nothing_can_be_heard_before_the_player_has_pressed_something(root: Path, python: Any) -> None:
     path = root / "assets" / "sounds" / "chase.ogg"
     python.evaluate(START.replace("sounds.unlock();", ""), base64.b64encode(path.read_bytes()).decode())
-    eventually(python, lambda: python.evaluate("() => sounds.buffers[0]"), "the sound is not decoded")
+    eventually(python, lambda: python.evaluate("() => Boolean(sounds.buffers[0])"), "the sound is not decoded")
     assert python.evaluate(LENGTH) == 0
     python.evaluate("() => sounds.unlock()")
     assert python.evaluate(LENGTH) > 0
