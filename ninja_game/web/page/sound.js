@@ -21,8 +21,12 @@ export class Sounds {
 
   // The number of a sound that comes from the host of the page, once; one that does not come is asked for again.
   fetch(url) {
-    const coming = () => fetch(url).then((answer) => (answer.ok ? answer.arrayBuffer() : Promise.reject(answer.status)));
-    if (!(url in this.fetched)) this.fetched[url] = this.decode(coming(), () => delete this.fetched[url]);
+    const got = async () => {
+      const answer = navigator.onLine ? await fetch(url) : { ok: false, status: "no network" };
+      if (!answer.ok) throw answer.status;
+      return answer.arrayBuffer();
+    };
+    if (!(url in this.fetched)) this.fetched[url] = this.decode(got(), () => delete this.fetched[url]);
     return this.fetched[url];
   }
 
