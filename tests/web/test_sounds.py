@@ -54,7 +54,7 @@ def test_the_page_refuses_what_is_no_sound(data: bytes, python: Any) -> None:
 def test_nothing_can_be_heard_before_the_player_has_pressed_something(root: Path, python: Any) -> None:
     path = root / "assets" / "sounds" / "chase.ogg"
     python.evaluate(START.replace("sounds.unlock();", ""), base64.b64encode(path.read_bytes()).decode())
-    eventually(python, lambda: python.evaluate("() => sounds.buffers[0]"), "the sound is not decoded")
+    eventually(python, lambda: python.evaluate("() => Boolean(sounds.buffers[0])"), "the sound is not decoded")
     assert python.evaluate(LENGTH) == 0
     python.evaluate("() => sounds.unlock()")
     assert python.evaluate(LENGTH) > 0
@@ -74,6 +74,9 @@ def test_music_is_fetched_when_it_is_wanted(site: Path, python: Any) -> None:
     python.evaluate("() => host.sounds.unlock()")
     number = python.evaluate(f"() => host.sound('/game/ninja_game/data/assets/sounds/music/{layers[0]}')")
     eventually(python, lambda: python.evaluate(f"() => host.length({number})"), "the music does not come")
-    missing = python.evaluate("() => host.sound('/game/ninja_game/data/assets/sounds/music/none.ogg')")
-    python.wait_for_timeout(100)
+    again = python.evaluate(f"() => host.sound('/game/ninja_game/data/assets/sounds/music/{layers[0]}')")
+    assert again == number, "it is kept"
+    ask = "() => host.sound('/game/ninja_game/data/assets/sounds/music/none.ogg')"
+    missing = python.evaluate(ask)
+    eventually(python, lambda: python.evaluate(ask) != missing, "what did not come is not asked for again")
     assert python.evaluate(f"() => host.length({missing})") == 0

@@ -221,13 +221,13 @@ RECIPES: Recipes = {
     "turret-lock": (0.35, lambda: echo(bell(988.0, 0.09, 0.03), 0.11, 0.9, 3)),
     **several("turret-fire", 0.70, [partial(shot, k) for k in range(2)]),
     "laser-charge": (0.35, lambda: turn(160, 940, 0.84, released(lambda s: s**1.5))),
-    "laser-beam": (0.40, lambda: hum(1.5, 146, 12, BRIGHT, 0.8) + 0.3 * noise(1.5, 2000, 15_000, 37)),
+    "laser-beam": (0.32, lambda: hum(1.5, 146, 12, BRIGHT, 0.8) + 0.3 * noise(1.5, 2000, 15_000, 37)),
     "chaingun-charge": (0.35, lambda: turn(50, 190, 0.9, released(lambda s: 0.2 + 0.8 * s))),
     **several("chaingun-shot", 0.55, [partial(thud, 0.12, pitch, 38 + pitch, grit=2.5, edge=1.5)
                                       for pitch in (190, 182, 201)]),
     "chaingun-off": (0.30, lambda: turn(190, 45, 0.7, lambda s: (1 - s) ** 1.2)),
     "chase": (0.45, lambda: whistle(300, 1200, 0.35, 0.12, bend=0.6)),
-    "guard": (0.25, lambda: hum(1.0, 240, 6, (*HOLLOW, 0.0, 0.06, 0.0, 0.04), 0.9)
+    "guard": (0.18, lambda: hum(1.0, 240, 6, (*HOLLOW, 0.0, 0.06, 0.0, 0.04), 0.9)
               + 0.05 * noise(1.0, 3000, 14_000, 46)),
     "menu-move": (0.15, lambda: bell(740.0, 0.05, 0.012, air=0.5)),
     "menu-choose": (0.22, lambda: tone(glide(560, 840, 0.09), 0.09, overtones=HOLLOW) * fade(0.09, half_life=0.03)

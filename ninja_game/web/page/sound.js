@@ -5,6 +5,7 @@ const OGG = 0x4f676753; // "OggS"
 export class Sounds {
   constructor() {
     this.buffers = []; // by number; null until it is decoded
+    this.fetched = {}; // numbers by address
     this.channels = [];
     this.audio = null;
     this.muted = false;
@@ -18,19 +19,26 @@ export class Sounds {
     return bytes.length >= 4 && view.getUint32(0) === OGG ? this.decode(Promise.resolve(bytes.slice().buffer)) : -1;
   }
 
-  // The number of a sound that comes from the host of the page; one that does not come stays silent.
+  // The number of a sound that comes from the host of the page, once; one that does not come is asked for again.
   fetch(url) {
-    return this.decode(
-      fetch(url).then((answer) => (answer.ok ? answer.arrayBuffer() : Promise.reject(answer.status))),
-    );
+    const got = async () => {
+      const answer = navigator.onLine ? await fetch(url) : { ok: false, status: "no network" };
+      if (!answer.ok) throw answer.status;
+      return answer.arrayBuffer();
+    };
+    if (!(url in this.fetched)) this.fetched[url] = this.decode(got(), () => delete this.fetched[url]);
+    return this.fetched[url];
   }
 
-  decode(coming) {
+  decode(coming, failed = () => {}) {
     const number = this.buffers.push(null) - 1;
     coming
       .then((data) => this.decoder.decodeAudioData(data))
       .then((buffer) => (this.buffers[number] = buffer))
-      .catch((why) => console.warn("a sound stays silent:", why));
+      .catch((why) => {
+        console.warn("a sound stays silent:", why);
+        failed();
+      });
     return number;
   }
 

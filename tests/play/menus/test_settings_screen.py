@@ -42,7 +42,7 @@ def test_up_from_the_top_row_stays_on_the_page(driver: MenuDriver, screen: Setti
     driver.settings_page("Sound")
     assert screen.focus is screen.widgets[1]
     driver.press("up")
-    assert screen.focus is screen.widgets[2]
+    assert screen.focus is screen.widgets[-1]
     assert screen.page == "Sound"
 
 
