@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -9,11 +10,14 @@ import pygame
 import pytest
 from numpy.typing import NDArray
 
+from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.text import Replay
 from ninja_game.play.app import App
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.thumbnails import Thumbnails
+from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import LevelRun
 from ninja_game.sim import kinds
@@ -158,6 +162,20 @@ def test_the_picture_follows_the_column_of_what_is_shown(app: App) -> None:
     app.pop()
     app.frame(0)
     assert app.theme.palette is MOODS[0]
+
+
+def test_a_run_of_an_episode_is_watched_in_its_mood(app: App, recording: Recording) -> None:
+    app.push(in_column(app, 3))
+    app.frame(0)
+    app.push(ReplayScreen(app, [recording]))
+    app.frame(0)
+    assert app.theme.palette is MOODS[0]
+    level = replace(recording.level, objects=recording.level.objects[:-1])
+    app.pop()
+    app.frame(0)
+    app.push(ReplayScreen(app, [Recording(level, Replay.of_inputs(recording.inputs, level, name="other"))]))
+    app.frame(0)
+    assert app.theme.palette is MOODS[3]
 
 
 def test_a_level_is_laid_out_once_in_its_mood(app: App) -> None:
