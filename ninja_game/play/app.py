@@ -432,9 +432,8 @@ def build_app(
     """
     player = PlayerData(folder)
     settings = player.settings
-    bindings = controls or Bindings(
-        settings.keys, settings.pad, dead_zone=settings.dead_zone, tap_to_run=settings.tap_to_run
-    )
+    bindings = controls or Bindings(settings.keys, settings.pad, dead_zone=settings.dead_zone)
+    bindings.tap_to_run = settings.tap_to_run
     sound = audio_output or AudioPlayer(
         data_folder("assets") / "sounds",
         volume=settings.volume,

@@ -235,7 +235,7 @@ def read_settings(path: Path) -> tuple[Settings, list[str]]:
 
 
 def glance(path: Path) -> Settings:
-    """The settings in a file as far as they can be used, for what cannot wait; nothing is told, and nothing moved."""
+    """The settings in a file as far as they can be used, for what cannot wait: no message, no file moved."""
     try:
         with _long_numbers():
             return _settings_of(parse_toml(read_utf8(path, MAX_BYTES), any_number=True))[0]

@@ -94,7 +94,8 @@ def _tall() -> Level:
 
 
 def test_a_tap_runs_until_the_next_one(app: App) -> None:
-    keys = Bindings(tap_to_run=True)
+    keys = Bindings()
+    keys.tap_to_run = True
     assert _tapped(keys, "right") == KEY_RIGHT
     assert _tapped(keys, "left") == 0
     assert _tapped(keys, "left") == KEY_LEFT

@@ -8,14 +8,16 @@ from pathlib import Path
 from unittest.mock import patch
 
 import pygame
+import pytest
 
 from ninja_game.files.user_folder import CHECKOUT
 from ninja_game.ui.theme import TEXT_SIZES
 from ninja_game.view.level_view import LevelView
-from tests.support.game_screens import run_tour
+from tests.support.game_screens import Tour, run_tour, tour
 from tests.support.layout import Layout, noted
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK
+from tests.support.tas_screens import tas_editor
 
 SIZES = ((640, 480), (792, 600), (2560, 1600))
 LONGEST = 40 * "W"
@@ -34,17 +36,22 @@ def pack_of_long_names(folder: Path) -> Path:
     return pack
 
 
-def test_nothing_leaves_its_place_on_any_screen(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    "steps, texts", [(tour, TEXT_SIZES), (tas_editor, {"normal": 100})], ids=["game", "tas-editor"]
+)
+def test_nothing_leaves_its_place_on_any_screen(tmp_path: Path, steps: Tour, texts: dict[str, int]) -> None:
+    """The TAS editor has a setting of its own for the size of its text."""
     found: set[str] = set()
-    pack = pack_of_long_names(tmp_path)
+    pack = pack_of_long_names(tmp_path) if steps is tour else PACK
 
     def show(driver: MenuDriver, name: str) -> None:
         app = driver.app
         with patch.object(LevelView, "draw", lambda *_, **__: None):
             for size in SIZES:
                 pygame.display.set_mode(size, pygame.RESIZABLE)
-                for words, percent in TEXT_SIZES.items():
-                    app.change_settings(text_size=percent, name=LONGEST)
+                for words, percent in texts.items():
+                    # Written to no file: this is done a thousand times.
+                    app.player.settings = app.settings.changed(text_size=percent, name=LONGEST)
                     app._lay_out()
                     layouts.append(Layout())
                     app.draw()
@@ -52,10 +59,11 @@ def test_nothing_leaves_its_place_on_any_screen(tmp_path: Path) -> None:
                     found.update(f"{where}: {each}" for each in layouts.pop().problems(app))
         pygame.display.set_mode(SIZES[1], pygame.RESIZABLE)
         app._lay_out()
+        driver.frames(1, ms=0)
 
     with (
         noted() as layouts,
         patch("tests.support.game_screens.instead_of_ours", lambda: patch.dict(CHECKOUT, levels=pack)),
     ):
-        run_tour(tmp_path / "player", SIZES[1], show)
+        run_tour(tmp_path / "player", SIZES[1], show, steps)
     assert not found, f"{len(found)} findings\n" + "\n".join(sorted(found))

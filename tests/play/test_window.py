@@ -15,7 +15,8 @@ from ninja_game.play.app import App, Screen, build_app
 from ninja_game.play.clock import RunClock
 from ninja_game.play.main import main
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.window import fitting_size
+from ninja_game.play.window import Window, fitting_size
+from ninja_game.player.settings import Settings
 from ninja_game.ui.canvas import Canvas
 from tests.support.scripted import frames, scripted_app
 
@@ -198,3 +199,13 @@ def test_the_first_picture_comes_before_the_game_is_loaded(root: Path) -> None:
     assert float(taken) < 0.5, done.stderr
     assert "ninja_game.play.window" in modules
     assert not {"ninja_game.play.app", "ninja_game.play.main", "ninja_game.sim.world", "sqlite3"} & set(modules)
+
+
+@pytest.mark.parametrize("limit, waits", [(0, "1"), (144, "")])
+def test_pictures_wait_for_the_display_unless_a_rate_was_chosen(
+    monkeypatch: pytest.MonkeyPatch, limit: int, waits: str
+) -> None:
+    monkeypatch.setenv("SDL_RENDER_VSYNC", "")
+    monkeypatch.delenv("SDL_RENDER_VSYNC")
+    Window((792, 600), Settings(frame_limit=limit))
+    assert os.environ.get("SDL_RENDER_VSYNC", "") == waits

@@ -11,11 +11,14 @@ import pytest
 import soundfile
 
 from tests.support.visitor import eventually
+from tools.sounds.effects import LOOPS
+from tools.sounds.music import TRACKS
 
 START = """
 async (text) => {
   const { Sounds } = await import("./sound.js");
   window.sounds = new Sounds();
+  sounds.unlock();
   return sounds.add(Uint8Array.from(atob(text), (char) => char.charCodeAt(0)));
 }
 """
@@ -28,21 +31,19 @@ def test_the_page_decodes_a_sound_as_we_do(name: str, root: Path, python: Any) -
     assert python.evaluate(START, base64.b64encode(path.read_bytes()).decode()) == 0
     eventually(python, lambda: python.evaluate(LENGTH), "the sound is not decoded")
     wanted, rate = soundfile.read(path)
-    assert python.evaluate(LENGTH) == pytest.approx(len(wanted) / rate)
-    assert python.evaluate("() => sounds.buffers[0].sampleRate") == rate
     found = np.array(python.evaluate("() => Array.from(sounds.buffers[0].getChannelData(0))"))
-    assert np.abs(found - wanted)[256:].max() <= 0.001
+    assert python.evaluate("() => sounds.buffers[0].sampleRate") == rate
+    # Chromium leaves out some of the silence at the end of a short sound.
+    assert len(wanted) - 128 <= len(found) <= len(wanted)
+    assert np.abs(found - wanted[: len(found)]).max() <= 0.001
 
 
-def test_a_loop_has_no_seam_where_the_browser_has_dropped_samples(root: Path, python: Any) -> None:
-    path = root / "assets" / "sounds" / "laser-beam.ogg"
+@pytest.mark.parametrize("name", [*LOOPS, *(f"music/{track}" for track in TRACKS)])
+def test_a_loop_is_decoded_to_its_last_sample(name: str, root: Path, python: Any) -> None:
+    path = root / "assets" / "sounds" / f"{name}.ogg"
     python.evaluate(START, base64.b64encode(path.read_bytes()).decode())
     eventually(python, lambda: python.evaluate(LENGTH), "the sound is not decoded")
-    python.evaluate("() => { sounds.mend(0); sounds.mend(0); }")
-    found = np.array(python.evaluate("() => Array.from(sounds.buffers[0].getChannelData(0))"))
-    looped = np.concatenate([found[-2000:], found[1024:3000]])
-    steps = np.abs(np.diff(looped))
-    assert steps[1990:2010].max() <= np.abs(np.diff(soundfile.read(path)[0])).max()
+    assert python.evaluate("() => sounds.buffers[0].length") == soundfile.info(path).frames
 
 
 @pytest.mark.parametrize("data", [b"", b"RIFF" + bytes(60), b"Ogg"])
@@ -50,17 +51,27 @@ def test_the_page_refuses_what_is_no_sound(data: bytes, python: Any) -> None:
     assert python.evaluate(START, base64.b64encode(data).decode()) == -1
 
 
+def test_nothing_can_be_heard_before_the_player_has_pressed_something(root: Path, python: Any) -> None:
+    path = root / "assets" / "sounds" / "chase.ogg"
+    python.evaluate(START.replace("sounds.unlock();", ""), base64.b64encode(path.read_bytes()).decode())
+    eventually(python, lambda: python.evaluate("() => sounds.buffers[0]"), "the sound is not decoded")
+    assert python.evaluate(LENGTH) == 0
+    python.evaluate("() => sounds.unlock()")
+    assert python.evaluate(LENGTH) > 0
+
+
 def test_a_damaged_sound_is_silent(python: Any) -> None:
     assert python.evaluate(START, base64.b64encode(b"OggS" + bytes(60)).decode()) == 0
     python.wait_for_timeout(100)
     assert python.evaluate(LENGTH) == 0
-    python.evaluate("() => { sounds.unlock(); sounds.play(0, 0, 0, 0); }")
+    python.evaluate("() => { sounds.play(0, 0, 0, 0); }")
     assert not python.evaluate("() => sounds.busy(0)")
 
 
 def test_music_is_fetched_when_it_is_wanted(site: Path, python: Any) -> None:
     layers = sorted(path.name for path in (site / "music").glob("*.ogg"))
     assert layers
+    python.evaluate("() => host.sounds.unlock()")
     number = python.evaluate(f"() => host.sound('/game/ninja_game/data/assets/sounds/music/{layers[0]}')")
     eventually(python, lambda: python.evaluate(f"() => host.length({number})"), "the music does not come")
     missing = python.evaluate("() => host.sound('/game/ninja_game/data/assets/sounds/music/none.ogg')")

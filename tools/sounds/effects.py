@@ -215,7 +215,7 @@ RECIPES: Recipes = {
     "launch": (0.50, launch_pad),
     **several("mine", 0.85, [partial(blast, 0.49, 28), partial(blast, 0.55, 128, depth=62)]),
     "rocket-launch": (0.60, rocket_launch),
-    "rocket-flight": (0.50, lambda: noise(1.3, 150, 1600, 32) + 0.2 * noise(1.3, 2500, 14_000, 33)
+    "rocket-flight": (0.56, lambda: noise(1.3, 150, 1600, 32) + 0.2 * noise(1.3, 2500, 14_000, 33)
                       + 0.3 * hum(1.3, 92, 9, BRIGHT, 0.0)),
     **several("rocket-explode", 0.85, [partial(blast, 0.55, 33, depth=80), partial(blast, 0.62, 133, depth=66)]),
     "turret-lock": (0.35, lambda: echo(bell(988.0, 0.09, 0.03), 0.11, 0.9, 3)),
@@ -227,8 +227,8 @@ RECIPES: Recipes = {
                                       for pitch in (190, 182, 201)]),
     "chaingun-off": (0.30, lambda: turn(190, 45, 0.7, lambda s: (1 - s) ** 1.2)),
     "chase": (0.45, lambda: whistle(300, 1200, 0.35, 0.12, bend=0.6)),
-    "guard": (0.25, lambda: hum(0.33, 240, 6, (*HOLLOW, 0.0, 0.06, 0.0, 0.04), 0.9)
-              + 0.05 * noise(0.33, 3000, 14_000, 46)),
+    "guard": (0.25, lambda: hum(1.0, 240, 6, (*HOLLOW, 0.0, 0.06, 0.0, 0.04), 0.9)
+              + 0.05 * noise(1.0, 3000, 14_000, 46)),
     "menu-move": (0.15, lambda: bell(740.0, 0.05, 0.012, air=0.5)),
     "menu-choose": (0.22, lambda: tone(glide(560, 840, 0.09), 0.09, overtones=HOLLOW) * fade(0.09, half_life=0.03)
                     + 0.1 * noise(0.09, 5000, 15_000, 47) * fade(0.09, half_life=0.01)),

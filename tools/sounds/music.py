@@ -49,7 +49,7 @@ BEDS = {
 """By name: a calm D, a warm G, A that turns like a machine, a wide C, an E that drives, B with its dark second."""
 
 LAYERS = ("base", "danger", "speed", "exit")
-LOUDNESS = {"base": -22.5, "danger": -26.5, "speed": -28.0, "exit": -26.0}
+LOUDNESS = {"base": -22.5, "danger": -28.5, "speed": -28.0, "exit": -26.0}
 """Of each layer, LUFS."""
 
 

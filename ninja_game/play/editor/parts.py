@@ -129,17 +129,8 @@ class ToolButton(Button):
         self.enabled = {"undo": tools.history.can_undo, "redo": tools.history.can_redo}.get(self.name, True)
         text = self.text.format(symmetry=tools.symmetry, grid=self.view.grid.name, snap=tools.snap)
         colour = theme.palette.text if self.enabled else theme.palette.faint
-        theme.text(
-            surface,
-            text,
-            x + w / 2,
-            y + (h - 9) / 2,
-            size=9,
-            colour=colour,
-            align="centre",
-            bold=lit or focused,
-            width=w,
-        )
+        bold, place = lit or focused, (x + w / 2, y + (h - 9) / 2)
+        theme.text(surface, text, *place, size=9, colour=colour, align="centre", bold=bold, width=w)
 
 
 class EditorPart(Part):

@@ -219,8 +219,12 @@ class HelpScreen(MenuScreen):
         return row
 
     def _draw_table_head(self, surface: pygame.Surface, theme: Theme) -> None:
-        x, y, _, _ = WINDOW
+        x, y, w, _ = WINDOW
         theme.text(surface, KEYS_TITLE, x, y, size=18, bold=True)
+        words = "Settings change them. The right mouse button goes back"
+        theme.text(
+            surface, words, x + w, y + 6, size=10, colour=theme.palette.faint, align="right", width=w - KEY_COLUMNS[1]
+        )
         for left, text in zip(KEY_COLUMNS, ("Action", "Keyboard", "Gamepad"), strict=True):
             theme.text(surface, text, x + left, y + 34, size=10.5, colour=theme.palette.faint)
 

@@ -23,7 +23,7 @@ from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Question
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.catalogue import author_name
-from ninja_game.player.records import SavedReplay, has_words, level_score, seconds_text
+from ninja_game.player.records import NEWEST_SHOWN, SavedReplay, has_words, level_score, seconds_text
 from ninja_game.player.saving import forget_replay
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import ListView
@@ -191,7 +191,8 @@ class ReplaysScreen(MenuScreen):
         places = (54, "left"), (340, "left"), (612, "right"), (734, "right")
         for text, (x, align) in zip(self.heads, places, strict=True):
             theme.text(surface, text, x, 100, size=10.5, colour=palette.faint, align=align)
-        message = self.message or unreadable(self.problems)
+        newest = f"The newest {NEWEST_SHOWN} of yours; a search finds all" if len(self._saved) == NEWEST_SHOWN else ""
+        message = self.message or unreadable(self.problems) or newest
         theme.text(surface, message, 44, 545, size=10, colour=palette.faint, width=712)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:

@@ -251,12 +251,8 @@ class SettingsScreen(MenuScreen):
     def _page_widgets(self) -> list[Widget]:
         if self.page in ("Keyboard", "Gamepad"):
             return binding_widgets(self, "keys" if self.page == "Keyboard" else "pad")
-        return {
-            "Picture": self._picture,
-            "Sound": self._sound,
-            "Play": self._play,
-            "Accessibility": self._accessibility,
-        }[self.page]()
+        pages = {"Picture": self._picture, "Sound": self._sound, "Play": self._play}
+        return pages.get(self.page, self._accessibility)()
 
     # --- changing ---
 

@@ -25,11 +25,7 @@ GOLD = several("gold", 12)
 
 STEPS = several("step", 5)
 
-LANDING = (
-    (4.0, several("land-hard", 3)),
-    (2.0, several("land-medium", 3)),
-    (0.0, several("land-soft", 3)),
-)  # fmt: skip
+LANDING = ((4.0, several("land-hard", 3)), (2.0, several("land-medium", 3)), (0.0, several("land-soft", 3)))
 CORPSE = ((3.0, several("corpse-hard", 3)), (2.0, several("corpse-medium", 2)), (1.2, several("corpse-soft", 2)))
 """Slowest speed (px/tick) of each hardness, hardest first; of the ninja's feet, and of parts of a corpse."""
 

@@ -32,18 +32,11 @@ class Bindings:
     ``tap_to_run``: a press of left or right runs on until the next press of either.
     """
 
-    def __init__(
-        self,
-        keys: Inputs | None = None,
-        pad: Inputs | None = None,
-        *,
-        dead_zone: float = 0.35,
-        tap_to_run: bool = False,
-    ) -> None:
+    def __init__(self, keys: Inputs | None = None, pad: Inputs | None = None, *, dead_zone: float = 0.35) -> None:
         self.pads = Gamepads(dead_zone)
         self.pad_used = False
         self._tapped = -inf
-        self.tap_to_run = tap_to_run
+        self.tap_to_run = False
         self._running = 0
         self.bind(keys or {}, pad or {})
 

@@ -2,24 +2,12 @@
 
 const OGG = 0x4f676753; // "OggS"
 
-const LOST = 256; // first samples that may be missing
-const SEAM = 1024; // at the end of a loop so many less LOST become those before it
-
-// Samples of an Ogg file, by the last of its pages.
-function lengthOf(data) {
-  const view = new DataView(data);
-  let at = data.byteLength - 14;
-  while (at > 0 && view.getUint32(at) !== OGG) at--;
-  return at > 0 ? view.getUint32(at + 6, true) : 0;
-}
-
 export class Sounds {
   constructor() {
     this.buffers = []; // by number; null until it is decoded
     this.channels = [];
     this.audio = null;
     this.muted = false;
-    this.mended = new Set(); // numbers of the sounds that can loop
     // Decodes before there is a device.
     this.decoder = new OfflineAudioContext(1, 1, 44100);
   }
@@ -40,37 +28,15 @@ export class Sounds {
   decode(coming) {
     const number = this.buffers.push(null) - 1;
     coming
-      .then(async (data) => {
-        const length = lengthOf(data);
-        this.buffers[number] = this.whole(await this.decoder.decodeAudioData(data), length);
-      })
+      .then((data) => this.decoder.decodeAudioData(data))
+      .then((buffer) => (this.buffers[number] = buffer))
       .catch((why) => console.warn("a sound stays silent:", why));
     return number;
   }
 
-  // Browsers drop the first samples, not always as many: they come back as silence, so that layers stay in step.
-  whole(decoded, length) {
-    if (decoded.length >= length) return decoded;
-    const buffer = this.decoder.createBuffer(1, length, decoded.sampleRate);
-    buffer.copyToChannel(decoded.getChannelData(0), 0, length - decoded.length);
-    return buffer;
-  }
-
-  // Have a sound loop without its first samples and without a seam: its end becomes what comes before the place SEAM.
-  mend(sound) {
-    if (this.mended.has(sound)) return;
-    this.mended.add(sound);
-    const samples = this.buffers[sound].getChannelData(0);
-    for (let k = LOST; k < SEAM; k++) {
-      const share = (k - LOST) / (SEAM - LOST);
-      const end = samples.length - SEAM + k;
-      samples[end] = samples[end] * (1 - share) + samples[k] * share;
-    }
-  }
-
-  // Seconds; 0 while it is not decoded.
+  // Seconds; 0 while it cannot be heard: not decoded, or nothing pressed yet.
   length(sound) {
-    return this.buffers[sound] ? this.buffers[sound].duration : 0;
+    return this.audio && this.buffers[sound] ? this.buffers[sound].duration : 0;
   }
 
   // Browsers allow sound only after the player pressed something.
@@ -103,11 +69,6 @@ export class Sounds {
     const source = this.audio.createBufferSource();
     source.buffer = this.buffers[sound];
     source.loop = loops !== 0;
-    if (source.loop) {
-      this.mend(sound);
-      source.loopStart = SEAM / source.buffer.sampleRate;
-      source.loopEnd = source.buffer.duration;
-    }
     const now = this.audio.currentTime;
     channel.end = loops < 0 ? Infinity : now + source.buffer.duration * (loops + 1);
     channel.source = source;

@@ -46,7 +46,7 @@ class Sound:
             raise error(f"{path} is not a sound")
 
     def get_length(self) -> float:
-        """Seconds; 0 until the page has decoded it."""
+        """Seconds; 0 until the page can play it."""
         return float(LINK.page.length(self.number))
 
     def play(self) -> Channel | None:
