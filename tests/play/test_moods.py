@@ -124,6 +124,13 @@ def test_lines_stand_out_from_the_scenery(palette: Palette, sight: str, role: st
 
 @moods
 @pytest.mark.parametrize("sight", SIGHTS)
+def test_the_arrow_of_an_open_exit_stands_out_from_its_doorway(palette: Palette, sight: str) -> None:
+    arrow, doorway = (np.array([getattr(palette, role)[:3]], np.float64) for role in ("exit", "exit_light"))
+    assert differences(arrow, doorway, sight).min() >= LEAST
+
+
+@moods
+@pytest.mark.parametrize("sight", SIGHTS)
 def test_tiles_are_never_taken_for_scenery(palette: Palette, sight: str) -> None:
     """The tiles' lightness is far from the scenery's, wherever that is; the scenery's own is nearly one."""
     tile = seen(np.array([palette.tile[:3]], np.float64), sight)[0, 0]
