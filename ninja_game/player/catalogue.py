@@ -24,6 +24,7 @@ from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.replay.text import Replay, parse_replay
 from ninja_game.player.records import episode_key
+from ninja_game.sim.level import Level
 
 OURS = "ninja-game"
 """In the name of every author that is part of the project."""
@@ -181,6 +182,10 @@ class Catalogue:
         """The episode that a level belongs to, if any."""
         pack = self.ours if entry.source == "game" else self._known.get(entry.source)
         return pack.episodes.get(int(entry.episode.partition("-")[0])) if pack and entry.episode else None
+
+    def column_of(self, level: Level) -> int | None:
+        """The column of a level of the game's own pack; None for any other."""
+        return next((entry.column for entry in self.ours.levels if entry.episode and entry.named.level == level), None)
 
     def following(self, episode: Episode) -> Episode | None:
         """The next episode that there is in an episode's column, if any."""

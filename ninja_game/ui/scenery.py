@@ -23,8 +23,8 @@ _COPIES, _FAINT = 6, (255, 255, 255, 60)
 _BAND, _HORIZON = 3, 140
 """The sky's colour changes in bands so high, down to the horizon, px of the sheet."""
 
-_KEPT = 12
-"""Grounds of so many sizes and moods stay in memory: thumbnails, menus and levels go to and fro between a few."""
+_KEPT = 4
+"""Grounds of so many sizes and moods stay in memory: one as large as a 4K screen takes 33 MB."""
 
 Numbers = Iterator[float]
 
@@ -39,7 +39,7 @@ def lay_ground(surface: pygame.Surface, palette: Palette, stage: pygame.Rect, ar
 
 def ground(size: tuple[int, int], palette: Palette) -> pygame.Surface:
     """The sky and the layers of a palette that has a scenery, painted once; nobody may draw on it."""
-    return _painted(size, palette.scenery, *(tuple(getattr(palette, role)) for role in GROUND_ROLES))
+    return _scaled(size, palette.scenery, *(tuple(getattr(palette, role)) for role in GROUND_ROLES))
 
 
 GROUND_ROLES = "sky", "background", "far", "near"
@@ -47,9 +47,13 @@ GROUND_ROLES = "sky", "background", "far", "near"
 
 
 @lru_cache(maxsize=_KEPT)
-def _painted(size: tuple[int, int], scenery: str, *colours: tuple[int, ...]) -> pygame.Surface:
+def _scaled(size: tuple[int, int], scenery: str, *colours: tuple[int, ...]) -> pygame.Surface:
+    return pygame.transform.smoothscale(_painted(scenery, *colours), size)
+
+
+@lru_cache
+def _painted(scenery: str, *colours: tuple[int, ...]) -> pygame.Surface:
     sky, horizon, far, near = map(pygame.Color, colours)
-    # A sheet without alpha, so that the page too scales px and not shapes.
     sheet = pygame.Surface((_WIDE, _HIGH))
     for y in range(0, _HIGH, _BAND):
         sheet.fill(mixed(sky, horizon, y / _HORIZON), (0, y, _WIDE, _BAND))
@@ -63,7 +67,7 @@ def _painted(size: tuple[int, int], scenery: str, *colours: tuple[int, ...]) -> 
             turn = 2 * pi * copy / _COPIES
             sheet.blit(haze, (round(wide * cos(turn)), round(wide * sin(turn))))
         sheet.blit(layer, (0, 0))
-    return pygame.transform.smoothscale(sheet, size)
+    return sheet
 
 
 def _numbers(name: str) -> Numbers:

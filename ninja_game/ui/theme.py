@@ -306,7 +306,7 @@ DUSK = _palette(
     "dusk", DARK, scenery="towers", background="#763a5c", sky="#513e7c", far="#6d3f69", near="#56376b", tile="#150e26",
     text="#fbf2ff", faint="#d8c8e2", on_tile="#f0e4f6", panel="#3a2752", panel_edge="#8d6fa0", ninja="#fff4ea",
     accent="#ffb072", band="#ffb072", good="#8fe0a0", bad="#ff9a94", weapon="#ff6f64", middle="#b0a4c6",
-    light="#d6cde6", exit="#58d6cc", exit_light="#dcfff8", turret="#ffa6d2", launcher="#ffb08a", electric="#5cd2ff",
+    light="#d6cde6", exit="#42c8be", exit_light="#dcfff8", turret="#ffa6d2", launcher="#ffb08a", electric="#5cd2ff",
     drone="#dcd8ec", dust="#b892b0", smoke="#a0869e",
 )  # fmt: skip
 
@@ -314,7 +314,8 @@ NIGHT = _palette(
     "night", DARK, scenery="crystals", background="#24406a", sky="#0d1430", far="#1e3560", near="#172750",
     tile="#586c9c", text="#eaf1ff", faint="#a9b8d8", on_tile="#f2f6ff", panel="#1c2747", panel_edge="#5d71a3",
     ninja="#f4f7ff", accent="#7fd8ff", band="#ff8a5c", good="#7fe0b0", bad="#ff8f88", bar_full="#b4c8ff",
-    bar_empty="#ff9d90", exit="#b98ff0", turret="#ff98cc", launcher="#ffa27c", electric="#5cd2ff", drone="#c8d2ea",
+    bar_empty="#ff9d90", exit="#a87ce8", exit_light="#e6d6f8", turret="#ff98cc", launcher="#ffa27c",
+    electric="#5cd2ff", drone="#c8d2ea",
 )  # fmt: skip
 
 MOODS = (MORNING, NOON, AFTERNOON, DUSK, NIGHT)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -9,11 +10,14 @@ import pygame
 import pytest
 from numpy.typing import NDArray
 
+from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.text import Replay
 from ninja_game.play.app import App
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.thumbnails import Thumbnails
+from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import LevelRun
 from ninja_game.sim import kinds
@@ -120,6 +124,13 @@ def test_lines_stand_out_from_the_scenery(palette: Palette, sight: str, role: st
 
 @moods
 @pytest.mark.parametrize("sight", SIGHTS)
+def test_the_arrow_of_an_open_exit_stands_out_from_its_doorway(palette: Palette, sight: str) -> None:
+    arrow, doorway = (np.array([getattr(palette, role)[:3]], np.float64) for role in ("exit", "exit_light"))
+    assert differences(arrow, doorway, sight).min() >= LEAST
+
+
+@moods
+@pytest.mark.parametrize("sight", SIGHTS)
 def test_tiles_are_never_taken_for_scenery(palette: Palette, sight: str) -> None:
     """The tiles' lightness is far from the scenery's, wherever that is; the scenery's own is nearly one."""
     tile = seen(np.array([palette.tile[:3]], np.float64), sight)[0, 0]
@@ -158,6 +169,20 @@ def test_the_picture_follows_the_column_of_what_is_shown(app: App) -> None:
     app.pop()
     app.frame(0)
     assert app.theme.palette is MOODS[0]
+
+
+def test_a_run_of_an_episode_is_watched_in_its_mood(app: App, recording: Recording) -> None:
+    app.push(in_column(app, 3))
+    app.frame(0)
+    app.push(ReplayScreen(app, [recording]))
+    app.frame(0)
+    assert app.theme.palette is MOODS[0]
+    level = replace(recording.level, objects=recording.level.objects[:-1])
+    app.pop()
+    app.frame(0)
+    app.push(ReplayScreen(app, [Recording(level, Replay.of_inputs(recording.inputs, level, name="other"))]))
+    app.frame(0)
+    assert app.theme.palette is MOODS[3]
 
 
 def test_a_level_is_laid_out_once_in_its_mood(app: App) -> None:

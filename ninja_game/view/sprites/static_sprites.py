@@ -46,7 +46,8 @@ def exit_door(s: Sketch, p: Palette, step: int) -> None:
     s.box(p.exit if step else mixed(p.exit, p.outline, 0.35), -11.6, -11.6, 23.2, 23.2)
     if step:
         s.box(p.exit_light, -7.5 * step / 8, -11.6, 15 * step / 8, 23.2)
-        s.polygon(p.bright, [(-4.2, -1), (0, -6.2), (4.2, -1), (1.6, -1), (1.6, 5), (-1.6, 5), (-1.6, -1)])
+        arrow = p.exit if p.scenery else p.bright
+        s.polygon(arrow, [(-4.2, -1), (0, -6.2), (4.2, -1), (1.6, -1), (1.6, 5), (-1.6, 5), (-1.6, -1)])
     for side in (-1, 1):
         x = side * gap + (-12.1 if side < 0 else 0)
         s.framed_box(p.light, p.outline, x, -12.1, 12.1, 24.2)
