@@ -27,7 +27,6 @@ NOT_SHOWN = {
     "ui/widgets.py: Widget.draw": "its widgets do",
     "play/replay/paths.py: _draw_speeds": "of the pictures that `compare` writes",
     "tas_editor/roll/part.py: RollMouse._paint": "paints keys with the mouse, not a picture",
-    "view/sound_cues.py: draw_sound_cues": "off at first; test_assisted.py shows it",
     "view/overlays.py: _paint_edges": "kept from the first picture on; test_pictures.py shows it",
     "view/overlays.py: _paint_grid": "kept from the first picture on; test_pictures.py shows it",
 }

@@ -222,7 +222,7 @@ def hud_view(play: LevelPlay) -> HudView:
             keys = f"{key('confirm')}: play it again    {key('replay')}: replay    {key('back')}: leave"
         message = f"Passed in {seconds_text(attempt.ended_tick)} s", [*_reached(play, gold), keys], y
     hint = _hint(play, key)
-    title = f"{context.title}    {play.aim}" if play.phase is Phase.READY and play.aim else context.title
+    title = f"{context.title} ({play.aim})" if play.phase is Phase.READY and play.aim else context.title
     if (settings.game_speed < 100 or play.invincible or attempt.assisted) and not context.practice_mode:
         title += "    assisted: no record"
     practice = "Practice" + (", slow motion" if play.tools.slow else "")
