@@ -11,6 +11,7 @@ from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import LevelContext, Navigation
 from ninja_game.sim.level import Level
+from ninja_game.ui.audio.music import SILENCE
 
 Left = Callable[[bytes], object]
 """Called with the inputs of the last try when the test is left."""
@@ -38,6 +39,8 @@ class TryContext(LevelContext):
 
 class TryScreen(LevelScreen):
     """Plays a level; the back key leaves at once, whatever is going on. Raises LevelError for one without a ninja."""
+
+    music = SILENCE
 
     def __init__(self, app: App, name: str, level: Level, left: Left) -> None:
         named = NamedLevel(f"{name}    {app.controls.name('back')}: back to the editor", "", "", level, "")
