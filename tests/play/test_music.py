@@ -11,6 +11,7 @@ import pygame
 import pytest
 
 from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.sim import states
@@ -164,6 +165,9 @@ def test_each_screen_asks_for_its_music() -> None:
             app.pop()
         play_level(app, replace(entry, episode=""))
         assert app.top.music in BY_COLUMN
+        app.pop()
+        app.push(TryScreen(app, "mine", entry.named.level, lambda _: None))
+        assert app.top.music == SILENCE
         app.pop()
         play_level(app, entry, practice=True)
         assert app.top.music == BY_COLUMN[0]

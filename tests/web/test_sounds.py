@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,7 @@ import numpy as np
 import pytest
 import soundfile
 
-from tests.support.visitor import eventually
+from tests.support.visitor import Visitor, eventually
 from tools.sounds.effects import LOOPS
 from tools.sounds.music import TRACKS
 
@@ -80,3 +81,19 @@ def test_music_is_fetched_when_it_is_wanted(site: Path, python: Any) -> None:
     missing = python.evaluate(ask)
     eventually(python, lambda: python.evaluate(ask) != missing, "what did not come is not asked for again")
     assert python.evaluate(f"() => host.length({missing})") == 0
+
+
+def test_the_menu_has_its_music_once_something_was_pressed(new_visitor: Callable[..., Visitor]) -> None:
+    visitor = new_visitor()
+    visitor.visit()
+    for again in (False, True):
+        assert visitor.python("app.audio_output._music.playing") == ""
+        visitor.press("ArrowDown")
+        visitor.eventually("app.audio_output._music.playing == 'menu'")
+        visitor.eventually("__import__('pygame').mixer.Channel(app.audio_output._music.first).get_busy()")
+        if not again:
+            # The second visit begins with the memory of the first one's start.
+            visitor.page.evaluate("() => navigator.serviceWorker.ready.then(() => ninjaGame.kept)")
+            visitor.visit()
+            assert visitor.page.evaluate("ninjaGame.fromMemory")
+    assert visitor.problems == []

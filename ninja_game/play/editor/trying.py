@@ -12,6 +12,7 @@ from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import LevelContext, Navigation, PacedRun
 from ninja_game.sim.level import Level
+from ninja_game.ui.audio.music import SILENCE
 
 Left = Callable[[bytes], object]
 """Called with the inputs of the last try when the test is left."""
@@ -44,6 +45,8 @@ class TryContext(LevelContext):
 
 class TryScreen(LevelScreen):
     """Plays a level; the back key leaves at once, whatever is going on. Raises LevelError for one without a ninja."""
+
+    music = SILENCE
 
     def __init__(self, app: App, name: str, level: Level, left: Left, *, says: str = "") -> None:
         title = f"{name}    {app.controls.name('back')}: back to the editor"
