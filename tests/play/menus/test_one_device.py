@@ -26,7 +26,8 @@ from ninja_game.ui.list_view import ListView
 from tests.support.menu_driver import MenuDriver
 
 ENTRIES = {
-    "Play": LevelScreen, "Episodes": EpisodeGrid, "Daily": DailyScreen, "Levels": Browser, "Records": RecordsScreen, "Replays": ReplaysScreen,
+    "Play": LevelScreen, "Episodes": EpisodeGrid, "Daily": DailyScreen, "Levels": Browser, "Records": RecordsScreen,
+    "Replays": ReplaysScreen,
     "Editor": EditorScreen, "Lab": LabScreen, "Settings": SettingsScreen, "Help": HelpScreen,
 }  # fmt: skip
 
