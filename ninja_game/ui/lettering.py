@@ -46,7 +46,7 @@ class Lettering:
         key = text, size, tuple(pygame.Color(colour)), bold
         found = self._kept.get(key)
         if found is None:
-            found = self._font(size, bold).render(shown_text(text), colour)
+            found = self._font(size, bold).render(_safe(text), colour)
             self._kept[key] = found
             if len(self._kept) > _KEPT:
                 self._kept.popitem(last=False)
@@ -56,7 +56,7 @@ class Lettering:
 
     def width(self, text: str, size: float, *, bold: bool = False) -> float:
         """Width of a text in logical px."""
-        return self._font(size, bold).width(shown_text(text)) / self.canvas.scale
+        return self._font(size, bold).width(_safe(text)) / self.canvas.scale
 
     def draw(
         self, surface: pygame.Surface | None, text: str, x: float, y: float, size: float, colour: Colour,
@@ -70,6 +70,11 @@ class Lettering:
         if surface is not None:
             surface.blit(picture, rect)
         return rect
+
+
+def _safe(text: str) -> str:
+    """A text as it may be shown; four blanks, which part two things, become a wide one."""
+    return "\u2003".join(map(shown_text, text.split("    ")))
 
 
 HEIGHT = 1.08

@@ -140,3 +140,10 @@ def test_text_is_aligned_and_kept() -> None:
 def test_bold_letters_have_thicker_strokes() -> None:
     plain, bold = (pygame.mask.from_surface(StrokeFont(30, bold=b).render("Il", "black")) for b in (False, True))
     assert bold.count() > 1.25 * plain.count()
+
+
+def test_two_things_in_one_line_stand_apart() -> None:
+    lettering = Lettering(Canvas((792, 600)))
+    together, apart = (lettering.width(text, 10) for text in ("gold time", "gold    time"))
+    assert apart > together + 10
+    assert lettering.width("gold  time", 10) == together, "other blanks in a row are one"

@@ -49,7 +49,7 @@ class TryScreen(LevelScreen):
     music = SILENCE
 
     def __init__(self, app: App, name: str, level: Level, left: Left, *, says: str = "") -> None:
-        title = f"{name}    {app.controls.name('back')}: back to the editor"
+        title = f"{name} ({app.controls.name('back')}: back to the editor)"
         named = NamedLevel(title, "", "", level, "", says=says)
         super().__init__(app, TryContext(app.player, Entry(named, "yours"), practice_mode=True))
         self._left = left

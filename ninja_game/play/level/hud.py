@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import pygame
 
+from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.sayings import named_keys
 from ninja_game.play.level.play import DEATH_PAUSE, LevelPlay, Phase
 from ninja_game.play.level.sayings import WHY
@@ -222,7 +223,8 @@ def hud_view(play: LevelPlay) -> HudView:
             keys = f"{key('confirm')}: play it again    {key('replay')}: replay    {key('back')}: leave"
         message = f"Passed in {seconds_text(attempt.ended_tick)} s", [*_reached(play, gold), keys], y
     hint = _hint(play, key)
-    title = f"{context.title} ({play.aim})" if play.phase is Phase.READY and play.aim else context.title
+    name = shown_text(context.title)
+    title = f"{name} ({play.aim})" if play.phase is Phase.READY and play.aim else name
     if (settings.game_speed < 100 or play.invincible or attempt.assisted) and not context.practice_mode:
         title += "    assisted: no record"
     practice = "Practice" + (", slow motion" if play.tools.slow else "")

@@ -6,7 +6,7 @@ from time import perf_counter
 
 import pygame
 
-from ninja_game.files.shown_text import counted
+from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.pars import MARGINS
 from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
@@ -121,7 +121,7 @@ def draw_pars(surface: pygame.Surface, theme: Theme, entry: Entry, mark: Mark | 
 
 def where_from(entry: Entry) -> str:
     """Where a level comes from, and how hard it is."""
-    pack = entry.source if entry.source not in {"game", "yours"} else ""
+    pack = shown_text(entry.source) if entry.source not in {"game", "yours"} else ""
     parts = [pack, f"Episode {entry.episode}" if entry.episode else "Your folder" if entry.source == "yours" else ""]
     if entry.pars and entry.pars.difficulty is not None:
         parts.append(f"difficulty {entry.pars.difficulty:.1f}")
