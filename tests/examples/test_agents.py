@@ -111,7 +111,7 @@ def test_it_passes_three_levels_nine_times_in_ten(monkeypatch: pytest.MonkeyPatc
         monkeypatch.setitem(sys.modules, name, None)
     table = evaluate(load_agent("learned"), ["00-0-first-steps", "00-3-rolling-hills", "00-2-the-chimney"], episodes=50)
     assert [each.rate >= 0.9 for each in table.results] == [True] * 3, table.text()
-    chance = evaluate(load_agent("random"), "00-3-rolling-hills", episodes=20)
+    chance = evaluate(load_agent("random"), "00-2-the-chimney", episodes=20)
     assert chance.results[0].rate < 0.1
 
 
