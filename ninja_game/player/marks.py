@@ -59,6 +59,11 @@ def medal_of(entry: Entry, mark: Mark | None) -> str:
     return entry.pars.medal(mark.fastest) if entry.pars and mark else ""
 
 
+def opens_author(entry: Entry, mark: Mark | None) -> bool:
+    """Whether a mark opens the run of the level's author: a gold medal does."""
+    return medal_of(entry, mark) in {"gold", "author"}
+
+
 def next_par(pars: Pars, mark: Mark | None) -> str:
     """The medal after the one that a mark brings, its par, and by how much it was missed; "" after the best."""
     if mark is None:

@@ -211,7 +211,7 @@ class Slider(Widget):
 
     def _track(self) -> tuple[float, float]:
         x, _, w, _ = self.area
-        return x + w * 0.5 + 10, w * 0.5 - 60
+        return x + w * 0.5 + 10, w * 0.5 - 80
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         """The text left, a track with a knob and the number right."""

@@ -60,6 +60,7 @@ def test_link_of_a_level_is_copied_under_levels_and_played(driver: MenuDriver, c
 
 
 def test_link_of_a_replay_is_copied_in_the_viewer_and_watched(driver: MenuDriver, clipboard: list[str]) -> None:
+    driver.earn_gold()
     assert isinstance(driver.open("Replays"), ReplaysScreen)
     driver.press("c")
     driver.press("return")

@@ -228,6 +228,10 @@ def _records_and_replays(driver: MenuDriver) -> Iterator[str]:
     yield "records"
     home(driver)
     driver.open("Replays")
+    yield "replays-none"
+    home(driver)
+    driver.earn_gold()
+    driver.open("Replays")
     driver.frames(4)
     yield "replays"
     driver.press("delete")

@@ -52,6 +52,12 @@ class MenuDriver:
         """The player's data."""
         return self.app.player
 
+    def earn_gold(self) -> None:
+        """A gold medal in every level, which opens the authors' runs."""
+        for entry in self.player.catalogue.ours.levels:
+            if entry.pars:
+                self.player.marks.passed(entry.digest, entry.pars.par("gold"), 0)
+
     def top(self) -> Screen:
         """The screen on top."""
         return self.app.top

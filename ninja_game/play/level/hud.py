@@ -215,8 +215,11 @@ def hud_view(play: LevelPlay) -> HudView:
     message = None
     # At the far side from the ninja, so that neither its dance nor the way that it came is hidden.
     y = ABOVE if attempt.simulation.world.ninja.y > HEIGHT / 2 else BELOW
-    text = cause_of_death(play) if play.phase is Phase.DEAD else play.sayings.text
-    said = (named_keys(text, key), IN_BORDER if play.phase is Phase.PLAY else y) if text else None
+    text = "" if play.phase is Phase.PASSED else play.sayings.text
+    if play.phase is Phase.DEAD:
+        text = cause_of_death(play)
+    still = play.phase in {Phase.READY, Phase.DEAD}
+    said = (named_keys(text, key), y if still else IN_BORDER) if text else None
     if play.phase is Phase.PASSED:
         keys = f"{key('confirm')}: go on    {key('retry')}: retry    {key('replay')}: replay"
         if not context.leads_on:
@@ -231,10 +234,10 @@ def hud_view(play: LevelPlay) -> HudView:
     return HudView(
         play.shown_lifetime,
         practice if context.practice_mode else "",
-        ("" if text and play.phase is Phase.PLAY else title, hint or f"gold {gold}"),
+        ("" if said and not still else title, hint or f"gold {gold}"),
         keys=play.keys if settings.show_keys and not hint else None,
         frame_ms=app.frame_ms if settings.show_frame_time else None,
-        said=said if play.phase is not Phase.PASSED else None,
+        said=said,
         message=message,
         medal=play.medal,
         stamp=play.stamp,

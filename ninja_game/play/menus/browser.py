@@ -22,7 +22,7 @@ from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text, where_from
 from ninja_game.player.catalogue import Entry, author_name
-from ninja_game.player.marks import Mark, medal_of
+from ninja_game.player.marks import Mark, opens_author
 from ninja_game.player.records import SavedReplay, seconds_text
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import ListView
@@ -160,8 +160,8 @@ class Browser(ThumbnailScreen):
         """Only what has been passed can be watched."""
         selected = self.selected
         self.watch_best.enabled = selected is not None and selected.digest in self.bests
-        medal = medal_of(selected, self.marks.get(selected.digest)) if selected else ""
-        self.watch_author.enabled = medal in {"gold", "author"}
+        opened = selected is not None and opens_author(selected, self.marks.get(selected.digest))
+        self.watch_author.enabled = opened
         self.watch_author.hint = "" if self.watch_author.enabled else "A gold medal opens it"
         self.watch_best.hint = "" if self.watch_best.enabled else "This level has not been passed yet"
 

@@ -151,7 +151,9 @@ class DailyScreen(ThumbnailScreen):
         lines = [f"{entry.all_gold} gold"]
         if entry.pars and entry.pars.difficulty is not None:
             lines.insert(0, f"difficulty {entry.pars.difficulty:.1f}")
-        lines.append(f"Your best: {seconds_text(best.score)} with {best.gold} gold" if best else "Not passed yet")
+        lines.append(
+            f"Your best: {seconds_text(best.score)} s left with {best.gold} gold" if best else "Not passed yet"
+        )
         if played.attempts:
             lines.append(tries_text(played))
         lines.append(time_and_par(entry, mark))

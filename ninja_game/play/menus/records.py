@@ -112,7 +112,7 @@ class RecordsScreen(MenuScreen):
         left = x + (8 if row.head else 24)
         theme.text(surface, row.text, left, top, size=12, bold=row.head, width=w - 200)
         if row.score is not None:
-            score = seconds_text(row.score)
+            score = f"{seconds_text(row.score)} s left"
             theme.text(
                 surface, score, x + w - 90, top, size=12, colour=palette.good, align="right", bold=row.head, width=90
             )

@@ -23,6 +23,7 @@ from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Question
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.catalogue import author_name
+from ninja_game.player.marks import opens_author
 from ninja_game.player.records import NEWEST_SHOWN, SavedReplay, has_words, level_score, seconds_text
 from ninja_game.player.saving import forget_replay
 from ninja_game.ui.input.bindings import InputEvent
@@ -40,6 +41,7 @@ FILES_SHOWN = 300
 
 OUTCOMES = {"exit": "passed", "dead": "death", "running": "unfinished"}
 YOU = "you"
+NONE_YET = "Passed levels and runs that you keep come here; a gold medal adds the author's"
 HINT = "Enter: watch. Delete: remove a saved replay. E: save as a text file. C: copy a link"
 
 
@@ -71,7 +73,7 @@ class ReplaysScreen(MenuScreen):
         self._words: list[str] = []
         self.field = TextEntry((44, 62, 290, 28), "Search level or player", "", self._search)
         self.list = ListView((44, 120, 712, 12 * ROW), ROW, self._draw_row, self._choose)
-        self.list.empty = "No replays yet"
+        self.list.empty = NONE_YET
         self.list.hint = self.hint
         self.message = ""
 
@@ -93,7 +95,7 @@ class ReplaysScreen(MenuScreen):
     def _arrange(self) -> None:
         files = [row for row in self._files if has_words(self._words, row.text, row.who, row.what, row.when)]
         self.rows = self.arranged([*self._saved, *files])
-        self.list.empty = "No replay has these words" if self._words else "No replays yet"
+        self.list.empty = "No replay has these words" if self._words else NONE_YET
         self.list.fill(self.rows)
 
     def _read_files(self, seconds: float) -> bool:
@@ -114,7 +116,14 @@ class ReplaysScreen(MenuScreen):
 
     def places(self) -> list[tuple[str, Iterable[Path | LeftOut]]]:
         """Where files are looked for, and what that is called."""
-        return [("Your folder", files_below(self.player.replay_folder)), ("Bundled", bundled_replays())]
+        return [("Your folder", files_below(self.player.replay_folder)), ("Bundled", self.bundled())]
+
+    def bundled(self) -> list[Path]:
+        """The authors' runs of the levels in which a gold medal has opened them."""
+        marks = self.player.marks.all()
+        levels = self.player.catalogue.ours.levels if marks else []
+        opened = {Path(each.named.file).stem for each in levels if opens_author(each, marks.get(each.digest))}
+        return [file for file in bundled_replays() if file.name.partition(".")[0] in opened]
 
     def _file_rows(self) -> Iterator[list[ReplayRow]]:
         """The rows of one file after the other."""
@@ -218,7 +227,7 @@ def _row_of(saved: SavedReplay) -> ReplayRow:
 def _row_of_recording(recording: Recording, when: str) -> ReplayRow:
     replay = recording.replay
     if replay.unclaimed:
-        result = f"recording, {seconds_text(recording.ticks)}"
+        result = f"recording, {seconds_text(recording.ticks)} s"
     else:
         result = _result(replay.outcome, replay.gold, replay.final_tick, recording.level.gold)
     passed = replay.outcome == "exit"
@@ -229,8 +238,8 @@ def _result(outcome: str, gold: int, final_tick: int, all_gold: int = 0) -> str:
     """The score of a passed level, and its gold; of any other run, how it ended and after which time."""
     if outcome == "exit":
         what = "all gold" if gold == all_gold > 0 else f"{gold} gold" if gold else "exit"
-        return f"{what}, {seconds_text(level_score(gold, final_tick))}"
-    return f"{OUTCOMES[outcome]}, {seconds_text(final_tick + 1)}"
+        return f"{what}, {seconds_text(level_score(gold, final_tick))} s left"
+    return f"{OUTCOMES[outcome]}, {seconds_text(final_tick + 1)} s"
 
 
 def watch(app: App, replays: Iterable[Replay | None]) -> bool:

@@ -9,6 +9,7 @@ import numpy as np
 
 from ninja_game.errors import ReplayError
 from ninja_game.files.reading import LeftOut
+from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.links.fragment import is_link
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
@@ -133,6 +134,10 @@ class OtherRunScreen(ReplaysScreen):
         file = Path(self.others.editor.session.about.file)
         beside = sorted(each for each in file.parent.glob("*.txt") if each.name != file.name) if file.is_file() else []
         return [("Same folder", beside[:FILES_SHOWN]), *super().places()]
+
+    def bundled(self) -> list[Path]:
+        """All of them: who edits runs knows the way."""
+        return bundled_replays()
 
     def _is_of_the_level(self, row: ReplayRow) -> bool:
         source = row.source

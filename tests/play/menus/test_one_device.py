@@ -200,6 +200,7 @@ def test_a_level_is_begun_paused_left_and_a_replay_is_watched(player: Buttons) -
     player.choose("Leave the level")
     assert isinstance(top_of(player), Browser)
     player.back()
+    player.driver.earn_gold()
     player.choose("Replays")
     replays = player.driver.shown(ReplaysScreen)
     player.row(replays.list, 1)

@@ -55,13 +55,27 @@ def test_ten_thousand_replays_open_within_a_tenth_of_a_second_and_all_are_found(
         driver.close()
 
 
+def test_authors_runs_are_there_where_a_gold_medal_has_opened_them(driver: MenuDriver) -> None:
+    screen = driver.open("Replays")
+    assert isinstance(screen, ReplaysScreen)
+    assert not screen.rows
+    driver.press("escape")
+    first = driver.player.catalogue.episodes[0].levels[0]
+    assert first.pars is not None
+    driver.player.marks.passed(first.digest, first.pars.par("gold"), 0)
+    screen = driver.open("Replays")
+    assert isinstance(screen, ReplaysScreen)
+    assert {row.text for row in screen.rows} == {"First Steps"}
+
+
 def test_rows_say_exit_or_gold_and_authors_have_one_name(driver: MenuDriver) -> None:
+    driver.earn_gold()
     screen = driver.open("Replays")
     assert isinstance(screen, ReplaysScreen)
     driver.wait(lambda: len(screen.rows) >= len(bundled_replays()))
     assert "exit" in {row.what.split(", ")[0] for row in screen.rows}
     level = room_level(["@.o.o"], ())
     full = Replay(b"", 9, "exit", gold=level.gold, level=level)
-    assert _row_of_recording(Recording(level, full), "").what == "all gold, 93.775"
+    assert _row_of_recording(Recording(level, full), "").what == "all gold, 93.775 s left"
     theirs = replace(full, author="ninja-game check")
     assert _row_of_recording(Recording(level, theirs), "").who == "ninja-game"

@@ -220,6 +220,7 @@ def test_locked_episode_does_not_start(driver: MenuDriver) -> None:
 
 
 def test_replay_of_the_game_is_watched(driver: MenuDriver) -> None:
+    driver.earn_gold()
     driver.open("Replays")
     driver.press("return")
     assert isinstance(driver.top(), ReplayScreen)
