@@ -85,10 +85,9 @@ class LevelContext:
         return self.entry.pars if self.body == "circle" else None
 
     def aim(self) -> str:
-        """The next medal of the level and its par, in words; "" where there is none, or in practice."""
-        if self.pars is None or self.practice_mode:
-            return ""
-        return next_par(self.pars, self.data.marks.of(self.entry.digest))
+        """The next medal of the level and its par, in words; "" before the first pass, after the last, in practice."""
+        mark = self.data.marks.of(self.entry.digest)
+        return "" if self.pars is None or self.practice_mode or mark is None else next_par(self.pars, mark)
 
     @property
     def show_tutorial(self) -> bool:

@@ -122,14 +122,14 @@ def test_levels_of_a_locked_episode_are_locked_everywhere(driver: MenuDriver) ->
 def test_play_goes_on_with_the_next_level(driver: MenuDriver) -> None:
     menu = driver.shown(MainMenu)
     assert menu.focus is not None
-    assert menu.focus.hint == "Go on: Episode 0 Level 0: First Steps"
+    assert menu.focus.hint == "Begin with First Steps"
     driver.press("return")
     level = driver.shown(LevelScreen)
     level.begin()
     driver.play_replay(1)
     driver.press("q")
     assert driver.top() is menu
-    assert menu.focus.hint == "Go on: Episode 0 Level 1: Mind the Gap"
+    assert menu.focus.hint == "Go on with Mind the Gap"
     driver.press("return")
     assert driver.shown(LevelScreen).context.lifetime > 3000, "with the time that was left"
 

@@ -150,6 +150,7 @@ def test_without_a_clipboard_a_file_is_written(driver: MenuDriver, monkeypatch: 
         raise pygame.error("no clipboard")
 
     monkeypatch.setattr(pygame.scrap, "put_text", none)
+    driver.earn_gold()
     driver.open("Replays")
     driver.press("c")
     (file,) = (driver.player.folder / "exports").iterdir()

@@ -45,9 +45,12 @@ class Sayings:
     def at_start(self) -> None:
         """The level waits at its start."""
         due = [each for each in self._sayings if each.when == "death" and each.deaths == self._deaths]
-        start = [each for each in self._sayings if each.when == "start" and each not in self._said]
-        self.text = next((each.text for each in (*due, *start)), "")
+        self.text = due[0].text if due else self._start()
         self._left = SHOWN_TICKS
+
+    def _start(self) -> str:
+        """How the level begins, until that is done."""
+        return next((each.text for each in self._sayings if each.when == "start" and each not in self._said), "")
 
     def on_death(self) -> None:
         self._deaths += 1
@@ -58,7 +61,7 @@ class Sayings:
         before = self.text
         self._left -= 1
         if self._left <= 0:
-            self.text = ""
+            self.text = self._start()
         happened = {_WHEN.get(event.kind) for event in world.events[: world.event_count]}
         if "switch" in happened:
             # The goal is understood: no need to say how it begins again.

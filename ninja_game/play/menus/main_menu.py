@@ -9,6 +9,7 @@ import pygame
 
 from ninja_game import __version__
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
@@ -66,6 +67,13 @@ class MainMenu(MenuScreen):
         self.run = next_run(self.player, practice_mode=self.player.settings.practice)
         super().enter()
 
+    def _where(self) -> str:
+        """With which level play goes on."""
+        if self.run is None:
+            return "There are no levels"
+        begun = self.player.statistics.played().attempts
+        return f"{'Go on' if begun else 'Begin'} with {shown_text(self.run.entry.title)}"
+
     def _play(self) -> None:
         if self.run is not None:
             self.app.push(LevelScreen(self.app, self.run))
@@ -73,7 +81,7 @@ class MainMenu(MenuScreen):
     def entries(self) -> list[Row]:
         """One for each screen; the panel is as high as they need."""
         return [
-            ("Play", self._play, f"Go on: {self.run.title}" if self.run else "There are no levels"),
+            ("Play", self._play, self._where()),
             ("Episodes", self._opener(EpisodeGrid), "Choose an episode, or one of its levels"),
             ("Daily", self._opener(DailyScreen), "The level of the day, made from its date"),
             ("Levels", self._opener(self._browser), "Single levels, and your own files"),

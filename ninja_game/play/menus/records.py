@@ -110,9 +110,9 @@ class RecordsScreen(MenuScreen):
         theme.row(surface, (x, y + 2, w, h - 4), chosen=chosen, focused=focused, radius=3, filled=row.head)
         top = y + h / 2 - 6
         left = x + (8 if row.head else 24)
-        theme.text(surface, row.text, left, top, size=12, bold=row.head, width=w - 200)
+        theme.text(surface, row.text, left, top, size=12, bold=row.head, width=w - 210)
         if row.score is not None:
-            score = f"{seconds_text(row.score)} s left"
+            score = f"{seconds_text(row.score)} s"
             theme.text(
                 surface, score, x + w - 90, top, size=12, colour=palette.good, align="right", bold=row.head, width=90
             )

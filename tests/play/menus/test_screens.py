@@ -300,6 +300,7 @@ def test_a_dropped_file_gets_no_name_that_is_odd_and_follows_no_link(driver: Men
 
 
 def test_replay_is_written_as_a_text_to_share(driver: MenuDriver) -> None:
+    driver.earn_gold()
     driver.open("Replays")
     driver.press("e")
     written = list((driver.player.folder / "exports").glob("*.replay.txt"))
