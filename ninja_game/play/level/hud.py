@@ -248,7 +248,8 @@ def _reached(play: LevelPlay, gold: str) -> list[str]:
     """The medal of a passed run and by how much it missed the next one; its gold, and the time that is left."""
     tick, pars = play.attempt.ended_tick, play.context.pars
     all_of_it = ", all of it" if play.attempt.gold == play.all_gold > 0 else ""
-    lines = [f"{gold} gold{all_of_it}    {seconds_text(play.attempt.score)} s left on the clock: your score"]
+    score = f"score {seconds_text(play.attempt.score)} s: the time left, two seconds for each piece"
+    lines = [f"{gold} pieces of gold{all_of_it}", score]
     if pars and play.medal:
         following = next_par(pars, Mark(tick, 0))
         lines.insert(0, f"{play.medal.capitalize()} medal" + (f"    {following}" if following else ""))

@@ -47,6 +47,8 @@ _SPACING = 10
 
 def followed(shown: float, true: float, *, filling: bool) -> float:
     """The lifetime to show in the next picture: it follows the true one softly, so that gold fills in."""
+    if abs(true - shown) < 1:
+        return true
     share = _FILL_SHARE if filling else (1 - max(0.0, shown) / LIFETIME) ** 2
     return shown + (true - shown) * min(1.0, max(_FILL_SHARE, share))
 
