@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from pathlib import Path
-
 import pygame
 import pytest
 
@@ -16,13 +13,6 @@ from ninja_game.player.playthrough import LevelRun
 from ninja_game.sim.events import LANDED, MINE_EXPLODED
 from tests.support.menu_driver import FRAME_MS, MenuDriver
 from tests.support.players import deadly_level, entry
-
-
-@pytest.fixture
-def driver(tmp_path: Path) -> Iterator[MenuDriver]:
-    driver = MenuDriver(tmp_path)
-    yield driver
-    driver.close()
 
 
 @pytest.fixture

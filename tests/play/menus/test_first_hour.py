@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
@@ -20,13 +18,6 @@ from ninja_game.player.playthrough import LevelRun
 from ninja_game.simulation import Simulation
 from tests.support.menu_driver import MenuDriver
 from tests.support.players import deadly_level, entry, short_level
-
-
-@pytest.fixture
-def driver(tmp_path: Path) -> Iterator[MenuDriver]:
-    driver = MenuDriver(tmp_path)
-    yield driver
-    driver.close()
 
 
 def said(level: LevelScreen) -> str:
