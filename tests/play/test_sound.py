@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import pairwise
 from pathlib import Path
+from time import sleep
 from unittest.mock import Mock
 
 import pygame
@@ -16,7 +17,7 @@ from ninja_game.sim.events import DIED, EVENT_NAMES, LANDED
 from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER
 from ninja_game.simulation import Simulation
 from ninja_game.ui.audio.patterns import CHAIN_TICKS, STRIDE, Footsteps, GoldLadder, Variants
-from ninja_game.ui.audio.player import AudioPlayer
+from ninja_game.ui.audio.player import LOUDEST, AudioPlayer
 from ninja_game.ui.audio.table import (
     BY_DEATH,
     BY_EVENT,
@@ -137,6 +138,24 @@ def test_no_sound_device_is_no_error(folder: Path, monkeypatch: pytest.MonkeyPat
     sound.play("gold-1")
     sound.set_volumes(0, 0, 0)
     sound.quiet()
+
+
+def test_nothing_is_read_once_it_is_closed(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A thread that still reads while the device is closed ends the whole program."""
+    read = list[object]()
+
+    def slow(file: object) -> None:
+        read.append(file)
+        sleep(0.02)
+        raise pygame.error("unreadable")
+
+    monkeypatch.setattr(pygame.mixer, "Sound", slow)
+    sound = AudioPlayer(folder, music_volume=LOUDEST)
+    sound.music("menu", 1000)
+    sound.close()
+    before = len(read)
+    sleep(0.1)
+    assert len(read) == before
 
 
 def test_missing_files_are_silent(tmp_path: Path) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from math import exp, hypot
 from pathlib import Path
+from threading import Thread
 from typing import NamedTuple
 
 import pygame
@@ -92,6 +93,7 @@ class Music:
         self._sounds: Sequence[pygame.mixer.Sound] | None = None
         self._share = 0.0
         self._heard = list(CALM)
+        self._readers: list[Thread] = []
 
     def update(self, name: str, volume: float, real_ms: int) -> None:
         """Let time pass. ``name``: what is to be heard, "" as it is; ``volume``: a share."""
@@ -112,11 +114,17 @@ class Music:
             pygame.mixer.Channel(self.first + layer).stop()
         self.playing, self._share = "", 0.0
 
+    def close(self) -> None:
+        """Wait until nothing is read."""
+        for reader in self._readers:
+            reader.join()
+
     def _change(self, name: str) -> None:
         """Begin another music when it has been read; the one before is over."""
         if self._asked != name:
             self._asked, self._sounds = name, None
-            run_in_background(lambda: self._read(name), lambda _: None)
+            reading = run_in_background(lambda: self._read(name), lambda _: None)
+            self._readers = [*filter(Thread.is_alive, self._readers), reading]
         sounds = self._sounds
         if sounds is None or not all(sound.get_length() for sound in sounds):
             return

@@ -52,6 +52,9 @@ class AudioOutput:
     def quiet(self) -> None:
         """End all sounds but the music, which becomes calm."""
 
+    def close(self) -> None:
+        """Read nothing more. Before the device is closed: a thread that still reads then would crash the program."""
+
 
 class AudioPlayer(AudioOutput):
     """Plays what happens. Volumes: 0 to 99; ``volume`` is of everything. Without a sound device it is silent.
@@ -75,9 +78,9 @@ class AudioPlayer(AudioOutput):
         self._machines: list[Object] = []
         self._hunters: list[Object] = []
         self._corpse_at = 0.0
+        self._closed = False
         self.works = _open_mixer()
-        if self.works:
-            run_in_background(self._read_all, lambda _: None)
+        self._reader = run_in_background(self._read_all, lambda _: None) if self.works else None
 
     # --- what is heard ---
 
@@ -120,6 +123,12 @@ class AudioPlayer(AudioOutput):
                 if not 0 <= number - len(LOOPS) < len(LAYERS):
                     pygame.mixer.Channel(number).stop()
 
+    def close(self) -> None:
+        self._closed = True
+        self._music.close()
+        if self._reader:
+            self._reader.join()
+
     def play(self, name: str, *, x: float = WORLD_WIDTH / 2, level: float = 1.0) -> None:
         """Play a sound once at this share of its loudness, heard from ``x`` px of the stage."""
         sound = self._sound(name)
@@ -157,6 +166,8 @@ class AudioPlayer(AudioOutput):
     def _read_all(self) -> None:
         """Read every sound before it is wanted."""
         for path in sorted(self.folder.glob("*.ogg")):
+            if self._closed:
+                return
             self._sound(path.stem)
 
     def _sound(self, name: str) -> pygame.mixer.Sound | None:
