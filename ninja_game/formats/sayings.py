@@ -13,6 +13,9 @@ MOST_SAYINGS, MOST_LETTERS = 4, 120
 KEYS = ("left", "right", "jump", "retry", "suicide", "pause", "replay")
 """Actions whose key a text may name: {jump} becomes the key or button of whoever plays."""
 
+THINGS = ("switch", "exit")
+"""What a text may name in the same way: an arrow leads to it while the text is shown."""
+
 _KEY = re.compile(r"\{([^{}]*)\}")
 _DEATH = re.compile(r"death ([1-9][0-9]?)")
 _PLACE = re.compile(r"at ([0-9]{1,2}),([0-9]{1,2})")
@@ -48,8 +51,8 @@ def _read(part: str) -> Saying:
     if len(text) > MOST_LETTERS or not text.isprintable():
         raise LevelError("a text in 'says'", found=found, expected=f"at most {MOST_LETTERS} printable letters")
     for name in _KEY.findall(text):
-        if name not in KEYS:
-            raise LevelError("an unknown key in 'says'", found=f"{{{name[:40]}}}", expected=", ".join(KEYS))
+        if name not in KEYS + THINGS:
+            raise LevelError("an unknown key in 'says'", found=f"{{{name[:40]}}}", expected=", ".join(KEYS + THINGS))
     if when in {"start", "switch", "gold"}:
         return Saying(when, text)
     if match := _DEATH.fullmatch(when):
@@ -60,9 +63,18 @@ def _read(part: str) -> Saying:
 
 
 def named_keys(text: str, name: Callable[[str], str]) -> str:
-    """A text with its keys in the words of whoever plays. ``name``: what to press for an action.
+    """A text with its keys in the words of whoever plays, and its things. ``name``: what to press for an action.
 
     >>> named_keys("{jump} jumps", {"jump": "Z"}.__getitem__)
     'Z jumps'
     """
-    return _KEY.sub(lambda match: name(match[1]), text)
+    return _KEY.sub(lambda match: match[1] if match[1] in THINGS else name(match[1]), text)
+
+
+def things_named(text: str) -> list[str]:
+    """Those of ``THINGS`` to which a text leads.
+
+    >>> things_named("Touch the {switch} with a {jump}")
+    ['switch']
+    """
+    return [name for name in _KEY.findall(text) if name in THINGS]

@@ -100,13 +100,15 @@ class Label(Widget):
 
 
 class Button(Widget):
-    """A text that does something."""
+    """A text that does something. ``detail``: a smaller line below it."""
 
     def __init__(
-        self, area: Area, text: str, action: Callable[[], object], *, hint: str = "", size: float = TEXT
-    ) -> None:
+        self, area: Area, text: str, action: Callable[[], object], *, hint: str = "", size: float = TEXT,
+        detail: str = "",
+    ) -> None:  # fmt: skip
         super().__init__(area, hint=hint)
         self.text = text
+        self.detail = detail
         self.action = action
         self.size = size
 
@@ -119,9 +121,16 @@ class Button(Widget):
         self.draw_base(surface, theme, focused=focused)
         colour = theme.palette.text if self.enabled else theme.palette.faint
         x, y = self.centre
+        width, height = self.area[2] - 2 * PAD, self.area[3]
+        if self.detail:
+            y, height = y - 9, height / 2
+            theme.text(
+                surface, self.detail, x, y + 14, size=10.5, colour=theme.palette.faint, align="centre", width=width,
+                height=height,
+            )  # fmt: skip
         theme.text(
             surface, self.text, x, y - self.size / 2, size=self.size, colour=colour, align="centre", bold=focused,
-            width=self.area[2] - 2 * PAD, height=self.area[3],
+            width=width, height=height,
         )  # fmt: skip
 
 

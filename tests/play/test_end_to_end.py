@@ -29,7 +29,7 @@ def test_from_the_menu_to_a_saved_record_and_its_ghost(display: str, tmp_path: P
     (tmp_path / "levels" / "zz.txt").write_text(EASY)
     player = Player(display, tmp_path, root)
     try:
-        player.press("Down", "Down", "Down", "Return", "Home", "Return")  # Levels, the player's own comes first, play
+        player.press("Down", "Right", "Return", "Home", "Return")  # Levels, the player's own comes first, play
         player.press("space")
         alone = player.still_picture()  # the dust of the landing has gone
         assert player.differs_from(alone) < 20

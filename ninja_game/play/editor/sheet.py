@@ -52,7 +52,7 @@ class LevelSheet:
         self.target = DrawTarget(self.canvas, palette, self.book)
         self.pictures = ObjectPictures(self.target)
         self.draft: Draft | None = None
-        self._tiles = TileSheet(self.canvas, palette)
+        self._tiles = TileSheet(self.canvas, palette.tile)
         self._looks: dict[ObjectSpec, ObjectSprites] = {}
         self._order: list[ObjectSprites] = []
         self._rects: list[pygame.Rect] = []

@@ -8,17 +8,19 @@ from dataclasses import dataclass
 import pygame
 
 from ninja_game.files.shown_text import shown_text
-from ninja_game.formats.sayings import named_keys
+from ninja_game.formats.pack.pars import Pars
+from ninja_game.formats.sayings import named_keys, things_named
 from ninja_game.play.level.play import DEATH_PAUSE, LevelPlay, Phase
 from ninja_game.play.level.sayings import WHY
+from ninja_game.play.menus.thumbnails import PAR_WIDE, draw_pars
 from ninja_game.player.marks import Mark, next_par
 from ninja_game.player.records import seconds_text
 from ninja_game.player.statistics import SELF
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
+from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.theme import Palette, Theme, mixed, wrapped
-from ninja_game.ui.widgets import draw_medal
 
 _BAR_LEFT, _BAR_MIDDLE = 24.0, 12.0
 _BAR_LONGEST = 700.0
@@ -57,8 +59,9 @@ class HudView:
 
     ``lifetime``: ticks, for the time bar; ``label``: a word in its place. ``foot``: texts at the left and the right of
     the border below. ``keys``: those of the present tick, ``frame_ms``: of the last picture; None: not shown.
-    ``said``: a text of the level, and the top of its panel. ``message``: title and lines of a panel, and its top;
-    ``medal``: what is stamped beside its title, ``stamp``: how far that has come, 0…1.
+    ``said``: a text of the level, and the top of its panel; ``named``: what it names, and where that is, px.
+    ``message``: title and lines of a panel, and its top; ``pars``: the medals under its title, and the tick of the
+    pass; ``stamp``: how far the best of them has come down, 0…1.
     """
 
     lifetime: float
@@ -67,8 +70,9 @@ class HudView:
     keys: int | None = None
     frame_ms: float | None = None
     said: tuple[str, float] | None = None
+    named: Sequence[tuple[str, float, float]] = ()
     message: tuple[str, Sequence[str], float] | None = None
-    medal: str = ""
+    pars: tuple[Pars, int] | None = None
     stamp: float = 1.0
 
 
@@ -88,8 +92,9 @@ class Hud:
             written.append(self.keys(surface, view.keys))
         if view.said is not None:
             written.append(self.said(surface, *view.said))
+            written += [self.pointer(surface, *named) for named in view.named]
         if view.message is not None:
-            written.append(self.message(surface, *view.message, medal=view.medal, stamp=view.stamp))
+            written.append(self.message(surface, *view.message, pars=view.pars, stamp=view.stamp))
         return written
 
     def time_bar(self, surface: pygame.Surface, lifetime: float) -> pygame.Rect:
@@ -144,24 +149,39 @@ class Hud:
         lines: Sequence[str],
         y: float,
         *,
-        medal: str = "",
+        pars: tuple[Pars, int] | None = None,
         stamp: float = 1.0,
     ) -> pygame.Rect:
-        """A panel: a title, with a medal or without, and lines under it, from ``y`` on."""
+        """A panel: a title, the medals or none, and lines under it, from ``y`` on."""
         theme = self.theme
-        wide = theme.width(title, TITLE, bold=True)
-        widths = [wide + (70 if medal else 0), *(theme.width(line, LINE) for line in lines)]
-        w, h = max(220.0, max(widths) + 44), 44.0 + 16 * len(lines)
-        x = (792 - w) / 2
-        rect = theme.panel(surface, x, y, w, h, 4)
-        theme.text(surface, title, 396, y + 10, size=TITLE, align="centre", bold=True)
-        if medal and stamp > 0.2:
-            size = MEDAL_SIZE * (1 + 2.5 * (1 - stamp) ** 2)
-            draw_medal(surface, theme, medal, 396 - wide / 2 - 21, y + 20, size)
-            rect.union_ip(theme.canvas.rect(396 - wide / 2 - 75, y - 34, 110, 110))
+        row = 4 * PAR_WIDE - 12.0 if pars else 0.0
+        widths = [theme.width(title, TITLE, bold=True), row, *(theme.width(line, LINE) for line in lines)]
+        below = 30 if pars else 0
+        w, h = max(220.0, max(widths) + 44), 48.0 + 16 * len(lines) + below
+        y = min(y, LOWEST - h)
+        rect = theme.panel(surface, (WIDTH - w) / 2, y, w, h, 4)
+        theme.text(surface, title, WIDTH / 2, y + 9, size=TITLE, align="centre", bold=True)
         for k, line in enumerate(lines):
-            theme.text(surface, line, 396, y + 37 + 16 * k, size=LINE, colour=theme.palette.faint, align="centre")
+            top = y + 41 + below + 16 * k
+            theme.text(surface, line, WIDTH / 2, top, size=LINE, colour=theme.palette.faint, align="centre")
+        if pars:
+            draw_pars(surface, theme, *pars, (WIDTH - row) / 2, y + 42, stamp=stamp)
+            rect.inflate_ip(theme.canvas.px(40), 0)
         return rect
+
+    def pointer(self, surface: pygame.Surface, name: str, x: float, y: float) -> pygame.Rect:
+        """A name with an arrow to what it names: above it, or below where that is at the upper edge."""
+        theme, palette = self.theme, self.theme.palette
+        way = -1 if y > POINTER_ROOM else 1
+        wide = theme.width(name, POINTER, bold=True) + 12
+        left = min(max(x - wide / 2, 26), WIDTH - 26 - wide)
+        tip, base = y + way * 17, y + way * 23
+        top = base - 16 if way < 0 else base
+        box = theme.canvas.fill_rect(surface, palette.accent, left, top, wide, 16, 4)
+        theme.canvas.polygon(surface, palette.accent, [(x - 6, base), (x + 6, base), (x, tip)])
+        middle = left + wide / 2
+        theme.text(surface, name, middle, top + 3, size=POINTER, colour=palette.panel, align="centre", bold=True)
+        return box.inflate(theme.canvas.px(4), theme.canvas.px(18))
 
     def said(self, surface: pygame.Surface, text: str, y: float) -> pygame.Rect:
         """A text of the level in a panel from ``y`` on; in the border below, one line beside the gold."""
@@ -194,14 +214,22 @@ class Hud:
 ABOVE, BELOW = 34.0, 474.0
 """Where the panel of a passed level begins: near the upper or the lower border."""
 
-TITLE, LINE, MEDAL_SIZE = 20.0, 10.5, 27.0
-"""Sizes in the panel of a passed level."""
+LOWEST = 573.0
+"""Where it ends at the latest: below it are the level's name and what a pass has brought."""
+
+TITLE, LINE, POINTER = 22.0, 10.5, 9.5
+"""Sizes in the panel of a passed level, and of the names of things."""
+
+POINTER_ROOM = 72.0
+"""Below this line, px, there is room for a pointer above a thing."""
 
 SAID, IN_BORDER, BESIDE_GOLD = 13.5, 576.0, 570.0
 """Size of a text that the level says; where it stands in play, in the border, hiding nothing; its width there."""
 _TOOLS = {"quick_save": "save", "quick_load": "load", "rewind": "rewind", "slow": "slow", "step": "step"}
 _TOOLS_NAMED = 600
 """Ticks of a practice run in which the keys of its tools are named: where they work, and not for ever."""
+
+_THINGS = {"switch": SWITCH, "exit": EXIT}
 
 KeyName = Callable[[str], str]
 """Gives what to press for an action."""
@@ -239,7 +267,8 @@ def hud_view(play: LevelPlay) -> HudView:
         frame_ms=app.frame_ms if settings.show_frame_time else None,
         said=said,
         message=message,
-        medal=play.medal,
+        named=_named(play, text),
+        pars=(context.pars, attempt.ended_tick) if context.pars and play.medal else None,
         stamp=play.stamp,
     )
 
@@ -252,8 +281,19 @@ def _reached(play: LevelPlay, gold: str) -> list[str]:
     lines = [f"{gold} pieces of gold{all_of_it}", score]
     if pars and play.medal:
         following = next_par(pars, Mark(tick, 0))
-        lines.insert(0, f"{play.medal.capitalize()} medal" + (f"    {following}" if following else ""))
+        lines.insert(0, following or "The best medal of all")
     return lines
+
+
+def _named(play: LevelPlay, text: str) -> list[tuple[str, float, float]]:
+    """What a text names, and where it is: switches that are still to be touched, and exits."""
+    objects = play.attempt.simulation.world.objects
+    return [
+        (name, o.x, o.y)
+        for name in things_named(text)
+        for o in objects[1:]
+        if o.kind == _THINGS[name] and not (o.kind == SWITCH and objects[o.partner].is_open)
+    ]
 
 
 def _hint(play: LevelPlay, key: KeyName) -> str:

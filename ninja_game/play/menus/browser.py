@@ -27,7 +27,7 @@ from ninja_game.player.records import SavedReplay, seconds_text
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.text_entry import TextEntry
-from ninja_game.ui.theme import Area, Theme
+from ninja_game.ui.theme import Area, Theme, wrapped
 from ninja_game.ui.widgets import Button, Choice, Widget
 
 ROW = 54
@@ -206,24 +206,24 @@ class Browser(ThumbnailScreen):
         self.thumbnails.draw(surface, entry, SIDE, 66, SIDE_WIDTH)
         theme.text(surface, entry.title, SIDE, 320, size=17, bold=True, width=SIDE_WIDTH - 44)
         by = f"by {author_name(entry.named.author)}" if entry.named.author else "author unknown"
-        theme.text(surface, by, SIDE, 346, size=11, colour=palette.faint, width=SIDE_WIDTH)
-        teaches = entry.named.teaches and f"Teaches: {entry.named.teaches}"
-        for number, text in enumerate(filter(None, (entry.named.comment, teaches))):
-            theme.text(surface, text, SIDE, 364 + 13 * number, size=11, width=SIDE_WIDTH)
+        about = "    ".join(filter(None, (by, where_from(entry))))
+        theme.text(surface, about, SIDE, 345, size=10.5, colour=palette.faint, width=SIDE_WIDTH)
+        teaches = [f"Teaches: {entry.named.teaches}"] if entry.named.teaches else []
+        for number, text in enumerate(wrapped(theme, entry.named.comment, SIDE_WIDTH, 10.5)[:2] + teaches):
+            theme.text(surface, text, SIDE, 364 + 13.5 * number, size=10.5, width=SIDE_WIDTH)
         best = self.bests.get(entry.digest)
         text = f"Your best: {seconds_text(best.score)} s left with {best.gold} gold" if best else "Not passed yet"
         colour = palette.good if best else palette.faint
-        theme.text(surface, text, SIDE, 390, size=12, colour=colour, width=SIDE_WIDTH - 90)
+        theme.text(surface, text, SIDE, 408, size=12, colour=colour, width=SIDE_WIDTH - 90)
         mark = self.marks.get(entry.digest)
         if mark:
             time = f"in {seconds_text(mark.fastest)} s"
-            theme.text(surface, time, SIDE + SIDE_WIDTH, 390, size=12, colour=palette.good, align="right", width=84)
+            theme.text(surface, time, SIDE + SIDE_WIDTH, 408, size=12, colour=palette.good, align="right", width=84)
         played = self.player.statistics.played(entry.digest)
         if played.attempts:
-            theme.text(surface, tries_text(played), SIDE, 408, size=10.5, colour=palette.faint)
-        theme.text(surface, where_from(entry), SIDE, 424, size=10.5, colour=palette.faint, width=SIDE_WIDTH)
+            theme.text(surface, tries_text(played), SIDE, 425, size=10.5, colour=palette.faint)
         all_gold_and_medal(surface, theme, entry, mark, SIDE + SIDE_WIDTH - 10, 330)
-        draw_pars(surface, theme, entry, mark, SIDE, 443)
+        draw_pars(surface, theme, entry.pars, mark and mark.fastest, SIDE, 443)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         entry = self.shown[index]
@@ -237,15 +237,15 @@ class Browser(ThumbnailScreen):
         if self.player.lock_of(entry):
             draw_look(surface, theme, "locked", (x + 4 + PICTURE / 2 - 11, y + 16, 22, 22))
         source = author_name(entry.named.author) or ("your folder" if entry.source == "yours" else "")
-        theme.text(surface, source, left, y + 32, size=10, colour=palette.faint, width=190)
+        theme.text(surface, source, left, y + 32, size=10, colour=palette.faint, width=150)
         best = self.bests.get(entry.digest)
         if best:
             score = f"{seconds_text(best.score)} s left"
             theme.text(surface, score, x + w - 8, y + 11, size=12, colour=palette.good, align="right", width=100)
         all_gold_and_medal(surface, theme, entry, self.marks.get(entry.digest), x + w - 16, y + 37)
         if entry.pars and entry.pars.difficulty is not None:
-            difficulty = f"{entry.pars.difficulty:.1f}"
-            theme.text(surface, difficulty, x + w - 48, y + 32, size=10, colour=palette.faint, align="right")
+            difficulty = f"difficulty {entry.pars.difficulty:.1f}"
+            theme.text(surface, difficulty, x + w - 30, y + 32, size=10, colour=palette.faint, align="right", width=88)
 
 
 class LevelChoice(Browser):

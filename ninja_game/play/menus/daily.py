@@ -159,4 +159,4 @@ class DailyScreen(ThumbnailScreen):
         lines.append(time_and_par(entry, mark))
         for number, line in enumerate(lines):
             theme.text(surface, line, SIDE, TOP + 60 + 20 * number, size=11, width=SIDE_WIDTH)
-        draw_pars(surface, theme, entry, mark, LEFT, TOP + WIDE * 25 / 33 + 12)
+        draw_pars(surface, theme, entry.pars, mark and mark.fastest, LEFT, TOP + WIDE * 25 / 33 + 12)

@@ -33,16 +33,16 @@ from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import EpisodeRun, next_run
 from ninja_game.simulation import Simulation
 from ninja_game.ui.audio.music import MENU
-from ninja_game.ui.canvas import HEIGHT, WIDTH
+from ninja_game.ui.canvas import HEIGHT, WIDTH, Point
 from ninja_game.ui.theme import Area
 from ninja_game.ui.widgets import Button, Widget
 from ninja_game.view.level_view import LevelView
 
-LEFT, WIDE, MIDDLE = 44, 232, 306
-"""Where the panel lies: its left edge, its width, the height of its middle."""
+PANEL: Area = 44, 96, 256, 396
+"""Where the panel lies."""
 
-HEAD, ROW, FOOT = 98, 43, 12
-"""Heights of the title, of a row, and of what is below the last row."""
+HEAD, FIRST, ROW, EDGE = 98, 62, 43, 22
+"""Heights of the title, of the first button and of a row of two, and the width of the panel's edge, px."""
 
 
 class MainMenu(MenuScreen):
@@ -72,25 +72,25 @@ class MainMenu(MenuScreen):
         if self.run is None:
             return "There are no levels"
         begun = self.player.statistics.played().attempts
-        return f"{'Go on' if begun else 'Begin'} with {shown_text(self.run.entry.title)}"
+        return f"{'Continue' if begun else 'Begin'}: {shown_text(self.run.entry.named.name)}"
 
     def _play(self) -> None:
         if self.run is not None:
             self.app.push(LevelScreen(self.app, self.run))
 
     def entries(self) -> list[Row]:
-        """One for each screen; the panel is as high as they need."""
+        """One for each screen: the first as wide as the panel, then two in a row."""
         return [
-            ("Play", self._play, self._where()),
+            ("Play", self._play, "Play on where you left"),
             ("Episodes", self._opener(EpisodeGrid), "Choose an episode, or one of its levels"),
-            ("Daily", self._opener(DailyScreen), "The level of the day, made from its date"),
-            ("Levels", self._opener(self._browser), "Single levels, and your own files"),
+            ("Levels", self._opener(self._browser), "Any level by itself, and your own files"),
+            ("Daily", self._opener(DailyScreen), "A new level every day, the same for everybody"),
             ("Records", self._opener(RecordsScreen), "Your best runs, and what killed you"),
-            ("Replays", self._opener(ReplaysScreen), "Watch runs again"),
+            ("Replays", self._opener(ReplaysScreen), "Watch your runs, and those of the levels' authors"),
+            ("Lab", self._opener(LabScreen), "How the world works: figures to play with"),
             ("Editor", self._opener(EditorScreen), "Make levels of your own"),
-            ("Lab", self._opener(LabScreen), "Figures to drag: how the world works"),
-            ("Settings", self._opener(SettingsScreen), "Keys, sound, colours, comfort"),
             ("Help", self._opener(HelpScreen), "How to move, and what everything does"),
+            ("Settings", self._opener(SettingsScreen), "Keys, sound, colours, comfort"),
             ("Quit", self.back, "Leave the game"),
         ]
 
@@ -108,19 +108,16 @@ class MainMenu(MenuScreen):
         return lambda: self.app.push(screen(self.app))
 
     def build(self) -> Sequence[Widget]:
-        x, y, w, h = self.panel
-        entries = self.entries()
-        row = (h - HEAD - FOOT) / len(entries)
+        x, y, w = PANEL[0] + EDGE, PANEL[1] + HEAD, PANEL[2] - 2 * EDGE
+        (text, action, hint), *others = self.entries()
+        half = w / 2 - 4
         return [
-            Button((x + 22, y + HEAD + row * k, w - 44, row - 9), text, action, hint=hint, size=13)
-            for k, (text, action, hint) in enumerate(entries)
+            Button((x, y, w, FIRST - 8), text, action, hint=hint, size=19, detail=self._where()),
+            *(
+                Button((x + k % 2 * (half + 8), y + FIRST + ROW * (k // 2), half, ROW - 8), text, action, hint=hint)
+                for k, (text, action, hint) in enumerate(others)
+            ),
         ]
-
-    @property
-    def panel(self) -> Area:
-        """Where the panel lies: as high as its entries, as far as the stage allows."""
-        height = min(HEAD + ROW * len(self.entries()) + FOOT, HEIGHT - 48)
-        return LEFT, max(12, min(MIDDLE - height / 2, HEIGHT - 36 - height)), WIDE, height
 
     def back(self) -> None:
         self.app.push(Question(self.app, "Leave the game?", "Leave", self.app.quit))
@@ -132,10 +129,10 @@ class MainMenu(MenuScreen):
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
         changed = self.attract.draw(surface, whole=self.redraw)
         theme, palette = self.app.theme, self.app.theme.palette
-        x, y, w, h = self.panel
+        x, y, w, h = PANEL
         rect = theme.window(surface, x, y, w, h)
-        theme.text(surface, LOGO, x + w / 2, y + 22, size=40, align="centre", bold=True, height=44)
-        theme.text(surface, f"version {__version__}", x + w / 2, y + 68, size=9, colour=palette.faint, align="centre")
+        self._draw_title(surface)
+        theme.text(surface, __version__, x + w / 2, y + h - 17, size=8, colour=palette.faint, align="centre")
         self.draw_widgets(surface)
         foot = theme.canvas.fill_rect(surface, palette.tile, 0, HEIGHT - 24, WIDTH, 24)
         hint = self.focus.hint if self.focus else ""
@@ -148,6 +145,21 @@ class MainMenu(MenuScreen):
                 self.attract.view.also_covered(each)
         return None if changed is None else changed + written
 
+    def _draw_title(self, surface: pygame.Surface) -> None:
+        """The name, over a headband whose ends fly."""
+        theme, (x, y, w, _) = self.app.theme, PANEL
+        for part in BAND:
+            corners = [(x + across, y + down) for across, down in part]
+            theme.canvas.polygon(surface, theme.palette.band, corners)
+        theme.text(surface, LOGO, x + w / 2, y + 18, size=48, align="centre", bold=True, height=52)
+
+
+BAND: tuple[tuple[Point, ...], ...] = (
+    ((22, 74), (200, 72), (200, 80), (22, 78)),
+    ((198, 72), (234, 62), (226, 73), (200, 78)),
+    ((198, 75), (228, 80), (216, 86), (198, 80)),
+)
+"""The headband under the name and its two ends: corners, px from the panel's."""
 
 REST_TICKS = 130
 """How long a replay goes on after its end or a death."""

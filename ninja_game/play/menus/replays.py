@@ -30,7 +30,7 @@ from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme
-from ninja_game.ui.widgets import Widget
+from ninja_game.ui.widgets import Choice, Widget
 
 ROW = 34
 FIRST_SECONDS, MORE_SECONDS = 0.05, 0.008
@@ -41,7 +41,9 @@ FILES_SHOWN = 300
 
 OUTCOMES = {"exit": "passed", "dead": "death", "running": "unfinished"}
 YOU = "you"
+WHOSE = [("All runs", "all"), ("Only yours", "yours"), ("Only others", "others")]
 NONE_YET = "Passed levels and runs that you keep come here; a gold medal adds the author's"
+NO_MATCH = "No replay matches"
 HINT = "Enter: watch. Delete: remove a saved replay. E: save as a text file. C: copy a link"
 
 
@@ -71,6 +73,8 @@ class ReplaysScreen(MenuScreen):
         self._files: list[ReplayRow] = []
         self._unread = self._file_rows()
         self._words: list[str] = []
+        self.whose = "all"
+        self.filter = Choice((346, 62, 180, 28), "", WHOSE, lambda: self.whose, self._show)
         self.field = TextEntry((44, 62, 290, 28), "Search level or player", "", self._search)
         self.list = ListView((44, 120, 712, 12 * ROW), ROW, self._draw_row, self._choose)
         self.list.empty = NONE_YET
@@ -82,7 +86,11 @@ class ReplaysScreen(MenuScreen):
         self._find()
         self._read_files(FIRST_SECONDS)
         self._arrange()
-        return [self.list, self.field]
+        return [self.list, self.field, self.filter]
+
+    def _show(self, whose: str) -> None:
+        self.whose = whose
+        self._arrange()
 
     def _search(self, text: str) -> None:
         self._words = text.casefold().split()
@@ -94,8 +102,9 @@ class ReplaysScreen(MenuScreen):
 
     def _arrange(self) -> None:
         files = [row for row in self._files if has_words(self._words, row.text, row.who, row.what, row.when)]
-        self.rows = self.arranged([*self._saved, *files])
-        self.list.empty = "No replay has these words" if self._words else NONE_YET
+        shown = {"yours": self._saved, "others": files}.get(self.whose, [*self._saved, *files])
+        self.rows = self.arranged(shown)
+        self.list.empty = NO_MATCH if self._words or self.whose != "all" else NONE_YET
         self.list.fill(self.rows)
 
     def _read_files(self, seconds: float) -> bool:

@@ -7,7 +7,7 @@ from time import perf_counter
 import pygame
 
 from ninja_game.files.shown_text import counted, shown_text
-from ninja_game.formats.pack.pars import MARGINS
+from ninja_game.formats.pack.pars import MARGINS, Pars
 from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.player.catalogue import Entry
@@ -107,16 +107,28 @@ def time_and_par(entry: Entry, mark: Mark | None) -> str:
     return "    ".join(filter(None, (time, par)))
 
 
-def draw_pars(surface: pygame.Surface, theme: Theme, entry: Entry, mark: Mark | None, x: float, y: float) -> None:
-    """All pars of a level in a row, the reached ones filled; nothing where it has none."""
-    if entry.pars is None:
+def draw_pars(
+    surface: pygame.Surface, theme: Theme, pars: Pars | None, tick: int | None, x: float, y: float, *,
+    stamp: float = 1.0,
+) -> None:  # fmt: skip
+    """All pars in a row, those reached in a tick filled. ``stamp``: how far the best of them has come down, 0…1."""
+    if pars is None:
         return
     for medal in MEDALS:
-        par = entry.pars.par(medal) if medal in MARGINS else None
-        reached = mark is not None and (par is None or mark.fastest <= par)
-        draw_medal(surface, theme, medal, x + 8, y + 8, 16, reached=reached)
+        par = pars.par(medal) if medal in MARGINS else None
+        best = tick is not None and medal == pars.medal(tick)
+        reached = tick is not None and (par is None or tick <= par) and (not best or stamp > STAMP_SEEN)
+        size = 16 * (1 + 2.5 * (1 - stamp) ** 2) if best and reached else 16
+        draw_medal(surface, theme, medal, x + 8, y + 8, size, reached=reached)
         theme.text(surface, "pass it" if par is None else f"{seconds_text(par)} s", x + 20, y + 3.5, size=9.5)
-        x += 80
+        x += PAR_WIDE
+
+
+PAR_WIDE = 80
+"""From one medal of a row to the next, px."""
+
+STAMP_SEEN = 0.2
+"""A medal that is stamped is first seen here."""
 
 
 def where_from(entry: Entry) -> str:

@@ -137,10 +137,13 @@ def _landed(e: Effects, level: TileMap, world: World, event: Event) -> None:
 
 
 def _won(e: Effects, level: TileMap, world: World, event: Event) -> None:
-    """Light spreads behind the ninja, and sparks before it."""
+    """Light spreads behind the ninja, sparks before it, and papers fly."""
     for k in range(3):
         e.add("halo", event.x, event.y, life=40 + 14 * k, size=1.0 + 0.35 * k, rear=True)
     e.spread("spark", event.x, event.y, 12, 60, life=40)
+    for _ in range(48):
+        angle, far = e.rng.uniform(-pi, 0), e.rng.uniform(40, 190)
+        e.add("confetti", event.x, event.y, far * cos(angle), far * sin(angle), life=e.rng.uniform(130, 220))
 
 
 def _died(e: Effects, level: TileMap, world: World, event: Event) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import atan2, degrees
+from math import atan2, cos, degrees
 
 from ninja_game.ui.theme import Palette, mixed
 from ninja_game.view.sprites.drawing import DrawTarget, drawing
@@ -138,6 +138,19 @@ def _halo(p: Particle, target: DrawTarget, t: float) -> None:
     target.disc(colour, p.x, p.y, 10 + 80 * p.size * (1 - (1 - t) ** 2), 5 * (1 - t))
 
 
+def _confetti(p: Particle, target: DrawTarget, t: float) -> None:
+    """A paper that is thrown up, turns and sails down."""
+    x, y = _eased(p, t)
+    turn, half = p.variant + 9 * t, 2.4 * p.size
+    y += 90 * t * t
+    colour = getattr(target.palette, CONFETTI[p.variant % len(CONFETTI)])
+    target.line(colour, x - half * cos(turn), y - half, x + half * cos(turn), y + half, 2.6 * (1 - t * t * t))
+
+
+CONFETTI = "gold", "band", "exit", "gold_light", "electric", "bright"
+"""The colours of the papers, roles of the palette."""
+
+
 def _charge(p: Particle, target: DrawTarget, t: float) -> None:
     """A drop that falls inward, faster and faster."""
     way = t * t
@@ -161,6 +174,7 @@ PAINTERS: dict[str, Callable[[Particle, DrawTarget, float], None]] = {
     "muzzle": _muzzle,
     "charge": _charge,
     "halo": _halo,
+    "confetti": _confetti,
 }
 """How each kind is drawn."""
 

@@ -12,6 +12,7 @@ from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.drawing import SpriteBook, is_near
 from ninja_game.view.sprites.light import Light, light_of, light_picture
 from ninja_game.view.sprites.object_animation import ObjectAnimation
+from ninja_game.view.sprites.relief import add_relief
 from ninja_game.view.sprites.sketch import Sprite
 from ninja_game.view.sprites.static_sprites import SETTLED_TICKS, PlacedSprite, static_sprites_of
 from ninja_game.view.sprites.tile_sheet import TileSheet
@@ -29,9 +30,11 @@ class Backdrop:
         self._book = book
         self._corner = canvas.stage.topleft
         self.picture = pygame.Surface(canvas.size)
-        sheet = TileSheet(canvas, palette, book.tiles)
-        sheet.show(level)
-        self.tiles, self.has_tile = sheet.surface, sheet.has_tile
+        sheets = [TileSheet(canvas, colour, book.tiles) for colour in (palette.tile, palette.bright, palette.outline)]
+        for sheet in sheets if palette.scenery else sheets[:1]:
+            sheet.show(level)
+        self.tiles, self.has_tile = sheets[0].surface, sheets[0].has_tile
+        self._shadow = add_relief(self.tiles, *sheets[1:]) if palette.scenery else None
         self._blits: dict[int, list[tuple[Sprite, int, int]]] = {}
         self._order: list[int] = []
         self._rects: dict[int, pygame.Rect] = {}
@@ -106,6 +109,8 @@ class Backdrop:
         """Draw a part of the picture again."""
         self.picture.set_clip(area)
         lay_ground(self.picture, self.palette, self.picture.get_rect(), area)
+        if self._shadow:
+            self.picture.blit(self._shadow, area, area, pygame.BLEND_PREMULTIPLIED)
         for _, glow, place in self._lights.values():
             if place.colliderect(area):
                 self.picture.blit(glow, place)

@@ -11,24 +11,23 @@ from ninja_game.sim.collision.tiles import EMPTY, SHAPE
 from ninja_game.sim.memory.schema import TileMap
 from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, STRIDE
 from ninja_game.ui.canvas import Canvas, Point
-from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.sketch import FINE
 
-TilePictures = dict[tuple[int, int, int, float, float], pygame.Surface]
-"""By tile, size and place beside the px."""
+TilePictures = dict[tuple[int, int, int, int, float, float], pygame.Surface]
+"""By tile, colour, size and place beside the px."""
 
 
 class TileSheet:
     """``surface``: premultiplied; its px count from the upper left corner of what is seen of the stage.
 
-    ``pictures``: those that were made before, at the same scale in the same palette.
+    ``pictures``: those that were made before, at the same scale.
     """
 
-    def __init__(self, canvas: Canvas, palette: Palette, pictures: TilePictures | None = None) -> None:
+    def __init__(self, canvas: Canvas, colour: pygame.Color, pictures: TilePictures | None = None) -> None:
         self.canvas = canvas
         self._corner = canvas.stage.topleft
         self._shift = canvas.origin[0] - self._corner[0], canvas.origin[1] - self._corner[1]
-        self.palette = palette
+        self.colour = colour
         self.surface = pygame.Surface(canvas.size, pygame.SRCALPHA)
         # A bit for each column of a row that is not empty.
         self._rows = [0] * GRID_ROWS
@@ -60,9 +59,9 @@ class TileSheet:
             # How far the cell's true corner lies beside its px: in eighths, so that few pictures are drawn.
             left, top = self._shift[0] + 24 * column * scale, self._shift[1] + 24 * row * scale
             shift = round(8 * (left - rect.left)) / 8, round(8 * (top - rect.top)) / 8
-            key = tile, *rect.size, *shift
+            key = tile, int(self.colour), *rect.size, *shift
             if key not in self._pictures:
-                self._pictures[key] = tile_picture(tile, rect.size, self.palette.tile, scale=scale, shift=shift)
+                self._pictures[key] = tile_picture(tile, rect.size, self.colour, scale=scale, shift=shift)
             self.surface.blit(self._pictures[key], rect)
 
     def has_tile(self, area: pygame.Rect) -> bool:

@@ -3,7 +3,7 @@ const TARGET = 1; // canvas: where the next entries paint
 const CANVAS = 2; // canvas, width, height, opaque: a new canvas, which becomes the target
 const FREE = 3; // canvas: no longer needed
 const CLIP = 4; // x, y, width, height
-const IMAGE = 5; // canvas, x, y, width, height, to x, to y, opacity
+const IMAGE = 5; // canvas, x, y, width, height, to x, to y, opacity; below 0: take away
 const STRETCH = 6; // canvas, width, height, to width, to height, opacity
 const FILL = 7; // colour, x, y, width, height: in the place of what is there
 const SHIFT = 8; // scale, x, y: of the entries up to UNSHIFT
@@ -201,10 +201,12 @@ export class Painter {
   image(source, list, at) {
     const { context } = this;
     const opacity = list[at + 6];
-    if (opacity !== 1) context.globalAlpha = opacity;
+    if (opacity !== 1) context.globalAlpha = Math.abs(opacity);
+    if (opacity < 0) context.globalCompositeOperation = "destination-out";
     const [w, h] = [list[at + 2], list[at + 3]];
     context.drawImage(source, list[at], list[at + 1], w, h, list[at + 4], list[at + 5], w, h);
     if (opacity !== 1) context.globalAlpha = 1;
+    if (opacity < 0) context.globalCompositeOperation = "source-over";
   }
 
   stretch(source, width, height, toWidth, toHeight, opacity) {

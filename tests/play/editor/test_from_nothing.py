@@ -43,7 +43,7 @@ def test_a_level_from_nothing(tmp_path: Path, root: Path) -> None:
     with virtual_screen() as display:
         maker = Player(display, tmp_path, root)
         try:
-            maker.press("Down", "Down", "Down", "Down", "Down", "Down", "Return")  # Editor
+            maker.press("Down", "Down", "Down", "Down", "Return")  # Editor
             empty = maker.picture()
             draw(maker)
             assert maker.differs_from(empty) > 5000

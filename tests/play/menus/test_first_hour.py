@@ -15,7 +15,9 @@ from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.playthrough import LevelRun
+from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.simulation import Simulation
+from ninja_game.ui.widgets import Button
 from tests.support.menu_driver import MenuDriver
 from tests.support.players import deadly_level, entry, short_level
 
@@ -36,6 +38,24 @@ def test_first_level_says_its_goal_with_the_keys_of_whoever_plays(driver: MenuDr
     driver.app.change_settings(level_texts=False)
     level.play.sayings = Sayings(level.context.sayings())
     assert said(level) == ""
+
+
+def test_what_a_text_names_is_pointed_at_until_it_is_done(driver: MenuDriver) -> None:
+    driver.press("return")
+    level = driver.shown(LevelScreen)
+    objects = level.attempt.simulation.world.objects
+    places = {name: (x, y) for name, x, y in hud_view(level.play).named}
+    assert places == {
+        name: next((o.x, o.y) for o in objects[1:] if o.kind == kind)
+        for name, kind in (("switch", SWITCH), ("exit", EXIT))
+    }
+    x, y = driver.app.canvas.point(places["switch"][0], places["switch"][1] - 20)
+    assert driver.app.surface.get_at((x, y))[:3] == driver.app.theme.palette.accent[:3], "the arrow's tip is over it"
+    next(o for o in objects[1:] if o.kind == EXIT).is_open = True
+    assert [name for name, _, _ in hud_view(level.play).named] == ["exit"]
+    driver.app.change_settings(level_texts=False)
+    level.play.sayings = Sayings(level.context.sayings())
+    assert not hud_view(level.play).named
 
 
 def test_goal_is_not_said_again_in_a_level_that_was_passed(driver: MenuDriver) -> None:
@@ -112,15 +132,16 @@ def test_levels_of_a_locked_episode_are_locked_everywhere(driver: MenuDriver) ->
 
 def test_play_goes_on_with_the_next_level(driver: MenuDriver) -> None:
     menu = driver.shown(MainMenu)
-    assert menu.focus is not None
-    assert menu.focus.hint == "Begin with First Steps"
+    assert isinstance(menu.focus, Button)
+    assert menu.focus.detail == "Begin: First Steps"
     driver.press("return")
     level = driver.shown(LevelScreen)
     level.begin()
     driver.play_replay(1)
     driver.press("q")
     assert driver.top() is menu
-    assert menu.focus.hint == "Go on with Mind the Gap"
+    assert isinstance(menu.focus, Button)
+    assert menu.focus.detail == "Continue: Mind the Gap"
     driver.press("return")
     assert driver.shown(LevelScreen).context.lifetime > 3000, "with the time that was left"
 

@@ -52,12 +52,13 @@ class Buttons:
         self.do("back")
 
     def choose(self, text: str) -> None:
-        """Go down to a button, and press it."""
+        """Go down one column of buttons and up the next one, and press the one with this text."""
         screen = self.driver.shown(MenuScreen)
-        for _ in screen.widgets:
+        far = len(screen.widgets)
+        for way in (*["down"] * far, "right", *["up"] * far):
             if getattr(screen.focus, "text", "") == text:
                 break
-            self.do("down")
+            self.do(way)
         assert getattr(screen.focus, "text", "") == text, f"no way to {text}"
         self.do("confirm")
 

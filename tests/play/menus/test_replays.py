@@ -10,6 +10,7 @@ from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
+from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.help import room_level
 from ninja_game.play.menus.replays import FIRST_SECONDS, ReplaysScreen, _row_of_recording
 from ninja_game.player.player_data import PlayerData
@@ -50,9 +51,24 @@ def test_ten_thousand_replays_open_within_a_tenth_of_a_second_and_all_are_found(
         driver.type("x")
         assert not screen.rows
         driver.press("e")
-        assert screen.list.empty == "No replay has these words"
+        assert screen.list.empty == "No replay matches"
     finally:
         driver.close()
+
+
+def test_ones_own_runs_are_shown_alone(driver: MenuDriver) -> None:
+    driver.open("Play")
+    driver.shown(LevelScreen).begin()
+    driver.play_replay(1)
+    driver.press("q")
+    screen = driver.open("Replays")
+    assert isinstance(screen, ReplaysScreen)
+    assert [row.when == "Bundled" for row in screen.rows] == [False, True]
+    screen.focus = screen.filter
+    driver.press("right")
+    assert [row.who for row in screen.rows] == ["you"]
+    driver.press("right")
+    assert [row.when for row in screen.rows] == ["Bundled"]
 
 
 def test_authors_runs_are_there_where_a_gold_medal_has_opened_them(driver: MenuDriver) -> None:

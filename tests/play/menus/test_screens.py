@@ -26,6 +26,7 @@ from ninja_game.play.menus.replays import ReplaysScreen
 from ninja_game.play.menus.settings import PAGES, SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.settings import DEFAULT_PALETTE
+from ninja_game.ui.widgets import Button
 from tests.support.menu_driver import MenuDriver
 
 ENTRIES = {
@@ -72,8 +73,11 @@ def test_focus_is_always_on_a_widget_and_seen(driver: MenuDriver, entry: str) ->
 @pytest.mark.parametrize("entry", WITH_FOCUS)
 def test_screen_is_reached_and_left_by_gamepad(driver: MenuDriver, entry: str) -> None:
     menu = driver.shown(MainMenu)
-    for _ in range(list(ENTRIES).index(entry)):
+    place = [widget.text for widget in menu.widgets if isinstance(widget, Button)].index(entry)
+    for _ in range((place + 1) // 2):
         driver.pad(pygame.CONTROLLER_BUTTON_DPAD_DOWN)
+    if place % 2 == 0:
+        driver.pad(pygame.CONTROLLER_BUTTON_DPAD_RIGHT)
     driver.pad(pygame.CONTROLLER_BUTTON_A)
     assert isinstance(driver.top(), ENTRIES[entry])
     driver.pad(pygame.CONTROLLER_BUTTON_B)
@@ -83,7 +87,7 @@ def test_screen_is_reached_and_left_by_gamepad(driver: MenuDriver, entry: str) -
 @pytest.mark.parametrize("entry", WITH_FOCUS)
 def test_screen_is_reached_by_mouse(driver: MenuDriver, entry: str) -> None:
     menu = driver.shown(MainMenu)
-    button = menu.widgets[list(ENTRIES).index(entry)]
+    button = next(widget for widget in menu.widgets if isinstance(widget, Button) and widget.text == entry)
     driver.mouse(*button.centre)
     assert isinstance(driver.top(), ENTRIES[entry])
 
@@ -97,8 +101,8 @@ def test_leaving_the_game_is_asked_first(driver: MenuDriver) -> None:
     assert not driver.app.running
 
 
-def test_up_from_the_first_entry_leads_to_the_last(driver: MenuDriver) -> None:
-    driver.press("up")
+def test_up_from_the_first_entry_leads_to_the_last_row(driver: MenuDriver) -> None:
+    driver.press("up", "right")
     menu = driver.shown(MainMenu)
     assert menu.focus is menu.widgets[-1]
 
@@ -106,7 +110,7 @@ def test_up_from_the_first_entry_leads_to_the_last(driver: MenuDriver) -> None:
 def test_held_direction_repeats(driver: MenuDriver) -> None:
     menu = driver.shown(MainMenu)
     pygame.event.post(pygame.Event(pygame.KEYDOWN, key=pygame.K_DOWN, scancode=pygame.KSCAN_DOWN, mod=0, unicode=""))
-    driver.frames(30)
+    driver.frames(24)
     pygame.event.post(pygame.Event(pygame.KEYUP, key=pygame.K_DOWN, scancode=pygame.KSCAN_DOWN, mod=0, unicode=""))
     driver.frames(1)
     assert menu.focus is not None

@@ -68,7 +68,9 @@ def test_medal_comes_down_and_is_heard_when_it_lands(driver: MenuDriver, heard: 
     assert next(ticks for ticks, _, sounds in stamps if sounds) == STAMP_TICKS
     assert all((stamp == 1.0) == (ticks >= STAMP_TICKS) for ticks, stamp, _ in stamps)
     assert heard.count("medal") == 1
-    assert hud_view(level.play).medal == "author"
+    pars, tick = hud_view(level.play).pars or (None, 0)
+    assert pars
+    assert pars.medal(tick) == "author"
 
 
 def test_failed_tries_run_together_for_two_seconds(driver: MenuDriver) -> None:

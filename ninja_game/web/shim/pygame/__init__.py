@@ -14,7 +14,7 @@ from .event import Event
 from .host import LINK, error
 from .modules import Window, display, font, image, joystick, key, mouse, scrap, time, transform
 from .rect import Rect
-from .surface import BLEND_PREMULTIPLIED, BLEND_RGBA_MULT, SRCALPHA, Surface
+from .surface import BLEND_PREMULTIPLIED, BLEND_RGBA_MULT, BLEND_RGBA_SUB, SRCALPHA, Surface
 
 globals().update(constants.KEY_CONSTANTS)
 init = quit = display.init

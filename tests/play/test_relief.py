@@ -1,0 +1,48 @@
+"""Tiles look like bodies, with edges light above and dark below, and throw a shadow; not so in plain palettes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pygame
+import pytest
+
+from ninja_game.formats.load import load_levels
+from ninja_game.sim.level import Level
+from ninja_game.ui.theme import PALETTES
+from ninja_game.view.sprites.thumbnail import thumbnail
+
+SHELF = "ninja-game level 1\nname: Shelf\n" + "\n".join(
+    f"|{'.@'[row == 5]}{'.' * 9}{('#' if row == 11 else '.') * 10}{'.' * 11}|" for row in range(23)
+)
+WIDTH = 792
+
+
+@pytest.fixture
+def shelf(tmp_path: Path) -> Level:
+    file = tmp_path / "shelf.txt"
+    file.write_text(SHELF, "utf-8")
+    return load_levels(file)[0].level
+
+
+def column(level: Level, palette: str) -> list[pygame.Color]:
+    """Colours from above the shelf to below it, in its middle: it lies from 288 to 312 px."""
+    picture = thumbnail(level, PALETTES[palette], WIDTH)
+    return [picture.get_at((372, y)) for y in range(280, 330)]
+
+
+@pytest.mark.parametrize("palette", [name for name, each in PALETTES.items() if each.scenery])
+def test_edges_are_light_above_and_dark_below_and_a_shadow_falls(shelf: Level, palette: str) -> None:
+    def light(colour: pygame.Color) -> int:
+        return sum(colour[:3])
+
+    colours = column(shelf, palette)
+    upper, middle, lower = (light(colours[y - 280]) for y in (288, 300, 311))
+    assert upper > middle > lower
+    shadow, far = (light(colours[y - 280]) for y in (314, 329))
+    assert shadow < far
+
+
+def test_plain_palettes_are_flat(shelf: Level) -> None:
+    inside = column(shelf, "contrast")[8:32]
+    assert len({tuple(each) for each in inside}) == 1
