@@ -166,7 +166,7 @@ class Hud:
             theme.text(surface, line, WIDTH / 2, top, size=LINE, colour=theme.palette.faint, align="centre")
         if pars:
             draw_pars(surface, theme, *pars, (WIDTH - row) / 2, y + 42, stamp=stamp)
-            rect.inflate_ip(theme.canvas.px(40), 0)
+            rect = rect.inflate(theme.canvas.px(40), 0)
         return rect
 
     def pointer(self, surface: pygame.Surface, name: str, x: float, y: float) -> pygame.Rect:

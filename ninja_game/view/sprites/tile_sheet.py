@@ -13,7 +13,7 @@ from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, STRIDE
 from ninja_game.ui.canvas import Canvas, Point
 from ninja_game.view.sprites.sketch import FINE
 
-TilePictures = dict[tuple[int, int, int, int, float, float], pygame.Surface]
+TilePictures = dict[tuple[int, tuple[int, ...], int, int, float, float], pygame.Surface]
 """By tile, colour, size and place beside the px."""
 
 
@@ -59,7 +59,7 @@ class TileSheet:
             # How far the cell's true corner lies beside its px: in eighths, so that few pictures are drawn.
             left, top = self._shift[0] + 24 * column * scale, self._shift[1] + 24 * row * scale
             shift = round(8 * (left - rect.left)) / 8, round(8 * (top - rect.top)) / 8
-            key = tile, int(self.colour), *rect.size, *shift
+            key = tile, tuple(self.colour), *rect.size, *shift
             if key not in self._pictures:
                 self._pictures[key] = tile_picture(tile, rect.size, self.colour, scale=scale, shift=shift)
             self.surface.blit(self._pictures[key], rect)

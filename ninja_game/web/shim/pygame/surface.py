@@ -173,10 +173,7 @@ class Surface:
         return shown if shown.w else make(0, 0, 0, 0)
 
     def blit(self, source: Surface, dest: Any, area: Any = None, special_flags: int = 0) -> Rect:
-        """Draw a picture, or an ``area`` of it, with its upper left corner at ``dest``; what was covered.
-
-        With BLEND_RGBA_SUB: take away what it covers, an opacity below 0.
-        """
+        """Draw a picture, or an ``area`` of it, with its upper left corner at ``dest``; what was covered."""
         # The most frequent call of all, some 200 times a picture: hence attributes instead of smaller functions.
         if dest.__class__ is Rect:
             left, top = dest.x, dest.y
@@ -198,15 +195,12 @@ class Surface:
             w, h = right - left, bottom - top
         if w <= 0 or h <= 0:
             return make(int(dest[0]), int(dest[1]), 0, 0)
-        taken_away = special_flags == BLEND_RGBA_SUB
-        if taken_away:
-            source.settle()
+        sign = -1 if special_flags == BLEND_RGBA_SUB and source.settle() else 1  # an opacity below 0 takes away
         if source._own is None or not self._copy(source, left, top, whole=not cut and area is None):
             if self._own is not None:
                 self.settle()
             entries = LIST.numbers if LIST.target == self._number and self._bounds is self._painted else self.entries()
-            opacity = -source.opacity if taken_away else source.opacity
-            entries.extend((IMAGE, source._number, x, y, w, h, left, top, opacity))
+            entries.extend((IMAGE, source._number, x, y, w, h, left, top, sign * source.opacity))
         rect = _new(Rect)
         rect.x, rect.y, rect.w, rect.h = left, top, w, h
         return rect
