@@ -70,7 +70,7 @@ def test_a_level_is_passed_with_keys_and_the_record_is_there_offline(new_visitor
     eventually(visitor.page, lambda: waiting, "no download of the library")
     waiting.pop().continue_()
     visitor.until("menu")
-    visitor.press("ArrowDown", "ArrowDown", "ArrowDown", "Enter")
+    visitor.press("ArrowDown", "ArrowRight", "Enter")
     visitor.eventually("type(app.top).__name__ == 'Browser'")
     visitor.page.evaluate(DROP, TEXT)
     visitor.eventually("any(entry.source == 'yours' for entry in app.top.shown)")
