@@ -140,17 +140,20 @@ def test_no_sound_device_is_no_error(folder: Path, monkeypatch: pytest.MonkeyPat
     sound.quiet()
 
 
-def test_nothing_is_read_once_it_is_closed(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nothing_is_read_once_it_is_closed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A thread that still reads while the device is closed ends the whole program."""
-    read = list[object]()
+    read = list[Path]()
 
-    def slow(file: object) -> None:
-        read.append(file)
+    def slow(file: Path) -> None:
+        if tmp_path in file.parents:  # players of other tests may still read theirs
+            read.append(file)
         sleep(0.02)
         raise pygame.error("unreadable")
 
+    for number in range(50):
+        (tmp_path / f"{number}.ogg").touch()
     monkeypatch.setattr(pygame.mixer, "Sound", slow)
-    sound = AudioPlayer(folder, music_volume=LOUDEST)
+    sound = AudioPlayer(tmp_path, music_volume=LOUDEST)
     sound.music("menu", 1000)
     sound.close()
     before = len(read)

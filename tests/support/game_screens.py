@@ -30,6 +30,7 @@ from ninja_game.play.level.screen import LevelScreen, PausePanel
 from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.menus.replays import ReplaysScreen
 from ninja_game.play.menus.settings import PAGES
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.sim.kinds import GOLD, MINE
@@ -38,6 +39,7 @@ from tests.support.draw_log import DrawLog
 from tests.support.level_maker import ROOM, examine
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK, instead_of_ours
+from tests.support.waiting import LONGEST
 
 RANGE = """ninja-game level 1
 name: Target practice
@@ -227,23 +229,31 @@ def _records_and_replays(driver: MenuDriver) -> Iterator[str]:
     driver.open("Records")
     yield "records"
     home(driver)
-    driver.open("Replays")
+    _replays(driver)
     yield "replays-none"
     home(driver)
     driver.earn_gold()
-    driver.open("Replays")
-    driver.frames(4)
+    _replays(driver)
     yield "replays"
     driver.press("delete")
     yield "replays-delete"
     home(driver)
-    driver.open("Replays")
+    _replays(driver)
     driver.press("return")
     driver.frames(80)
     yield "replay"
     driver.press("p", "equals")
     yield "replay-paused"
     home(driver)
+
+
+def _replays(driver: MenuDriver) -> None:
+    """The list of replays with all its files, which it reads while pictures are shown."""
+    screen = driver.open("Replays")
+    assert isinstance(screen, ReplaysScreen)
+    screen._read_files(LONGEST)
+    screen._arrange()
+    driver.frames()
 
 
 def _settings(driver: MenuDriver) -> Iterator[str]:
