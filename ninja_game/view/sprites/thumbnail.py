@@ -12,7 +12,6 @@ from ninja_game.sim.loader import grid_tiles
 from ninja_game.sim.memory.schema import TileMap
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
-from ninja_game.ui.scenery import lay_ground
 from ninja_game.ui.theme import PALETTES, Palette
 from ninja_game.view.ninja.figure import STAND, ninja_sprite
 from ninja_game.view.sprites.backdrop import Backdrop
@@ -36,10 +35,9 @@ def thumbnail(level: Level, palette: Palette, width: int) -> pygame.Surface:
     except LevelError:
         static = TileMap()
         static.tiles = grid_tiles(level)
-        picture = pygame.Surface(canvas.size)
-        lay_ground(picture, palette, picture.get_rect(), picture.get_rect())
-        picture.blit(Backdrop(canvas, palette, book, static).tiles, (0, 0), special_flags=pygame.BLEND_PREMULTIPLIED)
-        return picture
+        backdrop = Backdrop(canvas, palette, book, static)
+        backdrop.ground.blit(backdrop.tiles, (0, 0), special_flags=pygame.BLEND_PREMULTIPLIED)
+        return backdrop.ground
     animation = ObjectAnimation(run.world)
     backdrop = Backdrop(canvas, palette, book, run.tiles)
     backdrop.reset(run.world, animation)

@@ -13,8 +13,11 @@ from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, STRIDE
 from ninja_game.ui.canvas import Canvas, Point
 from ninja_game.view.sprites.sketch import FINE
 
-TilePictures = dict[tuple[int, tuple[int, ...], int, int, float, float], pygame.Surface]
-"""By tile, colour, size and place beside the px."""
+TileKey = tuple[int, int, int, float, float]
+"""Tile, size and place beside the px."""
+
+TilePictures = dict[tuple[tuple[int, ...], TileKey], pygame.Surface]
+"""By colour, and what tells one from another."""
 
 
 class TileSheet:
@@ -48,7 +51,7 @@ class TileSheet:
         filled, before = SHAPE[tile] != EMPTY, self._rows[row] & bit
         if not filled and not before:
             return
-        rect, scale = self.cell(column, row), self.canvas.scale
+        rect = self.cell(column, row)
         if before:
             self._rows[row] ^= bit
             self.surface.fill((0, 0, 0, 0), rect)
@@ -56,13 +59,21 @@ class TileSheet:
             self._rows[row] |= bit
             if not rect.colliderect(self.surface.get_rect()):
                 return
-            # How far the cell's true corner lies beside its px: in eighths, so that few pictures are drawn.
-            left, top = self._shift[0] + 24 * column * scale, self._shift[1] + 24 * row * scale
-            shift = round(8 * (left - rect.left)) / 8, round(8 * (top - rect.top)) / 8
-            key = tile, tuple(self.colour), *rect.size, *shift
-            if key not in self._pictures:
-                self._pictures[key] = tile_picture(tile, rect.size, self.colour, scale=scale, shift=shift)
-            self.surface.blit(self._pictures[key], rect)
+            self.surface.blit(self.picture(self.key(column, row, tile), self.colour), rect)
+
+    def key(self, column: int, row: int, tile: int) -> TileKey:
+        """What tells the picture of a tile in a cell from others."""
+        rect, scale = self.cell(column, row), self.canvas.scale
+        # How far the cell's true corner lies beside its px: in eighths, so that few pictures are drawn.
+        left, top = self._shift[0] + 24 * column * scale, self._shift[1] + 24 * row * scale
+        return tile, *rect.size, round(8 * (left - rect.left)) / 8, round(8 * (top - rect.top)) / 8
+
+    def picture(self, key: TileKey, colour: pygame.Color) -> pygame.Surface:
+        """The picture of a key. Nobody may draw on it."""
+        known = tuple(colour), key
+        if known not in self._pictures:
+            self._pictures[known] = tile_picture(key[0], key[1:3], colour, scale=self.canvas.scale, shift=key[3:])
+        return self._pictures[known]
 
     def has_tile(self, area: pygame.Rect) -> bool:
         """Whether any px of an area may be a tile's."""
