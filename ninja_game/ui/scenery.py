@@ -39,11 +39,20 @@ def lay_ground(surface: pygame.Surface, palette: Palette, stage: pygame.Rect, ar
 
 def ground(size: tuple[int, int], palette: Palette) -> pygame.Surface:
     """The sky and the layers of a palette that has a scenery, painted once; nobody may draw on it."""
-    return _scaled(size, palette.scenery, *(tuple(getattr(palette, role)) for role in GROUND_ROLES))
+    return _scaled(size, palette.scenery, *_colours(palette))
+
+
+def painted(palette: Palette) -> pygame.Surface:
+    """The ground, on its small sheet; nobody may draw on it."""
+    return _painted(palette.scenery, *_colours(palette))
 
 
 GROUND_ROLES = "sky", "background", "far", "near"
 """From the upper edge of the sky to the lower one, then from the farthest layer to the nearest one."""
+
+
+def _colours(palette: Palette) -> list[tuple[int, ...]]:
+    return [tuple(getattr(palette, role)) for role in GROUND_ROLES]
 
 
 @lru_cache(maxsize=_KEPT)

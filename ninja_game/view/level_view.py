@@ -23,7 +23,7 @@ from ninja_game.view.ninja.ninja_animation import NinjaAnimation, draw_ghost, dr
 from ninja_game.view.ninja.ragdoll import Ragdoll
 from ninja_game.view.sound_cues import draw_sound_cues
 from ninja_game.view.sprites.backdrop import Backdrop
-from ninja_game.view.sprites.drawing import DrawTarget, SpriteBook
+from ninja_game.view.sprites.drawing import DrawTarget, shared_book
 from ninja_game.view.sprites.moving_sprites import draw_moving
 from ninja_game.view.sprites.object_animation import ObjectAnimation
 
@@ -75,7 +75,6 @@ class LevelView:
         self._shake = 0.0
         self._covered: list[pygame.Rect] = []
         self._look: tuple[object, ...] = ()
-        self._book: SpriteBook | None = None
         self._layout()
 
     # --- the world goes on ---
@@ -168,9 +167,7 @@ class LevelView:
         """Make what depends on the window's size and the palette."""
         self.canvas = self.context.canvas
         palette = self.context.theme.palette
-        if self._book is None or (self._book.scale, self._book.palette) != (self.canvas.scale, palette):
-            self._book = SpriteBook(self.canvas.scale, palette)
-        book = self._book
+        book = shared_book(self.canvas.scale, palette.name)
         self.target = DrawTarget(self.canvas, palette, book)
         self._backdrop = Backdrop(self.canvas, palette, book, self.simulation.tiles)
         self._backdrop.reset(self.simulation.world, self.object_animation)
@@ -208,7 +205,7 @@ class LevelView:
         self._covered = self.target.covered
         if self._shake > 0.25:
             turn, reach = 2.4 * self.effects.now, self._shake * self.canvas.scale
-            surface.blit(surface.copy(), (round(reach * cos(turn)), round(reach * sin(turn))))
+            surface.blit(surface, (round(reach * cos(turn)), round(reach * sin(turn))))
             whole = self._whole = True
         return None if whole else changed
 

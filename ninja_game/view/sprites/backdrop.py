@@ -7,12 +7,11 @@ import pygame
 from ninja_game.sim.kinds import GOLD, MINE
 from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.ui.canvas import Canvas
-from ninja_game.ui.scenery import lay_ground
 from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.drawing import SpriteBook, is_near
 from ninja_game.view.sprites.light import Light, light_of, light_picture
 from ninja_game.view.sprites.object_animation import ObjectAnimation
-from ninja_game.view.sprites.relief import add_relief, add_shadow
+from ninja_game.view.sprites.relief import add_relief, ground_in_shadow
 from ninja_game.view.sprites.sketch import Sprite
 from ninja_game.view.sprites.static_sprites import SETTLED_TICKS, PlacedSprite, static_sprites_of
 from ninja_game.view.sprites.tile_sheet import TileSheet
@@ -30,12 +29,13 @@ class Backdrop:
         self._book = book
         self._corner = canvas.stage.topleft
         self.picture = pygame.Surface(canvas.size)
-        self.ground = pygame.Surface(canvas.size)
-        lay_ground(self.ground, palette, self.ground.get_rect(), self.ground.get_rect())
         sheet = TileSheet(canvas, palette.outline, book.tiles)
         if palette.scenery:
             sheet.show(level)
-            add_shadow(self.ground, sheet)
+            self.ground = ground_in_shadow(sheet, palette)
+        else:
+            self.ground = pygame.Surface(canvas.size)
+            self.ground.fill(palette.background)
         sheet.colour = palette.tile
         sheet.show(level)
         if palette.scenery:

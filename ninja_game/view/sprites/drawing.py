@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any, Concatenate, Generic, NamedTuple, ParamSpec
 
 import pygame
 
 from ninja_game.ui.canvas import Canvas, Colour
-from ninja_game.ui.theme import Palette
+from ninja_game.ui.theme import PALETTES, Palette
 from ninja_game.view.sprites.sketch import Sketch, Sprite
 from ninja_game.view.sprites.tile_sheet import TilePictures
 
@@ -122,15 +123,25 @@ class SpriteBook:
     def sprite(self, key: SpriteKey) -> Sprite:
         found = self._kept.get(key)
         if found is None:
-            drawing = key.drawing
-            extent = drawing.extent if key.turn == 0 else _turned(drawing.extent)
-            sketch = Sketch(self.scale, extent, turn=key.turn)
-            drawing.paint(sketch, self.palette, *key.parameters)
-            found = sketch.finish(key.alpha / 8)
-            self._kept[key] = found
+            found = self._kept[key] = (
+                self._drawn(key) if key.alpha == 8 else self.sprite(key.faded(8)).faded(key.alpha / 8)
+            )
             if len(self._kept) > _KEPT:
                 self._kept.popitem(last=False)
         return found
+
+    def _drawn(self, key: SpriteKey) -> Sprite:
+        drawing = key.drawing
+        extent = drawing.extent if key.turn == 0 else _turned(drawing.extent)
+        sketch = Sketch(self.scale, extent, turn=key.turn)
+        drawing.paint(sketch, self.palette, *key.parameters)
+        return sketch.finish()
+
+
+@lru_cache(maxsize=8)
+def shared_book(scale: float, palette: str) -> SpriteBook:
+    """The book of all levels that are shown at one scale in one palette, by its name."""
+    return SpriteBook(scale, PALETTES[palette])
 
 
 def _turned(extent: Extent) -> Extent:

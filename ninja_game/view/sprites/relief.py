@@ -9,6 +9,7 @@ import pygame
 from ninja_game.sim.collision.tiles import EMPTY, FULL, SHAPE
 from ninja_game.sim.memory.schema import TileMap
 from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, STRIDE
+from ninja_game.ui.scenery import painted
 from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.tile_sheet import TileKey, TileSheet
 
@@ -23,8 +24,8 @@ class Edge(NamedTuple):
 
 EDGES = Edge("bright", 20, 13), Edge("bright", 8, 20), Edge("bright", 2, 120), Edge("outline", -3, 80)
 
-SHADOW, SHADOW_AT, SOFT = 76, (3, 5), 5
-"""The shadow's strength, where it falls (logical px), and how many times smaller it is made to be soft."""
+SHADOW, SHADOW_AT, SOFT = 76, (4, 6), 2
+"""The shadow's strength, where it falls (logical px), and how many times smaller than the ground it is made."""
 
 SOLID = 1
 """The tile that fills its cell."""
@@ -57,16 +58,20 @@ def _edges(sheet: TileSheet, palette: Palette, own: TileKey, above: TileKey, bel
         step = round(depth * sheet.canvas.scale) or (1 if depth > 0 else -1)
         strip = tile.copy()
         strip.blit(tile, (0, step), special_flags=pygame.BLEND_RGBA_SUB)
-        strip.blit(beside, (0, step + (tile.height if depth < 0 else -beside.height)), special_flags=pygame.BLEND_RGBA_SUB)
+        strip.blit(
+            beside, (0, step + (tile.height if depth < 0 else -beside.height)), special_flags=pygame.BLEND_RGBA_SUB
+        )
         strip.fill((strength,) * 4, special_flags=pygame.BLEND_RGBA_MULT)
         edges.blit(strip, (0, 0), special_flags=pygame.BLEND_PREMULTIPLIED)
     return edges
 
 
-def add_shadow(ground: pygame.Surface, sheet: TileSheet) -> None:
-    """Draw the shadow of tiles, as dark as they are on their sheet, on what is behind them."""
-    wide, high = ground.get_size()
-    soft = pygame.transform.smoothscale(sheet.surface, (max(1, wide // SOFT), max(1, high // SOFT)))
-    soft.fill((SHADOW,) * 4, special_flags=pygame.BLEND_RGBA_MULT)
-    soft = pygame.transform.smoothscale(soft, (wide, high))
-    ground.blit(soft, [round(sheet.canvas.scale * away) for away in SHADOW_AT], special_flags=pygame.BLEND_PREMULTIPLIED)
+def ground_in_shadow(sheet: TileSheet, palette: Palette) -> pygame.Surface:
+    """What is behind tiles, with their shadow, as dark as they are on their sheet; soft, since all is made small."""
+    small = painted(palette).copy()
+    shadow = pygame.transform.smoothscale(sheet.surface, [side // SOFT for side in small.get_size()])
+    shadow = pygame.transform.smoothscale(shadow, small.get_size())
+    shadow.fill((SHADOW,) * 4, special_flags=pygame.BLEND_RGBA_MULT)
+    share = sheet.canvas.scale * small.width / sheet.surface.width
+    small.blit(shadow, [round(share * away) for away in SHADOW_AT], special_flags=pygame.BLEND_PREMULTIPLIED)
+    return pygame.transform.smoothscale(small, sheet.surface.size)

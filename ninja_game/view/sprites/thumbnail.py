@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import pygame
 
 from ninja_game.errors import LevelError
@@ -12,24 +10,18 @@ from ninja_game.sim.loader import grid_tiles
 from ninja_game.sim.memory.schema import TileMap
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
-from ninja_game.ui.theme import PALETTES, Palette
+from ninja_game.ui.theme import Palette
 from ninja_game.view.ninja.figure import STAND, ninja_sprite
 from ninja_game.view.sprites.backdrop import Backdrop
-from ninja_game.view.sprites.drawing import DrawTarget, SpriteBook
+from ninja_game.view.sprites.drawing import DrawTarget, shared_book
 from ninja_game.view.sprites.moving_sprites import draw_moving
 from ninja_game.view.sprites.object_animation import ObjectAnimation
-
-
-@lru_cache(maxsize=8)
-def _book(scale: float, palette: str) -> SpriteBook:
-    """Thumbnails of one size share their drawings."""
-    return SpriteBook(scale, PALETTES[palette])
 
 
 def thumbnail(level: Level, palette: Palette, width: int) -> pygame.Surface:
     """The level at its start, ``width`` px wide; only the tiles of one that cannot be played."""
     canvas = Canvas((width, max(1, round(width * HEIGHT / WIDTH))))
-    book = _book(canvas.scale, palette.name)
+    book = shared_book(canvas.scale, palette.name)
     try:
         run = Simulation(level)
     except LevelError:
