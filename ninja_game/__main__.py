@@ -6,6 +6,7 @@ from __future__ import annotations
 import _signal  # type: ignore[import-not-found]
 import os
 import sys
+from contextlib import suppress
 
 
 def open_missing_streams() -> None:
@@ -33,6 +34,12 @@ def main() -> None:
     from ninja_game.signals import end_on_signals
 
     end_on_signals()
+    if sys.argv[1:] == ["play"]:
+        # The first picture comes before the command line is loaded. What fails here fails there again, and is said.
+        with suppress(Exception):
+            from ninja_game.play.window import open_at_once
+
+            open_at_once(None)
     from ninja_game.cli.main import main as run
 
     run()

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import os
 import sys
-import traceback
 from collections.abc import Sequence
 from contextlib import suppress
 from difflib import get_close_matches
@@ -194,6 +193,8 @@ def _failed(error: BaseException) -> int:
         case OSError():
             complain(f"{error.filename}: {error.strerror}" if error.filename else str(error))
         case _:
+            import traceback
+
             _say("".join(traceback.format_exception(error)).rstrip())
             complain("this is a fault of ninja-game, not of your input; please report it with the lines above")
             return INTERNAL_ERROR

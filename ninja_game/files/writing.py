@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import errno
 import os
-import secrets
 import stat
 import sys
 from collections.abc import Callable, Iterable, Iterator
@@ -196,7 +195,7 @@ if sys.platform == "win32":
 
     def _new_part(folder: Path, _: int | None) -> tuple[int, Path]:
         """A new temporary file. Windows itself refuses to remove it while it is open."""
-        part = folder / f"{PART_PREFIX}{secrets.token_hex(8)}{PART_SUFFIX}"
+        part = folder / f"{PART_PREFIX}{os.urandom(8).hex()}{PART_SUFFIX}"
         return os.open(part, os.O_CREAT | os.O_EXCL | os.O_WRONLY | os.O_BINARY, 0o666), part
 
     def _remove_unlocked(part: Path, _: int | None) -> None:
@@ -208,7 +207,7 @@ else:
     def _new_part(folder: Path, at: int | None) -> tuple[int, Path]:
         """A new temporary file, locked for as long as it is open; the system's mask decides on its mode."""
         while True:
-            part = folder / f"{PART_PREFIX}{secrets.token_hex(8)}{PART_SUFFIX}"
+            part = folder / f"{PART_PREFIX}{os.urandom(8).hex()}{PART_SUFFIX}"
             flags = os.O_CREAT | os.O_EXCL | os.O_WRONLY | os.O_CLOEXEC
             handle = os.open(named(part, at), flags, 0o666, dir_fd=at)
             with suppress(OSError):

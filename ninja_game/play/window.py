@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import os
 import warnings
+from functools import cache
 from pathlib import Path
 
 import pygame
@@ -87,8 +88,9 @@ class Window:
                 window.position = self._place
 
 
+@cache
 def open_at_once(size: tuple[int, int] | None) -> Window:
-    """The window with its first picture: the game's name, while the rest of the program is loaded.
+    """The window with its first picture: the game's name, while the rest of the program is loaded; opened once.
 
     ``size``: as of ``Window``. Raises NinjaGameError where there is no display.
     """

@@ -81,9 +81,14 @@ class Episode:
     def column(self) -> int:
         return self.number // EPISODES_PER_COLUMN
 
+    @property
+    def code(self) -> str:
+        """How it is called wherever it is named: its number as in names of files."""
+        return f"{self.number:02d}"
+
     def title(self, level: int) -> str:
-        """How a level of it is announced (game.md §2.1)."""
-        return f"Episode {self.number} Level {level}: {self.levels[level].title}"
+        """How a level of it is announced: with the code of its file."""
+        return f"Episode {self.code}-{level}: {self.levels[level].title}"
 
 
 class EpisodeSet(NamedTuple):

@@ -67,11 +67,12 @@ def opens_author(entry: Entry, mark: Mark | None) -> bool:
 def next_par(pars: Pars, mark: Mark | None) -> str:
     """The medal after the one that a mark brings, its par, and by how much it was missed; "" after the best."""
     if mark is None:
-        return f"{MEDALS[-1]}: pass it"
+        return f"{MEDALS[-1]} medal: pass it"
     medal = pars.next_medal(mark.fastest)
     if not medal:
         return ""
-    return f"{medal}: {seconds_text(pars.par(medal))} s, missed by {seconds_text(mark.fastest - pars.par(medal))} s"
+    par = pars.par(medal)
+    return f"{medal} medal: {seconds_text(par)} s, missed by {seconds_text(mark.fastest - par)} s"
 
 
 def has_all_gold(entry: Entry, mark: Mark | None) -> bool:

@@ -83,10 +83,14 @@ class PlayerData:
     def lock_of(self, entry: Entry) -> str:
         """Why a level may not be played by itself yet, in words; "" where it may: one rule for every screen."""
         episode = self.catalogue.episode_of(entry)
-        before = self.catalogue.preceding(episode) if episode else None
-        if episode is None or before is None or self.episode_state(episode) != LOCKED:
+        return self.lock_of_episode(episode) if episode else ""
+
+    def lock_of_episode(self, episode: Episode) -> str:
+        """Why an episode may not be played yet, in words; "" where it may."""
+        before = self.catalogue.preceding(episode)
+        if before is None or self.episode_state(episode) != LOCKED:
             return ""
-        return f"Locked: pass episode {before.number} first"
+        return f"Locked: pass episode {before.code} first"
 
     @cached_property
     def marks(self) -> Marks:

@@ -23,7 +23,7 @@ from ninja_game.view.ninja.ninja_animation import NinjaAnimation, draw_ghost, dr
 from ninja_game.view.ninja.ragdoll import Ragdoll
 from ninja_game.view.sound_cues import draw_sound_cues
 from ninja_game.view.sprites.backdrop import Backdrop
-from ninja_game.view.sprites.drawing import DrawTarget, SpriteBook
+from ninja_game.view.sprites.drawing import DrawTarget, shared_book
 from ninja_game.view.sprites.moving_sprites import draw_moving
 from ninja_game.view.sprites.object_animation import ObjectAnimation
 
@@ -75,7 +75,6 @@ class LevelView:
         self._shake = 0.0
         self._covered: list[pygame.Rect] = []
         self._look: tuple[object, ...] = ()
-        self._book: SpriteBook | None = None
         self._layout()
 
     # --- the world goes on ---
@@ -85,17 +84,13 @@ class LevelView:
         world = self.simulation.world
         self._follow_options()
         self.object_animation.on_tick(world)
-        self.ninja_animation.on_tick(world)
-        self.effects.on_tick(self.simulation.tiles, world)
-        self._follow_death(world)
+        self.on_death()
         self._follow_blasts(world)
         for ghost in self.ghosts:
             ghost.on_tick()
-        if self.audible:
-            self.context.audio_output.play_events(world)
 
     def on_death(self) -> None:
-        """Take note of a death between two ticks: out of time, or by the player's own hand."""
+        """Take note of what happened to the ninja; between two ticks: out of time, or by the player's own hand."""
         world = self.simulation.world
         self.ninja_animation.on_tick(world)
         self.effects.on_tick(self.simulation.tiles, world)
@@ -168,9 +163,7 @@ class LevelView:
         """Make what depends on the window's size and the palette."""
         self.canvas = self.context.canvas
         palette = self.context.theme.palette
-        if self._book is None or (self._book.scale, self._book.palette) != (self.canvas.scale, palette):
-            self._book = SpriteBook(self.canvas.scale, palette)
-        book = self._book
+        book = shared_book(self.canvas.scale, palette)
         self.target = DrawTarget(self.canvas, palette, book)
         self._backdrop = Backdrop(self.canvas, palette, book, self.simulation.tiles)
         self._backdrop.reset(self.simulation.world, self.object_animation)
@@ -208,7 +201,7 @@ class LevelView:
         self._covered = self.target.covered
         if self._shake > 0.25:
             turn, reach = 2.4 * self.effects.now, self._shake * self.canvas.scale
-            surface.blit(surface.copy(), (round(reach * cos(turn)), round(reach * sin(turn))))
+            surface.blit(surface, (round(reach * cos(turn)), round(reach * sin(turn))))
             whole = self._whole = True
         return None if whole else changed
 

@@ -66,6 +66,15 @@ def test_a_start_imports_only_what_it_needs(words: str, most: int, without: str)
     assert len(loaded) <= most
 
 
+def test_the_first_picture_comes_before_the_command_line_is_loaded() -> None:
+    code = "import sys, pygame; pygame.display.flip = lambda: sys.exit(print(*sys.modules))\n"
+    code += "import ninja_game.__main__ as m; m.main()"
+    said = subprocess.check_output([sys.executable, "-c", code, "play"], text=True)
+    loaded = said.splitlines()[-1].split()
+    assert set(loaded).isdisjoint(("click", "ninja_game.cli", "ninja_game.simulation"))
+    assert len(loaded) <= 230
+
+
 def test_no_command_shows_help_and_is_wrong_usage() -> None:
     result = ninja_game()
     assert (result.returncode, result.stdout) == (2, "")

@@ -1,16 +1,20 @@
 """What a picture costs: `tool measure.frame_cost`, a busy level at 1584 x 1200 px on SDL's software renderer.
 
-Drawing alone (median, 99th percentile, worst), then the share of a core that playing at 60 pictures a second takes. The
-targets are 4 ms, 8 ms and 25 %. `--display` uses the real display instead of the dummy driver; `--level` another level.
+The first level and the next one, a retry, drawing alone (median, 99th percentile, worst), then the share of a core that
+playing at 60 pictures a second takes; `work` is the time in which the processor was ours. The targets are 50 ms for a
+level, 2 ms, 5 ms and 10 ms for drawing, and 25 %. `--display` uses the real display instead of the dummy driver;
+`--level` another level.
 """
 
 from __future__ import annotations
 
 import argparse
+import gc
 import json
 import sys
 import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
 from random import Random
 
@@ -91,6 +95,14 @@ def measure_load(app: App, seconds: float) -> float:
     return 100 * (time.process_time() - used) / (time.perf_counter() - started)
 
 
+def timed(name: str, what: Callable[[], object]) -> dict[str, float]:
+    """How long something takes, ms: by the clock, and the time in which the processor was ours."""
+    start, used = time.perf_counter(), time.thread_time()
+    what()
+    work = 1000 * (time.thread_time() - used)
+    return {f"{name}_ms": round(1000 * (time.perf_counter() - start), 1), f"{name}_work_ms": round(work, 1)}
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--display", action="store_true", help="use the real display")
@@ -103,14 +115,19 @@ def main() -> int:
     home = tempfile.TemporaryDirectory()
     app = build_app(Path(home.name), size=SIZE, controls=Restless(), audio_output=AudioOutput())
     app.change_settings(show_keys=True)
-    started = time.perf_counter()
-    screen = busy_screen(app, level)
-    result = {"things": float(len(level.objects)), "level_to_play_ms": round(1000 * (time.perf_counter() - started), 1)}
+    result = {"things": float(len(level.objects))}
+    for name in ("first_level", "next_level"):
+        result |= timed(name, lambda: busy_screen(app, level))
+        gc.freeze()  # as the program does
+    screen = app.top
+    assert isinstance(screen, LevelScreen)
     result |= measure_drawing(app, screen, arguments.pictures)
-    started = time.perf_counter()
-    screen.retry()
-    app.frame(0)
-    result["retry_ms"] = round(1000 * (time.perf_counter() - started), 2)
+
+    def again() -> None:
+        screen.retry()
+        app.frame(0)
+
+    result |= timed("retry", again)
     screen.begin()
     result |= measure_seek(app, level)
     result["core_percent"] = round(measure_load(app, arguments.seconds), 1)

@@ -157,12 +157,12 @@ class Hud:
         row = 4 * PAR_WIDE - 12.0 if pars else 0.0
         widths = [theme.width(title, TITLE, bold=True), row, *(theme.width(line, LINE) for line in lines)]
         below = 30 if pars else 0
-        w, h = max(220.0, max(widths) + 44), 48.0 + 16 * len(lines) + below
+        w, h = max(220.0, max(widths) + 44), 48.0 + 18 * len(lines) + below
         y = min(y, LOWEST - h)
         rect = theme.panel(surface, (WIDTH - w) / 2, y, w, h, 4)
         theme.text(surface, title, WIDTH / 2, y + 9, size=TITLE, align="centre", bold=True)
         for k, line in enumerate(lines):
-            top = y + 41 + below + 16 * k
+            top = y + 41 + below + 18 * k
             theme.text(surface, line, WIDTH / 2, top, size=LINE, colour=theme.palette.faint, align="centre")
         if pars:
             draw_pars(surface, theme, *pars, (WIDTH - row) / 2, y + 42, stamp=stamp)
@@ -217,7 +217,7 @@ ABOVE, BELOW = 34.0, 474.0
 LOWEST = 573.0
 """Where it ends at the latest: below it are the level's name and what a pass has brought."""
 
-TITLE, LINE, POINTER = 22.0, 10.5, 9.5
+TITLE, LINE, POINTER = 22.0, 12.0, 9.5
 """Sizes in the panel of a passed level, and of the names of things."""
 
 POINTER_ROOM = 72.0
@@ -243,11 +243,13 @@ def hud_view(play: LevelPlay) -> HudView:
     message = None
     # At the far side from the ninja, so that neither its dance nor the way that it came is hidden.
     y = ABOVE if attempt.simulation.world.ninja.y > HEIGHT / 2 else BELOW
-    text = "" if play.phase is Phase.PASSED else play.sayings.text
-    if play.phase is Phase.DEAD:
-        text = cause_of_death(play)
-    still = play.phase in {Phase.READY, Phase.DEAD}
+    text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.sayings.text
+    still = play.phase is Phase.READY
     said = (named_keys(text, key), y if still else IN_BORDER) if text else None
+    if play.phase is Phase.DEAD:
+        # The line of keys keeps its place until it comes.
+        cause, _, why = cause_of_death(play).partition(". ")
+        message = cause.rstrip("."), [*filter(None, [why]), _after_death(play, key)], y
     if play.phase is Phase.PASSED:
         keys = f"{key('confirm')}: go on    {key('retry')}: retry    {key('replay')}: replay"
         if not context.leads_on:
@@ -303,14 +305,19 @@ def _hint(play: LevelPlay, key: KeyName) -> str:
         return _ready_hint(key, practice_mode=play.context.practice_mode, show_tutorial=show_tutorial)
     if play.phase is Phase.PASSED:
         return "    ".join(play.notices)
-    if play.phase is Phase.DEAD and play.after_end > DEATH_PAUSE:
-        again = f"{key('confirm')} or {key('jump')}: try again"
-        return f"{again}    {key('replay')}: watch it" if play.may_watch else again
     if play.tools.stepping:
         return f"{key('step')}: one tick    {key('confirm')} or any move: go on"
     if play.context.practice_mode and play.attempt.simulation.tick < _TOOLS_NAMED:
         return "    ".join(f"{key(action)}: {name}" for action, name in _TOOLS.items())
     return ""
+
+
+def _after_death(play: LevelPlay, key: KeyName) -> str:
+    """What to press after a death, a moment later."""
+    if play.after_end <= DEATH_PAUSE:
+        return ""
+    again = f"{key('confirm')} or {key('jump')}: try again"
+    return f"{again}    {key('replay')}: watch it" if play.may_watch else again
 
 
 def _ready_hint(key: KeyName, *, practice_mode: bool, show_tutorial: bool) -> str:

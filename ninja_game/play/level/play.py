@@ -17,8 +17,8 @@ from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.states import CRUSHED
 from ninja_game.view.level_view import LevelView
 
-_FILL_SHARE = 0.05
-"""Share of what the bar lacks that fills in per picture, at least; always so before play starts."""
+_FILL_SHARE, _FILL_AT_START = 0.05, 0.15
+"""Share of what the bar lacks that fills in per picture, at least; before play starts, which is done in a second."""
 
 DEATH_PAUSE = 41
 """Ticks after a death before the message comes."""
@@ -49,8 +49,8 @@ def followed(shown: float, true: float, *, filling: bool) -> float:
     """The lifetime to show in the next picture: it follows the true one softly, so that gold fills in."""
     if abs(true - shown) < 1:
         return true
-    share = _FILL_SHARE if filling else (1 - max(0.0, shown) / LIFETIME) ** 2
-    return shown + (true - shown) * min(1.0, max(_FILL_SHARE, share))
+    share = _FILL_AT_START if filling else max(_FILL_SHARE, (1 - max(0.0, shown) / LIFETIME) ** 2)
+    return shown + (true - shown) * min(1.0, share)
 
 
 class Phase(Enum):

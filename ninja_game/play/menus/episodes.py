@@ -154,9 +154,8 @@ class EpisodeGrid(ThumbnailScreen):
     def _hint(self) -> str:
         if self.episode is None:
             return "There are no episodes"
-        if self._state(self.number) == LOCKED:
-            before = self.player.catalogue.preceding(self.episode)
-            return f"Locked: pass episode {before.number if before else 0} first"
+        if lock := self.player.lock_of_episode(self.episode):
+            return lock
         cheated = self._state(self.number) == CHEATED
         return (
             "Enter: play, without records (reached in practice)"
@@ -236,7 +235,7 @@ class EpisodeGrid(ThumbnailScreen):
         if episode is None:
             theme.text(surface, "No episodes", SIDE, 66, size=16, colour=palette.faint, bold=True)
             return
-        head = f"Episode {episode.number}: {episode.name}"
+        head = f"Episode {episode.code}: {episode.name}"
         theme.text(surface, head, SIDE, 66, size=16, bold=True, width=364)
         best = self.player.records.episode_best(episode.key)
         text = (
@@ -270,7 +269,15 @@ class EpisodeGrid(ThumbnailScreen):
         if look != "locked":
             colour = theme.palette.on_tile if look == "beaten" else theme.palette.text
             size = min(16.0, h / 2)
-            theme.text(surface, str(number), x + w / 2, y + (h - size) / 2, size=size, colour=colour, align="centre")
+            theme.text(
+                surface,
+                self.pack.episodes[number].code,
+                x + w / 2,
+                y + (h - size) / 2,
+                size=size,
+                colour=colour,
+                align="centre",
+            )
             self._draw_reached(surface, theme, number, area)
         if index == self.grid.index:
             width = 2.5 if focused else 1.2
@@ -302,7 +309,9 @@ class EpisodeGrid(ThumbnailScreen):
         theme.row(surface, (x, y + 2, w, h - 4), chosen=focused, focused=focused)
         self.thumbnails.draw(surface, entry, x + 6, y + 5, SMALL_PICTURE)
         left = x + SMALL_PICTURE + 18
-        theme.text(surface, f"{index}  {entry.title}", left, y + 12, size=13, bold=True, width=w - SMALL_PICTURE - 70)
+        theme.text(
+            surface, f"{entry.episode}  {entry.title}", left, y + 12, size=13, bold=True, width=w - SMALL_PICTURE - 70
+        )
         mark = self.marks.get(entry.digest)
         all_gold_and_medal(surface, theme, entry, mark, x + w - 14, y + 19)
         best = self.player.records.level_best(entry.digest)

@@ -25,7 +25,7 @@ class EpisodePassed(ThumbnailScreen):
         super().__init__(app)
         self.run = run
         self._play = play
-        self.title = f"Episode {run.episode.number} passed"
+        self.title = f"Episode {run.episode.code} passed"
 
     @property
     def next_episode(self) -> Episode | None:
@@ -35,7 +35,7 @@ class EpisodePassed(ThumbnailScreen):
         following = self.next_episode
         buttons: list[Widget] = []
         if following is not None:
-            buttons.append(Button((236, 440, 320, 36), f"Next: episode {following.number}", self.go_on, size=13))
+            buttons.append(Button((236, 440, 320, 36), f"Next: episode {following.code}", self.go_on, size=13))
         watch = Button((236, 482, 156, 30), "Watch the run", self.watch, hint="The best run of this episode")
         watch.enabled = self.player.records.episode_best(self.run.episode.key) is not None
         return [*buttons, watch, Button((400, 482, 156, 30), "Episodes", self.back)]

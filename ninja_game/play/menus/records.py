@@ -55,7 +55,7 @@ class RecordsScreen(MenuScreen):
         episodes = [(pack, episode) for pack in catalogue.packs() for episode in pack.episodes.values()]
         for pack, episode in episodes:
             best = records.episode_best(episode.key)
-            text = f"{pack.key}{', e' if pack.key else 'E'}pisode {episode.number}: {episode.name}"
+            text = f"{pack.key}{', e' if pack.key else 'E'}pisode {episode.code}: {episode.name}"
             rows.append(RecordRow(text, best.score if best else None, best.replays if best else (), True))
             for entry in episode.levels:
                 listed.add(entry.digest)

@@ -7,12 +7,11 @@ import pygame
 from ninja_game.sim.kinds import GOLD, MINE
 from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.ui.canvas import Canvas
-from ninja_game.ui.scenery import lay_ground
 from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.drawing import SpriteBook, is_near
 from ninja_game.view.sprites.light import Light, light_of, light_picture
 from ninja_game.view.sprites.object_animation import ObjectAnimation
-from ninja_game.view.sprites.relief import add_relief
+from ninja_game.view.sprites.relief import add_relief, ground_in_shadow
 from ninja_game.view.sprites.sketch import Sprite
 from ninja_game.view.sprites.static_sprites import SETTLED_TICKS, PlacedSprite, static_sprites_of
 from ninja_game.view.sprites.tile_sheet import TileSheet
@@ -30,11 +29,18 @@ class Backdrop:
         self._book = book
         self._corner = canvas.stage.topleft
         self.picture = pygame.Surface(canvas.size)
-        sheets = [TileSheet(canvas, colour, book.tiles) for colour in (palette.tile, palette.bright, palette.outline)]
-        for sheet in sheets if palette.scenery else sheets[:1]:
+        sheet = TileSheet(canvas, palette.outline)
+        if palette.scenery:
             sheet.show(level)
-        self.tiles, self.has_tile = sheets[0].surface, sheets[0].has_tile
-        self._shadow = add_relief(self.tiles, *sheets[1:]) if palette.scenery else None
+            self.ground = ground_in_shadow(sheet, palette)
+        else:
+            self.ground = pygame.Surface(canvas.size)
+            self.ground.fill(palette.background)
+        sheet.colour = palette.tile
+        sheet.show(level)
+        if palette.scenery:
+            add_relief(sheet, level, palette)
+        self.tiles, self.has_tile = sheet.surface, sheet.has_tile
         self._blits: dict[int, list[tuple[Sprite, int, int]]] = {}
         self._order: list[int] = []
         self._rects: dict[int, pygame.Rect] = {}
@@ -108,9 +114,7 @@ class Backdrop:
     def _mend(self, area: pygame.Rect) -> None:
         """Draw a part of the picture again."""
         self.picture.set_clip(area)
-        lay_ground(self.picture, self.palette, self.picture.get_rect(), area)
-        if self._shadow:
-            self.picture.blit(self._shadow, area, area, pygame.BLEND_PREMULTIPLIED)
+        self.picture.blit(self.ground, area, area)
         for _, glow, place in self._lights.values():
             if place.colliderect(area):
                 self.picture.blit(glow, place)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any, Concatenate, Generic, NamedTuple, ParamSpec
 
 import pygame
@@ -12,7 +12,6 @@ import pygame
 from ninja_game.ui.canvas import Canvas, Colour
 from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.sketch import Sketch, Sprite
-from ninja_game.view.sprites.tile_sheet import TilePictures
 
 Extent = tuple[float, float, float, float]
 """How far a drawing reaches left, up, right and down from its point, logical px."""
@@ -111,26 +110,25 @@ _KEPT = 3000
 
 
 class SpriteBook:
-    """The sprites at one scale in one palette. ``tiles``: the pictures of tiles, for a sheet of them."""
+    """The sprites at one scale in one palette. ``sprite``: gives that of a key."""
 
     def __init__(self, scale: float, palette: Palette) -> None:
         self.scale = scale
         self.palette = palette
-        self.tiles: TilePictures = {}
-        self._kept: OrderedDict[SpriteKey, Sprite] = OrderedDict()
+        self.sprite = lru_cache(maxsize=_KEPT)(self._drawn)
 
-    def sprite(self, key: SpriteKey) -> Sprite:
-        found = self._kept.get(key)
-        if found is None:
-            drawing = key.drawing
-            extent = drawing.extent if key.turn == 0 else _turned(drawing.extent)
-            sketch = Sketch(self.scale, extent, turn=key.turn)
-            drawing.paint(sketch, self.palette, *key.parameters)
-            found = sketch.finish(key.alpha / 8)
-            self._kept[key] = found
-            if len(self._kept) > _KEPT:
-                self._kept.popitem(last=False)
-        return found
+    def _drawn(self, key: SpriteKey) -> Sprite:
+        if key.alpha < 8:
+            return self.sprite(key.faded(8)).faded(key.alpha / 8)
+        drawing = key.drawing
+        extent = drawing.extent if key.turn == 0 else _turned(drawing.extent)
+        sketch = Sketch(self.scale, extent, turn=key.turn)
+        drawing.paint(sketch, self.palette, *key.parameters)
+        return sketch.finish()
+
+
+shared_book = lru_cache(maxsize=8)(SpriteBook)
+"""The book of all levels that are shown at one scale in one palette."""
 
 
 def _turned(extent: Extent) -> Extent:

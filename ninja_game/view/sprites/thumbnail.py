@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import pygame
 
 from ninja_game.errors import LevelError
@@ -12,34 +10,26 @@ from ninja_game.sim.loader import grid_tiles
 from ninja_game.sim.memory.schema import TileMap
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
-from ninja_game.ui.scenery import lay_ground
-from ninja_game.ui.theme import PALETTES, Palette
+from ninja_game.ui.theme import Palette
 from ninja_game.view.ninja.figure import STAND, ninja_sprite
 from ninja_game.view.sprites.backdrop import Backdrop
-from ninja_game.view.sprites.drawing import DrawTarget, SpriteBook
+from ninja_game.view.sprites.drawing import DrawTarget, shared_book
 from ninja_game.view.sprites.moving_sprites import draw_moving
 from ninja_game.view.sprites.object_animation import ObjectAnimation
-
-
-@lru_cache(maxsize=8)
-def _book(scale: float, palette: str) -> SpriteBook:
-    """Thumbnails of one size share their drawings."""
-    return SpriteBook(scale, PALETTES[palette])
 
 
 def thumbnail(level: Level, palette: Palette, width: int) -> pygame.Surface:
     """The level at its start, ``width`` px wide; only the tiles of one that cannot be played."""
     canvas = Canvas((width, max(1, round(width * HEIGHT / WIDTH))))
-    book = _book(canvas.scale, palette.name)
+    book = shared_book(canvas.scale, palette)
     try:
         run = Simulation(level)
     except LevelError:
         static = TileMap()
         static.tiles = grid_tiles(level)
-        picture = pygame.Surface(canvas.size)
-        lay_ground(picture, palette, picture.get_rect(), picture.get_rect())
-        picture.blit(Backdrop(canvas, palette, book, static).tiles, (0, 0), special_flags=pygame.BLEND_PREMULTIPLIED)
-        return picture
+        backdrop = Backdrop(canvas, palette, book, static)
+        backdrop.ground.blit(backdrop.tiles, (0, 0), special_flags=pygame.BLEND_PREMULTIPLIED)
+        return backdrop.ground
     animation = ObjectAnimation(run.world)
     backdrop = Backdrop(canvas, palette, book, run.tiles)
     backdrop.reset(run.world, animation)

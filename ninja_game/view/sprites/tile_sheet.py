@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from math import cos, pi, sin
 
 import pygame
@@ -13,17 +14,14 @@ from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, STRIDE
 from ninja_game.ui.canvas import Canvas, Point
 from ninja_game.view.sprites.sketch import FINE
 
-TilePictures = dict[tuple[int, tuple[int, ...], int, int, float, float], pygame.Surface]
-"""By tile, colour, size and place beside the px."""
+TileKey = tuple[int, int, int, float, float]
+"""Tile, size and place beside the px."""
 
 
 class TileSheet:
-    """``surface``: premultiplied; its px count from the upper left corner of what is seen of the stage.
+    """``surface``: premultiplied; its px count from the upper left corner of what is seen of the stage."""
 
-    ``pictures``: those that were made before, at the same scale.
-    """
-
-    def __init__(self, canvas: Canvas, colour: pygame.Color, pictures: TilePictures | None = None) -> None:
+    def __init__(self, canvas: Canvas, colour: pygame.Color) -> None:
         self.canvas = canvas
         self._corner = canvas.stage.topleft
         self._shift = canvas.origin[0] - self._corner[0], canvas.origin[1] - self._corner[1]
@@ -31,7 +29,6 @@ class TileSheet:
         self.surface = pygame.Surface(canvas.size, pygame.SRCALPHA)
         # A bit for each column of a row that is not empty.
         self._rows = [0] * GRID_ROWS
-        self._pictures: TilePictures = {} if pictures is None else pictures
 
     def show(self, level: TileMap) -> None:
         for row in range(GRID_ROWS):
@@ -48,7 +45,7 @@ class TileSheet:
         filled, before = SHAPE[tile] != EMPTY, self._rows[row] & bit
         if not filled and not before:
             return
-        rect, scale = self.cell(column, row), self.canvas.scale
+        rect = self.cell(column, row)
         if before:
             self._rows[row] ^= bit
             self.surface.fill((0, 0, 0, 0), rect)
@@ -56,13 +53,17 @@ class TileSheet:
             self._rows[row] |= bit
             if not rect.colliderect(self.surface.get_rect()):
                 return
-            # How far the cell's true corner lies beside its px: in eighths, so that few pictures are drawn.
-            left, top = self._shift[0] + 24 * column * scale, self._shift[1] + 24 * row * scale
-            shift = round(8 * (left - rect.left)) / 8, round(8 * (top - rect.top)) / 8
-            key = tile, tuple(self.colour), *rect.size, *shift
-            if key not in self._pictures:
-                self._pictures[key] = tile_picture(tile, rect.size, self.colour, scale=scale, shift=shift)
-            self.surface.blit(self._pictures[key], rect)
+            self.surface.blit(self.picture(self.key(column, row, tile), self.colour), rect)
+
+    def key(self, column: int, row: int, tile: int) -> TileKey:
+        """What tells the picture of a tile in a cell from others."""
+        rect, scale = self.cell(column, row), self.canvas.scale
+        # How far the cell's true corner lies beside its px: in eighths, so that few pictures are drawn.
+        left, top = self._shift[0] + 24 * column * scale, self._shift[1] + 24 * row * scale
+        return tile, *rect.size, round(8 * (left - rect.left)) / 8, round(8 * (top - rect.top)) / 8
+
+    def picture(self, key: TileKey, colour: pygame.Color) -> pygame.Surface:
+        return tile_picture(key[0], key[1:3], tuple(colour), self.canvas.scale, key[3:])
 
     def has_tile(self, area: pygame.Rect) -> bool:
         """Whether any px of an area may be a tile's."""
@@ -116,10 +117,11 @@ def outline(tile: int) -> list[Point]:
     return points
 
 
+@lru_cache(maxsize=1000)
 def tile_picture(
-    tile: int, size: tuple[int, int], colour: pygame.Color, *, scale: float = 0.0, shift: Point = (0.0, 0.0)
+    tile: int, size: tuple[int, int], colour: tuple[int, ...], scale: float = 0.0, shift: Point = (0.0, 0.0)
 ) -> pygame.Surface:
-    """A tile in a cell of that many px, premultiplied.
+    """A tile in a cell of that many px, premultiplied. Nobody may draw on it.
 
     ``shift``: px by which the cell's true corner, at ``scale`` px per logical px, lies beside that of its px. Slopes
     are drawn where they truly are, so that those of neighbouring cells form one line; other shapes fill the cell's px.

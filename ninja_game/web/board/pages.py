@@ -180,7 +180,7 @@ class BoardPages:
             levels = [joined(", " if place else "", self._entry(each)) for place, each in enumerate(episode.levels)]
             heads = ("Place", "Player", "Sum", "Levels")
             best = table("Sum of the best times of all its levels", heads, rows) if rows else tag("p", "No player yet.")
-            found.append(section(f"Episode {number}: {episode.name}", tag("p", *levels), best))
+            found.append(section(f"Episode {number:02d}: {episode.name}", tag("p", *levels), best))
         return found or [tag("p", "These levels have no episodes.")]
 
     def _rejected(self) -> list[Content]:

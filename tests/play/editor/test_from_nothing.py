@@ -65,7 +65,7 @@ def test_a_level_from_nothing(tmp_path: Path, root: Path) -> None:
             path = tmp_path / "levels" / "my-level.txt"
             maker.wait_for(path.exists, "saved level")
             maker.press("Escape", "Up", "Return")  # leave the editor
-            maker.press("Up", "Up", "Up", "Return", "Return")  # Levels, its own one, play
+            maker.press("Up", "Up", "Up", "Right", "Return", "Return")  # Levels, its own one, play
             maker.press("space")
             maker.tool("keydown", "Right")
             maker.wait_for(lambda: maker.count("level_best") == 1, "pass")

@@ -6,7 +6,7 @@ import pygame
 import pytest
 
 from ninja_game.play.level.hud import hud_view
-from ninja_game.play.level.play import STAMP_TICKS, TRIES_FROM, TRIES_TICKS, Phase
+from ninja_game.play.level.play import DEATH_PAUSE, STAMP_TICKS, TRIES_FROM, TRIES_TICKS, Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.wipe import WIPE_MS
 from ninja_game.player.playthrough import LevelRun
@@ -124,9 +124,11 @@ def test_cause_of_death_stands_large_at_once(driver: MenuDriver) -> None:
     driver.keys.script = [2] * 60
     driver.frames(60)
     assert level.phase is Phase.DEAD
-    said = hud_view(level.play).said
-    assert said is not None
-    assert said[0].startswith("Killed by a mine.")
+    title, lines, _ = hud_view(level.play).message or ("", [], 0)
+    assert (title, lines[0]) == ("Killed by a mine", "Mines never move: keep a body's width away.")
+    for passed, keys in ((1, ""), (DEATH_PAUSE + 1, "Space or Z: try again    V: watch it")):
+        level.play.after_end = passed
+        assert (hud_view(level.play).message or ("", [], 0))[1] == [lines[0], keys]
 
 
 @pytest.mark.parametrize("shake", [0, 100])
