@@ -67,12 +67,16 @@ class MainMenu(MenuScreen):
         self.run = next_run(self.player, practice_mode=self.player.settings.practice)
         super().enter()
 
+    @property
+    def begun(self) -> bool:
+        """Whether any level has been tried."""
+        return self.player.statistics.played().attempts > 0
+
     def _where(self) -> str:
         """With which level play goes on."""
         if self.run is None:
             return "There are no levels"
-        begun = self.player.statistics.played().attempts
-        return f"{'Continue' if begun else 'Begin'}: {shown_text(self.run.entry.named.name)}"
+        return f"{'Continue' if self.begun else 'Begin'}: {shown_text(self.run.entry.named.name)}"
 
     def _play(self) -> None:
         if self.run is not None:
@@ -81,7 +85,7 @@ class MainMenu(MenuScreen):
     def entries(self) -> list[Row]:
         """One for each screen: the first as wide as the panel, then two in a row."""
         return [
-            ("Play", self._play, "Play on where you left"),
+            ("Play", self._play, "Go on where you left off" if self.begun else "Start with the first level"),
             ("Episodes", self._opener(EpisodeGrid), "Choose an episode, or one of its levels"),
             ("Levels", self._opener(self._browser), "Any level by itself, and your own files"),
             ("Daily", self._opener(DailyScreen), "A new level every day, the same for everybody"),

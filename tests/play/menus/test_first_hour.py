@@ -133,7 +133,7 @@ def test_levels_of_a_locked_episode_are_locked_everywhere(driver: MenuDriver) ->
 def test_play_goes_on_with_the_next_level(driver: MenuDriver) -> None:
     menu = driver.shown(MainMenu)
     assert isinstance(menu.focus, Button)
-    assert menu.focus.detail == "Begin: First Steps"
+    assert (menu.focus.detail, menu.focus.hint) == ("Begin: First Steps", "Start with the first level")
     driver.press("return")
     level = driver.shown(LevelScreen)
     level.begin()
@@ -141,7 +141,7 @@ def test_play_goes_on_with_the_next_level(driver: MenuDriver) -> None:
     driver.press("q")
     assert driver.top() is menu
     assert isinstance(menu.focus, Button)
-    assert menu.focus.detail == "Continue: Mind the Gap"
+    assert (menu.focus.detail, menu.focus.hint) == ("Continue: Mind the Gap", "Go on where you left off")
     driver.press("return")
     assert driver.shown(LevelScreen).context.lifetime > 3000, "with the time that was left"
 
