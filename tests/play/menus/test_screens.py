@@ -37,7 +37,7 @@ ENTRIES = {
     "Records": RecordsScreen,
     "Replays": ReplaysScreen,
     "Editor": EditorScreen,
-    "Lab": LabScreen,
+    "How it works": LabScreen,
     "Settings": SettingsScreen,
     "Help": HelpScreen,
 }
