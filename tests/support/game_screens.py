@@ -123,9 +123,9 @@ def _first_steps(driver: MenuDriver) -> Iterator[str]:
     driver.open("Records")
     yield "records-empty"
     home(driver)
-    driver.press("tab")
+    driver.press("return", "tab")
     yield "boss"
-    driver.press("tab")
+    driver.press("tab", "q")
 
 
 def _an_episode(driver: MenuDriver) -> Iterator[str]:

@@ -86,8 +86,11 @@ class MenuScreen(Screen):
     # --- input ---
 
     def capture(self, event: InputEvent) -> bool:
-        """While a text is typed, a key is a letter before it is anything else; Tab leads to the next widget."""
-        if event.raw.type == pygame.KEYDOWN and event.source == ("keys", "tab") and isinstance(self.focus, TextEntry):
+        """While a text is typed, a key is a letter before it is anything else; Tab leads to the next widget.
+
+        So it hides the program only where something runs.
+        """
+        if event.raw.type == pygame.KEYDOWN and event.source == ("keys", "tab"):
             self._next(-1 if event.raw.mod & pygame.KMOD_SHIFT else 1)
             return True
         taken = self.focus is not None and self.focus.text_event(event.raw)
