@@ -310,7 +310,7 @@ class EpisodeGrid(ThumbnailScreen):
         self.thumbnails.draw(surface, entry, x + 6, y + 5, SMALL_PICTURE)
         left = x + SMALL_PICTURE + 18
         theme.text(
-            surface, f"{entry.episode}  {entry.title}", left, y + 12, size=13, bold=True, width=w - SMALL_PICTURE - 70
+            surface, f"{index + 1}  {entry.title}", left, y + 12, size=13, bold=True, width=w - SMALL_PICTURE - 70
         )
         mark = self.marks.get(entry.digest)
         all_gold_and_medal(surface, theme, entry, mark, x + w - 14, y + 19)

@@ -134,7 +134,7 @@ STAMP_SEEN = 0.2
 def where_from(entry: Entry) -> str:
     """Where a level comes from, and how hard it is."""
     pack = shown_text(entry.source) if entry.source not in {"game", "yours"} else ""
-    parts = [pack, f"Episode {entry.episode}" if entry.episode else "Your folder" if entry.source == "yours" else ""]
+    parts = [pack, entry.place or ("Your folder" if entry.source == "yours" else "")]
     if entry.pars and entry.pars.difficulty is not None:
         parts.append(f"difficulty {entry.pars.difficulty:.1f}")
     return "    ".join(filter(None, parts))

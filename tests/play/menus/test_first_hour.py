@@ -122,7 +122,7 @@ def test_levels_of_a_locked_episode_are_locked_everywhere(driver: MenuDriver) ->
     assert isinstance(browser, Browser)
     place = next(k for k, each in enumerate(browser.shown) if each.episode == "01-0")
     browser.play(place)
-    assert browser.message == "Locked: pass episode 00 first"
+    assert browser.message == "Locked: pass episode 1 first"
     assert driver.top() is browser
     for level in range(5):
         driver.player.progress.level_passed((0, level), legitimate=True)
