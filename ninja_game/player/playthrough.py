@@ -71,6 +71,11 @@ class LevelContext:
         return True
 
     @property
+    def carries_on(self) -> str:
+        """What the clock does after a pass, in words; "" where it ends with the level."""
+        return ""
+
+    @property
     def title(self) -> str:
         """How the level is announced."""
         return self.entry.title
@@ -271,6 +276,13 @@ class EpisodeRun(LevelContext):
     @property
     def title(self) -> str:
         return self.episode.title(self.position)
+
+    @property
+    def carries_on(self) -> str:
+        """It goes on until the episode ends."""
+        if self.practice_mode:
+            return ""
+        return "at the end is the score of the episode" if self.is_last else "goes on into the next level"
 
     @property
     def is_last(self) -> bool:

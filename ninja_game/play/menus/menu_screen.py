@@ -158,7 +158,8 @@ class MenuScreen(Screen):
     def _move(self, dx: int, dy: int) -> None:
         """The focus goes to the nearest widget in a direction.
 
-        Up and down stay among the widgets above and below each other; at the end they lead to the other end where it ``wraps``.
+        Up and down stay among the widgets above and below each other; at the end they lead to the other end, or, if it
+        does not wrap, nowhere.
         """
         focus = self.focus
         if focus is None:
