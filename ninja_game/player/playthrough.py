@@ -129,9 +129,14 @@ class LevelContext:
         """Called once, right after the tick of the exit contact: saves; gives notices to show."""
         raise NotImplementedError
 
+    @property
+    def helps(self) -> bool:
+        """Whether words help in the level: not once it has been passed, nor where the player does not want them."""
+        return self.data.settings.level_texts and self.data.marks.of(self.entry.digest, self.body) is None
+
     def sayings(self) -> tuple[Saying, ...]:
-        """What the level says: nothing once it has been passed, or where the player does not want it."""
-        if not self.data.settings.level_texts or self.data.marks.of(self.entry.digest, self.body):
+        """What the level says, where it ``helps``."""
+        if not self.helps:
             return ()
         with suppress(LevelError):
             return read_sayings(self.entry.named.says)

@@ -11,7 +11,7 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.sayings import named_keys, things_named
 from ninja_game.play.level.play import DEATH_PAUSE, LevelPlay, Phase
-from ninja_game.play.level.sayings import WHY
+from ninja_game.play.level.sayings import FALL_HELP, WHY
 from ninja_game.play.menus.thumbnails import PAR_WIDE, draw_pars
 from ninja_game.player.marks import Mark, next_par
 from ninja_game.player.records import seconds_text
@@ -234,7 +234,7 @@ POINTER_ROOM = 72.0
 """Below this line, px, there is room for a pointer above a thing."""
 
 FOOT, SAID, IN_BORDER, BESIDE_GOLD = 11.0, 13.5, 576.0, 550.0
-"""Sizes of the lines in the borders and of what a level says; where that is in play, hiding nothing; its width there."""
+"""Sizes of the lines in the borders and of what a level says; where that is in play, and its width there."""
 _TOOLS = {"quick_save": "save", "quick_load": "load", "rewind": "rewind", "slow": "slow", "step": "step"}
 _TOOLS_NAMED = 600
 """Ticks of a practice run in which the keys of its tools are named: where they work, and not for ever."""
@@ -348,4 +348,6 @@ def cause_of_death(play: LevelPlay) -> str:
         return f"Killed by a {play.killer}." + f" {WHY[play.killer]}" * play.first_death
     if play.crushed:
         return "You were crushed."
-    return "Out of time." if play.attempt.lifetime <= 0 else "That was too hard a landing."
+    if play.attempt.lifetime <= 0:
+        return "Out of time."
+    return "That was too hard a landing." + f" {FALL_HELP}" * play.sayings.helps

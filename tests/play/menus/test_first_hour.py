@@ -9,12 +9,13 @@ import pytest
 from ninja_game.formats.sayings import read_sayings
 from ninja_game.play.level.hud import cause_of_death, hud_view
 from ninja_game.play.level.play import Phase
-from ninja_game.play.level.sayings import SHOWN_TICKS, Sayings
+from ninja_game.play.level.sayings import FALL_HELP, SHOWN_TICKS, START_TICKS, STILL_TICKS, Sayings
 from ninja_game.play.level.screen import LevelScreen, play_level
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.playthrough import LevelRun
+from ninja_game.player.statistics import SELF
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.simulation import Simulation
 from ninja_game.ui.widgets import Button
@@ -115,6 +116,34 @@ def test_first_death_of_each_kind_says_why(driver: MenuDriver) -> None:
         texts.append(cause_of_death(level.play))
         level.retry()
     assert texts == ["Killed by a mine. Mines never move: keep a body's width away.", "Killed by a mine."]
+
+
+def test_who_lies_still_or_tries_for_long_is_told_once_how_to_try_again(driver: MenuDriver) -> None:
+    driver.press("return")
+    level = driver.shown(LevelScreen)
+    for keys in ([2] * 20 + [0] * (STILL_TICKS + 480), [2, 2, 1, 1] * 400):
+        heard = []
+        for helps in (True, False):
+            level.retry()
+            level.play.sayings.helps = level.play.sayings._again = helps
+            level.begin()
+            driver.keys.script = [2] * 30 + list(keys)
+            for _ in range(len(keys)):
+                driver.frames(1)
+                heard.append(said(level))
+        assert "R tries again from the start" in heard[: len(keys)]
+        assert "R tries again from the start" not in heard[len(keys) :]
+        assert heard[START_TICKS] != heard[0], "the text of the start is gone"
+
+
+def test_death_by_a_fall_says_what_helps_until_the_level_is_passed(driver: MenuDriver) -> None:
+    level = LevelScreen(driver.app, LevelRun(driver.player, entry(deadly_level())))
+    level.play.killer = SELF
+    assert cause_of_death(level.play) == f"That was too hard a landing. {FALL_HELP}"
+    driver.player.marks.passed(level.context.entry.digest, 100, 0)
+    level = LevelScreen(driver.app, LevelRun(driver.player, entry(deadly_level())))
+    level.play.killer = SELF
+    assert cause_of_death(level.play) == "That was too hard a landing."
 
 
 def test_levels_of_a_locked_episode_are_locked_everywhere(driver: MenuDriver) -> None:
