@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import pygame
 
@@ -16,9 +17,11 @@ from ninja_game.play.menus.thumbnails import PAR_WIDE, draw_pars
 from ninja_game.player.marks import Mark, next_par
 from ninja_game.player.records import seconds_text
 from ninja_game.player.statistics import SELF
+from ninja_game.sim.collision.tiles import FULL, SHAPE
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.kinds import EXIT, SWITCH
-from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
+from ninja_game.sim.level import ROWS
+from ninja_game.sim.rules import CELL, GOLD_BONUS, LIFETIME
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.theme import Palette, Theme, mixed, wrapped
 from ninja_game.ui.widgets import draw_medal
@@ -60,9 +63,9 @@ class HudView:
 
     ``lifetime``: ticks, for the time bar; ``label``: a word in its place. ``foot``: texts at the left and the right of
     the border below. ``keys``: those of the present tick, ``frame_ms``: of the last picture; None: not shown.
-    ``said``: a text of the level, and the top of its panel; ``named``: what it names, and where that is, px.
-    ``message``: title and lines of a panel, and its top; ``pars``: the medals under its title, and the tick of the
-    pass; ``stamp``: how far the best of them has come down, 0…1.
+    ``said``: a text of the level, and the tiles of which it covers those that are full, () for the border below.
+    ``named``: what it names, and where that is, px. ``message``: title and lines of a panel, and its top; ``pars``: the
+    medals under its title, and the tick of the pass; ``stamp``: how far the best of them has come down, 0…1.
     """
 
     lifetime: float
@@ -70,7 +73,7 @@ class HudView:
     foot: tuple[str, str]
     keys: int | None = None
     frame_ms: float | None = None
-    said: tuple[str, float] | None = None
+    said: tuple[str, tuple[int, ...]] | None = None
     named: Sequence[tuple[str, float, float]] = ()
     message: tuple[str, Sequence[str], float] | None = None
     pars: tuple[Pars, int] | None = None
@@ -190,18 +193,20 @@ class Hud:
         theme.text(surface, name, middle, top + 3, size=POINTER, colour=palette.panel, align="centre", bold=True)
         return box.inflate(theme.canvas.px(4), theme.canvas.px(18))
 
-    def said(self, surface: pygame.Surface, text: str, y: float) -> pygame.Rect:
-        """A text of the level in a panel from ``y`` on; in the border below, one line beside the gold."""
+    def said(self, surface: pygame.Surface, text: str, tiles: tuple[int, ...] = ()) -> pygame.Rect:
+        """A text of the level in a panel over what is solid; without tiles in the border below, beside the gold."""
         theme = self.theme
-        in_border = y >= IN_BORDER
+        in_border = not tiles
         size = min(SAID, SAID * BESIDE_GOLD / theme.width(text, SAID)) if in_border else SAID
-        lines = [text] if in_border else wrapped(theme, text, 500, size)
+        lines = [text] if in_border else wrapped(theme, text, 360, size)
         margin, high = (3, 17) if in_border else (10, 20)
         w = max(theme.width(line, size) for line in lines) + 28
-        rect = theme.panel(surface, (WIDTH - w) / 2, y, w, high * len(lines) + 2 * margin - 1, 4)
+        h = high * len(lines) + 2 * margin - 1.0
+        left, y = ((WIDTH - w) / 2, IN_BORDER) if in_border else solid_place(tiles, w, h)
+        rect = theme.panel(surface, left, y, w, h, 4)
         for k, line in enumerate(lines):
             top = y + margin + high * k + (high - size) / 2
-            theme.text(surface, line, WIDTH / 2, top, size=size, align="centre")
+            theme.text(surface, line, left + w / 2, top, size=size, align="centre")
         return rect
 
     def keys(self, surface: pygame.Surface, held: int, x: float = 366) -> pygame.Rect:
@@ -216,6 +221,24 @@ class Hud:
             canvas.polygon(surface, ink, [(x + dx + 9 + px, 588 + py) for px, py in arrow])
             rect = box if not rect.width else rect.union(box)
         return rect
+
+
+@lru_cache(maxsize=4)
+def solid_place(tiles: tuple[int, ...], w: float, h: float) -> tuple[float, float]:
+    """Upper left corner of a panel of that size, px, where it covers the fewest tiles that are not full.
+
+    Of equal places it is the one nearest to the middle of a border.
+    """
+
+    def cost(place: tuple[float, float]) -> tuple[int, float]:
+        x, y = place
+        columns, rows = (range(int(a // CELL) - 1, int((a + b - 1) // CELL)) for a, b in ((x, w), (y, h)))
+        covered = [tiles[column * ROWS + row] for column in columns for row in rows if row < ROWS]
+        return sum(SHAPE[tile] != FULL for tile in covered), abs(x + w / 2 - WIDTH / 2) + min(y, HEIGHT - y - h)
+
+    edge = CELL + 4
+    lefts = [edge + k * (WIDTH - 2 * edge - w) / 8 for k in range(9)]
+    return min(((x, y) for x in lefts for y in range(int(edge), int(LOWEST - h), 6)), key=cost)
 
 
 ABOVE, BELOW = 34.0, 474.0
@@ -233,7 +256,7 @@ PRIZE, STAMP_SEEN = 54.0, 0.2
 POINTER_ROOM = 72.0
 """Below this line, px, there is room for a pointer above a thing."""
 
-FOOT, SAID, IN_BORDER, BESIDE_GOLD = 11.0, 13.5, 576.0, 550.0
+FOOT, SAID, IN_BORDER, BESIDE_GOLD = 11.0, 12.5, 576.0, 550.0
 """Sizes of the lines in the borders and of what a level says; where that is in play, and its width there."""
 _TOOLS = {"quick_save": "save", "quick_load": "load", "rewind": "rewind", "slow": "slow", "step": "step"}
 _TOOLS_NAMED = 600
@@ -255,7 +278,7 @@ def hud_view(play: LevelPlay) -> HudView:
     y = ABOVE if attempt.simulation.world.ninja.y > HEIGHT / 2 else BELOW
     text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.sayings.text
     still = play.phase is Phase.READY
-    said = (named_keys(text, key), y if still else IN_BORDER) if text else None
+    said = (named_keys(text, key), context.level.tiles if still else ()) if text else None
     if play.phase is Phase.DEAD:
         # The line of keys keeps its place until it comes.
         cause, _, why = cause_of_death(play).partition(". ")

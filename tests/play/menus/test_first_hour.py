@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from ninja_game.formats.sayings import read_sayings
-from ninja_game.play.level.hud import cause_of_death, hud_view
+from ninja_game.play.level.hud import cause_of_death, hud_view, solid_place
 from ninja_game.play.level.play import Phase
 from ninja_game.play.level.sayings import FALL_HELP, SHOWN_TICKS, START_TICKS, STILL_TICKS, Sayings
 from ninja_game.play.level.screen import LevelScreen, play_level
@@ -57,6 +57,14 @@ def test_what_a_text_names_is_pointed_at_until_it_is_done(driver: MenuDriver) ->
     driver.app.change_settings(level_texts=False)
     level.play.sayings = Sayings(level.context.sayings())
     assert not hud_view(level.play).named
+
+
+def test_text_of_the_start_covers_what_is_solid_and_no_way() -> None:
+    block = tuple(int(12 <= column < 30 and 11 <= row < 14) for column in range(31) for row in range(23))
+    x, y = solid_place(block, 360.0, 59.0)
+    assert 13 * 24 <= x <= 31 * 24 - 360
+    assert 12 * 24 <= y <= 15 * 24 - 59
+    assert solid_place((0,) * 713, 300.0, 39.0) == (246.0, 28), "in the open it is at the border above"
 
 
 def test_goal_is_not_said_again_in_a_level_that_was_passed(driver: MenuDriver) -> None:
