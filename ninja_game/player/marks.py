@@ -71,9 +71,8 @@ def next_par(pars: Pars, mark: Mark | None) -> str:
     medal = pars.next_medal(mark.fastest)
     if not medal:
         return ""
-    return (
-        f"{medal} medal: {seconds_text(pars.par(medal))} s, missed by {seconds_text(mark.fastest - pars.par(medal))} s"
-    )
+    par = pars.par(medal)
+    return f"{medal} medal: {seconds_text(par)} s, missed by {seconds_text(mark.fastest - par)} s"
 
 
 def has_all_gold(entry: Entry, mark: Mark | None) -> bool:

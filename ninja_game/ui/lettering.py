@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections import OrderedDict
 from functools import lru_cache
 from itertools import pairwise
 from math import ceil, cos, floor, radians, sin
@@ -30,29 +29,20 @@ class Lettering:
 
     def __init__(self, canvas: Canvas) -> None:
         self.canvas = canvas
-        self._fonts: dict[tuple[float, bool], StrokeFont] = {}
-        self._kept: OrderedDict[tuple[str, float, tuple[int, ...], bool], pygame.Surface] = OrderedDict()
+        self._font = lru_cache(self._made_font)
+        self._rendered = lru_cache(maxsize=_KEPT)(self._render)
 
-    def _font(self, size: float, bold: bool) -> StrokeFont:
-        key = size, bold
-        if key not in self._fonts:
-            if not pygame.font.get_init():
-                pygame.font.init()
-            self._fonts[key] = StrokeFont(max(5.0, size * self.canvas.scale), bold=bold)
-        return self._fonts[key]
+    def _made_font(self, size: float, bold: bool) -> StrokeFont:
+        if not pygame.font.get_init():
+            pygame.font.init()
+        return StrokeFont(max(5.0, size * self.canvas.scale), bold=bold)
+
+    def _render(self, text: str, size: float, colour: tuple[int, ...], bold: bool) -> pygame.Surface:
+        return self._font(size, bold).render(_safe(text), pygame.Color(colour))
 
     def rendered(self, text: str, size: float, colour: Colour, *, bold: bool = False) -> pygame.Surface:
         """The picture of a text in letters of some size, logical px."""
-        key = text, size, tuple(pygame.Color(colour)), bold
-        found = self._kept.get(key)
-        if found is None:
-            found = self._font(size, bold).render(_safe(text), colour)
-            self._kept[key] = found
-            if len(self._kept) > _KEPT:
-                self._kept.popitem(last=False)
-        else:
-            self._kept.move_to_end(key)
-        return found
+        return self._rendered(text, size, tuple(pygame.Color(colour)), bold)
 
     def width(self, text: str, size: float, *, bold: bool = False) -> float:
         """Width of a text in logical px."""
@@ -175,7 +165,7 @@ class StrokeFont:
         self._baseline_top = _TOP * size
         self._pad = self._weight / 2 * self._unit + 1
         self._fallback = pygame.font.Font(None, max(6, round(size * 1.35)))
-        self._glyphs: dict[tuple[str, tuple[int, ...], int], pygame.Surface] = {}
+        self._picture = lru_cache(maxsize=None)(self._draw)
 
     def _advance(self, letter: Glyph) -> float:
         """From one letter to the next, px."""
@@ -190,19 +180,15 @@ class StrokeFont:
             return self._fallback.size(text)[0] + 2
         return ceil(sum(self._advance(letter) for letter in letters if letter) - SPACING * self._unit + 2)
 
-    def _picture(self, character: str, letter: Glyph, colour: pygame.Color, phase: int) -> pygame.Surface:
+    def _draw(self, character: str, colour: tuple[int, ...], phase: int) -> pygame.Surface:
         """A letter on a sheet of its own, its origin ``phase`` quarters of a px beside ``_pad`` px from the left."""
-        key = character, tuple(colour), phase
-        if key not in self._glyphs:
-            self._glyphs[key] = self._draw(letter, colour, phase)
-        return self._glyphs[key]
-
-    def _draw(self, letter: Glyph, colour: pygame.Color, phase: int) -> pygame.Surface:
+        letter = glyph(character)
+        assert letter is not None  # noqa: S101 - other texts are drawn as a whole
         # One more unit to the left and right: a few strokes reach beyond their glyph's width.
         size = ceil((letter.width + 2) * self._unit + 2 * self._pad) + 1, self.height
         # The colour is everywhere, only the alpha is the letter's: averaging does not darken its edge.
         fine = pygame.Surface((size[0] * _FINE, size[1] * _FINE), pygame.SRCALPHA)
-        fine.fill((colour.r, colour.g, colour.b, 0))
+        fine.fill((*colour[:3], 0))
         zoom = self._unit * _FINE
         left, top = (self._pad + self._unit) * _FINE + phase, self._baseline_top * _FINE
         width = max(_FINE, self._weight * zoom)
@@ -236,6 +222,6 @@ class StrokeFont:
         for character, letter in letters:
             if letter is not None:
                 left, phase = divmod(floor((x - self._pad - self._unit) * _FINE), _FINE)
-                picture.blit(self._picture(character, letter, ink, phase), (left, 0))
+                picture.blit(self._picture(character, tuple(ink), phase), (left, 0))
                 x += self._advance(letter)
         return picture

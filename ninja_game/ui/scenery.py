@@ -37,32 +37,21 @@ def lay_ground(surface: pygame.Surface, palette: Palette, stage: pygame.Rect, ar
         surface.fill(palette.background, area)
 
 
-def ground(size: tuple[int, int], palette: Palette) -> pygame.Surface:
-    """The sky and the layers of a palette that has a scenery, painted once; nobody may draw on it."""
-    return _scaled(size, palette.scenery, *_colours(palette))
-
-
-def painted(palette: Palette) -> pygame.Surface:
-    """The ground, on its small sheet; nobody may draw on it."""
-    return _painted(palette.scenery, *_colours(palette))
-
-
 GROUND_ROLES = "sky", "background", "far", "near"
 """From the upper edge of the sky to the lower one, then from the farthest layer to the nearest one."""
 
 
-def _colours(palette: Palette) -> list[tuple[int, ...]]:
-    return [tuple(getattr(palette, role)) for role in GROUND_ROLES]
-
-
 @lru_cache(maxsize=_KEPT)
-def _scaled(size: tuple[int, int], scenery: str, *colours: tuple[int, ...]) -> pygame.Surface:
-    return pygame.transform.smoothscale(_painted(scenery, *colours), size)
+def ground(size: tuple[int, int], palette: Palette) -> pygame.Surface:
+    """The sky and the layers of a palette that has a scenery, painted once; nobody may draw on it."""
+    return pygame.transform.smoothscale(painted(palette), size)
 
 
 @lru_cache
-def _painted(scenery: str, *colours: tuple[int, ...]) -> pygame.Surface:
-    sky, horizon, far, near = map(pygame.Color, colours)
+def painted(palette: Palette) -> pygame.Surface:
+    """The ground on its small sheet; nobody may draw on it."""
+    scenery = palette.scenery
+    sky, horizon, far, near = (getattr(palette, role) for role in GROUND_ROLES)
     sheet = pygame.Surface((_WIDE, _HIGH))
     for y in range(0, _HIGH, _BAND):
         sheet.fill(mixed(sky, horizon, y / _HORIZON), (0, y, _WIDE, _BAND))

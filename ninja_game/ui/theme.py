@@ -143,7 +143,7 @@ class Theme:
             self.canvas.frame_rect(surface, edge, *area, 2.5 if focused else 1, radius)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Palette:
     """Colours by role. ``danger_by_shape``: danger is marked by spikes and bars too, not only by colour.
 

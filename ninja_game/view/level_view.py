@@ -84,17 +84,13 @@ class LevelView:
         world = self.simulation.world
         self._follow_options()
         self.object_animation.on_tick(world)
-        self.ninja_animation.on_tick(world)
-        self.effects.on_tick(self.simulation.tiles, world)
-        self._follow_death(world)
+        self.on_death()
         self._follow_blasts(world)
         for ghost in self.ghosts:
             ghost.on_tick()
-        if self.audible:
-            self.context.audio_output.play_events(world)
 
     def on_death(self) -> None:
-        """Take note of a death between two ticks: out of time, or by the player's own hand."""
+        """Take note of what happened to the ninja; between two ticks: out of time, or by the player's own hand."""
         world = self.simulation.world
         self.ninja_animation.on_tick(world)
         self.effects.on_tick(self.simulation.tiles, world)
@@ -167,7 +163,7 @@ class LevelView:
         """Make what depends on the window's size and the palette."""
         self.canvas = self.context.canvas
         palette = self.context.theme.palette
-        book = shared_book(self.canvas.scale, palette.name)
+        book = shared_book(self.canvas.scale, palette)
         self.target = DrawTarget(self.canvas, palette, book)
         self._backdrop = Backdrop(self.canvas, palette, book, self.simulation.tiles)
         self._backdrop.reset(self.simulation.world, self.object_animation)

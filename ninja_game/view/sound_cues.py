@@ -2,18 +2,8 @@
 
 from __future__ import annotations
 
-from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER, TURRET
-from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import World
-from ninja_game.sim.states import (
-    DRONE_FIRING,
-    DRONE_PRE_FIRE,
-    GUARD_CHASE,
-    LAUNCHER_FLIGHT,
-    LAUNCHER_PREPARE,
-    TURRET_PRE_FIRE,
-    TURRET_TARGETING,
-)
+from ninja_game.ui.audio.table import warning_of
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Point
 from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.drawing import DrawTarget, drawing
@@ -41,20 +31,6 @@ def cue(s: Sketch, p: Palette, warning: str) -> None:
         s.disc(p.mine, 0, 4.6, 1.4)
     elif warning == "turret":
         s.disc(p.bright, 0, 0, 2.4)
-
-
-def warning_of(o: Object) -> str:
-    """What an object's sounds warn of now, a key of the shapes; "": nothing."""
-    kind, routine = o.kind, o.routine
-    if kind == LAUNCHER and routine in (LAUNCHER_PREPARE, LAUNCHER_FLIGHT):
-        return "rocket"
-    if kind == DRONE and routine in (DRONE_PRE_FIRE, DRONE_FIRING):
-        return "weapon"
-    if (kind == DRONE and o.chasing) or (kind == FLOOR_GUARD and routine == GUARD_CHASE):
-        return "chase"
-    if kind == TURRET and (o.think == TURRET_TARGETING or routine == TURRET_PRE_FIRE):
-        return "turret"
-    return ""
 
 
 def draw_sound_cues(target: DrawTarget, world: World) -> None:

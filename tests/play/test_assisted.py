@@ -13,9 +13,9 @@ from ninja_game.play.menus.help import Page, read_pages, room_level
 from ninja_game.player.attempt import Attempt
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.level import Level
+from ninja_game.ui.audio.table import warning_of
 from ninja_game.ui.input.bindings import Bindings
 from ninja_game.ui.input.keys import SCANCODES
-from ninja_game.view.sound_cues import warning_of
 from tests.support.scripted import ScriptedControls, frames, level_run, open_level, play_to_the_end, press
 
 DEATHS = [page for page in read_pages() if "died" in page.shows]

@@ -26,7 +26,7 @@ class OneTile(NamedTuple):
 @pytest.mark.parametrize("tile", range(34))
 def test_a_shape_covers_what_is_solid(tile: int) -> None:
     size = 48
-    picture = tile_picture(tile, (size, size), CLASSIC.tile)
+    picture = tile_picture(tile, (size, size), tuple(CLASSIC.tile))
     run = Simulation(Level((tile, *[0] * 712), (ObjectSpec(5, (400.0, 300.0)),)))
     for row in range(size):
         for column in range(size):

@@ -127,7 +127,7 @@ class PaletteView(Widget):
 @lru_cache(maxsize=200)
 def tile_icon(tile: int, size: tuple[int, int], palette: str, alpha: int = 255) -> pygame.Surface:
     """A tile as large as ``size``; nothing for what has no shape. ``palette``: its name."""
-    picture = tile_picture(tile, size, PALETTES[palette].tile) if tile in TILE_IDS else None
+    picture = tile_picture(tile, size, tuple(PALETTES[palette].tile)).copy() if tile in TILE_IDS else None
     picture = picture or pygame.Surface(size, pygame.SRCALPHA)
     picture.fill((alpha,) * 4, special_flags=pygame.BLEND_RGBA_MULT)
     return picture

@@ -27,7 +27,7 @@ from ninja_game.ui.input.gamepad import pad_label
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.scenery import lay_ground
 from ninja_game.ui.theme import Area, Theme, wrapped
-from ninja_game.ui.widgets import Button, Widget
+from ninja_game.ui.widgets import Widget
 from ninja_game.view.level_view import LevelView
 
 PAGES_FILE = "help/pages.toml"
@@ -90,7 +90,6 @@ class HelpPage(MenuScreen):
     """All that can be done, on one page: ``words``, then the table of ``commands``."""
 
     foot = "Esc goes back"
-    offers_back = False
 
     def __init__(self, app: App, title: str, words: str, commands: Sequence[Command]) -> None:
         super().__init__(app)
@@ -99,7 +98,7 @@ class HelpPage(MenuScreen):
         self._commands = [command for command in commands if command.keys or command.pad]
 
     def build(self) -> Sequence[Widget]:
-        return [Button((640, 536, 112, 24), "Back", self.back, size=10)]
+        return []
 
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)
@@ -138,7 +137,6 @@ class HelpScreen(MenuScreen):
     """Topics at the left; the selected one's demonstration and text at the right."""
 
     title = "Help"
-    offers_back = False
 
     def __init__(self, app: App) -> None:
         super().__init__(app)
@@ -154,8 +152,7 @@ class HelpScreen(MenuScreen):
         self.list.fill(self.topics)
 
     def build(self) -> Sequence[Widget]:
-        keys = [self.keys] if self.page is None else []
-        return [self.list, *keys, Button((612, 506, 132, 30), "Back", self.back)]
+        return [self.list] if self.page else [self.list, self.keys]
 
     def _show(self, index: int) -> None:
         page = self.pages[index] if index < len(self.pages) else None

@@ -270,11 +270,19 @@ class SettingsScreen(MenuScreen):
             lambda value: self.change(**{name: value}), hint=hint,
         )  # fmt: skip
 
-    def _percent(self, place: int, text: str, name: str, range_: tuple[float, float, float], hint: str = "") -> Slider:
+    def _slider(self, place: int, text: str, name: str, range_: tuple[float, float, float], hint: str = "") -> Slider:
+        """One for a number; volumes, which have no unit, are heard at once."""
+        volume = name.endswith("volume")
+
+        def put(value: float) -> None:
+            self.change(**{name: round(value)})
+            if volume:
+                self.chime("gold-1" if name == "volume" else "menu-move")
+
+        show = ("{:.0f}" if volume else "{:.0f} %").format
         return Slider(
-            self._area(place), text, range_, lambda: getattr(self.player.settings, name),
-            lambda value: self.change(**{name: round(value)}), show="{:.0f} %".format, hint=hint,
-        )  # fmt: skip
+            self._area(place), text, range_, lambda: getattr(self.player.settings, name), put, show=show, hint=hint
+        )
 
     def _picture(self) -> list[Widget]:
         columns, present = self.player.columns_complete, self.player.columns_present
@@ -294,22 +302,14 @@ class SettingsScreen(MenuScreen):
         ]
 
     def _sound(self) -> list[Widget]:
-        def slider(place: int, text: str, name: str, hint: str) -> Slider:
-            return Slider(
-                self._area(place), text, (0, 99, 3), lambda: getattr(self.player.settings, name),
-                lambda value: self._set_volume(name, value), hint=hint,
-            )  # fmt: skip
-
         return [
-            slider(0, "Volume", "volume", "0 is silence"),
-            slider(1, "Ambient loops", "loop_volume", "Skids, slides, rockets, lasers: share of the volume"),
-            slider(2, "Music", "music_volume", "Share of the volume; 0 is none"),
+            self._slider(0, "Volume", "volume", (0, 99, 3), "0 is silence"),
+            self._slider(
+                1, "Ambient loops", "loop_volume", (0, 99, 3), "Skids, slides, rockets, lasers: a share of it"
+            ),
+            self._slider(2, "Music", "music_volume", (0, 99, 3), "Share of the volume; 0 is none"),
             self._choice(3, "Music in practice", "music_in_practice", SWITCH),
         ]
-
-    def _set_volume(self, name: str, value: float) -> None:
-        self.change(**{name: round(value)})
-        self.chime("gold-1" if name == "volume" else "menu-move")
 
     def _play(self) -> list[Widget]:
         widgets: list[Widget] = [
@@ -331,7 +331,7 @@ class SettingsScreen(MenuScreen):
     def _accessibility(self) -> list[Widget]:
         return [
             self._choice(0, "Text size", "text_size", list(TEXT_SIZES.items())),
-            self._percent(1, "Game speed", "game_speed", (50, 100, 5), f"Time goes slower; {ASSISTED_HINT}"),
+            self._slider(1, "Game speed", "game_speed", (50, 100, 5), f"Time goes slower; {ASSISTED_HINT}"),
             self._choice(2, "Invincible", "invincible", SWITCH,
                          f"Only crushing, the clock and giving up end a run; {ASSISTED_HINT}"),
             self._choice(3, "Running keys", "tap_to_run", [("hold", False), ("tap", True)],
@@ -339,8 +339,8 @@ class SettingsScreen(MenuScreen):
             self._choice(4, "Marks for warning sounds", "sound_cues", SWITCH, "Rocket, laser, chase and turret"),
             self._choice(5, "Reduced motion", "reduced_motion", SWITCH, "Fewer particles; no shake, freeze or wipes"),
             self._choice(6, "Reduced gore", "reduced_gore", SWITCH, "No blood"),
-            self._percent(7, "Shake at explosions", "shake", (0, 100, 5)),
-            self._percent(8, "Particles", "particles", (0, 100, 5)),
+            self._slider(7, "Shake at explosions", "shake", (0, 100, 5)),
+            self._slider(8, "Particles", "particles", (0, 100, 5)),
         ]  # fmt: skip
 
     # --- picture ---

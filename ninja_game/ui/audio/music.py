@@ -15,6 +15,7 @@ from ninja_game.sim import states
 from ninja_game.sim.kinds import DRONE, EXIT, FLOOR_GUARD, LAUNCHER, TURRET
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import World
+from ninja_game.ui.audio.table import warning_of
 
 MENU = "menu"
 BY_COLUMN = ("ground", "machines", "places", "trials", "hardest")
@@ -56,15 +57,6 @@ def heard_in_music(o: Object) -> bool:
     return o.kind in (LAUNCHER, FLOOR_GUARD, DRONE, TURRET, EXIT)
 
 
-def _hunts(o: Object) -> bool:
-    """Whether it is after the ninja now."""
-    if o.kind == DRONE:
-        return bool(o.chasing) or o.routine != states.DRONE_MOVE
-    if o.kind == TURRET:
-        return o.think == states.TURRET_TARGETING
-    return o.routine == (states.LAUNCHER_FLIGHT if o.kind == LAUNCHER else states.GUARD_CHASE)
-
-
 def music_levels(world: World, objects: Iterable[Object]) -> MusicLevels:
     """The levels for a moment of play. ``objects``: those of the world that are ``heard_in_music``."""
     ninja = world.ninja
@@ -72,7 +64,7 @@ def music_levels(world: World, objects: Iterable[Object]) -> MusicLevels:
     for o in objects:
         if o.kind == EXIT:
             is_open = max(is_open, float(o.is_open))
-        elif _hunts(o):
+        elif warning_of(o):
             danger = max(danger, (FAR - hypot(o.x - ninja.x, o.y - ninja.y)) / (FAR - NEAR))
     speed = 2 * hypot(ninja.x - ninja.prev_x, ninja.y - ninja.prev_y) / FAST - 1
     alive = world.outcome == states.OUTCOME_RUNNING

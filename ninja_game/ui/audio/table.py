@@ -7,7 +7,7 @@ from math import floor
 
 from ninja_game.sim import events, states
 from ninja_game.sim.events import DIED
-from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER
+from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER, TURRET
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import Event, Ninja, World
 
@@ -116,6 +116,20 @@ def loop_levels(world: World, machines: Iterable[Object]) -> dict[str, float]:
         if machine.routine == routine:
             levels[name] = 1.0
     return levels
+
+
+def warning_of(o: Object) -> str:
+    """What an object's sounds warn of now: "rocket", "weapon", "chase", "turret"; "": nothing."""
+    kind, routine = o.kind, o.routine
+    if kind == LAUNCHER and routine in (states.LAUNCHER_PREPARE, states.LAUNCHER_FLIGHT):
+        return "rocket"
+    if kind == DRONE and routine in (states.DRONE_PRE_FIRE, states.DRONE_FIRING):
+        return "weapon"
+    if (kind == DRONE and o.chasing) or (kind == FLOOR_GUARD and routine == states.GUARD_CHASE):
+        return "chase"
+    if kind == TURRET and (o.think == states.TURRET_TARGETING or routine == states.TURRET_PRE_FIRE):
+        return "turret"
+    return ""
 
 
 def _percent(value: float) -> float:

@@ -160,14 +160,6 @@ def _died(e: Effects, level: TileMap, world: World, event: Event) -> None:
     e.blood(event.x, event.y, event.dx, event.dy, e.rng.randint(8, 14))
 
 
-def _gold(e: Effects, level: TileMap, world: World, event: Event) -> None:
-    e.add("gold", event.x, event.y, life=28)
-
-
-def _explosion(e: Effects, level: TileMap, world: World, event: Event) -> None:
-    e.explosion(event.x, event.y)
-
-
 def _launched(e: Effects, level: TileMap, world: World, event: Event) -> None:
     length = hypot(event.dx, event.dy) or 1.0
     e.puffs(event.x, event.y + 6, event.dx / length, event.dy / length, 55, 9)
@@ -198,10 +190,6 @@ def _bullet(e: Effects, level: TileMap, world: World, event: Event) -> None:
     e.spread("debris", x, y, 3, 14, life=13)
 
 
-def _rocket(e: Effects, level: TileMap, world: World, event: Event) -> None:
-    e.spread("smoke", event.x, event.y, 5, 12, life=26)
-
-
 REACTIONS: dict[int, Callable[[Effects, TileMap, World, Event], None]] = {
     ev.JUMPED: _jumped,
     ev.WALL_JUMPED: _jumped,
@@ -209,10 +197,10 @@ REACTIONS: dict[int, Callable[[Effects, TileMap, World, Event], None]] = {
     ev.LAUNCHED: _launched,
     ev.DIED: _died,
     ev.WON: _won,
-    ev.GOLD_TAKEN: _gold,
-    ev.MINE_EXPLODED: _explosion,
-    ev.ROCKET_EXPLODED: _explosion,
-    ev.ROCKET_LAUNCHED: _rocket,
+    ev.GOLD_TAKEN: lambda e, _level, _world, event: e.add("gold", event.x, event.y, life=28),
+    ev.MINE_EXPLODED: lambda e, _level, _world, event: e.explosion(event.x, event.y),
+    ev.ROCKET_EXPLODED: lambda e, _level, _world, event: e.explosion(event.x, event.y),
+    ev.ROCKET_LAUNCHED: lambda e, _level, _world, event: e.spread("smoke", event.x, event.y, 5, 12, life=26),
     ev.THWUMP_LANDED: _thud,
     ev.TURRET_FIRED: _turret_fired,
     ev.CHAINGUN_SHOT: _bullet,

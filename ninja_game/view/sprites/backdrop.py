@@ -29,7 +29,7 @@ class Backdrop:
         self._book = book
         self._corner = canvas.stage.topleft
         self.picture = pygame.Surface(canvas.size)
-        sheet = TileSheet(canvas, palette.outline, book.tiles)
+        sheet = TileSheet(canvas, palette.outline)
         if palette.scenery:
             sheet.show(level)
             self.ground = ground_in_shadow(sheet, palette)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
@@ -11,9 +10,8 @@ from typing import Any, Concatenate, Generic, NamedTuple, ParamSpec
 import pygame
 
 from ninja_game.ui.canvas import Canvas, Colour
-from ninja_game.ui.theme import PALETTES, Palette
+from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.sketch import Sketch, Sprite
-from ninja_game.view.sprites.tile_sheet import TilePictures
 
 Extent = tuple[float, float, float, float]
 """How far a drawing reaches left, up, right and down from its point, logical px."""
@@ -112,25 +110,16 @@ _KEPT = 3000
 
 
 class SpriteBook:
-    """The sprites at one scale in one palette. ``tiles``: the pictures of tiles, for a sheet of them."""
+    """The sprites at one scale in one palette. ``sprite``: gives that of a key."""
 
     def __init__(self, scale: float, palette: Palette) -> None:
         self.scale = scale
         self.palette = palette
-        self.tiles: TilePictures = {}
-        self._kept: OrderedDict[SpriteKey, Sprite] = OrderedDict()
-
-    def sprite(self, key: SpriteKey) -> Sprite:
-        found = self._kept.get(key)
-        if found is None:
-            found = self._kept[key] = (
-                self._drawn(key) if key.alpha == 8 else self.sprite(key.faded(8)).faded(key.alpha / 8)
-            )
-            if len(self._kept) > _KEPT:
-                self._kept.popitem(last=False)
-        return found
+        self.sprite = lru_cache(maxsize=_KEPT)(self._drawn)
 
     def _drawn(self, key: SpriteKey) -> Sprite:
+        if key.alpha < 8:
+            return self.sprite(key.faded(8)).faded(key.alpha / 8)
         drawing = key.drawing
         extent = drawing.extent if key.turn == 0 else _turned(drawing.extent)
         sketch = Sketch(self.scale, extent, turn=key.turn)
@@ -138,10 +127,8 @@ class SpriteBook:
         return sketch.finish()
 
 
-@lru_cache(maxsize=8)
-def shared_book(scale: float, palette: str) -> SpriteBook:
-    """The book of all levels that are shown at one scale in one palette, by its name."""
-    return SpriteBook(scale, PALETTES[palette])
+shared_book = lru_cache(maxsize=8)(SpriteBook)
+"""The book of all levels that are shown at one scale in one palette."""
 
 
 def _turned(extent: Extent) -> Extent:

@@ -57,21 +57,18 @@ _GRID = 25
 """Px of the sheet from which lights of all sizes are made."""
 
 
+@lru_cache(maxsize=64)
 def light_picture(look: Look, scale: float, palette: Palette) -> pygame.Surface:
     """A light, strongest in its middle. Nobody may draw on it."""
-    return _painted(max(1, round(look.reach * scale)), look.strength, *getattr(palette, look.role)[:3])
-
-
-@lru_cache(maxsize=64)
-def _painted(reach: int, strength: int, red: int, green: int, blue: int) -> pygame.Surface:
+    reach, colour = max(1, round(look.reach * scale)), getattr(palette, look.role)[:3]
     sheet = pygame.Surface((_GRID, _GRID), pygame.SRCALPHA)
-    sheet.fill((red, green, blue, 0))
+    sheet.fill((*colour, 0))
     half = _GRID / 2
     for y in range(_GRID):
         for x in range(_GRID):
             far = ((x + 0.5 - half) ** 2 + (y + 0.5 - half) ** 2) / half**2
             if far < 1:
-                sheet.fill((red, green, blue, round(255 * (1 - far) ** 2)), (x, y, 1, 1))
+                sheet.fill((*colour, round(255 * (1 - far) ** 2)), (x, y, 1, 1))
     # Made fainter as a whole, it is scaled as px in the page too, not as squares.
-    sheet.fill((255, 255, 255, strength), special_flags=pygame.BLEND_RGBA_MULT)
+    sheet.fill((255, 255, 255, look.strength), special_flags=pygame.BLEND_RGBA_MULT)
     return pygame.transform.smoothscale(sheet, (2 * reach + 1, 2 * reach + 1))

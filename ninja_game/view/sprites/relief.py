@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import pygame
 
 from ninja_game.sim.collision.tiles import EMPTY, FULL, SHAPE
@@ -13,16 +11,8 @@ from ninja_game.ui.scenery import painted
 from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.tile_sheet import TileKey, TileSheet
 
-
-class Edge(NamedTuple):
-    """A strip inside the tiles. ``depth``: logical px, from the upper edge down, below 0 from the lower one up."""
-
-    role: str
-    depth: float
-    strength: int
-
-
-EDGES = Edge("bright", 20, 13), Edge("bright", 8, 20), Edge("bright", 2, 120), Edge("outline", -3, 80)
+EDGES = (("bright", 20, 13), ("bright", 8, 20), ("bright", 2, 120), ("outline", -3, 80))
+"""Strips inside the tiles: colour; depth from the upper edge down, or from the lower one up, logical px; strength."""
 
 SHADOW, SHADOW_AT, SOFT = 76, (4, 6), 2
 """The shadow's strength, where it falls (logical px), and how many times smaller than the ground it is made."""

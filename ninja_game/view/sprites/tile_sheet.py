@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from math import cos, pi, sin
 
 import pygame
@@ -16,17 +17,11 @@ from ninja_game.view.sprites.sketch import FINE
 TileKey = tuple[int, int, int, float, float]
 """Tile, size and place beside the px."""
 
-TilePictures = dict[tuple[tuple[int, ...], TileKey], pygame.Surface]
-"""By colour, and what tells one from another."""
-
 
 class TileSheet:
-    """``surface``: premultiplied; its px count from the upper left corner of what is seen of the stage.
+    """``surface``: premultiplied; its px count from the upper left corner of what is seen of the stage."""
 
-    ``pictures``: those that were made before, at the same scale.
-    """
-
-    def __init__(self, canvas: Canvas, colour: pygame.Color, pictures: TilePictures | None = None) -> None:
+    def __init__(self, canvas: Canvas, colour: pygame.Color) -> None:
         self.canvas = canvas
         self._corner = canvas.stage.topleft
         self._shift = canvas.origin[0] - self._corner[0], canvas.origin[1] - self._corner[1]
@@ -34,7 +29,6 @@ class TileSheet:
         self.surface = pygame.Surface(canvas.size, pygame.SRCALPHA)
         # A bit for each column of a row that is not empty.
         self._rows = [0] * GRID_ROWS
-        self._pictures: TilePictures = {} if pictures is None else pictures
 
     def show(self, level: TileMap) -> None:
         for row in range(GRID_ROWS):
@@ -69,11 +63,7 @@ class TileSheet:
         return tile, *rect.size, round(8 * (left - rect.left)) / 8, round(8 * (top - rect.top)) / 8
 
     def picture(self, key: TileKey, colour: pygame.Color) -> pygame.Surface:
-        """The picture of a key. Nobody may draw on it."""
-        known = tuple(colour), key
-        if known not in self._pictures:
-            self._pictures[known] = tile_picture(key[0], key[1:3], colour, scale=self.canvas.scale, shift=key[3:])
-        return self._pictures[known]
+        return tile_picture(key[0], key[1:3], tuple(colour), self.canvas.scale, key[3:])
 
     def has_tile(self, area: pygame.Rect) -> bool:
         """Whether any px of an area may be a tile's."""
@@ -127,10 +117,11 @@ def outline(tile: int) -> list[Point]:
     return points
 
 
+@lru_cache(maxsize=1000)
 def tile_picture(
-    tile: int, size: tuple[int, int], colour: pygame.Color, *, scale: float = 0.0, shift: Point = (0.0, 0.0)
+    tile: int, size: tuple[int, int], colour: tuple[int, ...], scale: float = 0.0, shift: Point = (0.0, 0.0)
 ) -> pygame.Surface:
-    """A tile in a cell of that many px, premultiplied.
+    """A tile in a cell of that many px, premultiplied. Nobody may draw on it.
 
     ``shift``: px by which the cell's true corner, at ``scale`` px per logical px, lies beside that of its px. Slopes
     are drawn where they truly are, so that those of neighbouring cells form one line; other shapes fill the cell's px.
