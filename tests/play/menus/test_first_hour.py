@@ -59,6 +59,27 @@ def test_what_a_text_names_is_pointed_at_until_it_is_done(driver: MenuDriver) ->
     assert not hud_view(level.play).named
 
 
+@pytest.mark.parametrize("reduced", [False, True])
+def test_switch_sends_out_rings_until_it_is_touched(driver: MenuDriver, reduced: bool) -> None:
+    driver.app.change_settings(reduced_motion=reduced)
+    driver.press("return")
+    level = driver.shown(LevelScreen)
+    level.play.sayings.text = ""
+    objects = level.attempt.simulation.world.objects
+    switch = next(o for o in objects[1:] if o.kind == SWITCH)
+
+    def ring() -> bool:
+        driver.app.stack.redraw_all()
+        driver.frames(1)
+        x, y = driver.app.canvas.point(switch.x, switch.y)
+        seen, ink = [driver.app.surface.get_at((x, y - 15 + k)) for k in range(4)], driver.app.theme.palette.exit
+        return any(max(abs(a - b) for a, b in zip(each[:3], ink[:3], strict=True)) < 16 for each in seen)
+
+    assert ring() is not reduced
+    objects[switch.partner].is_open = True
+    assert not ring()
+
+
 def test_text_of_the_start_covers_what_is_solid_and_no_way() -> None:
     block = tuple(int(12 <= column < 30 and 11 <= row < 14) for column in range(31) for row in range(23))
     x, y = solid_place(block, 360.0, 59.0)
