@@ -363,7 +363,7 @@ def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodeRun | N
 
     None where there are no episodes.
     """
-    if not practice_mode and (run := _left_half_way(data)):
+    if not practice_mode and (run := left_half_way(data)):
         return run
     episodes = [data.catalogue.episodes[number] for number in sorted(data.catalogue.episodes)]
     ahead = [each for each in episodes if not data.progress.is_beaten(each.number)]
@@ -372,7 +372,7 @@ def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodeRun | N
     return EpisodeRun(data, chosen, practice_mode=practice_mode) if chosen else None
 
 
-def _left_half_way(data: PlayerData) -> EpisodeRun | None:
+def left_half_way(data: PlayerData) -> EpisodeRun | None:
     """The run that was left, if its levels are still what they were."""
     key, replays = kept_place(data.store)
     if not replays:

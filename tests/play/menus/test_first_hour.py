@@ -204,6 +204,17 @@ def test_play_goes_on_with_the_next_level(driver: MenuDriver) -> None:
     assert driver.shown(LevelScreen).context.lifetime > 3000, "with the time that was left"
 
 
+@pytest.mark.parametrize("rows, title", [(0, "level 2: Mind the Gap"), (1, "level 1: First Steps")])
+def test_episode_left_half_way_goes_on_or_begins_again(driver: MenuDriver, rows: int, title: str) -> None:
+    driver.press("return")
+    driver.shown(LevelScreen).begin()
+    driver.play_replay(1)
+    driver.press("q")
+    driver.open("Episodes")
+    driver.press("return", *["down"] * rows, "return")
+    assert driver.shown(LevelScreen).context.title == f"Episode 1, {title}"
+
+
 @pytest.mark.parametrize("wanted, medal", [("silver", "silver"), ("author", "author"), ("next", "silver")])
 def test_ghost_of_a_medal_just_earns_it(driver: MenuDriver, wanted: str, medal: str) -> None:
     driver.app.change_settings(ghost=wanted)
