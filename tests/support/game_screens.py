@@ -123,7 +123,8 @@ def _first_steps(driver: MenuDriver) -> Iterator[str]:
     driver.open("Records")
     yield "records-empty"
     home(driver)
-    driver.press("return", "tab")
+    driver.open("Play")
+    driver.press("tab")
     yield "boss"
     driver.press("tab", "q")
 

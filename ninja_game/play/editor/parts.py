@@ -270,15 +270,8 @@ class FilePart(EditorPart):
         x, w = x + 4, w - 6
         theme.text(surface, session.name, x, y + 5, size=11, bold=True, width=w)
         path, state = session.source.path, "saved" if session.is_saved else "not saved"
-        theme.text(
-            surface,
-            f"{path.name}: {state}" if path else "not in a file yet",
-            x,
-            y + 20,
-            size=9,
-            colour=palette.faint,
-            width=w,
-        )
+        file = f"{path.name}: {state}" if path else "not in a file yet"
+        theme.text(surface, file, x, y + 20, size=9, colour=palette.faint, width=w)
         certifier = session.certifier
         stale, run = certifier.is_stale(session.draft.level), certifier.search.run
         text = certifier.text or "Not certified: F7 looks for a run"
