@@ -75,7 +75,7 @@ class Sayings:
         before = self.text
         self._left -= 1
         if self._left <= 0:
-            self.text = ""
+            self.text = self._start() if world.tick < START_TICKS else ""
         happened = {_WHEN.get(event.kind) for event in world.events[: world.event_count]}
         if "switch" in happened:
             # The goal is understood: no need to say how it begins again.

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.sayings import read_sayings
 from ninja_game.play.level.hud import cause_of_death, hud_view, solid_place
 from ninja_game.play.level.play import Phase
@@ -116,6 +117,17 @@ def test_each_text_has_its_moment(driver: MenuDriver) -> None:
     sayings.on_death()
     sayings.at_start()
     assert sayings.text == "wait"
+
+
+def test_goal_is_read_again_after_a_text_of_the_first_seconds() -> None:
+    sayings = Sayings(read_sayings("start: go | gold: gold"))
+    simulation = Simulation(parse_level_string("0" * 713 + "|5^100,566!0^120,566!11^400,564,500,564"))
+    seen = []
+    for tick in range(START_TICKS + 1):
+        simulation.step_keys(2 if tick < 8 else 0)
+        if sayings.on_tick(simulation.world):
+            seen.append(sayings.text)
+    assert seen == ["gold", "go", ""]
 
 
 def test_text_at_a_place_is_said_there_once() -> None:
