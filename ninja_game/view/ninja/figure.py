@@ -283,7 +283,7 @@ def ninja_sprite(
     s = Sketch(scale, (-REACH, -REACH, REACH, REACH), fine=3)
     shown = pose.moved(offset[0] / scale, offset[1] / scale)
     paint_figure(s, palette, shown, facing, velocity, colour=colour, banded=banded)
-    return s.finish().faded(alpha) if alpha < 1 else s.finish()
+    return s.finish(alpha)
 
 
 def paint_figure(

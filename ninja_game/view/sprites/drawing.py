@@ -118,13 +118,11 @@ class SpriteBook:
         self.sprite = lru_cache(maxsize=_KEPT)(self._drawn)
 
     def _drawn(self, key: SpriteKey) -> Sprite:
-        if key.alpha < 8:
-            return self.sprite(key.faded(8)).faded(key.alpha / 8)
         drawing = key.drawing
         extent = drawing.extent if key.turn == 0 else _turned(drawing.extent)
         sketch = Sketch(self.scale, extent, turn=key.turn)
         drawing.paint(sketch, self.palette, *key.parameters)
-        return sketch.finish()
+        return sketch.finish(key.alpha / 8)
 
 
 shared_book = lru_cache(maxsize=8)(SpriteBook)

@@ -30,13 +30,6 @@ class Sprite(NamedTuple):
         place = at[0] - self.ax, at[1] - self.ay
         return target.blit(self.surface, place, special_flags=pygame.BLEND_PREMULTIPLIED)
 
-    def faded(self, alpha: float) -> Sprite:
-        """The drawing, as solid as ``alpha`` (0…1)."""
-        surface = self.surface.copy()
-        level = max(0, min(255, round(255 * alpha)))
-        surface.fill((level, level, level, level), special_flags=pygame.BLEND_RGBA_MULT)
-        return self._replace(surface=surface)
-
 
 class Sketch:
     """A sheet for one drawing about the point (0, 0).
@@ -99,9 +92,13 @@ class Sketch:
         for a, b in pairwise(points):
             self.stroke(colour, a, b, width)
 
-    def finish(self) -> Sprite:
-        """The drawing."""
-        return Sprite(pygame.transform.smoothscale(self._fine, self._size), self._ax, self._ay)
+    def finish(self, alpha: float = 1.0) -> Sprite:
+        """The drawing, as solid as ``alpha`` (0…1)."""
+        surface = pygame.transform.smoothscale(self._fine, self._size)
+        if alpha < 1.0:
+            level = max(0, min(255, round(255 * alpha)))
+            surface.fill((level, level, level, level), special_flags=pygame.BLEND_RGBA_MULT)
+        return Sprite(surface, self._ax, self._ay)
 
 
 def star(points: int, outer: float, inner: float, turn: float = 0) -> list[Point]:
