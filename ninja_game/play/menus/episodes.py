@@ -212,16 +212,16 @@ class EpisodeGrid(ThumbnailScreen):
         if self.episode is None or self._state(self.number) == LOCKED:
             return
         practice_mode = self.player.settings.practice
-        anew = EpisodeRun(self.player, self.episode, practice_mode=practice_mode)
+        afresh = EpisodeRun(self.player, self.episode, practice_mode=practice_mode)
         left = None if practice_mode else left_half_way(self.player)
         if left is None or left.episode.key != self.episode.key:
-            self.app.push(LevelScreen(self.app, anew))
+            self.app.push(LevelScreen(self.app, afresh))
             return
         rows: list[Row] = [
             (f"Go on with level {left.position + 1}", lambda: self.app.push(LevelScreen(self.app, left)), ""),
             (
                 "Begin again",
-                lambda: self.app.push(LevelScreen(self.app, anew)),
+                lambda: self.app.push(LevelScreen(self.app, afresh)),
                 "From the first level, on a full clock",
             ),
             CANCEL,
