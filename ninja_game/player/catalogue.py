@@ -53,6 +53,12 @@ class Entry:
         return self.named.level.gold
 
     @property
+    def place(self) -> str:
+        """Its place as players count it; "" for a level in no episode."""
+        episode, _, level = self.episode.partition("-")
+        return f"Episode {int(episode) + 1}, level {int(level) + 1}" if level else ""
+
+    @property
     def column(self) -> int:
         """The column of its episode; 0 for a level in none."""
         return int(self.episode[:2]) // EPISODES_PER_COLUMN if self.episode else 0
@@ -83,12 +89,12 @@ class Episode:
 
     @property
     def code(self) -> str:
-        """How it is called wherever it is named: its number as in names of files."""
-        return f"{self.number:02d}"
+        """How players count it: from 1. Files, documents and boards count from 0, in two digits."""
+        return str(self.number + 1)
 
     def title(self, level: int) -> str:
-        """How a level of it is announced: with the code of its file."""
-        return f"Episode {self.code}-{level}: {self.levels[level].title}"
+        """How a level of it is announced."""
+        return f"Episode {self.code}, level {level + 1}: {self.levels[level].title}"
 
 
 class EpisodeSet(NamedTuple):

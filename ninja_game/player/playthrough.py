@@ -71,6 +71,11 @@ class LevelContext:
         return True
 
     @property
+    def carries_on(self) -> str:
+        """What the clock does after a pass, in words; "" where it ends with the level."""
+        return ""
+
+    @property
     def title(self) -> str:
         """How the level is announced."""
         return self.entry.title
@@ -124,9 +129,14 @@ class LevelContext:
         """Called once, right after the tick of the exit contact: saves; gives notices to show."""
         raise NotImplementedError
 
+    @property
+    def helps(self) -> bool:
+        """Whether words help in the level: not once it has been passed, nor where the player does not want them."""
+        return self.data.settings.level_texts and self.data.marks.of(self.entry.digest, self.body) is None
+
     def sayings(self) -> tuple[Saying, ...]:
-        """What the level says: nothing once it has been passed, or where the player does not want it."""
-        if not self.data.settings.level_texts or self.data.marks.of(self.entry.digest, self.body):
+        """What the level says, where it ``helps``."""
+        if not self.helps:
             return ()
         with suppress(LevelError):
             return read_sayings(self.entry.named.says)
@@ -273,6 +283,13 @@ class EpisodeRun(LevelContext):
         return self.episode.title(self.position)
 
     @property
+    def carries_on(self) -> str:
+        """It goes on until the episode ends."""
+        if self.practice_mode:
+            return ""
+        return "at the end is the score of the episode" if self.is_last else "goes on into the next level"
+
+    @property
     def is_last(self) -> bool:
         return self.position == len(self.episode.levels) - 1
 
@@ -346,7 +363,7 @@ def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodeRun | N
 
     None where there are no episodes.
     """
-    if not practice_mode and (run := _left_half_way(data)):
+    if not practice_mode and (run := left_half_way(data)):
         return run
     episodes = [data.catalogue.episodes[number] for number in sorted(data.catalogue.episodes)]
     ahead = [each for each in episodes if not data.progress.is_beaten(each.number)]
@@ -355,7 +372,7 @@ def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodeRun | N
     return EpisodeRun(data, chosen, practice_mode=practice_mode) if chosen else None
 
 
-def _left_half_way(data: PlayerData) -> EpisodeRun | None:
+def left_half_way(data: PlayerData) -> EpisodeRun | None:
     """The run that was left, if its levels are still what they were."""
     key, replays = kept_place(data.store)
     if not replays:

@@ -123,7 +123,8 @@ class TasScreen(WorkspaceScreen):
         if self.level.capture(event):
             self.held.follow(event.raw)
             return True
-        return super().capture(event)
+        hides = self.level.take_over.on and "boss" in event.pressed
+        return not hides and super().capture(event)
 
     def update(self, real_ms: int) -> None:
         """Simulate what is not simulated yet; parts go on."""

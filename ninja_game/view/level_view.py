@@ -24,7 +24,7 @@ from ninja_game.view.ninja.ragdoll import Ragdoll
 from ninja_game.view.sound_cues import draw_sound_cues
 from ninja_game.view.sprites.backdrop import Backdrop
 from ninja_game.view.sprites.drawing import DrawTarget, shared_book
-from ninja_game.view.sprites.moving_sprites import draw_moving
+from ninja_game.view.sprites.moving_sprites import draw_moving, draw_pulses
 from ninja_game.view.sprites.object_animation import ObjectAnimation
 
 if TYPE_CHECKING:
@@ -224,6 +224,8 @@ class LevelView:
         target, now = self.target, self.effects.now + fraction - 1
         target.begin(surface)
         Particles.draw(self.particles.rear, target, now)
+        if not self.context.settings.reduced_motion:
+            draw_pulses(target, self.simulation.world, self.object_animation, fraction)
         draw_moving(target, self.simulation.world, self.object_animation, fraction)
         if self.context.settings.show_ghost:
             for ghost in self.ghosts:

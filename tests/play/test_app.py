@@ -15,6 +15,8 @@ from ninja_game.formats.replay.text import Replay
 from ninja_game.play.app import App, BossScreen, build_app
 from ninja_game.play.level.screen import PausePanel
 from ninja_game.play.main import first_screen, main
+from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.replays import watch_recording
 from ninja_game.play.window import Window
 from ninja_game.player.player_data import PlayerData
@@ -120,6 +122,24 @@ def test_key_of_the_app_can_be_bound(tmp_path: Path, name: str) -> None:
     assert driver.top() is screen
     assert not list((tmp_path / "exports").iterdir())
     assert not driver.app.window.fullscreen
+    driver.close()
+
+
+@pytest.mark.parametrize("entry", ["", "Settings", "Editor"])
+def test_tab_moves_the_focus_where_nothing_runs(tmp_path: Path, entry: str) -> None:
+    driver = MenuDriver(tmp_path)
+    screen = driver.open(entry) if entry else driver.shown(MainMenu)
+    assert isinstance(screen, MenuScreen)
+    seen = []
+    for _ in range(3):
+        driver.press("tab")
+        seen.append(screen.focus)
+    assert driver.top() is screen
+    assert len(set(map(id, seen))) == 3
+    assert None not in seen
+    if entry == "Editor":
+        driver.press("escape")
+        assert (driver.top(), screen.focus) == (screen, None), "the arrows are the pointer's again"
     driver.close()
 
 

@@ -9,6 +9,7 @@ from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.states import BULLET, EXPLOSIVE
 from ninja_game.simulation import Simulation
 from ninja_game.view.ninja.figure import STAND
+from ninja_game.view.ninja.ninja_animation import NinjaAnimation
 from ninja_game.view.ninja.ragdoll import STICKS, Ragdoll
 
 
@@ -72,3 +73,12 @@ def test_the_world_does_not_notice() -> None:
     before = run.digest()
     drop(run, 100)
     assert run.digest() == before
+
+
+def test_figure_on_a_slope_keeps_its_feet_on_it_and_its_head_over_them() -> None:
+    animation = NinjaAnimation(Simulation(Level((0,) * 713, (ObjectSpec(5, (100.0, 100.0)),))).world, Random(1))
+    flat = animation.pose(1.0)
+    animation.turn = animation.turn_before = -45.0
+    slope = animation.pose(1.0)
+    assert (slope.near_foot, slope.far_foot) == flat.placed(1, -45.0)[5:]
+    assert abs(slope.head[0] - slope.pelvis[0]) < 0.4 * abs(slope.head[1] - slope.pelvis[1])

@@ -125,9 +125,10 @@ def _first_steps(driver: MenuDriver) -> Iterator[str]:
     driver.open("Records")
     yield "records-empty"
     home(driver)
+    driver.open("Play")
     driver.press("tab")
     yield "boss"
-    driver.press("tab")
+    driver.press("tab", "q")
 
 
 def _an_episode(driver: MenuDriver) -> Iterator[str]:
@@ -295,7 +296,7 @@ def _help(driver: MenuDriver) -> Iterator[str]:
 
 def _lab(driver: MenuDriver) -> Iterator[str]:
     """Every figure, a second into its demonstration."""
-    screen = driver.open("Lab")
+    screen = driver.open("How it works")
     assert isinstance(screen, LabScreen)
     for index, figure in enumerate(screen.figures):
         screen.list._select(index)

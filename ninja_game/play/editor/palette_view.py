@@ -107,9 +107,8 @@ class PaletteView(Widget):
             at = canvas.point(area[0], area[1])
             surface.blit(self._icon(theme, what, area), at, special_flags=pygame.BLEND_PREMULTIPLIED)
             if isinstance(what, ObjectType):
-                at = area[0] + 1.5, area[1] + 1
-                canvas.fill_rect(surface, palette.panel, area[0] + 0.5, area[1] + 0.5, 7, 9, 2)
-                theme.text(surface, key_label_of(what.key), *at, size=7, colour=palette.faint)
+                canvas.fill_rect(surface, palette.panel, area[0] + 0.5, area[1] + 0.5, 9, 11, 2)
+                theme.text(surface, key_label_of(what.key), area[0] + 1.5, area[1] + 1, size=9)
             if what in (EMPTY, FULL):
                 canvas.frame_rect(surface, palette.panel_edge, *area)
             if chosen:

@@ -269,9 +269,9 @@ class FilePart(EditorPart):
         canvas.fill_rect(surface, palette.panel, *self.area, 3)
         x, w = x + 4, w - 6
         theme.text(surface, session.name, x, y + 5, size=11, bold=True, width=w)
-        file = session.source.path.name if session.source.path else "no file yet"
-        state = "saved" if session.is_saved and session.source.path else "not saved" if not session.is_saved else ""
-        theme.text(surface, f"{file}  {state}", x, y + 20, size=9, colour=palette.faint, width=w)
+        path, state = session.source.path, "saved" if session.is_saved else "not saved"
+        file = f"{path.name}: {state}" if path else "not in a file yet"
+        theme.text(surface, file, x, y + 20, size=9, colour=palette.faint, width=w)
         certifier = session.certifier
         stale, run = certifier.is_stale(session.draft.level), certifier.search.run
         text = certifier.text or "Not certified: F7 looks for a run"

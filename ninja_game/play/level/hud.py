@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import pygame
 
@@ -11,16 +12,19 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.sayings import named_keys, things_named
 from ninja_game.play.level.play import DEATH_PAUSE, LevelPlay, Phase
-from ninja_game.play.level.sayings import WHY
+from ninja_game.play.level.sayings import FALL_HELP, WHY
 from ninja_game.play.menus.thumbnails import PAR_WIDE, draw_pars
 from ninja_game.player.marks import Mark, next_par
 from ninja_game.player.records import seconds_text
 from ninja_game.player.statistics import SELF
+from ninja_game.sim.collision.tiles import FULL, SHAPE
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.kinds import EXIT, SWITCH
-from ninja_game.sim.rules import LIFETIME
+from ninja_game.sim.level import ROWS
+from ninja_game.sim.rules import CELL, GOLD_BONUS, LIFETIME
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.theme import Palette, Theme, mixed, wrapped
+from ninja_game.ui.widgets import draw_medal
 
 _BAR_LEFT, _BAR_MIDDLE = 24.0, 12.0
 _BAR_LONGEST = 700.0
@@ -59,9 +63,9 @@ class HudView:
 
     ``lifetime``: ticks, for the time bar; ``label``: a word in its place. ``foot``: texts at the left and the right of
     the border below. ``keys``: those of the present tick, ``frame_ms``: of the last picture; None: not shown.
-    ``said``: a text of the level, and the top of its panel; ``named``: what it names, and where that is, px.
-    ``message``: title and lines of a panel, and its top; ``pars``: the medals under its title, and the tick of the
-    pass; ``stamp``: how far the best of them has come down, 0…1.
+    ``said``: a text of the level, and the tiles of which it covers those that are full, () for the border below.
+    ``named``: what it names, and where that is, px. ``message``: title and lines of a panel, and its top; ``pars``: the
+    medals under its title, and the tick of the pass; ``stamp``: how far the best of them has come down, 0…1.
     """
 
     lifetime: float
@@ -69,7 +73,7 @@ class HudView:
     foot: tuple[str, str]
     keys: int | None = None
     frame_ms: float | None = None
-    said: tuple[str, float] | None = None
+    said: tuple[str, tuple[int, ...]] | None = None
     named: Sequence[tuple[str, float, float]] = ()
     message: tuple[str, Sequence[str], float] | None = None
     pars: tuple[Pars, int] | None = None
@@ -120,17 +124,17 @@ class Hud:
 
     def foot(self, surface: pygame.Surface, left: str, right: str) -> pygame.Rect:
         """A line in the border below the level; where both texts do not fit, the left one is shortened."""
-        return self._border_line(surface, left, right, 583)
+        return self._border_line(surface, left, right, 582)
 
     def _border_line(self, surface: pygame.Surface, left: str, right: str, y: float) -> pygame.Rect:
         theme, colour = self.theme, self.theme.palette.on_tile
         gap = 14 if left and right else 0
         # The right text grows only where that takes nothing from the left one.
-        beside = min(_FOOT_WIDTH / 2, theme.lettering.width(left, 9))
-        room = max(min(_FOOT_WIDTH, theme.lettering.width(right, 9)), _FOOT_WIDTH - beside - gap)
-        rect = theme.text(surface, right, 768, y, size=9, colour=colour, align="right", width=room)
+        beside = min(_FOOT_WIDTH / 2, theme.lettering.width(left, FOOT))
+        room = max(min(_FOOT_WIDTH, theme.lettering.width(right, FOOT)), _FOOT_WIDTH - beside - gap)
+        rect = theme.text(surface, right, 768, y, size=FOOT, colour=colour, align="right", width=room)
         room = _FOOT_WIDTH - rect.width / theme.canvas.scale - gap
-        return rect.union(theme.text(surface, left, 24, y, size=9, colour=colour, width=room))
+        return rect.union(theme.text(surface, left, 24, y, size=FOOT, colour=colour, width=room))
 
     def head(self, surface: pygame.Surface, left: str, right: str) -> pygame.Rect:
         """A line in the border above the level, like ``foot`` below it."""
@@ -154,19 +158,25 @@ class Hud:
     ) -> pygame.Rect:
         """A panel: a title, the medals or none, and lines under it, from ``y`` on."""
         theme = self.theme
-        row = 4 * PAR_WIDE - 12.0 if pars else 0.0
-        widths = [theme.width(title, TITLE, bold=True), row, *(theme.width(line, LINE) for line in lines)]
-        below = 30 if pars else 0
-        w, h = max(220.0, max(widths) + 44), 48.0 + 18 * len(lines) + below
+        medal = pars[0].medal(pars[1]) if pars else ""
+        row, below, beside = (4 * PAR_WIDE - 12.0, 34, PRIZE + 14) if pars else (0.0, 0, 0)
+        heads = theme.width(title, TITLE, bold=True) + beside, row + beside
+        w = max(220.0, *heads, *(theme.width(line, LINE) for line in lines)) + 44
+        h = 48.0 + 18 * len(lines) + below
         y = min(y, LOWEST - h)
         rect = theme.panel(surface, (WIDTH - w) / 2, y, w, h, 4)
-        theme.text(surface, title, WIDTH / 2, y + 9, size=TITLE, align="centre", bold=True)
+        middle = (WIDTH + beside) / 2
+        theme.text(surface, title, middle, y + 9, size=TITLE, align="centre", bold=True)
         for k, line in enumerate(lines):
-            top = y + 41 + below + 18 * k
-            theme.text(surface, line, WIDTH / 2, top, size=LINE, colour=theme.palette.faint, align="centre")
+            colour = theme.palette.text if k < len(lines) - 1 else theme.palette.faint
+            theme.text(surface, line, WIDTH / 2, y + 41 + below + 18 * k, size=LINE, colour=colour, align="centre")
         if pars:
-            draw_pars(surface, theme, *pars, (WIDTH - row) / 2, y + 42, stamp=stamp)
-            rect = rect.inflate(theme.canvas.px(40), 0)
+            left = middle - row / 2
+            draw_pars(surface, theme, *pars, left, y + 44)
+        if medal and stamp > STAMP_SEEN:
+            size = PRIZE * (1 + 1.5 * (1 - stamp) ** 2)
+            draw_medal(surface, theme, medal, left - beside / 2 - 4, y + 12 + PRIZE / 2, size)
+            rect = rect.inflate(theme.canvas.px(PRIZE), theme.canvas.px(PRIZE))
         return rect
 
     def pointer(self, surface: pygame.Surface, name: str, x: float, y: float) -> pygame.Rect:
@@ -183,18 +193,20 @@ class Hud:
         theme.text(surface, name, middle, top + 3, size=POINTER, colour=palette.panel, align="centre", bold=True)
         return box.inflate(theme.canvas.px(4), theme.canvas.px(18))
 
-    def said(self, surface: pygame.Surface, text: str, y: float) -> pygame.Rect:
-        """A text of the level in a panel from ``y`` on; in the border below, one line beside the gold."""
+    def said(self, surface: pygame.Surface, text: str, tiles: tuple[int, ...] = ()) -> pygame.Rect:
+        """A text of the level in a panel over what is solid; without tiles in the border below, beside the gold."""
         theme = self.theme
-        in_border = y >= IN_BORDER
+        in_border = not tiles
         size = min(SAID, SAID * BESIDE_GOLD / theme.width(text, SAID)) if in_border else SAID
-        lines = [text] if in_border else wrapped(theme, text, 500, size)
+        lines = [text] if in_border else wrapped(theme, text, 360, size)
         margin, high = (3, 17) if in_border else (10, 20)
         w = max(theme.width(line, size) for line in lines) + 28
-        rect = theme.panel(surface, (WIDTH - w) / 2, y, w, high * len(lines) + 2 * margin - 1, 4)
+        h = high * len(lines) + 2 * margin - 1.0
+        left, y = ((WIDTH - w) / 2, IN_BORDER) if in_border else solid_place(tiles, w, h)
+        rect = theme.panel(surface, left, y, w, h, 4)
         for k, line in enumerate(lines):
             top = y + margin + high * k + (high - size) / 2
-            theme.text(surface, line, WIDTH / 2, top, size=size, align="centre")
+            theme.text(surface, line, left + w / 2, top, size=size, align="centre")
         return rect
 
     def keys(self, surface: pygame.Surface, held: int, x: float = 366) -> pygame.Rect:
@@ -211,20 +223,41 @@ class Hud:
         return rect
 
 
+@lru_cache(maxsize=4)
+def solid_place(tiles: tuple[int, ...], w: float, h: float) -> tuple[float, float]:
+    """Upper left corner of a panel of that size, px, where it covers the fewest tiles that are not full.
+
+    Of equal places it is the one nearest to the middle of a border.
+    """
+
+    def cost(place: tuple[float, float]) -> tuple[int, float]:
+        x, y = place
+        columns, rows = (range(int(a // CELL) - 1, int((a + b - 1) // CELL)) for a, b in ((x, w), (y, h)))
+        covered = [tiles[column * ROWS + row] for column in columns for row in rows if row < ROWS]
+        return sum(SHAPE[tile] != FULL for tile in covered), abs(x + w / 2 - WIDTH / 2) + min(y, HEIGHT - y - h)
+
+    edge = CELL + 4
+    lefts = [edge + k * (WIDTH - 2 * edge - w) / 8 for k in range(9)]
+    return min(((x, y) for x in lefts for y in range(int(edge), int(LOWEST - h), 6)), key=cost)
+
+
 ABOVE, BELOW = 34.0, 474.0
 """Where the panel of a passed level begins: near the upper or the lower border."""
 
 LOWEST = 573.0
 """Where it ends at the latest: below it are the level's name and what a pass has brought."""
 
-TITLE, LINE, POINTER = 22.0, 12.0, 9.5
+TITLE, LINE, POINTER = 24.0, 12.5, 9.5
 """Sizes in the panel of a passed level, and of the names of things."""
+
+PRIZE, STAMP_SEEN = 54.0, 0.2
+"""Size of the medal of a pass; how far its stamp has come when it is first seen."""
 
 POINTER_ROOM = 72.0
 """Below this line, px, there is room for a pointer above a thing."""
 
-SAID, IN_BORDER, BESIDE_GOLD = 13.5, 576.0, 570.0
-"""Size of a text that the level says; where it stands in play, in the border, hiding nothing; its width there."""
+FOOT, SAID, IN_BORDER, BESIDE_GOLD = 11.0, 12.5, 576.0, 550.0
+"""Sizes of the lines in the borders and of what a level says; where that is in play, and its width there."""
 _TOOLS = {"quick_save": "save", "quick_load": "load", "rewind": "rewind", "slow": "slow", "step": "step"}
 _TOOLS_NAMED = 600
 """Ticks of a practice run in which the keys of its tools are named: where they work, and not for ever."""
@@ -245,7 +278,7 @@ def hud_view(play: LevelPlay) -> HudView:
     y = ABOVE if attempt.simulation.world.ninja.y > HEIGHT / 2 else BELOW
     text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.sayings.text
     still = play.phase is Phase.READY
-    said = (named_keys(text, key), y if still else IN_BORDER) if text else None
+    said = (named_keys(text, key), context.level.tiles if still else ()) if text else None
     if play.phase is Phase.DEAD:
         # The line of keys keeps its place until it comes.
         cause, _, why = cause_of_death(play).partition(". ")
@@ -254,7 +287,7 @@ def hud_view(play: LevelPlay) -> HudView:
         keys = f"{key('confirm')}: go on    {key('retry')}: retry    {key('replay')}: replay"
         if not context.leads_on:
             keys = f"{key('confirm')}: play it again    {key('replay')}: replay    {key('back')}: leave"
-        message = f"Passed in {seconds_text(attempt.ended_tick)} s", [*_reached(play, gold), keys], y
+        message = f"Passed in {seconds_text(attempt.ended_tick)} s", [*_reached(play), keys], y
     hint = _hint(play, key)
     name = shown_text(context.title)
     title = f"{name} ({play.aim})" if play.phase is Phase.READY and play.aim else name
@@ -275,16 +308,19 @@ def hud_view(play: LevelPlay) -> HudView:
     )
 
 
-def _reached(play: LevelPlay, gold: str) -> list[str]:
-    """The medal of a passed run and by how much it missed the next one; its gold, and the time that is left."""
-    tick, pars = play.attempt.ended_tick, play.context.pars
-    all_of_it = ", all of it" if play.attempt.gold == play.all_gold > 0 else ""
-    score = f"score {seconds_text(play.attempt.score)} s: the time left, two seconds for each piece"
-    lines = [f"{gold} pieces of gold{all_of_it}", score]
+def _reached(play: LevelPlay) -> list[str]:
+    """By how much a passed run missed the next medal; what the level was worth, the clock, what that has brought."""
+    attempt, pars = play.attempt, play.context.pars
+    tick, won = attempt.ended_tick, attempt.gold * GOLD_BONUS
+    gold = f"{attempt.gold} of {play.all_gold} gold"
+    left, score = seconds_text(LIFETIME - tick), seconds_text(attempt.score)
+    lines = [f"Score of this level: {left} s left + {seconds_text(won)} s for {gold} = {score} s"]
     if pars and play.medal:
-        following = next_par(pars, Mark(tick, 0))
-        lines.insert(0, following or "The best medal of all")
-    return lines
+        following = next_par(pars, Mark(tick, 0)) or "the best medal of all"
+        lines.insert(0, following[0].upper() + following[1:])
+    if carries := play.context.carries_on:
+        lines.append(f"The clock {carries}: {seconds_text(attempt.lifetime)} s")
+    return [*lines, *filter(None, ["    ".join(play.notices)])]
 
 
 def _named(play: LevelPlay, text: str) -> list[tuple[str, float, float]]:
@@ -299,15 +335,14 @@ def _named(play: LevelPlay, text: str) -> list[tuple[str, float, float]]:
 
 
 def _hint(play: LevelPlay, key: KeyName) -> str:
-    """What to press now, or what a pass has brought; "" in play."""
+    """What to press now; "" in play and after it."""
     if play.phase is Phase.READY:
         show_tutorial = play.show_tutorial and not play.sayings.text
         return _ready_hint(key, practice_mode=play.context.practice_mode, show_tutorial=show_tutorial)
-    if play.phase is Phase.PASSED:
-        return "    ".join(play.notices)
     if play.tools.stepping:
         return f"{key('step')}: one tick    {key('confirm')} or any move: go on"
-    if play.context.practice_mode and play.attempt.simulation.tick < _TOOLS_NAMED:
+    named = play.phase is not Phase.PASSED and play.attempt.simulation.tick < _TOOLS_NAMED
+    if play.context.practice_mode and named:
         return "    ".join(f"{key(action)}: {name}" for action, name in _TOOLS.items())
     return ""
 
@@ -336,4 +371,6 @@ def cause_of_death(play: LevelPlay) -> str:
         return f"Killed by a {play.killer}." + f" {WHY[play.killer]}" * play.first_death
     if play.crushed:
         return "You were crushed."
-    return "Out of time." if play.attempt.lifetime <= 0 else "That was too hard a landing."
+    if play.attempt.lifetime <= 0:
+        return "Out of time."
+    return "That was too hard a landing." + f" {FALL_HELP}" * play.sayings.helps

@@ -89,7 +89,7 @@ class LevelPlay:
         self.view = LevelView(app, self.attempt.simulation, seed=self.rng.randrange(1 << 30))
         self.all_gold = context.level.gold
         self.show_tutorial = context.show_tutorial
-        self.sayings = Sayings(context.sayings())
+        self.sayings = Sayings(context.sayings(), helps=context.helps)
         self.shown_lifetime = 0.0
         self.ghosts: list[Ghost] = []
         self.tries: deque[bytes] = deque(maxlen=MOST_TRIES)

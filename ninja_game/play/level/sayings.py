@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import hypot
 
 from ninja_game.formats.sayings import Saying
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN
@@ -12,8 +13,15 @@ from ninja_game.sim.rules import CELL
 NEAR = 2.5 * CELL
 """px from the middle of its cell within which a text with a place is said."""
 
-SHOWN_TICKS = 240
-"""How long a text stays after its event."""
+SHOWN_TICKS, START_TICKS = 240, 480
+"""How long a text stays after its event, and in play that of the start."""
+
+STILL = 0.05
+"""px in a tick that are no motion."""
+
+AGAIN = "{retry} tries again from the start"
+STILL_TICKS, LONG_TICKS, AWAY = 120, 1200, 2 * CELL
+"""It is said to who lies still for so long, or plays for so long without a pass, so many px from the start."""
 
 _WHEN = {EXIT_OPENED: "switch", GOLD_TAKEN: "gold"}
 
@@ -29,24 +37,30 @@ WHY = {
 }
 """What helps against each killer, said after its first kill."""
 
+FALL_HELP = "Slide down a wall, or land on a slope: then a deep fall does not kill."
+
 
 class Sayings:
-    """The texts of one level. Each event's text is said once; those of the start until the exit is open.
+    """The texts of one level. Each event's text is said once; those of the start at each start until the exit is open.
 
-    ``text``: what is to be read now, or "".
+    ``text``: what is to be read now, or "". ``helps``: the game itself says what helps too: how to try again.
     """
 
-    def __init__(self, sayings: Sequence[Saying]) -> None:
+    def __init__(self, sayings: Sequence[Saying], *, helps: bool = False) -> None:
         self._sayings = sayings
+        self.helps = helps
+        self._again = helps
         self._said: set[Saying] = set()
         self._deaths = 0
+        self._began = 0.0, 0.0
         self.at_start()
 
     def at_start(self) -> None:
         """The level waits at its start."""
         due = [each for each in self._sayings if each.when == "death" and each.deaths == self._deaths]
         self.text = due[0].text if due else self._start()
-        self._left = SHOWN_TICKS
+        self._left = SHOWN_TICKS if due else START_TICKS
+        self._still = 0
 
     def _start(self) -> str:
         """How the level begins, until that is done."""
@@ -61,7 +75,7 @@ class Sayings:
         before = self.text
         self._left -= 1
         if self._left <= 0:
-            self.text = self._start()
+            self.text = self._start() if world.tick < START_TICKS else ""
         happened = {_WHEN.get(event.kind) for event in world.events[: world.event_count]}
         if "switch" in happened:
             # The goal is understood: no need to say how it begins again.
@@ -70,7 +84,19 @@ class Sayings:
             if each not in self._said and (each.when in happened or (each.when == "at" and _is_near(world, each))):
                 self._said.add(each)
                 self.text, self._left = each.text, SHOWN_TICKS
+        if self._again and self._is_stuck(world):
+            self._again = False
+            self.text, self._left = AGAIN, SHOWN_TICKS
         return self.text != before
+
+    def _is_stuck(self, world: World) -> bool:
+        """Whether the ninja lies still, or has been on its way for long."""
+        ninja = world.ninja
+        self._still = 0 if hypot(ninja.x - ninja.prev_x, ninja.y - ninja.prev_y) > STILL else self._still + 1
+        if world.tick == 1:
+            self._began = ninja.x, ninja.y
+        away = hypot(ninja.x - self._began[0], ninja.y - self._began[1]) > AWAY
+        return away and (self._still >= STILL_TICKS or world.tick >= LONG_TICKS)
 
 
 def _is_near(world: World, saying: Saying) -> bool:

@@ -269,5 +269,5 @@ class LevelChoice(Browser):
 
 def _words(entry: Entry) -> str:
     named = entry.named
-    words = entry.title, named.author, named.comment, named.teaches, entry.episode, entry.source
+    words = entry.title, named.author, named.comment, named.teaches, entry.episode, entry.place, entry.source
     return " ".join(map(str, words)).casefold()

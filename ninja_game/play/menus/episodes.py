@@ -11,11 +11,12 @@ from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.level.screen import LevelScreen, play_level
+from ninja_game.play.menus.panels import CANCEL, Menu, Row
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, time_and_par, tries_text
 from ninja_game.player.catalogue import Episode, EpisodeSet
 from ninja_game.player.marks import Mark, has_all_gold, tally, worst_medal
-from ninja_game.player.playthrough import EpisodeRun
+from ninja_game.player.playthrough import EpisodeRun, left_half_way
 from ninja_game.player.progress import CHEATED, LOCKED
 from ninja_game.player.records import seconds_text
 from ninja_game.ui.input.bindings import InputEvent
@@ -207,9 +208,25 @@ class EpisodeGrid(ThumbnailScreen):
     # --- go ---
 
     def _play(self, _index: int) -> None:
-        if self.episode is not None and self._state(self.number) != LOCKED:
-            practice_mode = self.player.settings.practice
-            self.app.push(LevelScreen(self.app, EpisodeRun(self.player, self.episode, practice_mode=practice_mode)))
+        """Play the episode; one that was left half-way goes on there, or begins again."""
+        if self.episode is None or self._state(self.number) == LOCKED:
+            return
+        practice_mode = self.player.settings.practice
+        afresh = EpisodeRun(self.player, self.episode, practice_mode=practice_mode)
+        left = None if practice_mode else left_half_way(self.player)
+        if left is None or left.episode.key != self.episode.key:
+            self.app.push(LevelScreen(self.app, afresh))
+            return
+        rows: list[Row] = [
+            (f"Go on with level {left.position + 1}", lambda: self.app.push(LevelScreen(self.app, left)), ""),
+            (
+                "Begin again",
+                lambda: self.app.push(LevelScreen(self.app, afresh)),
+                "From the first level, on a full clock",
+            ),
+            CANCEL,
+        ]
+        self.app.push(Menu(self.app, self.episode.name, rows))
 
     def _trial(self, index: int) -> None:
         if self.episode is not None:
@@ -222,7 +239,10 @@ class EpisodeGrid(ThumbnailScreen):
         super().draw_frame(surface)
         theme, palette = self.app.theme, self.app.theme.palette
         if len(self.packs) < 2:
-            theme.text(surface, "Beat an episode to unlock the one below", LEFT, 66, size=10, colour=palette.faint)
+            for line, text in enumerate(
+                ("Pass an episode to open the one below it.", "Columns to the right are harder.")
+            ):
+                theme.text(surface, text, LEFT, 64 + 14 * line, size=10, colour=palette.faint)
         self.grid.draw_names(surface, theme, self.pack.columns)
         for place, (look, text) in enumerate(LOOKS):
             x, y = LEFT + 160 * (place % 2), self._below + 40 + 23 * (place // 2)
@@ -310,7 +330,7 @@ class EpisodeGrid(ThumbnailScreen):
         self.thumbnails.draw(surface, entry, x + 6, y + 5, SMALL_PICTURE)
         left = x + SMALL_PICTURE + 18
         theme.text(
-            surface, f"{entry.episode}  {entry.title}", left, y + 12, size=13, bold=True, width=w - SMALL_PICTURE - 70
+            surface, f"{index + 1}  {entry.title}", left, y + 12, size=13, bold=True, width=w - SMALL_PICTURE - 70
         )
         mark = self.marks.get(entry.digest)
         all_gold_and_medal(surface, theme, entry, mark, x + w - 14, y + 19)

@@ -67,12 +67,16 @@ class MainMenu(MenuScreen):
         self.run = next_run(self.player, practice_mode=self.player.settings.practice)
         super().enter()
 
+    @property
+    def begun(self) -> bool:
+        """Whether any level has been tried."""
+        return self.player.statistics.played().attempts > 0
+
     def _where(self) -> str:
         """With which level play goes on."""
         if self.run is None:
             return "There are no levels"
-        begun = self.player.statistics.played().attempts
-        return f"{'Continue' if begun else 'Begin'}: {shown_text(self.run.entry.named.name)}"
+        return f"{'Continue' if self.begun else 'Begin'}: {shown_text(self.run.entry.named.name)}"
 
     def _play(self) -> None:
         if self.run is not None:
@@ -81,13 +85,13 @@ class MainMenu(MenuScreen):
     def entries(self) -> list[Row]:
         """One for each screen: the first as wide as the panel, then two in a row."""
         return [
-            ("Play", self._play, "Play on where you left"),
+            ("Play", self._play, "Go on where you left off" if self.begun else "Start with the first level"),
             ("Episodes", self._opener(EpisodeGrid), "Choose an episode, or one of its levels"),
             ("Levels", self._opener(self._browser), "Any level by itself, and your own files"),
             ("Daily", self._opener(DailyScreen), "A new level every day, the same for everybody"),
             ("Records", self._opener(RecordsScreen), "Your best runs, and what killed you"),
             ("Replays", self._opener(ReplaysScreen), "Watch your runs, and those of the levels' authors"),
-            ("Lab", self._opener(LabScreen), "How the world works: figures to play with"),
+            ("How it works", self._opener(LabScreen), "Ten moving figures show how the world works inside"),
             ("Editor", self._opener(EditorScreen), "Make levels of your own"),
             ("Help", self._opener(HelpScreen), "How to move, and what everything does"),
             ("Settings", self._opener(SettingsScreen), "Keys, sound, colours, comfort"),

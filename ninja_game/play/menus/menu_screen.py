@@ -36,11 +36,13 @@ class MenuScreen(Screen):
     """Widgets, one of which has the focus. Subclasses fill ``widgets`` in ``build`` and say their ``title``.
 
     ``foot``: the line at the bottom, where the focused widget has no hint. ``offers_back``: whether the frame has a
-    place for the mouse to go back; keys and pads have theirs, so it takes no focus.
+    place for the mouse to go back; keys and pads have theirs, so it takes no focus. ``wraps``: up from the first widget
+    leads to the last.
     """
 
     title = ""
     offers_back = True
+    wraps = True
     foot = "Arrows move, Enter chooses, Esc goes back"
 
     def __init__(self, app: App) -> None:
@@ -84,8 +86,11 @@ class MenuScreen(Screen):
     # --- input ---
 
     def capture(self, event: InputEvent) -> bool:
-        """While a text is typed, a key is a letter before it is anything else; Tab leads to the next widget."""
-        if event.raw.type == pygame.KEYDOWN and event.source == ("keys", "tab") and isinstance(self.focus, TextEntry):
+        """While a text is typed, a key is a letter before it is anything else; Tab leads to the next widget.
+
+        So it hides the program only where something runs.
+        """
+        if event.raw.type == pygame.KEYDOWN and event.source == ("keys", "tab"):
             self._next(-1 if event.raw.mod & pygame.KMOD_SHIFT else 1)
             return True
         taken = self.focus is not None and self.focus.text_event(event.raw)
@@ -153,7 +158,8 @@ class MenuScreen(Screen):
     def _move(self, dx: int, dy: int) -> None:
         """The focus goes to the nearest widget in a direction.
 
-        Up and down stay among the widgets above and below each other; at the end they lead to the other end.
+        Up and down stay among the widgets above and below each other; at the end they lead to the other end, or, if it
+        does not wrap, nowhere.
         """
         focus = self.focus
         if focus is None:
@@ -170,7 +176,7 @@ class MenuScreen(Screen):
 
         if ahead:
             self.focus_on(min(ahead, key=distance))
-        elif others and dy:
+        elif others and dy and self.wraps:
             self.focus_on(max(others, key=lambda w: -dy * w.centre[1]))
 
     def _handle_mouse(self, event: pygame.Event) -> None:

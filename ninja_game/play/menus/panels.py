@@ -94,7 +94,9 @@ class Menu(Panel):
 
 
 class Question(Menu):
-    """Asks before something is done that cannot be undone. No first, so that a hasty key does no harm."""
+    """Asks before something is done that cannot be undone. No first, and up stays there: a hasty key does no harm."""
+
+    wraps = False
 
     def __init__(self, app: App, title: str, yes: str, action: Callable[[], object]) -> None:
         super().__init__(app, title, [CANCEL, (yes, action, "")])

@@ -72,7 +72,9 @@ class RecordsScreen(MenuScreen):
 
     def _say(self, index: int) -> None:
         """The hint of the selected row."""
-        self.list.hint = "Enter: watch" if self.rows[index].replays else "Nothing to watch yet"
+        row = self.rows[index]
+        missing = "No run of the whole episode yet" if row.head else "Not passed yet"
+        self.list.hint = "Enter: watch" if row.replays else missing
 
     def _watch(self, index: int) -> None:
         watch(self.app, [self.player.records.replay(number) for number in self.rows[index].replays])

@@ -107,19 +107,14 @@ def time_and_par(entry: Entry, mark: Mark | None) -> str:
     return "    ".join(filter(None, (time, par)))
 
 
-def draw_pars(
-    surface: pygame.Surface, theme: Theme, pars: Pars | None, tick: int | None, x: float, y: float, *,
-    stamp: float = 1.0,
-) -> None:  # fmt: skip
-    """All pars in a row, those reached in a tick filled. ``stamp``: how far the best of them has come down, 0…1."""
+def draw_pars(surface: pygame.Surface, theme: Theme, pars: Pars | None, tick: int | None, x: float, y: float) -> None:
+    """All pars in a row, those reached in a tick filled."""
     if pars is None:
         return
     for medal in MEDALS:
         par = pars.par(medal) if medal in MARGINS else None
-        best = tick is not None and medal == pars.medal(tick)
-        reached = tick is not None and (par is None or tick <= par) and (not best or stamp > STAMP_SEEN)
-        size = 16 * (1 + 2.5 * (1 - stamp) ** 2) if best and reached else 16
-        draw_medal(surface, theme, medal, x + 8, y + 8, size, reached=reached)
+        reached = tick is not None and (par is None or tick <= par)
+        draw_medal(surface, theme, medal, x + 8, y + 8, 16, reached=reached)
         theme.text(surface, "pass it" if par is None else f"{seconds_text(par)} s", x + 20, y + 3.5, size=9.5)
         x += PAR_WIDE
 
@@ -127,14 +122,11 @@ def draw_pars(
 PAR_WIDE = 80
 """From one medal of a row to the next, px."""
 
-STAMP_SEEN = 0.2
-"""A medal that is stamped is first seen here."""
-
 
 def where_from(entry: Entry) -> str:
     """Where a level comes from, and how hard it is."""
     pack = shown_text(entry.source) if entry.source not in {"game", "yours"} else ""
-    parts = [pack, f"Episode {entry.episode}" if entry.episode else "Your folder" if entry.source == "yours" else ""]
+    parts = [pack, entry.place or ("Your folder" if entry.source == "yours" else "")]
     if entry.pars and entry.pars.difficulty is not None:
         parts.append(f"difficulty {entry.pars.difficulty:.1f}")
     return "    ".join(filter(None, parts))

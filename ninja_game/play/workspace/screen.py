@@ -95,9 +95,9 @@ class WorkspaceScreen(MenuScreen):
         return self.table.meaning(event)
 
     def capture(self, event: InputEvent) -> bool:
-        """Typed text goes into the field with the focus, until Escape."""
+        """Keys go to the widget with the focus, typed text to a field, until Escape."""
         self.held.follow(event.raw)
-        if isinstance(self.focus, TextEntry) and event.source == ("keys", "escape"):
+        if self.focus is not None and event.source == ("keys", "escape"):
             self.focus = None
             self.widgets_changed()
             self.await_text()

@@ -35,6 +35,8 @@ _BLEND_TICKS = 3.0
 """A new state's pose takes over from the old one in this many ticks."""
 SQUASH, MOST_SQUASH, SQUASH_KEPT = 0.045, 0.32, 0.72
 """How much a landing presses the figure together for each px/tick, at most, and the share left a tick later."""
+_BALANCE = 0.65
+"""Share of a slope's angle by which a body on it holds itself upright."""
 _UPRIGHT = 0.9
 """Share of its rotation that a body in the air keeps each tick."""
 
@@ -131,13 +133,21 @@ class NinjaAnimation:
 
     def pose(self, fraction: float) -> Pose:
         """The pose about the centre, as it is seen."""
-        turn = self.turn_before + (self.turn - self.turn_before) * fraction
+        turn = floor = self.turn_before + (self.turn - self.turn_before) * fraction
         if self.state == CELEBRATING and self.dance >= 0:
             turn += DANCES[self.dance].at(self.since + fraction)[1] * self.facing
         pose = self.local_pose(fraction)
         if self.squash > 0.02:
             pose = pose.pressed(self.squash * SQUASH_KEPT**fraction)
-        return pose.placed(self.facing, turn)
+        placed = pose.placed(self.facing, turn)
+        if not floor:
+            return placed
+        # The feet follow a slope; all above them stays nearly upright.
+        upright = pose.placed(self.facing, turn - _BALANCE * floor)
+        return placed._replace(
+            head=upright.head, shoulder=upright.shoulder, pelvis=upright.pelvis,
+            near_hand=upright.near_hand, far_hand=upright.far_hand,
+        )  # fmt: skip
 
 
 def draw_ninja(target: DrawTarget, animation: NinjaAnimation, at: Point, fraction: float, colour: pygame.Color) -> None:

@@ -23,7 +23,7 @@ class Look(NamedTuple):
 EXIT_OPEN = Look("exit_light", 74, 126)
 LOOKS = {
     kinds.EXIT: Look("exit_light", 46, 70),
-    kinds.SWITCH: Look("exit_light", 36, 110),
+    kinds.SWITCH: Look("exit_light", 52, 150),
     kinds.MINE: Look("mine", 15, 54),
     kinds.TURRET: Look("turret", 26, 60),
     kinds.LAUNCHER: Look("launcher", 26, 60),

@@ -188,6 +188,20 @@ def draw_moving(target: DrawTarget, world: World, animation: ObjectAnimation, fr
             PAINTERS[m.o.kind](target, m)
 
 
+PULSE_TICKS, PULSE_FROM, PULSE_REACH = 60, 13.0, 12.0
+"""How often a ring leaves a switch; its radius at first, and by how much that grows in half of this time, px."""
+
+
+def draw_pulses(target: DrawTarget, world: World, animation: ObjectAnimation, fraction: float) -> None:
+    """Rings that leave the switches of exits until they are touched."""
+    share = 2 * ((animation.tick + fraction) % PULSE_TICKS) / PULSE_TICKS
+    for slot in animation.switch_slots if share < 1 else ():
+        o = world.objects[slot]
+        if not world.objects[o.partner].is_open:
+            colour = mixed(target.palette.exit, target.palette.background, share)
+            target.disc(colour, o.x, o.y, PULSE_FROM + PULSE_REACH * share, 1.6)
+
+
 def _block(target: DrawTarget, m: Moving) -> None:
     target.sprite(bounce_block(m.o.updating), m.x, m.y)
 

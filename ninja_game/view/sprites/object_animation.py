@@ -52,6 +52,7 @@ class ObjectAnimation:
         slots = range(1, world.slots_used)
         self.moving_slots = [slot for slot in slots if world.objects[slot].kind in MOVING_KINDS]
         self.static_slots = [slot for slot in slots if world.objects[slot].kind not in {kinds.NINJA, kinds.INERT}]
+        self.switch_slots = [slot for slot in slots if world.objects[slot].kind == kinds.SWITCH]
         self.states = {slot: state_of(world, world.objects[slot]) for slot in self.static_slots}
         self.since = dict.fromkeys(self.static_slots, LONG_AGO)
         self.changed: set[int] = set()

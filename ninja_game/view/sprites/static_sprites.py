@@ -56,13 +56,11 @@ def exit_door(s: Sketch, p: Palette, step: int) -> None:
         s.box(p.exit, x + (8.9 if side < 0 else 1.5), -2.5, 1.7, 5)
 
 
-@drawing(8)
+@drawing(11)
 def exit_switch(s: Sketch, p: Palette, pressed: int) -> None:
-    """A small panel with a key: lit until it is pressed."""
-    s.framed_box(p.dark if pressed else p.light, p.outline, -6.2, -3.9, 12.4, 7.8)
-    s.framed_box(p.middle if pressed else p.exit, p.outline, -4.2, -2.1, 8.4, 4.2, 0.7)
-    if not pressed:
-        s.box(p.exit_light, -3.2, -1.3, 6.4, 1.1)
+    """A plate in the exit's colour with a bright key: dark once it is pressed."""
+    s.framed_box(p.dark if pressed else p.exit, p.outline, -9, -5.8, 18, 11.6)
+    s.framed_box(p.middle if pressed else p.exit_light, p.outline, -6, -2.9, 12, 5.8, 0.7)
 
 
 @drawing(14)

@@ -6,15 +6,17 @@ from dataclasses import replace
 
 import pytest
 
+from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.sayings import read_sayings
-from ninja_game.play.level.hud import cause_of_death, hud_view
+from ninja_game.play.level.hud import cause_of_death, hud_view, solid_place
 from ninja_game.play.level.play import Phase
-from ninja_game.play.level.sayings import SHOWN_TICKS, Sayings
+from ninja_game.play.level.sayings import FALL_HELP, SHOWN_TICKS, START_TICKS, STILL_TICKS, Sayings
 from ninja_game.play.level.screen import LevelScreen, play_level
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.playthrough import LevelRun
+from ninja_game.player.statistics import SELF
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.simulation import Simulation
 from ninja_game.ui.widgets import Button
@@ -58,6 +60,35 @@ def test_what_a_text_names_is_pointed_at_until_it_is_done(driver: MenuDriver) ->
     assert not hud_view(level.play).named
 
 
+@pytest.mark.parametrize("reduced", [False, True])
+def test_switch_sends_out_rings_until_it_is_touched(driver: MenuDriver, reduced: bool) -> None:
+    driver.app.change_settings(reduced_motion=reduced)
+    driver.press("return")
+    level = driver.shown(LevelScreen)
+    level.play.sayings.text = ""
+    objects = level.attempt.simulation.world.objects
+    switch = next(o for o in objects[1:] if o.kind == SWITCH)
+
+    def ring() -> bool:
+        driver.app.stack.redraw_all()
+        driver.frames(1)
+        x, y = driver.app.canvas.point(switch.x, switch.y)
+        seen, ink = [driver.app.surface.get_at((x, y - 15 + k)) for k in range(4)], driver.app.theme.palette.exit
+        return any(max(abs(a - b) for a, b in zip(each[:3], ink[:3], strict=True)) < 16 for each in seen)
+
+    assert ring() is not reduced
+    objects[switch.partner].is_open = True
+    assert not ring()
+
+
+def test_text_of_the_start_covers_what_is_solid_and_no_way() -> None:
+    block = tuple(int(12 <= column < 30 and 11 <= row < 14) for column in range(31) for row in range(23))
+    x, y = solid_place(block, 360.0, 59.0)
+    assert 13 * 24 <= x <= 31 * 24 - 360
+    assert 12 * 24 <= y <= 15 * 24 - 59
+    assert solid_place((0,) * 713, 300.0, 39.0) == (246.0, 28), "in the open it is at the border above"
+
+
 def test_goal_is_not_said_again_in_a_level_that_was_passed(driver: MenuDriver) -> None:
     driver.press("return")
     level = driver.shown(LevelScreen)
@@ -86,6 +117,17 @@ def test_each_text_has_its_moment(driver: MenuDriver) -> None:
     sayings.on_death()
     sayings.at_start()
     assert sayings.text == "wait"
+
+
+def test_goal_is_read_again_after_a_text_of_the_first_seconds() -> None:
+    sayings = Sayings(read_sayings("start: go | gold: gold"))
+    simulation = Simulation(parse_level_string("0" * 713 + "|5^100,566!0^120,566!11^400,564,500,564"))
+    seen = []
+    for tick in range(START_TICKS + 1):
+        simulation.step_keys(2 if tick < 8 else 0)
+        if sayings.on_tick(simulation.world):
+            seen.append(sayings.text)
+    assert seen == ["gold", "go", ""]
 
 
 def test_text_at_a_place_is_said_there_once() -> None:
@@ -117,12 +159,40 @@ def test_first_death_of_each_kind_says_why(driver: MenuDriver) -> None:
     assert texts == ["Killed by a mine. Mines never move: keep a body's width away.", "Killed by a mine."]
 
 
+def test_who_lies_still_or_tries_for_long_is_told_once_how_to_try_again(driver: MenuDriver) -> None:
+    driver.press("return")
+    level = driver.shown(LevelScreen)
+    for keys in ([2] * 20 + [0] * (STILL_TICKS + 480), [2, 2, 1, 1] * 400):
+        heard = []
+        for helps in (True, False):
+            level.retry()
+            level.play.sayings.helps = level.play.sayings._again = helps
+            level.begin()
+            driver.keys.script = [2] * 30 + list(keys)
+            for _ in range(len(keys)):
+                driver.frames(1)
+                heard.append(said(level))
+        assert "R tries again from the start" in heard[: len(keys)]
+        assert "R tries again from the start" not in heard[len(keys) :]
+        assert heard[START_TICKS] != heard[0], "the text of the start is gone"
+
+
+def test_death_by_a_fall_says_what_helps_until_the_level_is_passed(driver: MenuDriver) -> None:
+    level = LevelScreen(driver.app, LevelRun(driver.player, entry(deadly_level())))
+    level.play.killer = SELF
+    assert cause_of_death(level.play) == f"That was too hard a landing. {FALL_HELP}"
+    driver.player.marks.passed(level.context.entry.digest, 100, 0)
+    level = LevelScreen(driver.app, LevelRun(driver.player, entry(deadly_level())))
+    level.play.killer = SELF
+    assert cause_of_death(level.play) == "That was too hard a landing."
+
+
 def test_levels_of_a_locked_episode_are_locked_everywhere(driver: MenuDriver) -> None:
     browser = driver.open("Levels")
     assert isinstance(browser, Browser)
     place = next(k for k, each in enumerate(browser.shown) if each.episode == "01-0")
     browser.play(place)
-    assert browser.message == "Locked: pass episode 00 first"
+    assert browser.message == "Locked: pass episode 1 first"
     assert driver.top() is browser
     for level in range(5):
         driver.player.progress.level_passed((0, level), legitimate=True)
@@ -133,7 +203,7 @@ def test_levels_of_a_locked_episode_are_locked_everywhere(driver: MenuDriver) ->
 def test_play_goes_on_with_the_next_level(driver: MenuDriver) -> None:
     menu = driver.shown(MainMenu)
     assert isinstance(menu.focus, Button)
-    assert menu.focus.detail == "Begin: First Steps"
+    assert (menu.focus.detail, menu.focus.hint) == ("Begin: First Steps", "Start with the first level")
     driver.press("return")
     level = driver.shown(LevelScreen)
     level.begin()
@@ -141,9 +211,20 @@ def test_play_goes_on_with_the_next_level(driver: MenuDriver) -> None:
     driver.press("q")
     assert driver.top() is menu
     assert isinstance(menu.focus, Button)
-    assert menu.focus.detail == "Continue: Mind the Gap"
+    assert (menu.focus.detail, menu.focus.hint) == ("Continue: Mind the Gap", "Go on where you left off")
     driver.press("return")
     assert driver.shown(LevelScreen).context.lifetime > 3000, "with the time that was left"
+
+
+@pytest.mark.parametrize("rows, title", [(0, "level 2: Mind the Gap"), (1, "level 1: First Steps")])
+def test_episode_left_half_way_goes_on_or_begins_again(driver: MenuDriver, rows: int, title: str) -> None:
+    driver.press("return")
+    driver.shown(LevelScreen).begin()
+    driver.play_replay(1)
+    driver.press("q")
+    driver.open("Episodes")
+    driver.press("return", *["down"] * rows, "return")
+    assert driver.shown(LevelScreen).context.title == f"Episode 1, {title}"
 
 
 @pytest.mark.parametrize("wanted, medal", [("silver", "silver"), ("author", "author"), ("next", "silver")])

@@ -82,7 +82,7 @@ def test_grid_with_gaps_never_selects_a_gap() -> None:
 def test_only_what_was_passed_can_be_watched(driver: MenuDriver) -> None:
     records = driver.open("Records")
     assert isinstance(records, RecordsScreen)
-    assert records.list.hint == "Nothing to watch yet"
+    assert records.list.hint == "No run of the whole episode yet"
     driver.press("return")
     assert isinstance(driver.top(), RecordsScreen)
     driver.press("escape")

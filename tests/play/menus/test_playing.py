@@ -23,7 +23,7 @@ def test_first_episode_is_played_to_its_end(driver: MenuDriver) -> None:
     driver.press("return")
     for number in range(1, 6):
         level = driver.shown(LevelScreen)
-        assert level.context.title.startswith(f"Episode 00-{number - 1}: ")
+        assert level.context.title.startswith(f"Episode 1, level {number}: ")
         assert level.context.show_tutorial == (number == 1)
         level.begin()
         driver.play_replay(number)
@@ -40,7 +40,7 @@ def test_first_episode_is_played_to_its_end(driver: MenuDriver) -> None:
     assert isinstance(driver.top(), ReplayScreen)
     driver.press("escape", "up", "return")
     following = driver.shown(LevelScreen)
-    assert following.context.title.startswith("Episode 01-0: ")
+    assert following.context.title.startswith("Episode 2, level 1: ")
     driver.press("q")
     assert isinstance(driver.top(), EpisodeGrid)
 

@@ -37,7 +37,7 @@ ENTRIES = {
     "Records": RecordsScreen,
     "Replays": ReplaysScreen,
     "Editor": EditorScreen,
-    "Lab": LabScreen,
+    "How it works": LabScreen,
     "Settings": SettingsScreen,
     "Help": HelpScreen,
 }
@@ -99,6 +99,12 @@ def test_leaving_the_game_is_asked_first(driver: MenuDriver) -> None:
     assert isinstance(driver.top(), MainMenu)
     driver.press("escape", "down", "return")
     assert not driver.app.running
+
+
+def test_up_in_a_question_does_not_lead_to_what_it_warns_of(driver: MenuDriver) -> None:
+    driver.press("escape", "up", "return")
+    assert isinstance(driver.top(), MainMenu)
+    assert driver.app.running
 
 
 def test_up_from_the_first_entry_leads_to_the_last_row(driver: MenuDriver) -> None:

@@ -10,6 +10,7 @@ from ninja_game.play.level.play import DEATH_PAUSE, STAMP_TICKS, TRIES_FROM, TRI
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.wipe import WIPE_MS
 from ninja_game.player.playthrough import LevelRun
+from ninja_game.player.records import seconds_text
 from ninja_game.sim.events import LANDED, MINE_EXPLODED
 from tests.support.menu_driver import FRAME_MS, MenuDriver
 from tests.support.players import deadly_level, entry
@@ -71,6 +72,22 @@ def test_medal_comes_down_and_is_heard_when_it_lands(driver: MenuDriver, heard: 
     pars, tick = hud_view(level.play).pars or (None, 0)
     assert pars
     assert pars.medal(tick) == "author"
+
+
+def test_card_tells_the_score_of_the_level_and_what_the_clock_does(driver: MenuDriver) -> None:
+    level = passed_level(driver)
+    for start, position, words in (
+        (3600, 0, "goes on into the next level"),
+        (4000, 4, "at the end is the score of the"),
+    ):
+        level.attempt.lifetime = level.attempt.score + start - 3600
+        level.context.position = position  # type: ignore[attr-defined]
+        _, lines, _ = hud_view(level.play).message or ("", [], 0)
+        (score,) = [line for line in lines if line.startswith("Score of this level: ")]
+        assert score.endswith(f" = {seconds_text(level.attempt.score)} s")
+        (clock,) = [line for line in lines if line.startswith("The clock ")]
+        assert words in clock
+        assert clock.endswith(f": {seconds_text(level.attempt.lifetime)} s")
 
 
 def test_failed_tries_run_together_for_two_seconds(driver: MenuDriver) -> None:
