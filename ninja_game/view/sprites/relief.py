@@ -14,8 +14,8 @@ from ninja_game.view.sprites.tile_sheet import TileKey, TileSheet
 EDGES = (("bright", 20, 13), ("bright", 8, 20), ("bright", 2, 120), ("outline", -3, 80))
 """Strips inside the tiles: colour; depth from the upper edge down, or from the lower one up, logical px; strength."""
 
-SHADOW, SHADOW_AT, SOFT = 76, (4, 6), 2
-"""The shadow's strength, where it falls (logical px), and how many times smaller than the ground it is made."""
+SHADOW, SHADOW_AT = 76, (4, 6)
+"""The shadow's strength, and where it falls, logical px."""
 
 SOLID = 1
 """The tile that fills its cell."""
@@ -59,8 +59,7 @@ def _edges(sheet: TileSheet, palette: Palette, own: TileKey, above: TileKey, bel
 def ground_in_shadow(sheet: TileSheet, palette: Palette) -> pygame.Surface:
     """What is behind tiles, with their shadow, as dark as they are on their sheet; soft, since all is made small."""
     small = painted(palette).copy()
-    shadow = pygame.transform.smoothscale(sheet.surface, [side // SOFT for side in small.get_size()])
-    shadow = pygame.transform.smoothscale(shadow, small.get_size())
+    shadow = pygame.transform.smoothscale(sheet.surface, small.get_size())
     shadow.fill((SHADOW,) * 4, special_flags=pygame.BLEND_RGBA_MULT)
     share = sheet.canvas.scale * small.width / sheet.surface.width
     small.blit(shadow, [round(share * away) for away in SHADOW_AT], special_flags=pygame.BLEND_PREMULTIPLIED)
