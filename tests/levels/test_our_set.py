@@ -114,7 +114,7 @@ def test_median_is_within_the_quartiles_of_the_reference(key: str) -> None:
     assert not COMPLETE or row.first <= median(values) <= row.third
 
 
-def test_no_two_levels_share_more_than_half_their_solid_cells() -> None:
+def test_no_two_levels_share_too_many_solid_cells() -> None:
     assert not COMPLETE or alike(LEVELS, MOST_SHARED) == []
 
 
