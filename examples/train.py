@@ -48,7 +48,7 @@ JUDGED_EVERY = 16
 LEVELS = (
     "00-0-first-steps", "00-1-mind-the-gap", "00-3-rolling-hills", "01-1-seven-league-boots", "00-2-the-chimney",
     "10-2-fountain", "10-4-the-juggler", "11-2-kennel", "12-1-four-winds", "20-0-kite", "20-1-phases-of-the-moon",
-    "31-1-downhill",
+    "31-2-downhill",
 )  # fmt: skip
 """Those of examples/agent.npz: easy ones of several columns."""
 
