@@ -12,7 +12,7 @@ import click
 
 from ninja_game.cli.run_options import ProgressLog
 from ninja_game.files.shown_text import shown_text
-from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.formats.run_time import seconds_text
 
 if TYPE_CHECKING:
     from ninja_game.formats.load import NamedLevel, Recording
@@ -162,7 +162,7 @@ def progress_text(progress: Progress) -> str:
 
 def time_text(end_tick: int) -> str:
     """A run's length in ticks and seconds."""
-    return f"{end_tick} ticks ({end_tick / TICKS_PER_SECOND:.3f} s)"
+    return f"{end_tick} ticks ({seconds_text(end_tick)} s)"
 
 
 def smoothed_run(level: Level, run: Replay, price: int) -> Replay:

@@ -16,7 +16,7 @@ from ninja_game.formats.replay.text import OUTCOMES, Replay
 from ninja_game.player.store import Store
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import BODIES
-from ninja_game.sim.rules import GOLD_BONUS, LIFETIME, TICK_MS
+from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 
 NEWEST_SHOWN = 500
 """Replays listed at most, the newest first."""
@@ -234,13 +234,3 @@ def level_score(gold: int, exit_tick: int) -> int:
     3240
     """
     return LIFETIME + GOLD_BONUS * gold - exit_tick
-
-
-def seconds_text(ticks: int) -> str:
-    """Ticks as seconds with three decimals (game.md §1.3).
-
-    >>> seconds_text(3600), seconds_text(1), seconds_text(10176)
-    ('90.000', '0.025', '254.400')
-    """
-    whole, rest = divmod(ticks * TICK_MS, 1000)
-    return f"{whole}.{rest:03d}"

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.formats.recording import Recording
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
 from ninja_game.play.workspace.part import Commands
 from ninja_game.play.workspace.screen import WorkspaceScreen
-from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.tas.session import Session
 from ninja_game.tas_editor.commands import RunCommands
 from ninja_game.tas_editor.controls import TABLE
@@ -166,7 +166,7 @@ class Head(TasPart):
         state = session.journal.problem or file + saved
         theme.text(surface, state, x, 9, size=9.5, colour=palette.on_tile, width=right - 224 - x)
         words = {"exit": f"exit in tick {end}", "dead": f"dead in tick {end}"}.get(outcome, "no exit yet")
-        seconds = f", {(end + 1) / TICKS_PER_SECOND:.3f} s" if end >= 0 else ""
+        seconds = f", {seconds_text(end)} s" if end >= 0 else ""
         theme.text(surface, words + seconds, right, 8, size=11, bold=True, colour=palette.on_tile, align="right")
 
 

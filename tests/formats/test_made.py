@@ -13,6 +13,7 @@ from ninja_game import ReplayError, parse_replay, write_replay
 from ninja_game.cli.main import cli
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import parse_replays
+from ninja_game.formats.replay.input_runs import Marker
 from ninja_game.formats.replay.made import UNKNOWN, Made, names_of_text, parse_made, with_made, without_made
 from ninja_game.runs.conversion import level_file_text, on_level, recorded_again
 from ninja_game.sim.level import Level
@@ -128,3 +129,13 @@ def test_a_searched_run_says_so_and_whose_run_it_began_from(tmp_path: Path) -> N
 def test_names_are_names() -> None:
     assert names_of_text(" Bob,Cy ,, Bob") == ("Bob", "Cy")
     assert parse_made("") == UNKNOWN
+
+
+def test_markers_stay_at_their_places(tmp_path: Path) -> None:
+    source, out = tmp_path / "run.replay.txt", tmp_path / "out.replay.txt"
+    slow = parse_replay(replay(bytes(20) + bytes([2] * 24)))
+    source.write_text(write_replay(replace(slow, markers=(Marker(0, "start"), Marker(30, "half"), Marker(43, "end")))))
+    command("improve", source, "--ticks", "100000", "--jobs", "1", "-o", out)
+    (before,), (after,) = load_replays(source), load_replays(out)
+    assert after.ticks == before.ticks - 20
+    assert after.replay.markers == (Marker(0, "start"), Marker(10, "half"), Marker(23, "end"))

@@ -103,6 +103,11 @@ class Replay:
         """How many ticks are run."""
         return self.final_tick + 1
 
+    @property
+    def length(self) -> int:
+        """Its length, and its time in ticks: the tick of exit contact or death, else all ticks that are run."""
+        return self.ticks if self.end_tick < 0 else self.end_tick
+
     def playback(self, ticks: int) -> bytes:
         """The input of each of the first ``ticks`` ticks."""
         if self.demo_length is not None:

@@ -134,7 +134,8 @@ class OtherRunScreen(ReplaysScreen):
 
     def places(self) -> list[tuple[str, Iterable[Path | LeftOut]]]:
         """Beside the file of the run, too."""
-        file = Path(self.others.editor.session.about.file)
+        session = self.others.editor.session
+        file = session.file.path or Path(session.about.file)
         beside = sorted(each for each in file.parent.glob("*.txt") if each.name != file.name) if file.is_file() else []
         return [("Same folder", beside[:FILES_SHOWN]), *super().places()]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from math import hypot
 
 import numpy as np
@@ -10,7 +11,7 @@ import pygame
 
 from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.play.workspace.part import Commands
-from ninja_game.sim.kinds import KIND_NAMES
+from ninja_game.sim.kinds import EXIT, KIND_NAMES, SWITCH
 from ninja_game.simulation import ObjectView, Simulation
 from ninja_game.tas_editor.controls import TABLE
 from ninja_game.tas_editor.editor import TasEditor, TasPart
@@ -59,8 +60,11 @@ def nearest_tick(positions: Positions, x: float, y: float, cursor: int, *, dragg
 
 
 def object_at(run: Simulation, x: float, y: float) -> ObjectView | None:
-    """The object that is nearest to a place now, if it is near."""
-    found = min(run.objects, key=lambda each: hypot(each.x - x, each.y - y), default=None)
+    """The object that is nearest to a place now, if it is near; a switch of an exit is that exit."""
+    world, objects = run.world, run.objects
+    switches = (world.objects[world.objects[each.id + 1].partner] for each in objects if each.kind == KIND_NAMES[EXIT])
+    objects += [replace(run.object(each.partner - 1), x=each.x, y=each.y) for each in switches if each.kind == SWITCH]
+    found = min(objects, key=lambda each: hypot(each.x - x, each.y - y), default=None)
     return found if found is not None and hypot(found.x - x, found.y - y) < _REACH else None
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from random import Random
@@ -20,6 +21,7 @@ from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.tas.files import open_run, runs_of_level
 from ninja_game.tas.timeline import Timeline
 from ninja_game.tas_editor.level.other_runs import OtherRunScreen
+from ninja_game.tas_editor.level.part import object_at
 from ninja_game.tas_editor.level.paths import shown_span
 from ninja_game.tas_editor.screen import TasScreen
 from ninja_game.tas_editor.tabs.values_tab import ValuesTab
@@ -297,3 +299,30 @@ def test_the_picture_goes_over_to_another_memory_with_the_run(at: TasDriver) -> 
     assert [memory for memory, *_ in used] == ["plain", "compiled"]
     assert used[0][1:] == used[1][1:]
     assert used[0][2] != place
+
+
+def test_the_switch_of_an_exit_is_pointed_at_too(at: TasDriver) -> None:
+    run = at.screen.level.picture.run
+    world = run.world
+    (exit_,) = (each for each in run.objects if each.kind == "exit")
+    switch = world.objects[world.objects[exit_.id + 1].partner]
+    assert object_at(run, switch.x, switch.y) == replace(exit_, x=switch.x, y=switch.y)
+    assert object_at(run, exit_.x, exit_.y) == exit_
+
+
+def test_other_runs_in_the_folder_of_a_run_that_was_saved_anew_are_listed(at: TasDriver, tmp_path: Path) -> None:
+    folder = tmp_path / "elsewhere"
+    folder.mkdir()
+    for name in ("other.replay.txt", "saved.replay.txt"):
+        at.session.save(folder / name)
+    screen = OtherRunScreen(at.app, at.screen.level.others)
+    assert [(name, [each.name for each in files if isinstance(each, Path)]) for name, files in screen.places()][:1] == [
+        ("Same folder", ["other.replay.txt"])
+    ]
+
+
+def test_the_last_tick_of_a_run_is_selected_behind_its_end(at: TasDriver) -> None:
+    at.editor.edit(lambda track: track.replaced(len(track), len(track), [0] * 50))
+    at.editor.go(3)
+    at.screen.run("select_last")
+    assert at.editor.selection == (3, len(at.editor.track))

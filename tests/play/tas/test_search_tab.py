@@ -314,3 +314,20 @@ def test_the_rest_of_the_run_and_a_measure_exclude_each_other(at: TasDriver, tab
 def test_all_keys_are_tried_where_there_are_few_ways() -> None:
     assert fewest_ticks(8) == 1
     assert 6 ** -(-130 // fewest_ticks(130)) <= 2_000_000
+
+
+@pytest.mark.parametrize("name", ["goal", "measure"])
+def test_no_key_that_makes_text_is_a_command_while_a_field_has_the_focus(
+    at: TasDriver, tab: SearchTab, name: str
+) -> None:
+    field = getattr(tab, name)
+    tab.wants = field
+    at.frames(2)
+    before = at.editor.cursor, at.editor.selection, at.screen.level.playing.speed, at.editor.track, at.editor.tab
+    for key in ("comma", "period", "equals", "minus", "slash", "semicolon", "leftbracket", "kp_plus", "kp_minus",
+                "0", "a", "z", "space", "backslash", "grave", "apostrophe"):  # fmt: skip
+        at.press(key)
+        assert at.screen.focus is field, key
+    assert before == (
+        at.editor.cursor, at.editor.selection, at.screen.level.playing.speed, at.editor.track, at.editor.tab,
+    )  # fmt: skip
