@@ -123,7 +123,8 @@ class SpanResults:
         """The run with a result in it; with ``rest`` it is the run that reached the exit in the search."""
         first, keys = self.task.first, found.keys[: found.ticks].tolist()
         if not self.task.rest:
-            return track.replaced(first, behind, keys)
+            # Behind an exit nothing follows, and keys there would take its claims from the run.
+            return track.replaced(first, len(track) if self.task.goal == "won" else behind, keys)
         rest = len(found.inputs) - first - found.ticks
         made = track.replaced(first, len(track) - rest, keys)
         return InputTrack(track.inputs[:first] + found.inputs[first:], made.markers)
@@ -198,6 +199,7 @@ class SearchTab(Tab):
     def __init__(self, editor: TasEditor) -> None:
         super().__init__(editor)
         self.span: Span = (0, 0)
+        self._behind = 0
         self.order = EARLIEST
         self.rest = False
         self.method = "auto"
@@ -252,6 +254,7 @@ class SearchTab(Tab):
         first, last = self.editor.selection
         second = min(first + TICKS_PER_SECOND, max(len(self.editor.track), last))
         before, self.span = self.span, (first, last if last > first + 1 else second)
+        self._behind = 0
         if self.span == before:
             return
         if self.results is not None and not self.results.running:
@@ -275,6 +278,8 @@ class SearchTab(Tab):
         self.measure.show(wanted.measure)
         self.order = EARLIEST if not wanted.measure else SMALLEST if wanted.least else GREATEST
         self.rest = wanted.rest
+        first, self._behind = self.span
+        self.span = first, wanted.last or self._behind
         self.wants = self.goal
 
     def _put_order(self, order: str) -> None:
@@ -292,7 +297,7 @@ class SearchTab(Tab):
         measure = "" if self.order == EARLIEST else self.measure.text.strip() or "speed"
         return SpanTask(
             session.about.level, session.track.inputs, first, last, self.goal.text.strip(), measure,
-            least=self.order == SMALLEST, rest=self.rest, body=session.about.body,
+            least=self.order == SMALLEST, rest=self.rest, body=session.about.body, behind=self._behind,
         )  # fmt: skip
 
     # --- the search ---
