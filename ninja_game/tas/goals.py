@@ -19,6 +19,8 @@ from ninja_game.tas.session import Session
 
 EXIT_TICKS = 5 * TICKS_PER_SECOND
 """In which the exit is looked for at least, from a run that does not reach it."""
+IMPROVE, IMPROVE_GOLD = "improve", "improve with the gold"
+"""Methods for a whole run: with whatever gold, or with as much as it has."""
 NEAR = 6.0
 """How near to a place counts as there, px."""
 SAME_PLACE, SAME_VELOCITY = 0.5, 0.05
@@ -26,13 +28,17 @@ SAME_PLACE, SAME_VELOCITY = 0.5, 0.05
 
 
 class SpanGoal(NamedTuple):
-    """Goal and measure as formulas, ``least`` and ``rest`` as in a SpanTask; ``last``: of another end, 0: as it is."""
+    """Goal and measure as formulas, ``least`` and ``rest`` as in a SpanTask; ``last``: of another end, 0: as it is.
+
+    ``method``: the one that is meant, "": any.
+    """
 
     goal: str = ""
     measure: str = ""
     least: bool = False
     rest: bool = False
     last: int = 0
+    method: str = ""
 
 
 @dataclass(frozen=True)
@@ -93,6 +99,14 @@ def reach_exit(span: SearchedSpan) -> SpanGoal:
     return SpanGoal("won", last=min(max(known, span.first + 1), span.first + LONGEST))
 
 
+def whole_run(span: SearchedSpan) -> SpanGoal:
+    """Shorten all of the run, as `ninja-game improve` does. Raises ArgumentError where it does not reach the exit."""
+    tick, outcome = span.session.timeline.end
+    if outcome != "exit":
+        raise ArgumentError("the run does not reach the exit; Reach the exit sooner looks for a way to it")
+    return SpanGoal("won", last=tick + 1, method=IMPROVE)
+
+
 def collect(span: SearchedSpan) -> SpanGoal:
     """Take the piece of gold nearest to the span's end that the run has not taken by then.
 
@@ -148,6 +162,7 @@ def _is_passed(span: SearchedSpan) -> bool:
 
 PRESETS: tuple[tuple[str, str, Callable[[SearchedSpan], SpanGoal]], ...] = (
     ("Reach the exit sooner", "Any way to it from the first tick on, also from a run that dies", reach_exit),
+    ("Whole run", "Shorten all of it, also by the routes of the runs beside it: improve", whole_run),
     ("Same end, sooner", "The same place, speed and state; the rest follows", same_end),
     ("Same end exactly, sooner", "By the digest of all that decides what follows", same_state),
     ("Be there sooner", "Where the run is at the end of the span", be_there),

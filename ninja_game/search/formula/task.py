@@ -102,6 +102,8 @@ def score_in_words(task: SpanTask, found: Found) -> str:
     last = task.first + found.ticks - 1
     if task.rest:
         return f"exit in tick {found.score - 1:.0f}"
+    if task.goal == "won":
+        return f"exit in tick {last}"
     if task.measure:
         return f"{task.measure} is {found.score if task.least else -found.score:.6g} after tick {last}"
     return f"goal after tick {last}"
