@@ -3,7 +3,7 @@
     python3 tools/dev.py tool measure.reach_exit --seconds 30
 
 Of the reference levels with a person's speedrun, ``--runs`` at equal distances; of each the shortest, without its last
-40 to 100 ticks, and twice as many ticks to be searched. ``--seconds``: processor time of each, on one thread.
+40 to 100 (``--cut``) ticks, and twice as many to be searched. ``--seconds``: processor time of each, on one thread.
 """
 
 from __future__ import annotations
@@ -16,11 +16,8 @@ from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.search.formula.methods import search_span
 from ninja_game.search.formula.task import Found, SpanTask
 
-FEWEST, MOST = 40, 100
-"""Ticks that are cut."""
 
-
-def tasks(count: int) -> list[tuple[str, int, SpanTask]]:
+def tasks(count: int, fewest: int, most: int) -> list[tuple[str, int, SpanTask]]:
     """Label, the tick of the exit contact of the whole run, and the search."""
     from tests.support.reference import RunRow, recordings
 
@@ -29,11 +26,11 @@ def tasks(count: int) -> list[tuple[str, int, SpanTask]]:
         known = best.get(run.label)
         if (run.source, run.kind) == ("rta", "speedrun") and (known is None or run.end_tick < known.end_tick):
             best[run.label] = run
-    labels = sorted(label for label in best if best[label].end_tick > 2 * MOST)
+    labels = sorted(label for label in best if best[label].end_tick > 2 * most)
     found = []
     for number in range(count):
         run = best[labels[number * len(labels) // count]]
-        cut = FEWEST + (MOST - FEWEST) * number // max(1, count - 1)
+        cut = fewest + (most - fewest) * number // max(1, count - 1)
         first = run.end_tick - cut
         inputs = parse_demo(run.demo).inputs[:first]
         level = parse_level_string(run.data)
@@ -65,12 +62,13 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seconds", type=float, default=30.0)
     parser.add_argument("--runs", type=int, default=20)
+    parser.add_argument("--cut", type=int, nargs=2, default=(40, 100), metavar="TICKS")
     parser.add_argument("--only", default="", metavar="LABELS")
     arguments = parser.parse_args()
     heads = "level", "cut ticks", "exit of the person", "exit found", "first after, s", "million ticks"
     print(f"| {' | '.join(heads)} |\n|{'---|' * len(heads)}")
     count = 0
-    for label, end, task in tasks(arguments.runs):
+    for label, end, task in tasks(arguments.runs, *arguments.cut):
         if arguments.only and label not in arguments.only.split(","):
             continue
         tick, after, ticks = reached(task, arguments.seconds)

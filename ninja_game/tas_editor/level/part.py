@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from math import hypot
 
 import numpy as np
@@ -33,6 +34,7 @@ from ninja_game.tas_editor.tabs.values_tab import proposal
 from ninja_game.ui.canvas import Point
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.theme import Theme
+from ninja_game.view.overlays import OVERLAY_ACTIONS
 
 _REACH = 16.0
 """px of the level within which an object is pointed at."""
@@ -98,6 +100,7 @@ class LevelPart(TasPart):
         shared: Commands = {
             "faster": lambda: playing.change_speed(1), "slower": lambda: playing.change_speed(-1),
             "ghosts": self._toggle_ghosts, "whole_level": self.picture.camera.show_all, **self.others.commands(),
+            **{name: partial(self.picture.overlays.toggle, name) for name in OVERLAY_ACTIONS},
         }  # fmt: skip
         if taken.on:
             return {
@@ -170,7 +173,8 @@ class LevelPart(TasPart):
             editor.track, editor.cursor, editor.selection, timeline.simulated_until, editor.session.before,
             editor.ghosts, tuple(editor.others), editor.preview, self.hover, self.pointed, editor.app.settings,
             playing.on, playing.speed,
-            self.picture.camera.render_key, self.take_over.on, self.take_over.still, self.take_over.waiting,
+            self.picture.camera.render_key, frozenset(self.picture.overlays.on),
+            self.take_over.on, self.take_over.still, self.take_over.waiting,
             moving and playing.clock.remainder,
         )  # fmt: skip
 

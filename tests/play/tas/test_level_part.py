@@ -326,3 +326,30 @@ def test_the_last_tick_of_a_run_is_selected_behind_its_end(at: TasDriver) -> Non
     at.editor.go(3)
     at.screen.run("select_last")
     assert at.editor.selection == (3, len(at.editor.track))
+
+
+def test_the_overlays_of_the_game_lie_over_the_level_also_where_it_is_zoomed(at: TasDriver) -> None:
+    def picture() -> bytes:
+        at.frames(2)
+        return pygame.image.tobytes(at.screen.level.picture.surface, "RGB")
+
+    for _ in range(2):
+        at.editor.go(120)
+        bare = picture()
+        for key in "12345":
+            at.press(key)
+            assert len(at.screen.level.picture.overlays.on) == 1
+            assert picture() != bare or key == "4", "nothing looks for the ninja here"
+            at.press(key)
+            assert picture() == bare, key
+        for key in "12345":
+            at.press(key)
+        at.editor.go(125)
+        picture()
+        at.editor.go(120)
+        for key in "12345":
+            at.press(key)
+        left = picture()
+        at.screen.level.picture.draw(1.0, whole=True)
+        assert picture() == left, "nothing of them stays"
+        at.screen.level.picture.camera.zoom_at(at.screen.level.picture.surface.get_size(), (200, 150), 4)
