@@ -1,4 +1,4 @@
-"""The time of a run, in seconds: how all of the program tells it."""
+"""The time of a run, in seconds: how all of the program shows it."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from ninja_game.sim.rules import TICK_MS
 
 
 def seconds_text(ticks: int) -> str:
-    """Ticks as seconds with three decimals: the one way in which a time is told (game.md §1.3).
+    """Ticks as seconds with three decimals: the one way in which a time is shown (game.md §1.3).
 
     The time of a run, and its length in ticks, is the tick of the exit contact or the death; of one that has neither
     all ticks that were run. So it is 90 s and two for each piece of gold less the score.
