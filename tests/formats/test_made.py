@@ -139,3 +139,12 @@ def test_markers_stay_at_their_places(tmp_path: Path) -> None:
     (before,), (after,) = load_replays(source), load_replays(out)
     assert after.ticks == before.ticks - 20
     assert after.replay.markers == (Marker(0, "start"), Marker(10, "half"), Marker(23, "end"))
+
+
+def test_a_hostile_comment_takes_no_time_and_is_a_comment() -> None:
+    for comment in (
+        "[made: " * 200_000,
+        "[made: " * 200_000 + "]",
+        "[made: edited 3 from a run by " + "A" * 10**6 + "]",
+    ):
+        assert without_made(comment) == (comment, UNKNOWN, ())

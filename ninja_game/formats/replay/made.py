@@ -6,6 +6,8 @@ import re
 from contextlib import suppress
 from typing import NamedTuple, Self
 
+from ninja_game.formats.lines import MOST_NAME
+
 _BEGUN = " from a run by "
 _NAMES = "[a-z][a-z -]{0,30}(?:, [a-z][a-z -]{0,30}){0,20}"
 _MADE = re.compile(
@@ -83,7 +85,7 @@ def names_of_text(text: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys(filter(None, (" ".join(name.split()) for name in text.split(",")))))
 
 
-_IN_COMMENT = re.compile(r"(?s)(?:(.*?) )?\[made: ([^\]]*?)(?:; co-authors: ([^\]]*))?\]")
+_MARK, _WITH = "[made: ", "; co-authors: "
 
 
 def with_made(comment: str, made: Made, co_authors: tuple[str, ...]) -> str:
@@ -94,7 +96,7 @@ def with_made(comment: str, made: Made, co_authors: tuple[str, ...]) -> str:
     """
     if not (made.assisted is not None or co_authors):
         return comment
-    told = f"[made: {made}" + f"; co-authors: {', '.join(co_authors)}" * bool(co_authors) + "]"
+    told = f"{_MARK}{made}" + f"{_WITH}{', '.join(co_authors)}" * bool(co_authors) + "]"
     return f"{comment} {told}".strip()
 
 
@@ -104,7 +106,9 @@ def without_made(comment: str) -> tuple[str, Made, tuple[str, ...]]:
     >>> without_made("all gold [made: edited 3; co-authors: Bob]")[::2], without_made("[made: by me]")[0]
     (('all gold', ('Bob',)), '[made: by me]')
     """
-    if match := _IN_COMMENT.fullmatch(comment):
+    start = comment.rfind(_MARK)
+    if start >= 0 and comment.endswith("]") and len(_MARK) + 1 < len(comment) - start <= 2 * MOST_NAME:
+        told, _, names = comment[start + len(_MARK) : -1].partition(_WITH)
         with suppress(ValueError):
-            return match[1] or "", parse_made(match[2]), names_of_text(match[3] or "")
+            return comment[:start].removesuffix(" "), parse_made(told), names_of_text(names)
     return comment, UNKNOWN, ()
