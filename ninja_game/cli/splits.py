@@ -15,7 +15,7 @@ from ninja_game.cli.main import complain
 from ninja_game.cli.run_options import budget_option, choose, heartbeat, level_given, level_option, with_progress
 from ninja_game.cli.terminal import BAD_INPUT, data_output
 from ninja_game.files.shown_text import counted, shown_text
-from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.formats.run_time import seconds_text
 
 if TYPE_CHECKING:
     from ninja_game.formats.recording import Recording
@@ -146,7 +146,8 @@ def _show(tables: Sequence[Table]) -> None:
     console = Console(highlight=False, markup=False, width=None if sys.stdout.isatty() else WIDTH)
     for runs, rows in tables:
         best, (name, *others) = runs[0], titles([run.recording for run in runs])
-        console.print(f"{name}: {best.outcome} after {best.ticks} ticks, {best.gold} gold")
+        end = best.ticks - (best.outcome != "running")
+        console.print(f"{name}: {best.outcome} after {end} ticks, {seconds_text(end)} s, {best.gold} gold")
         table = RichTable(box=None, pad_edge=False, header_style="bold")
         table.add_column("split")
         for name in ("x", "y", "tick", "segment", *others):
@@ -158,7 +159,7 @@ def _show(tables: Sequence[Table]) -> None:
             table.add_row(str(row.split), *place, _number(first), _number(row.best_segment), *cells)
         console.print(table)
         last = sum_of_best(rows)
-        console.print(f"sum of best: tick {last}, {(last + 1) / TICKS_PER_SECOND:.3f} s\n")
+        console.print(f"sum of best: tick {last}, {seconds_text(last)} s\n")
 
 
 def _number(count: int | None) -> str:

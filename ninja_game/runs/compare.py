@@ -233,8 +233,8 @@ def compare_runs(ours: Recording, theirs: Recording, budget: int = RUN_BUDGET) -
 
 
 def each_second(places: tuple[Lead, ...]) -> list[Lead]:
-    """Of the leads tick by tick, those at the end of every second of the first run."""
-    return [lead for lead in places if (lead.tick + 1) % TICKS_PER_SECOND == 0]
+    """Of the leads tick by tick, those in the ticks of every full second of the first run: 40 at 1.000 s, 80 ..."""
+    return [lead for lead in places if lead.tick and lead.tick % TICKS_PER_SECOND == 0]
 
 
 def aligned(ours: NDArray[np.float64], theirs: NDArray[np.float64]) -> NDArray[np.intp]:

@@ -11,8 +11,8 @@ from ninja_game.errors import FileError
 from ninja_game.files.reading import SUFFIXES
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.pack.pars import MEDALS
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.records import seconds_text
 from ninja_game.web.board.ranking import FASTEST, HIGHEST, Ranked, Ranking
 from ninja_game.web.board.report import summary
 from ninja_game.web.board.runs import Rejected, Run

@@ -12,7 +12,7 @@ from typing import Any
 from ninja_game.errors import FormatError
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.shown_text import counted, shown_text
-from ninja_game.player.records import seconds_text
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.web.board.ranking import ORDERS, Ranking
 from ninja_game.web.board.runs import Dates, Key, Rejected, Run, ValidatedRuns
 

@@ -11,8 +11,8 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.links.making import level_link
 from ninja_game.formats.pack.pars import MARGINS, MEDALS, Pars
 from ninja_game.formats.recording import Recording
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.records import seconds_text
 from ninja_game.sim.kinds import KIND_NAMES
 from ninja_game.sim.level import makes_object
 from ninja_game.web.pages.frame import Content, Markup, Pages, definitions, joined, page, section, table, tag
