@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from ninja_game.cli.run_options import InputPath, jobs_option
+
+if TYPE_CHECKING:
+    from ninja_game.web.pages.memo import Memo
 
 
 @click.command()
@@ -64,6 +68,30 @@ def _serve(folder: Path, port: int) -> None:
         server.serve_forever()
 
 
+rules_option = click.option(
+    "--rules", metavar="BOARD.TOML", type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    help="The categories in which runs are ranked. [default: the fastest, and the highest score]",
+)  # fmt: skip
+
+
+def _memo(kind: str, about: Path, folder: Path, *, anew: bool) -> Memo:
+    """What is remembered of a folder. Raises FileError where that would lie in the folder of runs."""
+    from hashlib import sha256
+
+    from platformdirs import user_cache_path
+
+    from ninja_game.errors import FileError
+    from ninja_game.web.board.pages import is_in
+    from ninja_game.web.pages.memo import Memo
+
+    name = sha256(str(about.resolve()).encode("utf-8", "surrogateescape")).hexdigest()[:16]
+    path = user_cache_path("ninja-game", appauthor=False) / "board" / f"{kind}-{name}.json"
+    if is_in(path, folder):
+        hint = "runs are judged by nothing that lies among them: choose another cache folder"
+        raise FileError("your cache folder lies in the folder of runs", str(path), hint=hint)
+    return Memo(path, anew=anew)
+
+
 @click.command()
 @click.argument("folder", type=click.Path(exists=True, file_okay=False, path_type=Path))
 @click.option(
@@ -82,18 +110,21 @@ def _serve(folder: Path, port: int) -> None:
     "--check", metavar="FILE", type=click.Path(exists=True, dir_okay=False, path_type=Path),
     help="Report what differs from this file written by --json; exit code 1 if anything is refused, changed or gone.",
 )  # fmt: skip
+@rules_option
+@click.option("--anew", is_flag=True, help="Simulate every run, and write every page, also those known from before.")
 @jobs_option
 @click.pass_context
 def board(
     ctx: click.Context, folder: Path, levels: Path | None, site: Path | None, data: Path | None, check: Path | None,
-    jobs: int | None,
+    rules: Path | None, anew: bool, jobs: int | None,
 ) -> None:  # fmt: skip
     """Rank the runs of a folder, all simulated again: tables, pages, checks.
 
     FOLDER holds replays, as people send them to a repository; nothing in them is believed but the inputs. Runs on
     other levels, with another body, under other rules, practice runs, copies and whatever says something that is not
-    so are kept out, with the reason. `ninja-game site OUT` puts the page with the game next to the board, which shows
-    each run. How to keep a board in a repository: docs/board.md.
+    so are kept out, with the reason. What was simulated is remembered in your own cache folder, by all that it depends
+    on, and not simulated again. `ninja-game site OUT` puts the page with the game next to the board, which shows each
+    run. How to keep a board in a repository: docs/board.md.
 
     \b
     Examples:
@@ -101,12 +132,14 @@ def board(
       ninja-game board replays/ --site public/ --json board.json
       ninja-game board replays/ --check board.json
       ninja-game board replays/ --levels my-pack/ --site public/
+      ninja-game board ask --help
     """
     from ninja_game.files.user_folder import data_folder
     from ninja_game.files.writing import check_output, write_atomically
     from ninja_game.web.board.pages import BoardPages, check_ledger, check_site
     from ninja_game.web.board.ranking import Ranking
     from ninja_game.web.board.report import board_text, changes, dates_of, plain, read_board, summary
+    from ninja_game.web.board.rules import USUAL, read_categories
     from ninja_game.web.board.runs import judge
     from ninja_game.web.pages.published import published_levels
 
@@ -118,11 +151,14 @@ def board(
     now = datetime.now(UTC)
     ledger = check or data
     before = read_board(ledger, now) if ledger and ledger.exists() else ({}, {})
+    categories = read_categories(rules) if rules else USUAL
     shown = published_levels(levels or data_folder("levels"))
-    judged = judge(folder, shown, dates=dates_of(before, now) if ledger else None, jobs=jobs)
-    ranking = Ranking(judged, shown)
+    memo = _memo("runs", folder, folder, anew=anew)
+    judged = judge(folder, shown, dates=dates_of(before, now) if ledger else None, jobs=jobs, memo=memo)
+    memo.save()
+    ranking = Ranking(judged, shown, categories)
     if site:
-        BoardPages(site, ranking).write()
+        BoardPages(site, ranking, memo=_memo("pages", site, folder, anew=anew)).write()
         if not (site / "index.html").exists():
             click.echo(f"{site} has no page with the game yet: ninja-game site {site}", err=True)
     if data:

@@ -78,14 +78,16 @@ class RunSplits:
         return {split.key: split for split in self.splits}
 
 
-def run_splits(recording: Recording, events: Sequence[str] = SPLIT_EVENTS, budget: int = RUN_BUDGET) -> RunSplits:
-    """Run a recording on the plain memory and note its splits, of these events only.
+def run_splits(
+    recording: Recording, events: Sequence[str] = SPLIT_EVENTS, budget: int = RUN_BUDGET, memory: str = "plain"
+) -> RunSplits:
+    """Run a recording and note its splits, of these events only. ``memory``: as of ``Simulation``.
 
     Raises, naming file and record, LevelError for a level that cannot be played, BudgetError for a run that is not over
     when its ``budget`` of work is.
     """
     with named_errors(recording):
-        run = Simulation(recording.level, body=recording.body)
+        run = Simulation(recording.level, body=recording.body, memory=memory)
     splits: list[Split] = []
     positions: list[tuple[float, float]] = []
     counts: dict[tuple[str, int | None], int] = {}
