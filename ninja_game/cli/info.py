@@ -127,7 +127,11 @@ def _facts(level: NamedLevel, run: Recording | None) -> dict[str, Any]:
         "objects": dict(_counts(level)),
         "level_digest": level_digest(level.level), "warnings": level_warnings(level.level),
     }  # fmt: skip
-    return facts | ({"recording_ticks": run.ticks} if run else {})
+    if not run:
+        return facts
+    return facts | {
+        "recording_ticks": run.ticks, "made": str(run.replay.made), "co_authors": list(run.replay.co_authors)
+    }  # fmt: skip
 
 
 def _show(console: Console, level: NamedLevel, run: Recording | None, picture: bool) -> None:
@@ -152,6 +156,10 @@ def _show(console: Console, level: NamedLevel, run: Recording | None, picture: b
         last = run.ticks - 1
         cut = f", truncated: {run.missing} ticks of inputs are missing" if run.missing else ""
         console.print(Text(f"recording: to tick {last} at most, {last / TICKS_PER_SECOND:.3f} s{cut}"))
+        if made := shown_text(str(run.replay.made)):
+            console.print(
+                Text(f"made: {made}" + "".join(f", with {shown_text(name)}" for name in run.replay.co_authors))
+            )
     if run and not run.replay.unclaimed:
         replay = run.replay
         console.print(Text(f"claims: {replay.outcome}, gold {replay.gold}, body {replay.body}, rules {replay.rules}"))

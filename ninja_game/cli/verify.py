@@ -141,7 +141,8 @@ def _row(verdict: Verdict) -> str:
     score = f"{verdict.score_ticks / TICKS_PER_SECOND:.3f}" if verdict.score_ticks is not None else ""
     where = f"{shown_text(verdict.file)}:{verdict.record}"
     name = shown_text(verdict.name)
-    row = f"{mark} {verdict.outcome:<7} {when:>11}  {verdict.gold:>3} gold  {score:>8}  {name}  {where}"
+    made = f"  ({shown_text(verdict.made)})" * bool(verdict.made)
+    row = f"{mark} {verdict.outcome:<7} {when:>11}  {verdict.gold:>3} gold  {score:>8}  {name}  {where}{made}"
     problems = [f"{shown_text(each.text)}. {each.hint} [{each.code}]" for each in verdict.problems]
     return "\n     ".join([row, *problems])
 

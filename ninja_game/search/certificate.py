@@ -9,6 +9,7 @@ from pathlib import Path
 from ninja_game.budget import NO_LIMIT
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.writing import write_atomically
+from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.runs.run import record_replay, run_level
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
@@ -47,9 +48,20 @@ def with_plain_triggers(level: Level, inputs: bytes, *, body: Body = "circle", g
         raise UnverifiedRunError("the run triggers jumps without a fresh press, as no keyboard does") from None
 
 
-def named_run(run: Replay, *, name: str = "", author: str = "", level_author: str = "") -> Replay:
-    """A run under a name, which its level has too."""
-    return replace(run, name=name, author=author, level_name=name, level_author=level_author)
+def named_run(run: Replay, command: str, *, name: str = "", author: str = "", level_author: str = "") -> Replay:
+    """A run that a command found, under a name, which its level has too."""
+    made = run.made.searched(command)
+    return replace(run, name=name, author=author, level_name=name, level_author=level_author, made=made)
+
+
+def better_run(run: Replay, recording: Recording, command: str) -> Replay:
+    """A run that a command made of a recording: names and authors stay, and it says what was done and to whose run."""
+    old = recording.replay
+    return replace(
+        run, name=recording.name, author=recording.author, co_authors=old.co_authors,
+        level_name=old.level_name or recording.name, level_author=old.level_author or recording.author,
+        made=old.made.searched(command, begun_by=recording.author),
+    )  # fmt: skip
 
 
 def save_replay(path: Path, replay: Replay) -> None:

@@ -67,6 +67,9 @@ def test_json_has_the_fields_that_programs_read(walk: Path) -> None:
         "in_time": True,
         "practice": False,
         "complete": True,
+        "made": "",
+        "assisted": None,
+        "co_authors": "",
     }
 
 

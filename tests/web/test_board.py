@@ -29,7 +29,7 @@ from ninja_game.web.board.rules import FASTEST, HIGHEST
 from ninja_game.web.board.runs import PLAYED, Key, ValidatedRuns, judge
 from ninja_game.web.pages.frame import POLICY, tag
 from ninja_game.web.pages.published import published_levels
-from tests.support.forgeries import FORGERIES, GOLD_LATER, WALKING, record, replay
+from tests.support.forgeries import FORGERIES, GOLD_LATER, PRACTISED, WALKING, record, replay
 from tests.support.samples import SPIKED, WALK, WALK_END
 
 DIGEST = level_digest(parse_level_string(WALK))
@@ -233,7 +233,7 @@ def test_a_run_that_goes_most_of_somebody_elses_way_says_so(runs: Path, levels: 
 
 
 def test_practice_runs_are_kept_out(runs: Path, levels: Path) -> None:
-    put(runs, "run.txt", replay(practice=True))
+    put(runs, "run.txt", replay(made=PRACTISED))
     assert [each.kind for each in with_demands(runs, levels).rejected] == ["practice"]
 
 
@@ -267,7 +267,7 @@ def hostile(runs: Path, levels: Path, tmp_path: Path) -> Path:
     """A board of hostile names: of files, players, runs, levels."""
     put(runs, "ann.txt", replay(author=HOSTILE, name=HOSTILE))
     put(runs, "later.txt", replay(bytes(3) + WALKING + b"\2", author="javascript:alert(1)"))
-    put(runs, "<img src=x onerror=alert(1)>.txt", replay(author=HOSTILE, practice=True))
+    put(runs, "<img src=x onerror=alert(1)>.txt", replay(author=HOSTILE, made=PRACTISED))
     put(runs, "bad.txt", replay(author=HOSTILE, gold=77))
     put(runs, "worse.txt", "<script>alert(1)</script>")
     return board_of(runs, levels, tmp_path / "site")

@@ -240,7 +240,7 @@ def _row_of_recording(recording: Recording, when: str) -> ReplayRow:
     else:
         result = _result(replay.outcome, replay.gold, replay.final_tick, recording.level.gold)
     passed = replay.outcome == "exit"
-    return ReplayRow(recording.name or "unnamed", author_name(recording.author), result, when, passed, recording)
+    return ReplayRow(recording.name or "unnamed", author_name(replay.credit), result, when, passed, recording)
 
 
 def _result(outcome: str, gold: int, final_tick: int, all_gold: int = 0) -> str:

@@ -20,6 +20,7 @@ from ninja_game.search.formula.language import FormulaError
 from ninja_game.search.formula.methods import KEPT, fewest_ticks
 from ninja_game.search.formula.task import Found, SpanTask, score_in_words
 from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.goals import PRESETS, SearchedSpan, SpanGoal
 from ninja_game.tas.input_track import InputTrack, first_difference
 from ninja_game.tas.timeline import Timeline
@@ -111,7 +112,7 @@ class SpanResults:
             self.editor.app.notify("The run was changed: search again")
             return False
         made = self._made(self.editor.track, found, behind)
-        if not self.editor.edit(lambda _: made):
+        if not self.editor.edit(lambda _: made, Contributions(commands=("search",))):
             return False
         end = self.task.first + found.ticks
         self._fitting.append((made.inputs if self.task.rest else made.inputs[:end], end))
