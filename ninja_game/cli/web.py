@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -74,30 +74,52 @@ rules_option = click.option(
 )  # fmt: skip
 
 
-def _memo(kind: str, about: Path, folder: Path, *, anew: bool) -> Memo:
-    """What is remembered of a folder. Raises FileError where that would lie in the folder of runs."""
-    from hashlib import sha256
-
+def cache_folder() -> Path:
+    """Where boards remember what they found out."""
     from platformdirs import user_cache_path
+
+    return user_cache_path("ninja-game", appauthor=False) / "board"
+
+
+def memo_of(kind: str, about: Path, folder: Path, *, anew: bool) -> Memo:
+    """What is remembered of a folder. Raises FileError for a place where people may put files that are not yours."""
+    from hashlib import sha256
 
     from ninja_game.errors import FileError
     from ninja_game.web.board.pages import is_in
     from ninja_game.web.pages.memo import Memo
 
     name = sha256(str(about.resolve()).encode("utf-8", "surrogateescape")).hexdigest()[:16]
-    path = user_cache_path("ninja-game", appauthor=False) / "board" / f"{kind}-{name}.json"
-    if is_in(path, folder):
-        hint = "runs are judged by nothing that lies among them: choose another cache folder"
-        raise FileError("your cache folder lies in the folder of runs", str(path), hint=hint)
+    path = cache_folder() / f"{kind}-{name}.json"
+    if not path.is_absolute() or is_in(path, folder):
+        what = "your cache folder has a relative path, or lies in the folder of runs"
+        raise FileError(what, str(path), hint="runs are judged by nothing that may come with them: choose another one")
     return Memo(path, anew=anew)
 
 
-@click.command()
-@click.argument("folder", type=click.Path(exists=True, file_okay=False, path_type=Path))
-@click.option(
+levels_option = click.option(
     "--levels", metavar="PACK", type=InputPath(),
     help="The levels that count: a pack, a file, a folder or a link of levels. [default: the game's own]",
 )  # fmt: skip
+
+
+class _Board(click.Command):
+    """The command ``board``; ``board ask`` is one of its own."""
+
+    def make_context(
+        self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
+    ) -> click.Context:
+        """Of the command that is meant."""
+        if args[:1] == ["ask"]:
+            from ninja_game.cli.board_ask import ask
+
+            return ask.make_context(f"{info_name} ask", args[1:], parent, **extra)
+        return super().make_context(info_name, args, parent, **extra)
+
+
+@click.command(cls=_Board)
+@click.argument("folder", type=click.Path(exists=True, file_okay=False, path_type=Path))
+@levels_option
 @click.option(
     "--site", metavar="OUT", type=click.Path(file_okay=False, path_type=Path),
     help="Write the pages into OUT/board and the runs into OUT/replays.",
@@ -153,12 +175,12 @@ def board(
     before = read_board(ledger, now) if ledger and ledger.exists() else ({}, {})
     categories = read_categories(rules) if rules else USUAL
     shown = published_levels(levels or data_folder("levels"))
-    memo = _memo("runs", folder, folder, anew=anew)
+    memo = memo_of("runs", folder, folder, anew=anew)
     judged = judge(folder, shown, dates=dates_of(before, now) if ledger else None, jobs=jobs, memo=memo)
     memo.save()
     ranking = Ranking(judged, shown, categories)
     if site:
-        BoardPages(site, ranking, memo=_memo("pages", site, folder, anew=anew)).write()
+        BoardPages(site, ranking, memo=memo_of("pages", site, folder, anew=anew)).write()
         if not (site / "index.html").exists():
             click.echo(f"{site} has no page with the game yet: ninja-game site {site}", err=True)
     if data:

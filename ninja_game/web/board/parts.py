@@ -80,8 +80,9 @@ class Parts:
 
     def run(self, run: Run, *results: Content) -> tuple[Content, ...]:
         """Cells of a run, for heads that end in RUN_HEADS."""
-        about = medal_mark(run.medal), run.gold, run.made, run.day, run.remark
-        return (player_link(run.player, UP), *results, *self.files(run, UP), *about)
+        about = medal_mark(run.medal), run.gold, run.made or "unknown", run.day, run.remark
+        others = f" with {shown_text(run.co_authors, LONGEST_NAME)}" if run.co_authors else None
+        return (joined(player_link(run.player, UP), others), *results, *self.files(run, UP), *about)
 
     def part_name(self, part: Part) -> str:
         """What a ladder's category is called; the ladder only where there are two."""
@@ -115,5 +116,14 @@ def signed(ticks: int) -> str:
 def _stem(run: Run) -> str:
     """The stem of the file in ``replays`` with a run: of all that the file holds."""
     named = run.entry.named
-    told = [run.digest, str(run.record), run.player, run.entry.title, named.author, run.made, run.entry.digest]
+    told = [
+        run.digest,
+        str(run.record),
+        run.player,
+        run.entry.title,
+        named.author,
+        run.made,
+        run.co_authors,
+        run.entry.digest,
+    ]
     return sha256("\0".join(told).encode("utf-8", "replace")).hexdigest()[:16]

@@ -10,9 +10,9 @@ from itertools import pairwise
 from pathlib import Path
 from typing import NamedTuple
 
-from ninja_game import __version__
 from ninja_game.budget import RUN_BUDGET
-from ninja_game.formats.replay.text import RULES_VERSION, Replay
+from ninja_game.formats.replay.made import names_of_text, parse_made
+from ninja_game.formats.replay.text import Replay
 from ninja_game.player.catalogue import Entry
 from ninja_game.runs.archive import verify_all
 from ninja_game.runs.chunks import Chunk, Result
@@ -22,7 +22,7 @@ from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN
 from ninja_game.web.board.collect import RunFolder, Sent
 from ninja_game.web.board.copies import Course, course_of, nearest
 from ninja_game.web.board.players import Players, player_named
-from ninja_game.web.pages.memo import Memo, digest_of
+from ninja_game.web.pages.memo import Memo, digest_of, program
 from ninja_game.web.pages.published import PublishedLevels
 
 Key = tuple[str, int]
@@ -34,9 +34,6 @@ Dates = Callable[[Key, str], str]
 PLAYED, ASSISTED = "played", "assisted"
 """The two ladders; a run of which nobody says how it was made is on the first one."""
 
-MEMO_VERSION = 1
-"""Of what is remembered of a file; another one is judged again."""
-
 _LINE = re.compile(r"^(?=[0-9])")
 
 
@@ -44,7 +41,7 @@ class Judged(NamedTuple):
     """What a recording of a file comes to, as plain values that can be remembered.
 
     ``kind``: "" for a run that counts, else as in Rejected, with ``why``; ``level``: its digest; ``way``: digest of the
-    ninja's positions; ``presses``: keys pressed, ``jumps`` of them.
+    ninja's positions; ``presses``: keys pressed, ``jumps`` of them; the rest: as of Verdict.
     """
 
     record: int
@@ -58,7 +55,9 @@ class Judged(NamedTuple):
     way: str = ""
     presses: int = 0
     jumps: int = 0
-    made: str = "unknown"
+    made: str = ""
+    assisted: bool | None = None
+    co_authors: str = ""
 
 
 @dataclass(frozen=True)
@@ -81,6 +80,8 @@ class Run:
     presses: int
     jumps: int
     made: str
+    assisted: bool | None
+    co_authors: str
     digest: str = field(repr=False)
     folder: RunFolder = field(repr=False, compare=False)
     remark: str = ""
@@ -97,7 +98,7 @@ class Run:
     @property
     def ladder(self) -> str:
         """Where it is ranked."""
-        return PLAYED if self.made in (PLAYED, "unknown") else ASSISTED
+        return ASSISTED if self.assisted else PLAYED
 
     @property
     def medal(self) -> str:
@@ -111,7 +112,8 @@ class Run:
         inputs = self.folder.inputs(self.file, self.record, self.digest, self.tick + 1)
         return Replay(
             inputs, self.tick, "exit", self.gold, name=self.entry.title, author=self.player,
-            level_name=self.entry.title, level_author=named.author, level=named.level,
+            level_name=self.entry.title, level_author=named.author, level=named.level, made=parse_made(self.made),
+            co_authors=names_of_text(self.co_authors),
         )  # fmt: skip
 
 
@@ -163,7 +165,7 @@ def judge(
             added = dates((name, found.record), found.way) if dates else ""
             runs.append(
                 Run(name, found.record, found.author, entry, found.tick, found.gold, found.score, added, found.way,
-                    found.presses, found.jumps, found.made, digest, sent)
+                    found.presses, found.jumps, *found[11:], digest, sent)
             )  # fmt: skip
     counted, copies = _without_copies(_of_players(sorted(runs, key=_first)), memo)
     return ValidatedRuns(tuple(counted), tuple(sorted([*rejected, *copies], key=lambda each: (each.file, each.record))))
@@ -173,7 +175,7 @@ def _judged(
     folder: RunFolder, shown: PublishedLevels, jobs: int | None, memo: Memo
 ) -> Iterator[tuple[str, str, list[Judged]]]:
     """Name, digest and recordings of each file, simulated where the memo does not know them."""
-    context = digest_of([MEMO_VERSION, __version__, RULES_VERSION, RUN_BUDGET, sorted(shown.entries)])
+    context = digest_of([program(), RUN_BUDGET, sorted(shown.entries)])
     files: deque[tuple[str, str, str, list[Sent]]] = deque()
 
     def chunks() -> Iterator[Chunk]:
@@ -222,6 +224,7 @@ def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
     return Judged(
         result.record, "", "", result.author, result.level_digest, result.end_tick, result.gold,
         result.score_ticks or 0, result.xy_sha256, sum(map(int.bit_count, pressed)), jumps,
+        result.made, result.assisted, result.co_authors,
     )  # fmt: skip
 
 
@@ -273,7 +276,7 @@ def _remarked(runs: list[Run], memo: Memo) -> list[Run]:
     key = ""
     for number, run in enumerate(runs):
         # A remark depends on all earlier runs of the level, and on nothing else.
-        key = digest_of([key, __version__, run.entry.digest, run.digest, run.record, run.player])
+        key = digest_of([key, program(), run.entry.digest, run.digest, run.record, run.player])
         said = memo.recall(key)
         if said is None:
             courses += [(each, _course(each)) for each in runs[len(courses) : number + 1]]

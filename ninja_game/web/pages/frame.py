@@ -10,7 +10,6 @@ from typing import TypeAlias
 
 import pygame
 
-from ninja_game import __version__
 from ninja_game.errors import FileError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.tree import Tree
@@ -18,7 +17,7 @@ from ninja_game.play.window import icon, png_of
 from ninja_game.ui.glyphs import CAP
 from ninja_game.ui.lettering import SPACING, WEIGHTS, glyph
 from ninja_game.ui.theme import PALETTES, Palette, mixed
-from ninja_game.web.pages.memo import Memo, digest_of
+from ninja_game.web.pages.memo import Memo, digest_of, program
 
 LONGEST = 400
 """Characters of a text that are shown."""
@@ -132,7 +131,7 @@ class Pages:
         self._make(f"{REPLAYS}/{stem}.txt", stem, content)
 
     def _make(self, name: str, data: object, content: Callable[[], str | bytes]) -> None:
-        digest = digest_of([__version__, data])
+        digest = digest_of([program(), data])
         if self._memo.recall(name) != [digest, *self._there(name)]:
             self._site.write(name, content())
             self._memo.note(name, [digest, *self._there(name)])

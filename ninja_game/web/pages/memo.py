@@ -3,21 +3,35 @@
 from __future__ import annotations
 
 import json
+from functools import cache
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
+from ninja_game import __version__
 from ninja_game.errors import DAMAGED
 from ninja_game.files.reading import read_bytes
 from ninja_game.files.writing import write_atomically
+from ninja_game.sim.memory.code_digest import code_digest
+from ninja_game.sim.memory.kernels import run_world
 
-MOST_BYTES = 2**30
-"""Of the file: ten times a million runs need a hundredth for each hundred thousand."""
+MOST_BYTES, MOST_MEMOS = 2**30, 100
+"""Of a file: that of a million runs has half of it. How many files stay in their folder: the newest."""
 
 
 def digest_of(data: object) -> str:
     """Sha256 (hex) of plain values."""
     return sha256(json.dumps(data).encode("utf-8", "replace")).hexdigest()
+
+
+@cache
+def program() -> str:
+    """Digest of all code that decides what is remembered: of the world's rules, and of boards and pages."""
+    here = Path(__file__).parent
+    files = sorted((*here.glob("*.*"), *here.with_name("board").glob("*.py")))
+    return digest_of(
+        [__version__, code_digest(run_world, ""), *(sha256(each.read_bytes()).hexdigest() for each in files)]
+    )
 
 
 class Memo:
@@ -56,3 +70,6 @@ class Memo:
         if self.path and self._now != self._before:
             self.path.parent.mkdir(parents=True, exist_ok=True)
             write_atomically(self.path, json.dumps(self._now))
+            kept = sorted(self.path.parent.glob("*.json"), key=lambda path: path.stat().st_mtime, reverse=True)
+            for old in kept[MOST_MEMOS:]:
+                old.unlink(missing_ok=True)
