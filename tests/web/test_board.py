@@ -368,23 +368,3 @@ def test_check_against_something_else_is_an_error(text: str, runs: Path, levels:
     put(runs, "bea.txt", replay())
     path = put(tmp_path, "other.json", text)
     assert check(runs, levels, "--check", str(path))[0] == 2
-
-
-@pytest.mark.slow
-def test_the_template_of_a_repository_works(tmp_path: Path) -> None:
-    template = Path("docs/board-template")
-    workflow = (template / ".github" / "workflows" / "board.yml").read_text("utf-8")
-    for line in re.findall(r"ninja-game (board .*?)(?: >|$)", workflow, re.MULTILINE):
-        (tmp_path / "replays" / "ann").mkdir(parents=True, exist_ok=True)
-        put(tmp_path, "replays/ann/run.txt", bundled_replays()[0].read_text("utf-8"))
-        words = [
-            {"replays": str(tmp_path / "replays"), "public": str(tmp_path / "public")}.get(
-                word,
-                str(template / "board.json") if "TEMP" in word else word.replace("board.json", str(tmp_path / "b")),
-            )
-            for word in line.split()
-        ]
-        result = CliRunner().invoke(cli, [*words, "--jobs", "1"])
-        assert result.exit_code == 0, result.output
-    assert (tmp_path / "public" / "board" / "index.html").is_file()
-    assert json.loads((tmp_path / "b").read_text())["runs"][0]["file"] == "ann/run.txt"

@@ -79,7 +79,8 @@ def test_splits_pictures_and_films(folder: Path, levels: Path, tmp_path: Path) -
     [
         (["rank", "nothing"], "is no level"), (["rank", "a"], "is several levels"),
         (["rank", "Spiked"], "nobody has a run"), (["rank", "Walk", "Zed"], "has no run there; players: Ann"),
-        (["rank", "Walk", "--category", "x"], "there are Fastest"), (["rank", "Walk", "--assisted"], "nobody has a run"),
+        (["rank", "Walk", "--category", "x"], "there are Fastest"),
+        (["rank", "Walk", "--assisted"], "nobody has a run"),
     ],
 )  # fmt: skip
 def test_what_there_is_not_is_named(words: list[str], told: str, folder: Path, levels: Path) -> None:  # noqa: F811
