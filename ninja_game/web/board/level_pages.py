@@ -66,7 +66,8 @@ class LevelPages(Parts):
     def _table(self, part: Part, ranked: Sequence[Ranked]) -> Markup:
         rows = [(each.place, *self.run(each.run, part[1].text(each.values[0]))) for each in ranked[:FIRST]]
         heads = ("Place", "Player", part[1].unit, *RUN_HEADS)
-        return section(self.part_name(part), table("Best run of each player", heads, rows))
+        name = self.part_name(part)
+        return section(name, table(f"{name}: best run of each player", heads, rows))
 
     def _progression(self, entry: Entry, part: Part) -> Content:
         """How the record fell."""
@@ -85,7 +86,7 @@ class LevelPages(Parts):
             start, end = (f"{category.text(numbers[at])} {runs[at].day}" for at in (0, -1))
             said = f"The record fell from {start} to {end} in {counted(len(runs) - 1, 'step')}"
             chart = steps(list(zip(moments, numbers, strict=True)), start, end, said)
-        heads = ("Date", "Player", category.unit, "Better by", "")
+        heads = ("Date", "Player", category.unit, "Better by", "Watch")
         return section("How the record fell", chart, table("Newest first", heads, rows[: -FIRST - 1 : -1]))
 
     def _side_by_side(self, runs: Sequence[Run]) -> Markup:
@@ -99,7 +100,7 @@ class LevelPages(Parts):
             (joined(swatch(number), " ", names[number]), *(self._pair(run, other) for other in runs))
             for number, run in enumerate(runs)
         ]
-        races = table("Seconds by which the left one is later; a link watches both", ("", *names), pairs)
+        races = table("Seconds by which the left one is later; a link watches both", ("Run", *names), pairs)
         splits = table("Seconds; later than the first: +", ("Split", *names), _splits(found))
         first = section(f"The first {len(runs)} runs", together, drawn)
         return joined(first, section("Any two of them", races), section("Splits", splits))

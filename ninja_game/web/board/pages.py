@@ -91,7 +91,7 @@ class BoardPages(LevelPages):
             )
             for record in self.ranking.records[:NEWEST]
         ]  # fmt: skip
-        heads = ("Level", "", "Player", "Record", "Result", "Better by", "Date")
+        heads = ("Level", "Watch", "Player", "Record", "Result", "Better by", "Date")
         feed = tag("p", tag("a", "Feed of new records (Atom)", href=FEED))
         newest = section("Newest records", table("Newest first", heads, rows), feed) if rows else None
         leaders = table(BY_LEVELS, self._heads(), map(self._standing, self.ranking.standings[PLAYED][:LEADING]))
@@ -212,7 +212,7 @@ class BoardPages(LevelPages):
             [self.stems[run.key], run.entry.episode, run.medal, *places.get(run.key, ("", "")), run.day]
             for run in sorted(runs, key=lambda run: (order[run.entry.digest], run.added, run.key))
         ]
-        heads = ("", "Level", "Time", "", "Score", "Gold", "Place", "Behind", "Made", "", "", "Date")
+        heads = ("No.", "Level", "Time", "Medal", "Score", "Gold", "Place", "Behind", "Made", "Watch", "File", "Date")
         self.list(player_page(player), player, "All runs", heads, rows, *lead, cells=cells)
 
     # --- levels, episodes, and what does not count ---
@@ -224,7 +224,7 @@ class BoardPages(LevelPages):
             best = [(self.main.text(each.values[0]), player_link(each.run.player)) for each in ranked[:1]] or [("", "")]
             counts = len(self.ranking.by_level.get(digest, ())), len(ranked)
             rows.append((entry.episode, level_link(entry), *counts, *best[0]))
-        heads = ("", "Level", "Runs", "Players", self.main.name, "First")
+        heads = ("No.", "Level", "Runs", "Players", self.main.name, "First")
         self.list("levels", "Levels", "In playing order", heads, rows)
 
     def _episodes(self) -> list[Content]:
@@ -242,7 +242,7 @@ class BoardPages(LevelPages):
                     )
                     for place, (player, total, runs) in enumerate(self.ranking.episode(episode, part)[:FIRST], 1)
                 ]
-                caption = f"{self.part_name(part)}: sum of the best of all its levels"
+                caption = f"Episode {number}, {self.part_name(part)}: sum of the best of all its levels"
                 tables += [table(caption, ("Place", "Player", "Sum", "Levels"), rows)] if rows else []
             levels = [tag("li", level_link(each)) for each in episode.levels]
             nobody = tag("p", "No player yet.")

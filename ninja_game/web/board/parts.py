@@ -25,7 +25,7 @@ LONGEST_NAME = 40
 """Characters of a name in a table."""
 
 UP = "../"
-RUN_HEADS = ("", "", "", "Gold", "Made", "Date", "Remark")
+RUN_HEADS = ("Watch", "File", "Medal", "Gold", "Made", "Date", "Remark")
 LINKS = [
     ("index.html", "Board"), ("players.html", "Players"), ("levels.html", "Levels"), ("episodes.html", "Episodes"),
     ("rejected.html", "Rejected"),
