@@ -83,8 +83,10 @@ class RunFolder:
         try:
             text = decoded(file.data, name)
             if is_replay(text):
-                replay = self._whole(text)
-                return [Sent(Chunk(name, text=write_replay(replay)), replay)]
+                # Without the name of a file nothing in it leads to another one.
+                parsed = parse_replay(text)
+                whole = self._whole(parsed)
+                return [Sent(Chunk(name, text=text if whole is parsed else write_replay(whole)), whole)]
             records = records_of(text, name)
             if not records and holds_recordings(text):
                 raise ReplayError("inputs without a level", hint="send a replay, or a record of N")
@@ -104,10 +106,10 @@ class RunFolder:
             self.known[name, record] = self.recordings(file)[record].inputs(ticks)
         return self.known[name, record]
 
-    def _whole(self, text: str) -> Replay:
-        """The replay, with a level inside and everything in it that it takes in. Raises ReplayError, LevelError."""
-        # Without the name of a file nothing in it leads to another one.
-        parsed = parse_replay(text)
+    def _whole(self, parsed: Replay) -> Replay:
+        """The replay with its level inside, and no path. Raises ReplayError."""
+        if parsed.level is not None and not parsed.level_path:
+            return parsed
         level = parsed.level or self.levels.get(parsed.level_digest)
         if level is None:
             raise ReplayError("it holds no level, and its level-digest matches no level that counts")
