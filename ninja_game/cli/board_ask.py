@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ninja_game.cli.board_options import levels_option, memo_of, rules_option
 from ninja_game.cli.run_options import jobs_option
 from ninja_game.cli.splits import as_json, draw, show, table_of
-from ninja_game.cli.web import levels_option, memo_of, rules_option
 from ninja_game.errors import ArgumentError
 from ninja_game.files.shown_text import shown_text
 
@@ -79,7 +79,7 @@ def ask(
         raise click.UsageError(f"{what}: name the file with -o")
     shown, now = published_levels(levels or data_folder("levels")), datetime.now(UTC)
     entry = _level(level, list(shown.entries.values()))
-    memo = memo_of("runs", folder, folder, anew=False)
+    memo = memo_of("runs", folder, folder, again=False)
     dates = dates_of(read_board(ledger, now), now) if ledger else None
     ranking = Ranking(
         judge(folder, shown, dates=dates, jobs=jobs, memo=memo), shown, read_categories(rules) if rules else USUAL

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
-from ninja_game.cli.run_options import InputPath, jobs_option
-
-if TYPE_CHECKING:
-    from ninja_game.web.pages.memo import Memo
+from ninja_game.cli.board_options import levels_option, memo_of, rules_option
+from ninja_game.cli.run_options import jobs_option
 
 
 @click.command()
@@ -68,41 +66,6 @@ def _serve(folder: Path, port: int) -> None:
         server.serve_forever()
 
 
-rules_option = click.option(
-    "--rules", metavar="BOARD.TOML", type=click.Path(exists=True, dir_okay=False, path_type=Path),
-    help="The categories in which runs are ranked. [default: the fastest, and the highest score]",
-)  # fmt: skip
-
-
-def cache_folder() -> Path:
-    """Where boards remember what they found out."""
-    from platformdirs import user_cache_path
-
-    return user_cache_path("ninja-game", appauthor=False) / "board"
-
-
-def memo_of(kind: str, about: Path, folder: Path, *, anew: bool) -> Memo:
-    """What is remembered of a folder. Raises FileError for a place where people may put files that are not yours."""
-    from hashlib import sha256
-
-    from ninja_game.errors import FileError
-    from ninja_game.web.board.pages import is_in
-    from ninja_game.web.pages.memo import Memo
-
-    name = sha256(str(about.resolve()).encode("utf-8", "surrogateescape")).hexdigest()[:16]
-    path = cache_folder() / f"{kind}-{name}.json"
-    if not path.is_absolute() or is_in(path, folder):
-        what = "your cache folder has a relative path, or lies in the folder of runs"
-        raise FileError(what, str(path), hint="runs are judged by nothing that may come with them: choose another one")
-    return Memo(path, anew=anew)
-
-
-levels_option = click.option(
-    "--levels", metavar="PACK", type=InputPath(),
-    help="The levels that count: a pack, a file, a folder or a link of levels. [default: the game's own]",
-)  # fmt: skip
-
-
 class _Board(click.Command):
     """The command ``board``; ``board ask`` is one of its own."""
 
@@ -133,12 +96,12 @@ class _Board(click.Command):
     help="Report what differs from this file written by --json; exit code 1 if anything is refused, changed or gone.",
 )  # fmt: skip
 @rules_option
-@click.option("--anew", is_flag=True, help="Simulate every run, and write every page, also those known from before.")
+@click.option("--again", is_flag=True, help="Simulate every run, and write every page, also those known from before.")
 @jobs_option
 @click.pass_context
 def board(
     ctx: click.Context, folder: Path, levels: Path | None, site: Path | None, data: Path | None, check: Path | None,
-    rules: Path | None, anew: bool, jobs: int | None,
+    rules: Path | None, again: bool, jobs: int | None,
 ) -> None:  # fmt: skip
     """Rank the runs of a folder, all simulated again: tables, pages, checks.
 
@@ -175,12 +138,12 @@ def board(
     before = read_board(ledger, now) if ledger and ledger.exists() else ({}, {})
     categories = read_categories(rules) if rules else USUAL
     shown = published_levels(levels or data_folder("levels"))
-    memo = memo_of("runs", folder, folder, anew=anew)
+    memo = memo_of("runs", folder, folder, again=again)
     judged = judge(folder, shown, dates=dates_of(before, now) if ledger else None, jobs=jobs, memo=memo)
     memo.save()
     ranking = Ranking(judged, shown, categories)
     if site:
-        BoardPages(site, ranking, memo=memo_of("pages", site, folder, anew=anew)).write()
+        BoardPages(site, ranking, memo=memo_of("pages", site, folder, again=again)).write()
         if not (site / "index.html").exists():
             click.echo(f"{site} has no page with the game yet: ninja-game site {site}", err=True)
     if data:

@@ -81,7 +81,7 @@ def test_only_what_is_new_is_simulated_and_written(
     board(runs, levels / "00-0-level.txt", "--site", site)
     assert simulated == ["ann.txt", "bad.txt", "bea.txt"], "other levels count"
     simulated.clear()
-    board(runs, levels / "00-0-level.txt", "--site", site, "--anew")
+    board(runs, levels / "00-0-level.txt", "--site", site, "--again")
     assert simulated == ["ann.txt", "bad.txt", "bea.txt"]
 
 
@@ -89,7 +89,7 @@ def tree(folder: Path) -> dict[str, bytes]:
     return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*.*") if path.is_file()}
 
 
-def test_pages_are_the_same_as_made_anew(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+def test_pages_are_the_same_as_made_again(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
     """Runs come, change and go; whatever was remembered, the pages are those of a board that remembers nothing."""
     some = {
         "ann.txt": replay(author="Ann"), "bea.txt": slow_walk(40, author="Bea"),
@@ -100,9 +100,9 @@ def test_pages_are_the_same_as_made_anew(tmp_path: Path, levels: Path, runs: Pat
         for name in step:
             put(runs, name, some[name]) if name in some else (runs / name[1:]).unlink()
         said = board(runs, levels, "--site", str(tmp_path / "site"))
-        shutil.rmtree(tmp_path / "anew", ignore_errors=True)
-        assert board(runs, levels, "--site", str(tmp_path / "anew"), "--anew") == said
-        assert tree(tmp_path / "site") == tree(tmp_path / "anew"), step
+        shutil.rmtree(tmp_path / "again", ignore_errors=True)
+        assert board(runs, levels, "--site", str(tmp_path / "again"), "--again") == said
+        assert tree(tmp_path / "site") == tree(tmp_path / "again"), step
 
 
 def test_a_page_that_somebody_changed_is_written_again(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
@@ -157,7 +157,7 @@ def test_a_cache_folder_where_runs_come_in_is_refused(
 ) -> None:  # fmt: skip
     put(runs, "ann.txt", replay(author="Ann"))
     folder = Path(place) if place == "." else tmp_path / place
-    monkeypatch.setattr("ninja_game.cli.web.cache_folder", lambda: folder)
+    monkeypatch.setattr("ninja_game.cli.board_options.cache_folder", lambda: folder)
     result = CliRunner().invoke(cli, ["board", str(runs), "--levels", str(levels)])
     assert (result.exit_code, "choose another one" in result.output) == (2, True), result.output
 

@@ -37,15 +37,15 @@ def program() -> str:
 class Memo:
     """Plain values by keys; what is not asked for or noted again is forgotten. ``path``: None: nothing is kept.
 
-    A file that is missing, or no memo, is an empty one: all in it can be found out again. ``anew``: as if it were.
+    A file that is missing, or no memo, is an empty one: all in it can be found out again. ``again``: as if it were.
     """
 
-    def __init__(self, path: Path | None = None, *, anew: bool = False) -> None:
+    def __init__(self, path: Path | None = None, *, again: bool = False) -> None:
         self.path = path
         self._before: dict[str, Any] = {}
         self._now: dict[str, Any] = {}
         try:
-            found = json.loads(read_bytes(path, MOST_BYTES)) if path and not anew else {}
+            found = json.loads(read_bytes(path, MOST_BYTES)) if path and not again else {}
             self._before = found if isinstance(found, dict) else {}
         except (*DAMAGED, OSError):
             pass
