@@ -167,6 +167,11 @@ def test_long_lists_go_on_on_other_pages(
     for path in pages:
         links = [attributes.get("href") for name, attributes in Tags(path.read_text("utf-8")).found if name == "a"]
         assert len([link for link in links if link and "-runs" in link]) == 2
+    bad = [put(runs, f"bad{number}.txt", "nothing") for number in range(4)]
+    for files in (["rejected-2.html", "rejected.html"], ["rejected.html"]):
+        board(runs, levels, "--site", str(tmp_path / "site"))
+        assert sorted(path.name for path in (tmp_path / "site" / "board").glob("rejected*")) == files
+        bad[0].unlink(missing_ok=True)
 
 
 def test_a_path_has_no_more_points_than_it_needs() -> None:

@@ -149,10 +149,9 @@ class Pages:
         self._site.write(f"{REPLAYS}/{stem}.txt", text)
 
     def finish(self) -> None:
-        """Remove the replays that this memo's earlier pages led to and these do not, and keep the memo."""
+        """Remove what this memo's earlier pages had and these have not, and keep the memo."""
         for name in self._memo.forgotten:
-            if name.startswith(f"{REPLAYS}/"):
-                self._site.remove(name)
+            self._site.remove(name)
         self._memo.save()
 
     def clear(self, below: str) -> None:
