@@ -86,13 +86,13 @@ def splits(
         raise click.UsageError(f"{', '.join(map(str, files))}: no recordings here")
     if bests and bests[0].level_digest not in groups:
         raise click.UsageError(f"{against} is a run of another level")
-    tables = [_table(group, bests) for group in groups.values()]
+    tables = [table_of(group, bests) for group in groups.values()]
     if form == "json":
-        click.echo(json.dumps([_as_json(*table) for table in tables]))
+        click.echo(json.dumps([as_json(*table) for table in tables]))
     elif form == "csv":
         _write_csv(tables)
     else:
-        _show(tables)
+        show(tables)
     if picture:
         drawn = tables[0][0]
         paths = list(zip(titles([run.recording for run in drawn]), (run.positions for run in drawn), strict=True))
@@ -118,7 +118,8 @@ Table = tuple["list[RunSplits]", "list[SplitRow]"]
 """The runs of a level, the best first, and the rows of their splits."""
 
 
-def _table(group: Sequence[RunSplits], given: Sequence[RunSplits]) -> Table:
+def table_of(group: Sequence[RunSplits], given: Sequence[RunSplits]) -> Table:
+    """The table of runs of a level, against the given one of it or else the fastest."""
     from ninja_game.runs.compare import best_run, split_table
 
     best = next((run for run in given if run.level_digest == group[0].level_digest), None) or best_run(group)
@@ -137,7 +138,8 @@ def titles(recordings: Sequence[Recording]) -> list[str]:
     ]
 
 
-def _show(tables: Sequence[Table]) -> None:
+def show(tables: Sequence[Table]) -> None:
+    """Print tables of splits."""
     from rich.console import Console
     from rich.table import Table as RichTable
 
@@ -173,7 +175,7 @@ def _behind(tick: int | None, best: int | None) -> str:
     return f"{tick - best:+d}" if best is not None else str(tick)
 
 
-def _as_json(runs: Sequence[RunSplits], rows: Sequence[SplitRow]) -> dict[str, Any]:
+def as_json(runs: Sequence[RunSplits], rows: Sequence[SplitRow]) -> dict[str, Any]:
     """A table for programs."""
     from ninja_game.runs.compare import sum_of_best
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.budget import RUN_BUDGET, affordable_ticks, over_budget
+from ninja_game.budget import PLAIN_WORK, RUN_BUDGET, affordable_ticks, over_budget, tick_cost
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
@@ -78,14 +78,19 @@ class RunSplits:
         return {split.key: split for split in self.splits}
 
 
-def run_splits(recording: Recording, events: Sequence[str] = SPLIT_EVENTS, budget: int = RUN_BUDGET) -> RunSplits:
-    """Run a recording on the plain memory and note its splits, of these events only.
+def run_splits(
+    recording: Recording, events: Sequence[str] = SPLIT_EVENTS, budget: int = RUN_BUDGET, memory: str = "plain"
+) -> RunSplits:
+    """Run a recording and note its splits, of these events only.
 
+    ``memory``: as of ``Simulation``; "auto" is the plain one where there is little work.
     Raises, naming file and record, LevelError for a level that cannot be played, BudgetError for a run that is not over
     when its ``budget`` of work is.
     """
+    if memory == "auto" and recording.ticks * tick_cost(recording.level) <= PLAIN_WORK:
+        memory = "plain"
     with named_errors(recording):
-        run = Simulation(recording.level, body=recording.body)
+        run = Simulation(recording.level, body=recording.body, memory=memory)
     splits: list[Split] = []
     positions: list[tuple[float, float]] = []
     counts: dict[tuple[str, int | None], int] = {}
