@@ -124,7 +124,7 @@ def _compiled(networks: Networks, settings: PPOSettings) -> tuple[Callable[..., 
         import jax.numpy as jnp
         import optax
     except ModuleNotFoundError as error:
-        raise MissingExtraError("training needs JAX and Optax: python3 -m pip install 'ninja-game[train]'") from error
+        raise MissingExtraError("training needs JAX and Optax, the extra `train` (docs/learning.md)") from error
 
     def network(layers: Any, values: Any) -> Any:
         for weights, biases in layers[:-1]:

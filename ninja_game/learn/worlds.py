@@ -12,34 +12,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.backend.memories import open_worlds
 from ninja_game.batch.batch import Indices, WorldChoice, numbers_of
-from ninja_game.batch.thread_pool import cores, thread_pool
+from ninja_game.batch.thread_pool import thread_count, thread_pool, whole_number
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import Keys
 from ninja_game.learn.draws import LevelSequences
 from ninja_game.learn.goal_distance import GoalDistance
 from ninja_game.learn.kernels import ENDED, EVENTS, PLAYED, RANDOM, TERMINATED, TRUNCATED, WAIT, advance_worlds
 from ninja_game.learn.levels import LevelChoice, Origin, level_source
+from ninja_game.learn.levels.source import nearest
 from ninja_game.learn.observations.observation import Observation, PartLike
 from ninja_game.learn.observations.part import Setting
 from ninja_game.learn.protocol import CHANCES, beginnings
 from ninja_game.learn.rewards import DistanceShaping, RewardLike, reward_terms, weights_of
 from ninja_game.learn.shaping import Shaping
 from ninja_game.sim.digest import world_digest
-from ninja_game.sim.memory.plain import load_plain
+from ninja_game.sim.memory.plain import load_plain, save_plain
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.states import OUTCOME_EXIT
-from ninja_game.simulation import Body, is_box
+from ninja_game.simulation import Body, SaveState, Simulation, is_box
 
 TOGETHER = 512
 """Worlds that are run and then observed before the next ones: so many stay in the processor's cache."""
@@ -54,6 +55,34 @@ class EnvState:
     starts: NDArray[np.float64] = field(repr=False)
     facts: NDArray[np.int64] = field(repr=False)
     owner: tuple[Any, ...] = field(repr=False)
+
+
+class Shown(TypedDict, total=False):
+    """Arguments of ``EnvWorlds``: what is shown and paid, and by which memory."""
+
+    observation: PartLike | Sequence[PartLike]
+    flat: bool
+    reward: RewardLike | Sequence[RewardLike] | None
+    goal_distance: bool
+    memory: str
+
+
+class EnvSettings(Shown, total=False):
+    """Arguments of ``EnvWorlds`` that both Gymnasium classes take."""
+
+    frame_skip: int
+    time_limit: int
+    repeat: float
+    longest_wait: int
+    body: Body
+
+
+def refuse_unknown(settings: Mapping[str, object], *own: str) -> None:
+    """Raise ArgumentError for a name that no argument of an environment has; ``own``: further ones that it has."""
+    known = [*own, *sorted(EnvSettings.__optional_keys__)]
+    for name in settings:
+        if name not in EnvSettings.__optional_keys__:
+            raise ArgumentError(f"an environment has no argument {name!r}; expected such as {nearest(name, known)}")
 
 
 class EnvWorlds:
@@ -102,17 +131,16 @@ class EnvWorlds:
         memory: str = "auto",
         threads: int | None = None,
     ) -> None:
-        at_least = {"worlds": (count, 1), "frame_skip": (frame_skip, 1), "time_limit": (time_limit, 1)}
-        for name, (number, least) in {**at_least, "longest_wait": (longest_wait, 0)}.items():
-            if not isinstance(number, int | np.integer) or number < least:
-                raise ArgumentError(f"{name} is {number!r:.60}; expected a whole number, at least {least}")
+        for name, number in (("worlds", count), ("frame_skip", frame_skip), ("time_limit", time_limit)):
+            whole_number(name, number)
+        whole_number("longest_wait", longest_wait, 0)
         if not isinstance(repeat, int | float) or not 0.0 <= repeat < 1.0:
             raise ArgumentError(f"repeat is {repeat!r:.60}; expected a chance, 0 or more and below 1")
         self.source = level_source(level)
         self.levels = self.source.levels
         self.count, self.body, self.frame_skip, self.time_limit = count, body, frame_skip, time_limit
         self._worlds = open_worlds(memory, self.levels, count, box=is_box(body))
-        self.memory, self.threads = self._worlds.name, threads or cores()
+        self.memory, self.threads = self._worlds.name, thread_count(threads)
         self._changed = np.ones(count, np.bool_)
         fresh = [load_plain(level, is_box(body)) for level in self.levels]
         setting = Setting(self._worlds, fresh, self._changed, time_limit, self.memory == "compiled")
@@ -254,7 +282,7 @@ class EnvWorlds:
         """Put saved states into worlds, the same or others, as many. Raises ArgumentError if they do not fit.
 
         They show the observation of that moment, and no reward and no events. Chance does not go back: which keys are
-        repeated from here on is drawn anew.
+        repeated from here on is drawn again.
         """
         numbers = numbers_of(worlds, self.count, "worlds")
         if state.owner != self._owner() or len(state.levels) != len(numbers):
@@ -264,6 +292,12 @@ class EnvWorlds:
         self._facts[numbers, EVENTS] = 0
         self._look(numbers, state.starts)
         self._conclude()
+
+    def simulation(self, index: int) -> Simulation:
+        """A run on the plain memory that stands where a world does, without its past: to look at it, or to go on."""
+        run = Simulation(self.levels[self.levels_now[index]], body=self.body)
+        run.restore(SaveState(run.level, run.body, run.memory, b"", save_plain(self.world(index))))
+        return run
 
     def world(self, index: int) -> World:
         """One world as plain objects, for looking at it."""
@@ -275,13 +309,6 @@ class EnvWorlds:
 
     def _owner(self) -> tuple[Any, ...]:
         return self.levels, self.body, self.memory, self.time_limit, self.goal is not None
-
-
-def checked_seed(seed: object) -> int:
-    """A seed as Python's own number. Raises ArgumentError for anything but a whole number from 0 on."""
-    if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
-        raise ArgumentError(f"the seed is {seed!r:.60}; expected a whole number from 0 on")
-    return int(seed)
 
 
 def _made_with(settings: dict[str, Any]) -> EnvWorlds:

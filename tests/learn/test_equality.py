@@ -50,16 +50,16 @@ class Singles:
         return answers
 
 
-def same_world(single: tuple[Any, ...], vector: tuple[Any, ...], number: int, names: list[str]) -> bool:
+def same_world(single: tuple[Any, ...], vector: tuple[Any, ...], number: int) -> bool:
     """Whether an answer is that of a world of the vector."""
     seen, reward, terminated, truncated, info = single
-    infos = {name: values[number].item() for name, values in vector[4].items() if name[0] != "_"}
+    infos = {name: values.tolist()[number] for name, values in vector[4].items() if name[0] != "_"}
     told = {
         "outcome": OUTCOME_NAMES[infos["outcome"]],
         "ticks": infos["ticks"],
         "gold": infos["gold"],
         "events": [name for bit, name in enumerate(EVENT_NAMES) if infos["events"] >> bit & 1],
-        "level": names[infos["level"]],
+        "level": infos["level"],
     }
     return (
         all(seen[name].tobytes() == vector[0][name][number].tobytes() for name in PARTS)
@@ -79,18 +79,17 @@ def same_world(single: tuple[Any, ...], vector: tuple[Any, ...], number: int, na
 def test_single_plain_environments_are_the_compiled_vector(
     levels: list[Level], actions: list[tuple[int, ...]], seed: int, frame_skip: int
 ) -> None:
+    seed %= 2**64 - WORLDS
     singles = Singles(levels, seed, frame_skip=frame_skip)
     vector = NinjaVectorEnv(WORLDS, levels, memory=FAST, frame_skip=frame_skip, **EVERYTHING)
     shown: Any = vector.reset(seed=seed)
     for seen, _ in singles.shown:
         assert seen in vector.single_observation_space
-    assert [info["level"] for _, info in singles.shown] == [
-        vector.worlds.source.names[number] for number in shown[1]["level"]
-    ]
+    assert [info["level"] for _, info in singles.shown] == shown[1]["level"].tolist()
     for chosen in actions:
         answer = vector.step(np.array(chosen))
         for number, single in enumerate(singles.step(chosen)):
-            assert same_world(single, answer, number, vector.worlds.source.names)
+            assert same_world(single, answer, number)
 
 
 @pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
