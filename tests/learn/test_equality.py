@@ -111,4 +111,4 @@ def test_the_number_of_threads_changes_no_byte(levels: list[Level], seed: int) -
 def flat(*answer: Any) -> bytes:
     """All bytes of an answer."""
     parts = [value for each in answer for value in (each.values() if isinstance(each, dict) else [each])]
-    return b"".join(np.asarray(part).tobytes() for part in parts)
+    return b"".join(repr(part.tolist()).encode() if part.dtype == object else part.tobytes() for part in parts)
