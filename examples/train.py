@@ -31,8 +31,8 @@ from ninja_game.learn.observations.observation import Observation
 from ninja_game.learn.observations.part import Part
 from ninja_game.learn.observations.surroundings import LocalTiles, Rays
 from ninja_game.learn.observations.vectors import Guide, StateVector
+from ninja_game.learn.protocol import LONGEST_WAIT, REPEAT
 from ninja_game.learn.rewards import DistanceShaping, ExitReward
-from ninja_game.learn.sticky import StickyActions
 from ninja_game.learn.worlds import EnvWorlds
 from ninja_game.sim.states import OUTCOME_EXIT
 
@@ -143,11 +143,11 @@ class Trainer:
         self.settings: dict[str, Any] = {"observation": parts, "flat": True, "frame_skip": 4, "time_limit": 1600}
         shaping = DistanceShaping(5.0, method.discount)
         settings = {**self.settings, "reward": [ExitReward(10.0), shaping]}
-        self.worlds = EnvWorlds(task.source, task.worlds, **settings)
+        self.worlds = EnvWorlds(task.source, task.worlds, repeat=REPEAT, longest_wait=LONGEST_WAIT, **settings)
         self._observed = np.asarray(self.worlds.observations)
         self.starts = Starts(task.source, settings, task.seed, task.searches)
         self._rng = np.random.default_rng([task.seed, 2])
-        self._sticky = StickyActions(task.worlds, [task.seed, 3])
+        self.worlds.reset(seeds=range(task.seed << 32, (task.seed << 32) + task.worlds))
         self._begun, self._limits = np.zeros((2, task.worlds), np.intp)
         self._begin(np.arange(task.worlds))
         inputs = self._observed.shape[1]
@@ -190,7 +190,7 @@ class Trainer:
     def _step(self, actions: NDArray[Any]) -> tuple[Floats, NDArray[np.bool_]]:
         """Play one step; the rewards, and which episodes have ended: new ones have begun in their worlds."""
         worlds = self.worlds
-        worlds.step(DISCRETE_KEYS[self._sticky.played(actions)])
+        worlds.step(DISCRETE_KEYS[actions])
         rewards = worlds.rewards.astype(np.float32)
         late = (worlds.truncated | (worlds.ticks >= self._limits)) & ~worlds.terminated
         if late.any():
@@ -206,11 +206,10 @@ class Trainer:
     def _begin(self, which: NDArray[np.intp]) -> None:
         """New episodes; those that begin in the middle of a run do not wait."""
         self._begun[which] = starts = self.starts.choose(len(which), self._rng)
-        self.starts.put(self.worlds, which, starts)
-        self._limits[which] = self.worlds.ticks[which] + self.starts.limits[starts]
         own = starts < self.starts.levels
-        self._sticky.begin(which[own])
-        self._sticky.begin(which[~own], wait=False)
+        self.worlds.reset(which[own], levels=starts[own])
+        self.starts.put(self.worlds, which[~own], starts[~own])
+        self._limits[which] = self.worlds.ticks[which] + self.starts.limits[starts]
 
     def _measure(self) -> tuple[Floats, Floats]:
         """Means of the observations, and what makes their deviations 1: from a round of random play."""

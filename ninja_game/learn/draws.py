@@ -51,8 +51,12 @@ class LevelSequences:
         self._seeds[worlds] = [seed % 2**64 for seed in seeds]
         self._episodes[worlds] = 0
 
-    def next(self, worlds: Indices, chosen: LevelChoice | None) -> Indices:
-        """The numbers of the levels of the next episodes of these worlds, drawn or ``chosen``; either is an episode."""
+    def next(self, worlds: Indices, chosen: LevelChoice | None) -> tuple[Indices, Draws]:
+        """The numbers of the levels of the next episodes of these worlds, drawn or ``chosen``; either is an episode.
+
+        And of each episode another random number, for what is drawn in it.
+        """
         drawn = draws(self._seeds[worlds], self._episodes[worlds])
         self._episodes[worlds] += np.uint64(1)
-        return self._source.choose(drawn) if chosen is None else self._source.numbers(chosen, len(worlds))
+        levels = self._source.choose(drawn) if chosen is None else self._source.numbers(chosen, len(worlds))
+        return levels, _mix(drawn + _STEP)

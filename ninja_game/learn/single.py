@@ -47,9 +47,9 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
     """One world, an episode from its start to the exit or death (terminated), or to the time limit (truncated).
 
     ``level``, ``observation``, ``flat``, ``reward``, ``frame_skip`` (ticks of a step), ``time_limit`` (ticks),
-    ``body``, ``memory``: as ``EnvWorlds`` takes them. ``actions``: "discrete" or "buttons" (``Actions``).
-    ``render_mode``: "human" (a window that shows every tick at the game's speed), "rgb_array" or "ansi" (text);
-    ``render_size``: px, width and height.
+    ``repeat``, ``longest_wait``, ``body``, ``memory``: as ``EnvWorlds`` takes them. ``actions``: "discrete" or
+    "buttons" (``Actions``). ``render_mode``: "human" (a window that shows every tick at the game's speed),
+    "rgb_array" or "ansi" (text); ``render_size``: px, width and height.
 
     ``info``: ``outcome`` ("running", "exit", "dead"), ``ticks`` and ``gold`` of the episode, ``events`` (the names of
     what happened in the last step, of ``EVENT_NAMES``), ``level`` (its name).
@@ -126,11 +126,10 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
             over = "the episode is over" if self._started else "no episode has begun"
             raise ResetNeeded(f"{over}; call reset() before step()")
         worlds = self.worlds
-        keys = self._actions.keys([action], 1)
-        worlds.step(keys)
-        down, held = int(keys[0]), self._inputs[-1] & JUMP_HELD if self._inputs else 0
+        worlds.step(self._actions.keys([action], 1))
+        down, held = int(worlds.played[0]), self._inputs[-1] & JUMP_HELD if self._inputs else 0
         ticks = int(worlds.ticks[0]) - len(self._inputs)
-        self._inputs += bytes([pressed(down, held)]).ljust(ticks, keys.tobytes())
+        self._inputs += bytes([pressed(down, held)]).ljust(ticks, bytes([down]))
         terminated, truncated = bool(worlds.terminated[0]), bool(worlds.truncated[0])
         self._running = not (terminated or truncated)
         self._show(ticks)

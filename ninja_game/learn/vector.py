@@ -32,11 +32,12 @@ Infos = dict[str, Any]
 class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
     """``num_envs`` worlds that step together in compiled code.
 
-    ``level``, ``observation``, ``flat``, ``reward``, ``frame_skip``, ``time_limit``, ``body``, ``memory``, ``threads``:
-    as ``EnvWorlds`` takes them. ``actions``: "discrete" or "buttons". ``autoreset_mode``: "NextStep" (a world that has
-    ended begins a new episode in the next step, whose action it does not see), "SameStep" (it begins it at once; what
-    was is in ``infos["final_obs"]`` and ``["final_info"]``) or "Disabled" (you reset it, by ``options={"reset_mask":
-    …}``). ``copy``: whether observations are new arrays; else they are one memory that the next call writes again.
+    ``level``, ``observation``, ``flat``, ``reward``, ``frame_skip``, ``time_limit``, ``repeat``, ``longest_wait``,
+    ``body``, ``memory``, ``threads``: as ``EnvWorlds`` takes them. ``actions``: "discrete" or "buttons".
+    ``autoreset_mode``: "NextStep" (a world that has ended begins a new episode in the next step, whose action it does
+    not see), "SameStep" (it begins it at once; what was is in ``infos["final_obs"]`` and ``["final_info"]``) or
+    "Disabled" (you reset it, by ``options={"reset_mask": …}``). ``copy``: whether observations are new arrays; else
+    they are one memory that the next call writes again.
 
     ``reset(seed=s)`` gives world i the seed s + i, ``seed=[…]`` each its own. ``options``: ``"reset_mask"``, the worlds
     to reset; ``"level"``, the name or number of the level to play, or one for each.

@@ -27,11 +27,12 @@ from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import Keys
 from ninja_game.learn.draws import LevelSequences
 from ninja_game.learn.goal_distance import GoalDistance
-from ninja_game.learn.kernels import ENDED, EVENTS, TERMINATED, TRUNCATED, advance_worlds
+from ninja_game.learn.kernels import ENDED, EVENTS, PLAYED, RANDOM, TERMINATED, TRUNCATED, WAIT, advance_worlds
 from ninja_game.learn.levels import LevelChoice, Origin, level_source
 from ninja_game.learn.observations.observation import Observation, PartLike
 from ninja_game.learn.observations.part import Setting
-from ninja_game.learn.rewards import DistanceShaping, RewardTerm, reward_terms, weights_of
+from ninja_game.learn.protocol import CHANCES, beginnings
+from ninja_game.learn.rewards import DistanceShaping, RewardLike, reward_terms, weights_of
 from ninja_game.learn.shaping import Shaping
 from ninja_game.sim.digest import world_digest
 from ninja_game.sim.memory.plain import load_plain
@@ -61,7 +62,9 @@ class EnvWorlds:
     ``level``: where the levels come from, as ``level_source`` takes it. Each world has a seed of its own; which level
     its e-th episode plays depends on that seed and on e alone (and on what the source has learned, if it learns).
     ``observation``, ``flat``: as ``Observation`` takes them. ``reward``: a term or several (`rewards.py`).
-    ``frame_skip``: ticks of a step. ``time_limit``: ticks after which an episode is truncated. ``goal_distance``: make
+    ``frame_skip``: ticks of a step. ``time_limit``: ticks after which an episode is truncated. ``repeat``: the chance
+    that a step plays the keys of the step before once more; ``longest_wait``: steps at most that an episode begins with
+    no key down (`protocol.py`); what is drawn depends on the world's seed and the episode. ``goal_distance``: make
     ``goal`` (``GoalDistance``: how far each world is from the exit) even if no reward and no part needs it. ``body``,
     ``memory``, ``threads``: as of a ``Batch``; neither memory nor threads change a result.
 
@@ -75,10 +78,11 @@ class EnvWorlds:
     outcomes      (n,) int64            0 running, 1 exit, 2 dead
     ticks, gold   (n,) int64            ticks of the episode; pieces collected
     events        (n,) int64            bit k: event k (`sim/events.py`) happened in the last step
+    played        (n,) int64            the keys of the last step
     levels_now    (n,) intp             which of ``levels`` each world plays
     ============  ====================  =======================================================================
 
-    Raises what ``Batch`` raises, and ArgumentError for a frame skip or time limit below 1.
+    Raises what ``Batch`` raises, and ArgumentError for numbers that cannot be.
     """
 
     def __init__(
@@ -88,17 +92,22 @@ class EnvWorlds:
         *,
         observation: PartLike | Sequence[PartLike] = "state",
         flat: bool = False,
-        reward: RewardTerm | Sequence[RewardTerm] | None = None,
+        reward: RewardLike | Sequence[RewardLike] | None = None,
         frame_skip: int = 4,
         time_limit: int = LIFETIME,
+        repeat: float = 0.0,
+        longest_wait: int = 0,
         goal_distance: bool = False,
         body: Body = "circle",
         memory: str = "auto",
         threads: int | None = None,
     ) -> None:
-        for name, number in (("worlds", count), ("frame_skip", frame_skip), ("time_limit", time_limit)):
-            if not isinstance(number, int | np.integer) or number < 1:
-                raise ArgumentError(f"{name} is {number!r:.60}; expected a whole number, at least 1")
+        at_least = {"worlds": (count, 1), "frame_skip": (frame_skip, 1), "time_limit": (time_limit, 1)}
+        for name, (number, least) in {**at_least, "longest_wait": (longest_wait, 0)}.items():
+            if not isinstance(number, int | np.integer) or number < least:
+                raise ArgumentError(f"{name} is {number!r:.60}; expected a whole number, at least {least}")
+        if not isinstance(repeat, int | float) or not 0.0 <= repeat < 1.0:
+            raise ArgumentError(f"repeat is {repeat!r:.60}; expected a chance, 0 or more and below 1")
         self.source = level_source(level)
         self.levels = self.source.levels
         self.count, self.body, self.frame_skip, self.time_limit = count, body, frame_skip, time_limit
@@ -108,7 +117,7 @@ class EnvWorlds:
         fresh = [load_plain(level, is_box(body)) for level in self.levels]
         setting = Setting(self._worlds, fresh, self._changed, time_limit, self.memory == "compiled")
         self.observation = Observation(observation, flat=flat)
-        terms = reward_terms(reward)
+        self.terms = terms = reward_terms(reward)
         shaping = [term for term in terms if isinstance(term, DistanceShaping)]
         self._guided = any(part.needs_goal for part in self.observation.parts)
         wanted = goal_distance or self._guided or shaping
@@ -121,17 +130,21 @@ class EnvWorlds:
         self._levels = LevelSequences(self.source, count)
         self.levels_now: Indices = np.asarray(self._worlds.level_of)
         self.rewards = np.zeros(count)
-        self._facts = np.zeros((5, count), np.int64).T
-        self.outcomes, self.ticks, self.gold, self.events, _ = self._facts.T
+        self._facts = np.zeros((8, count), np.int64).T
+        self.outcomes, self.ticks, self.gold, self.events = self._facts.T[:ENDED]
+        self.played = self._facts[:, PLAYED]
+        self._longest_wait = longest_wait
         self.terminated, self.truncated = np.zeros((2, count), np.bool_)
         weights = setting.table(weights_of(terms), np.float64)
         # What the kernels take, first and last.
         self._places = (self._worlds.maps, self.levels_now, self._worlds.worlds)
-        self._episodes = (frame_skip, time_limit, weights, self.rewards, self._facts, self._changed)
+        chance = int(repeat * CHANCES)
+        self._episodes = (frame_skip, time_limit, chance, weights, self.rewards, self._facts, self._changed)
         self._settings: dict[str, Any] = {
             "level": self.source, "count": count, "observation": self.observation.parts, "flat": flat, "reward": terms,
-            "frame_skip": frame_skip, "time_limit": time_limit, "goal_distance": goal_distance, "body": body,
-            "memory": self.memory, "threads": threads,
+            "frame_skip": frame_skip, "time_limit": time_limit, "repeat": repeat,
+            "longest_wait": longest_wait, "goal_distance": goal_distance, "body": body, "memory": self.memory,
+            "threads": threads,
         }  # fmt: skip
         self.reset()
 
@@ -150,6 +163,8 @@ class EnvWorlds:
 
     def step(self, keys: Keys, restart: Indices | None = None) -> int:
         """One step of every world with its keys, uint8 (n,): sums of ``Input``; the number of ticks run.
+
+        With ``repeat`` or ``longest_wait`` they may be others: ``played``.
 
         ``restart``: worlds that do not step but begin a new episode instead, without a reward.
         """
@@ -212,8 +227,10 @@ class EnvWorlds:
         self._conclude()
 
     def _restart(self, numbers: Indices, levels: LevelChoice | None = None) -> None:
-        self._worlds.load(numbers.tolist(), self._levels.next(numbers, levels).tolist())
+        chosen, drawn = self._levels.next(numbers, levels)
+        self._worlds.load(numbers.tolist(), chosen.tolist())
         self._facts[numbers] = 0
+        self._facts[numbers, WAIT], self._facts[numbers, RANDOM] = beginnings(drawn, self._longest_wait)
         self._look(numbers, None)
 
     def _look(self, numbers: Indices, starts: NDArray[np.float64] | None) -> None:
@@ -236,13 +253,14 @@ class EnvWorlds:
     def restore(self, state: EnvState, worlds: WorldChoice = None) -> None:
         """Put saved states into worlds, the same or others, as many. Raises ArgumentError if they do not fit.
 
-        They show the observation of that moment, and no reward and no events.
+        They show the observation of that moment, and no reward and no events. Chance does not go back: which keys are
+        repeated from here on is drawn anew.
         """
         numbers = numbers_of(worlds, self.count, "worlds")
         if state.owner != self._owner() or len(state.levels) != len(numbers):
             raise ArgumentError(f"{len(state.levels)} saved worlds do not fit {len(numbers)} of these")
         self._worlds.restore_many(state.states, numbers, state.levels)
-        self._facts[numbers] = state.facts
+        self._facts[numbers, :RANDOM] = state.facts[:, :RANDOM]
         self._facts[numbers, EVENTS] = 0
         self._look(numbers, state.starts)
         self._conclude()

@@ -19,7 +19,13 @@ from tests.support.learning import playable_levels
 
 WORLDS = 3
 FAST = "compiled" if compiled_available() else "plain"
-EVERYTHING: dict[str, Any] = {"observation": [*PARTS], "reward": [term() for term in REWARD_TERMS], "time_limit": 50}
+EVERYTHING: dict[str, Any] = {
+    "repeat": 0.25,
+    "longest_wait": 3,
+    "observation": [*PARTS],
+    "reward": [*REWARD_TERMS],
+    "time_limit": 50,
+}
 actions_of_all = st.lists(st.tuples(*[st.integers(0, 5)] * WORLDS), min_size=1, max_size=25)
 
 

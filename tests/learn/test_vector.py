@@ -183,7 +183,7 @@ def test_a_reset_that_does_not_fit_is_refused(call: dict[str, Any]) -> None:
         {"num_envs": 0}, {"level": "no such level"}, {"frame_skip": 0}, {"frame_skip": "4"},
         {"time_limit": 2.5}, {"observation": 3}, {"time_limit": 0}, {"body": "square"},
         {"memory": "fast"}, {"actions": "keys"}, {"observation": "sight"}, {"observation": ["state", "state"]},
-        {"observation": []}, {"reward": "exit"}, {"reward": [1.0]},
+        {"observation": []}, {"reward": "fame"}, {"reward": [1.0]},
     ],
 )  # fmt: skip
 def test_settings_that_there_are_not_are_refused(settings: dict[str, Any]) -> None:

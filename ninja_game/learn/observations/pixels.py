@@ -163,6 +163,18 @@ class Pixels(Part):
         )  # fmt: skip
 
 
+@dataclass(frozen=True)
+class Image(Pixels):
+    """``Pixels`` with one channel, (``height``, ``width``, 1): the shape of pictures as convolutions take them."""
+
+    name: ClassVar[str] = "image"
+
+    @property
+    def box(self) -> Box:
+        flat = super().box
+        return Box(flat.low[..., np.newaxis], flat.high[..., np.newaxis], dtype=flat.dtype.type)
+
+
 def tile_picture(
     setting: Setting, number: int, across: int, down: int, pixel_x: float, pixel_y: float
 ) -> NDArray[np.float64]:
