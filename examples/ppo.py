@@ -102,8 +102,8 @@ class Trainer:
         self.networks = new_networks(inputs, settings.hidden, self._rng)
         self._play, self._update, self._memory = compiled(self.networks, settings)
         self._mean, self._scale = np.zeros(inputs, np.float32), np.ones(inputs, np.float32)
-        self._mean, self._scale = self._measure()
         self.episodes: list[NDArray[np.bool_]] = []
+        self._mean, self._scale = self._measure()
 
     def agent(self, training: dict[str, Any]) -> PolicyAgent:
         return PolicyAgent(self.networks["policy"], self._mean, self._scale, self.made_for, training)

@@ -12,11 +12,10 @@ the run that is known. That run, cut alike, passes every one of them: the world 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from functools import cache, cached_property, lru_cache
+from collections.abc import Sequence
+from functools import cache, lru_cache
 from hashlib import sha256
-from typing import Any, NamedTuple, TypeVar, overload
+from typing import NamedTuple, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,15 +26,13 @@ from ninja_game.editor.specs import carried
 from ninja_game.errors import ArgumentError
 from ninja_game.files.reading import read_bytes
 from ninja_game.files.user_folder import data_folder
-from ninja_game.generator.packed import generated_level
+from ninja_game.generator.packed import MOST_BYTES, PACKED, generated_level
 from ninja_game.learn.draws import draws
 from ninja_game.learn.levels.source import LevelSource
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, KEYS_DOWN, pressed
 from ninja_game.sim.kinds import EXIT, GOLD, KIND_OF, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 from ninja_game.sim.states import SKIDDING
-
-T = TypeVar("T")
 
 COUNTS = {"train": 100_000, "test": 1_000}
 GRADES = {"easy": (30, 88), "medium": (89, 208), "hard": None}
@@ -46,7 +43,8 @@ AWAY = 36.0
 """Px, at least, between a new start and the old one."""
 KEPT = {"easy": 0.0, "medium": 0.3, "hard": 0.6}
 """Of what kills at least this share stays."""
-BASES = 1000
+BASES, LARGEST = 1000, 306
+"""How many levels are varied; one with as many objects as any of them."""
 TRIES = 32
 """The last one takes away only gold, is not mirrored, and begins where the run does: that run passes it."""
 TABLE = "bench.bin"
@@ -162,3 +160,63 @@ def _swapped(keys: int) -> int:
     """Left for right."""
     sides = KEY_LEFT | KEY_RIGHT
     return keys ^ sides if keys & sides in (KEY_LEFT, KEY_RIGHT) else keys
+
+
+class _Levels(Sequence[Level]):
+    """Levels by number, made when they are asked for."""
+
+    def __init__(self, split: str, numbers: range) -> None:
+        self.split, self.numbers = split, numbers
+
+    def __len__(self) -> int:
+        return len(self.numbers)
+
+    @overload
+    def __getitem__(self, place: int) -> Level: ...
+    @overload
+    def __getitem__(self, place: slice) -> list[Level]: ...
+    def __getitem__(self, place: int | slice) -> Level | list[Level]:
+        numbers = self.numbers[place]
+        if isinstance(numbers, range):
+            return [bench_level(self.split, number).level for number in numbers]
+        return bench_level(self.split, numbers).level
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Levels) and vars(self) == vars(other)
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+class BenchSource(LevelSource):
+    """Levels of "train" or "test" by their numbers. None is held."""
+
+    def __init__(self, split: str, numbers: range) -> None:
+        self.levels: _Levels = _Levels(split, numbers)
+        self.names = [f"bench-{split}-{number}" for number in numbers]
+        self.largest = _base(LARGEST, mirrored=False).level
+
+    @property
+    def digest(self) -> str:
+        """Sha256 (hex) of what makes them."""
+        assets = [read_bytes(data_folder("assets") / name, MOST_BYTES) for name in (PACKED, TABLE)]
+        return sha256(repr(self.levels.numbers).encode() + b"".join(assets)).hexdigest()
+
+
+def bench_source(text: str) -> BenchSource:
+    """What follows "bench:" in the name of a source: "train", "test:easy", "train:17", "train:0-999".
+
+    Raises ArgumentError for anything else, FileError where the files of the game are not there.
+    """
+    split, _, which = text.partition(":")
+    first, _, last = which.partition("-")
+    numbers = range(COUNTS.get(split, 0))
+    if which in GRADES:
+        numbers = numbers[list(GRADES).index(which) :: len(GRADES)]
+    elif first.isdecimal() and (last or first).isdecimal():
+        numbers = numbers[int(first) : int(last or first) + 1]
+    elif which:
+        numbers = range(0)
+    if not numbers:
+        expected = "'bench:train' or 'bench:test', and ':easy', ':medium', ':hard' or numbers, as ':0-999'"
+        raise ArgumentError(f"found 'bench:{text:.60}'; expected {expected}")
+    return BenchSource(split, numbers)
