@@ -1,10 +1,12 @@
 """Proximal policy optimisation on levels without end, in one file: what an agent sees of a level, and nothing more.
 
-    python3 -m examples.ppo --level bench:train:easy --steps 10000000 --seed 0 -o agent.npz
+    python3 -m examples.ppo --steps 10000000 --seed 0 -o agent.npz
+    python3 -m examples.ppo --level 00-0-first-steps --steps 1000000 -o first.npz
 
-It learns from the environment that it is measured in, with no demonstrations and without the solver's field. To the
+It learns in the environment that it is measured in, with no demonstrations and without the solver's field. To the
 reward it adds a share of the straight way to the switch and then to the exit, which the observation tells. The same
-seed makes the same agent on the same machine. It needs the extra `train`; an agent in the output file needs NumPy alone.
+seed makes the same agent. The agent so far is always in the output file, so that it may be stopped at any time (Ctrl-C).
+It needs the extra `train`; the agent in the file needs NumPy alone.
 
 Schulman, Wolski, Dhariwal, Radford, Klimov, "Proximal policy optimization algorithms", 2017; advantages by Schulman and
 others, "High-dimensional continuous control using generalized advantage estimation", 2016.
@@ -12,10 +14,9 @@ others, "High-dimensional continuous control using generalized advantage estimat
 
 from __future__ import annotations
 
-import json
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -26,6 +27,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from examples.agents import Floats, PolicyAgent, normalised
+from examples.measure import BENCH, measure
 from ninja_game.errors import MissingExtraError, NinjaGameError
 from ninja_game.learn.actions import ACTION_NAMES
 from ninja_game.learn.observations.objects import OBSERVED_KINDS, NearObjects
@@ -39,12 +41,13 @@ Layers: TypeAlias = "list[tuple[Floats, Floats]]"
 Networks: TypeAlias = "dict[str, Layers]"
 """``policy``: observations to the scores of the actions; ``value``: to the return that is expected."""
 
-BENCH = "ninja_game:NinjaBench-v1"
 SEEN_KINDS = tuple(kind for kind in OBSERVED_KINDS if kind not in {"gold", "exit", "switch"})
 OBSERVATION: tuple[Part, ...] = (StateVector(), LocalTiles(9), Rays(16), NearObjects(8, kinds=SEEN_KINDS))
 """Exit and switch are in the state vector; gold is nothing to this agent."""
 SMALLEST_DEVIATION = 0.02
 """Of an observation; what hardly ever changes would be blown up otherwise."""
+POINTS = 20
+"""Of the curve."""
 OPEN, EXIT_X, EXIT_Y, SWITCH_X, SWITCH_Y = map(
     list(FIELDS).index, ("exit_open", "exit_dx", "exit_dy", "switch_dx", "switch_dy")
 )
@@ -74,15 +77,6 @@ class Settings:
     exit: float = 10.0
     way: float = 5.0
     time_limit: int = 800
-
-
-@dataclass(frozen=True)
-class Progress:
-    """``passed``: the share of the episodes since the last report that reached the exit; ``seconds``: by the clock."""
-
-    steps: int
-    seconds: float
-    passed: float
 
 
 class Trainer:
@@ -261,3 +255,61 @@ def compiled(networks: Networks, settings: Settings) -> tuple[Callable[..., Any]
         return optax.apply_updates(nets, jax.tree_util.tree_map(lambda change: rate * change, changes)), memory
 
     return jax.jit(play), jax.jit(update), optimiser.init(networks)
+
+
+def train(
+    level: Any, steps: int, seed: int = 0, *, watch: str = "", settings: Settings = Settings(),
+    report: Callable[[PolicyAgent], None] = lambda agent: None,
+) -> PolicyAgent:  # fmt: skip
+    """Train an agent; ``report`` is given it at each point of the curve, the last one too.
+
+    Its ``training`` tells ``level``, ``seed``, ``settings``, and of each point of the ``curve`` steps, seconds by the
+    clock and of the processor, the share of its training episodes since the point before that passed, and that of the
+    levels ``watch``, which it does not learn in (NaN without). Raises MissingExtraError without JAX and Optax.
+    """
+    trainer, curve = Trainer(level, steps, seed, settings), []
+    began, used = time.monotonic(), time.process_time()
+    about = {"level": str(level), "seed": seed, "settings": asdict(settings), "watch": watch, "curve": curve}
+    while True:
+        trainer.improve()
+        if trainer.steps * POINTS < steps * (len(curve) + 1) and trainer.steps < steps:
+            continue
+        times = [round(time.monotonic() - began, 1), round(time.process_time() - used, 1)]
+        episodes = np.concatenate(trainer.episodes or [np.zeros(1, np.bool_)])
+        trainer.episodes.clear()
+        agent = trainer.agent(about)
+        seen = measure(agent, watch)["passed"].mean() if watch else float("nan")
+        curve.append([trainer.steps, *times, round(float(episodes.mean()), 4), round(float(seen), 4)])
+        report(agent)
+        if trainer.steps >= steps:
+            return agent
+
+
+@click.command(help=__doc__.replace("\n    python3", "\n\b\n    python3", 1))
+@click.option("--level", default="bench:train:easy", show_default=True, help="As of an environment: where it learns.")
+@click.option("--watch", default="", metavar="LEVELS", help="Levels that the curve tells too, such as bench:test:easy.")
+@click.option("--steps", type=click.IntRange(1), default=10_000_000, show_default=True, help="Of all worlds together.")
+@click.option("--seed", type=click.IntRange(0, 999), default=0, show_default=True)
+@click.option("--output", "-o", default="agent.npz", show_default=True, type=click.Path(dir_okay=False, path_type=Path))
+def main(level: str, watch: str, steps: int, seed: int, output: Path) -> None:
+    if output.exists():
+        raise click.UsageError(f"{output} exists; name another file with -o, or remove it")
+
+    def report(agent: PolicyAgent) -> None:
+        agent.save(output)
+        done, seconds, _, passed, seen = agent.training["curve"][-1]
+        others = f", {seen:.1%} of {watch}" if watch else ""
+        click.echo(f"{done / 1e6:.1f}M steps, {seconds:.0f} s: {passed:.1%} of the episodes passed{others}", err=True)
+
+    try:
+        train(level, steps, seed, watch=watch, report=report)
+    except KeyboardInterrupt:
+        click.echo("stopped", err=True)
+        sys.exit(130)
+    except (NinjaGameError, OSError) as error:
+        raise click.ClickException(str(error)) from error
+    click.echo(f"{output}: an agent, after {steps / 1e6:.1f}M steps")
+
+
+if __name__ == "__main__":
+    main()

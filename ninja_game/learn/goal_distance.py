@@ -89,8 +89,8 @@ class GoalDistance:
                 self._free = [row for row in range(len(self.fields)) if row not in used]
                 self._row_of = {known: row for known, row in self._row_of.items() if row in used}
             self._row_of[key] = row = self._free.pop()
-            n = self._setting.fresh[level][1].ninja
-            np.minimum(self._heuristics(level).field(state, n.x, n.y), np.float32(FARTHEST), out=self.fields[row])
+            start = self._setting.fresh[level].start
+            np.minimum(self._heuristics(level).field(state, *start), np.float32(FARTHEST), out=self.fields[row])
         return self._row_of[key]
 
 

@@ -29,14 +29,13 @@ from ninja_game.learn.draws import LevelSequences
 from ninja_game.learn.goal_distance import GoalDistance
 from ninja_game.learn.kernels import ENDED, EVENTS, PLAYED, RANDOM, TERMINATED, TRUNCATED, WAIT, advance_worlds
 from ninja_game.learn.levels import LevelChoice, Origin, level_source
-from ninja_game.learn.levels.places import put_levels
+from ninja_game.learn.levels.places import new_levels, put_levels
 from ninja_game.learn.observations.observation import Observation, PartLike
 from ninja_game.learn.observations.part import Setting
 from ninja_game.learn.protocol import CHANCES, beginnings
 from ninja_game.learn.rewards import DistanceShaping, RewardLike, reward_terms, weights_of
 from ninja_game.learn.shaping import Shaping
 from ninja_game.sim.digest import world_digest
-from ninja_game.sim.memory.plain import load_plain
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.states import OUTCOME_EXIT
@@ -118,9 +117,7 @@ class EnvWorlds:
         self._worlds = open_worlds(memory, loaded, count, box=is_box(body))
         self.memory, self.threads = self._worlds.name, threads or cores()
         self._changed = np.ones(count, np.bool_)
-        fresh = [load_plain(loaded[0], is_box(body))] * count
-        if not self._endless:
-            fresh = [load_plain(level, is_box(body)) for level in loaded]
+        fresh = new_levels(self._worlds, range(len(loaded)))
         room = self._worlds.slots * self._endless
         setting = Setting(self._worlds, fresh, self._changed, time_limit, self.memory == "compiled", room=room)
         self.observation = Observation(observation, flat=flat)
@@ -250,7 +247,8 @@ class EnvWorlds:
     def _enter(self, numbers: Indices, chosen: Indices) -> None:
         """Start worlds of levels without end, of which each has a place for the one that it plays."""
         levels = [self.levels[number] for number in chosen.tolist()]
-        for index, fresh in zip(numbers.tolist(), put_levels(self._worlds, numbers, levels), strict=True):
+        put_levels(self._worlds, numbers, levels)
+        for index, fresh in zip(numbers.tolist(), new_levels(self._worlds, numbers.tolist()), strict=True):
             self._setting.fresh[index] = fresh
             self._setting.renew(index)
         self.levels_now[numbers] = chosen

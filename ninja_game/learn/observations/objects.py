@@ -158,7 +158,7 @@ class NearObjects(Part):
         return (
             self.count,
             *(setting.table(values, np.float64) for values in (1.0 / divisors, low, high)),
-            *setting.rows(lambda number: [(o.slot, columns[o.kind]) for _, o in setting.objects(number, *columns)], 2),
+            *setting.rows(lambda number: [(o.slot, columns[o.kind]) for o in setting.objects(number, *columns)], 2),
             *(setting.table(values, np.float64) for values in room),
         )
 
@@ -248,7 +248,7 @@ class LevelPlanes(Part):
         planes = {kind.number: 1 + place for place, kind in enumerate(OBSERVED)}
         return (
             setting.values(shades, values),
-            *setting.rows(lambda number: [(o.slot, planes[o.kind]) for _, o in setting.objects(number, *planes)], 2),
+            *setting.rows(lambda number: [(o.slot, planes[o.kind]) for o in setting.objects(number, *planes)], 2),
             HIGHEST * factor,
             CLOSED_EXIT * factor,
         )

@@ -11,10 +11,9 @@ import numpy as np
 from gymnasium.spaces import Box
 from numpy.typing import NDArray
 
+from ninja_game.learn.levels.places import NewLevel, NewObject
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.interface import Kernel, R, Worlds
-from ninja_game.sim.memory.object_fields import Object
-from ninja_game.sim.memory.schema import TileMap, World
 
 Array = NDArray[Any]
 
@@ -23,14 +22,14 @@ Array = NDArray[Any]
 class Setting:
     """What a part may know of the worlds when it makes its tables.
 
-    ``worlds``: they themselves, not loaded yet; ``fresh``: of each level its map and a new world, as plain objects.
+    ``worlds``: they themselves, not loaded yet; ``fresh``: each level as it begins.
     ``changed`` (worlds): whether gold or exits may be others than at the last observation. ``time_limit``: ticks of an
     episode. ``compiled``: whether kernels run compiled. ``goal``: their ``GoalDistance``, for parts that ask for one.
     ``room``: of how many objects another level may be that is put in the place of one; 0: none ever is.
     """
 
     worlds: Worlds
-    fresh: list[tuple[TileMap, World]]
+    fresh: list[NewLevel]
     changed: NDArray[np.bool_]
     time_limit: int
     compiled: bool
@@ -51,10 +50,9 @@ class Setting:
     def count(self) -> int:
         return len(self.changed)
 
-    def objects(self, number: int, *kinds: int) -> list[tuple[World, Object]]:
-        """The new world of a level with each of the objects of these kinds, in the order of their slots."""
-        _, w = self.fresh[number]
-        return [(w, o) for o in w.objects[1:] if o.kind in kinds]
+    def objects(self, number: int, *kinds: int) -> list[NewObject]:
+        """The objects of a level of these kinds, in the order of their slots."""
+        return [o for o in self.fresh[number].objects[1:] if o.kind in kinds]
 
     def table(self, values: Any, dtype: Any) -> Any:
         """A table for kernels: an array, or for the plain memory, which reads those slowly, a list."""

@@ -154,7 +154,7 @@ class Pixels(Part):
 
         def objects(number: int) -> list[tuple[float, ...]]:
             found = setting.objects(number, *SHADES)
-            return [(o.slot, *sizes[o.kind], SHADES[o.kind] * factor) for _, o in found]
+            return [(o.slot, *sizes[o.kind], SHADES[o.kind] * factor) for o in found]
 
         sizes = {kind.number: (kind.disc or kind.box or PLAIN_SIZE, kind.box is not None) for kind in OBSERVED}
         return (

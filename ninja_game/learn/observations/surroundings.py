@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
 from math import cos, pi, sin
 from typing import Any, ClassVar
 
@@ -44,27 +43,34 @@ def mark_solid(maps: Any, number: int, wide: float, high: float, points: Any) ->
                 points[row, column] = 1
 
 
+_DISTANCES: dict[tuple[tuple[int, ...], float], NDArray[np.float64]] = {}
+MOST_DISTANCES = 4096
+"""Levels whose distances are kept, by their tiles, which many levels share."""
+
+
 def surface_distances(setting: Setting, number: int, reach: float) -> NDArray[np.float64]:
     """Of every cell (25, 33) how far its centre is from the nearest surface, px, at most ``reach``; within below 0.
 
     What is outside the world counts as solid.
     """
+    key = tuple(setting.fresh[number].tiles), reach
+    if key not in _DISTANCES:
+        if len(_DISTANCES) >= MOST_DISTANCES:
+            _DISTANCES.clear()
+        _DISTANCES[key] = _measured_distances(setting, number, reach)
+    return _DISTANCES[key]
+
+
+def _measured_distances(setting: Setting, number: int, reach: float) -> NDArray[np.float64]:
+    """Of each row of points near a cell the nearest one, and of these the nearest."""
     spacing = WORLD_WIDTH / GRID_COLUMNS / FINE
     margin = int(reach / spacing)
-    points = np.pad(solidity(setting, number, GRID_COLUMNS * FINE, GRID_ROWS * FINE), margin, constant_values=1)
-    return _distances(points.tobytes(), solidity(setting, number, GRID_COLUMNS, GRID_ROWS).tobytes(), margin, reach)
-
-
-@lru_cache(maxsize=4096)
-def _distances(points: bytes, centres: bytes, margin: int, reach: float) -> NDArray[np.float64]:
-    """Kept, since many levels have the same tiles: of each row of points near a cell the nearest, of these the nearest."""
-    spacing = WORLD_WIDTH / GRID_COLUMNS / FINE
-    solid = np.frombuffer(points, np.bool_).reshape(GRID_ROWS * FINE + 2 * margin, -1)
-    within = np.frombuffer(centres, np.bool_).reshape(GRID_ROWS, GRID_COLUMNS)
+    solid = np.pad(solidity(setting, number, GRID_COLUMNS * FINE, GRID_ROWS * FINE), margin, constant_values=1)
+    within = solidity(setting, number, GRID_COLUMNS, GRID_ROWS) == 1
     squares = ((np.arange(2 * margin) - margin + 0.5) * spacing) ** 2
     shares = sliding_window_view(solid, 2 * margin, axis=1)[:, FINE // 2 :: FINE][:, :GRID_COLUMNS]
     found = []
-    for wanted in (True, False):
+    for wanted in (1, 0):
         along = np.where(shares == wanted, squares, np.inf).min(axis=2)
         rows = sliding_window_view(along, 2 * margin, axis=0)[FINE // 2 :: FINE][:GRID_ROWS]
         found.append(np.sqrt((rows + squares).min(axis=2)))
@@ -120,7 +126,7 @@ class LocalTiles(Part):
 
         def picture(number: int) -> NDArray[Any]:
             if self.form == "one-hot":
-                tiles = np.reshape(setting.fresh[number][0].tiles, (-1, STRIDE))
+                tiles = np.reshape(setting.fresh[number].tiles, (-1, STRIDE))
                 return np.pad(tiles[1 : GRID_ROWS + 1, 1 : GRID_COLUMNS + 1], margin, constant_values=FULL_TILE)
             return np.pad(surface_distances(setting, number, REACH), margin, constant_values=-REACH) / unit
 

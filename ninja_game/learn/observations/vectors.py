@@ -10,6 +10,7 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from ninja_game.learn.goal_distance import point_within
+from ninja_game.learn.levels.places import NewLevel
 from ninja_game.learn.observations.part import Part, Setting, clamp
 from ninja_game.search.heuristics import FARTHEST
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
@@ -95,18 +96,17 @@ class StateVector(Part):
         factors = [1.0 / scale if self.normalised else 1.0 for _, _, scale in FIELDS.values()]
         return (
             *(setting.table(values, np.float64) for values in (factors, box.low, box.high)),
-            *setting.rows(lambda number: [exit_row(w, o.slot) for w, o in setting.objects(number, EXIT)], 5),
-            *setting.rows(lambda number: [(o.slot, o.x, o.y) for _, o in setting.objects(number, GOLD)], 3),
+            *setting.rows(lambda number: exit_rows(setting.fresh[number]), 5),
+            *setting.rows(lambda number: [(o.slot, o.x, o.y) for o in setting.objects(number, GOLD)], 3),
             setting.changed,
             *(setting.table([0] * setting.count, np.int64) for _ in range(2)),
         )
 
 
-def exit_row(w: World, slot: int) -> tuple[float, ...]:
-    """Slot and place of an exit, place of its switch."""
-    o = w.objects[slot]
-    switch = w.objects[o.partner]
-    return slot, o.x, o.y, switch.x, switch.y
+def exit_rows(level: NewLevel) -> list[tuple[float, ...]]:
+    """Slot and place of each exit, place of its switch."""
+    exits = [o for o in level.objects[1:] if o.kind == EXIT]
+    return [(o.slot, o.x, o.y, level.objects[o.partner].x, level.objects[o.partner].y) for o in exits]
 
 
 @entry_point
