@@ -29,6 +29,7 @@ from ninja_game.learn.draws import LevelSequences
 from ninja_game.learn.goal_distance import GoalDistance
 from ninja_game.learn.kernels import ENDED, EVENTS, PLAYED, RANDOM, TERMINATED, TRUNCATED, WAIT, advance_worlds
 from ninja_game.learn.levels import LevelChoice, Origin, level_source
+from ninja_game.learn.levels.places import new_levels, put_levels
 from ninja_game.learn.levels.source import nearest
 from ninja_game.learn.observations.observation import Observation, PartLike
 from ninja_game.learn.observations.part import Setting
@@ -36,12 +37,13 @@ from ninja_game.learn.protocol import CHANCES, beginnings
 from ninja_game.learn.rewards import DistanceShaping, RewardLike, reward_terms, weights_of
 from ninja_game.learn.shaping import Shaping
 from ninja_game.sim.digest import world_digest
-from ninja_game.sim.memory.plain import load_plain, save_plain
+from ninja_game.sim.memory.plain import save_plain
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.states import OUTCOME_EXIT
 from ninja_game.simulation import Body, SaveState, Simulation, is_box
 
+NO_LEVEL = -1
 TOGETHER = 512
 """Worlds that are run and then observed before the next ones: so many stay in the processor's cache."""
 
@@ -139,24 +141,31 @@ class EnvWorlds:
         self.source = level_source(level)
         self.levels = self.source.levels
         self.count, self.body, self.frame_skip, self.time_limit = count, body, frame_skip, time_limit
-        self._worlds = open_worlds(memory, self.levels, count, box=is_box(body))
+        self._endless = self.source.largest is not None
+        loaded = self.levels if self.source.largest is None else [self.source.largest] * count
+        self._worlds = open_worlds(memory, loaded, count, box=is_box(body))
         self.memory, self.threads = self._worlds.name, thread_count(threads)
         self._changed = np.ones(count, np.bool_)
-        fresh = [load_plain(level, is_box(body)) for level in self.levels]
-        setting = Setting(self._worlds, fresh, self._changed, time_limit, self.memory == "compiled")
+        fresh = new_levels(self._worlds, range(len(loaded)))
+        room = self._worlds.slots * self._endless
+        setting = Setting(self._worlds, fresh, self._changed, time_limit, self.memory == "compiled", room=room)
         self.observation = Observation(observation, flat=flat)
         self.terms = terms = reward_terms(reward)
         shaping = [term for term in terms if isinstance(term, DistanceShaping)]
         self._guided = any(part.needs_goal for part in self.observation.parts)
         wanted = goal_distance or self._guided or shaping
+        if wanted and self._endless:
+            raise ArgumentError("the solver's field is not made for levels without end; take others, such as 'packed'")
         self.goal = GoalDistance(self.levels, setting) if wanted else None
         self._shaping = Shaping(shaping, self.goal) if self.goal and shaping else None
         self.observations = self.observation.memory(count)
-        self._writers = self.observation.writers(self.observations, replace(setting, goal=self.goal))
+        self._setting = replace(setting, goal=self.goal)
+        self._writers = self.observation.writers(self.observations, self._setting)
         self._advance = self._worlds.kernel(advance_worlds)
         self._everyone: Indices = np.arange(count, dtype=np.intp)
         self._levels = LevelSequences(self.source, count)
-        self.levels_now: Indices = np.asarray(self._worlds.level_of)
+        level_of: Indices = np.asarray(self._worlds.level_of)
+        self.levels_now: Indices = np.full(count, NO_LEVEL) if self._endless else level_of
         self.rewards = np.zeros(count)
         self._facts = np.zeros((8, count), np.int64).T
         self.outcomes, self.ticks, self.gold, self.events = self._facts.T[:ENDED]
@@ -165,7 +174,7 @@ class EnvWorlds:
         self.terminated, self.truncated = np.zeros((2, count), np.bool_)
         weights = setting.table(weights_of(terms), np.float64)
         # What the kernels take, first and last.
-        self._places = (self._worlds.maps, self.levels_now, self._worlds.worlds)
+        self._places = (self._worlds.maps, level_of, self._worlds.worlds)
         chance = int(repeat * CHANCES)
         self._episodes = (frame_skip, time_limit, chance, weights, self.rewards, self._facts, self._changed)
         self._settings: dict[str, Any] = {
@@ -256,10 +265,22 @@ class EnvWorlds:
 
     def _restart(self, numbers: Indices, levels: LevelChoice | None = None) -> None:
         chosen, drawn = self._levels.next(numbers, levels)
-        self._worlds.load(numbers.tolist(), chosen.tolist())
+        if self._endless:
+            self._enter(numbers, chosen)
+        else:
+            self._worlds.load(numbers.tolist(), chosen.tolist())
         self._facts[numbers] = 0
         self._facts[numbers, WAIT], self._facts[numbers, RANDOM] = beginnings(drawn, self._longest_wait)
         self._look(numbers, None)
+
+    def _enter(self, numbers: Indices, chosen: Indices) -> None:
+        """Start worlds of levels without end, of which each has a place for the one that it plays."""
+        levels = [self.levels[number] for number in chosen.tolist()]
+        put_levels(self._worlds, numbers, levels)
+        for index, fresh in zip(numbers.tolist(), new_levels(self._worlds, numbers.tolist()), strict=True):
+            self._setting.fresh[index] = fresh
+            self._setting.renew(index)
+        self.levels_now[numbers] = chosen
 
     def _look(self, numbers: Indices, starts: NDArray[np.float64] | None) -> None:
         """After a restart or restore: measure again, no reward. ``starts``: of their episodes, None: here."""
@@ -287,7 +308,9 @@ class EnvWorlds:
         numbers = numbers_of(worlds, self.count, "worlds")
         if state.owner != self._owner() or len(state.levels) != len(numbers):
             raise ArgumentError(f"{len(state.levels)} saved worlds do not fit {len(numbers)} of these")
-        self._worlds.restore_many(state.states, numbers, state.levels)
+        if self._endless:
+            self._enter(numbers, state.levels)
+        self._worlds.restore_many(state.states, numbers, numbers if self._endless else state.levels)
         self._facts[numbers, :RANDOM] = state.facts[:, :RANDOM]
         self._facts[numbers, EVENTS] = 0
         self._look(numbers, state.starts)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.observations.objects import OBSERVED, activity_of, contact_place_of, is_there
-from ninja_game.learn.observations.part import Part, Ragged, Setting, clamp
+from ninja_game.learn.observations.part import Part, Setting, clamp
 from ninja_game.learn.observations.surroundings import solidity
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, UNIT_X, UNIT_Y
@@ -147,19 +147,21 @@ class Pixels(Part):
         across, down = ceil(WORLD_WIDTH / pixel_x - 1e-9), ceil(WORLD_HEIGHT / pixel_y - 1e-9)
         margins = [(side, side) if self.view else (0, 0) for side in (self.height, self.width)]
         factor = 1.0 / 255.0 if self.normalised else 1.0
-        pictures = [
-            np.pad(tile_picture(setting, number, across, down, pixel_x, pixel_y), margins, constant_values=1.0)
-            for number in range(len(setting.fresh))
-        ]
+
+        def picture(number: int) -> NDArray[np.float64]:
+            tiles = tile_picture(setting, number, across, down, pixel_x, pixel_y)
+            return np.rint(np.pad(tiles, margins, constant_values=1.0) * SOLID_SHADE) * factor
+
+        def objects(number: int) -> list[tuple[float, ...]]:
+            found = setting.objects(number, *SHADES)
+            return [(o.slot, *sizes[o.kind], SHADES[o.kind] * factor) for o in found]
+
         sizes = {kind.number: (kind.disc or kind.box or PLAIN_SIZE, kind.box is not None) for kind in OBSERVED}
-        objects = [
-            [(o.slot, *sizes[o.kind], SHADES[o.kind] * factor) for _, o in found] for found in setting.objects(*SHADES)
-        ]
         return (
-            setting.table(np.rint(np.array(pictures).ravel() * SOLID_SHADE) * factor, np.float32),
+            setting.values(picture, np.float32),
             across + 2 * margins[1][0], down + 2 * margins[0][0], self.width, self.height, int(self.view is not None),
             pixel_x, pixel_y, NINJA_SHADE * factor, int(not self.normalised),
-            *Ragged(objects).columns(setting, 4),
+            *setting.rows(objects, 4),
         )  # fmt: skip
 
 
@@ -192,7 +194,7 @@ def observe_pixels(
     maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
     pictures: Any, across: int, down: int, width: int, height: int, follows: int,
     pixel_x: float, pixel_y: float, ninja_shade: float, whole: int,
-    starts: Any, slots: Any, sizes: Any, boxes: Any, shades: Any,
+    bounds: Any, slots: Any, sizes: Any, boxes: Any, shades: Any,
 ) -> None:  # fmt: skip
     """Draw the pictures of some worlds: the tiles, copied; the objects; the ninja. With a view, whole pixels move."""
     for k in range(first, last):
@@ -217,7 +219,7 @@ def observe_pixels(
                 out[index, at + j] = pictures[start + j]
             at += width
         frame = (width, height, left, top, pixel_x, pixel_y)
-        for number in range(starts[level], starts[level + 1]):
+        for number in range(bounds[2 * level], bounds[2 * level + 1]):
             o = w.objects[int(slots[number])]
             if is_there(w, o):
                 box = boxes[number] == 1.0
