@@ -64,7 +64,7 @@ def test_a_variation_takes_away_gold_and_killers_and_adds_nothing() -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "count", "first"),
+    "words,count,first",
     [
         ("bench:train", 100_000, "bench-train-0"),
         ("bench:test", 1000, "bench-test-0"),
