@@ -5,6 +5,7 @@ from __future__ import annotations
 import pickle
 from copy import deepcopy
 from hashlib import sha256
+from typing import Any
 
 import numpy as np
 import pytest
@@ -21,6 +22,7 @@ from ninja_game.sim.loader import record_table
 from tools.bench_levels import passes
 
 FAST = "compiled" if compiled_available() else "plain"
+HOW: dict[str, Any] = {"repeat": 0.25, "longest_wait": 3, "time_limit": 100}
 SEEN = ["state", "tiles", "rays", "objects", "planes", "pixels"]
 
 
@@ -118,7 +120,7 @@ class Held(LevelSource):
 def test_drawn_levels_are_played_as_held_ones(memory: str) -> None:
     count, steps = {"plain": (3, 40), "compiled": (20, 120)}[memory]
     source = level_source("bench:train")
-    worlds = EnvWorlds(source, count, observation=SEEN, memory=memory, repeat=0.25, longest_wait=3)
+    worlds = EnvWorlds(source, count, observation=SEEN, memory=memory, **HOW)
     worlds.reset(seeds=range(count))
     actions = np.random.default_rng(0).choice([0, 1, 2, 4, 5, 6], size=(steps, count)).astype(np.uint8)
     played = []
@@ -129,7 +131,7 @@ def test_drawn_levels_are_played_as_held_ones(memory: str) -> None:
         played.append((worlds.levels_now.tolist(), [shown[name].copy() for name in SEEN], worlds.ticks.tolist()))
     numbers = sorted({number for levels, _, _ in played for number in levels})
     assert len(numbers) > count
-    held = EnvWorlds(Held(source, numbers), count, observation=SEEN, memory=FAST, repeat=0.25, longest_wait=3)
+    held = EnvWorlds(Held(source, numbers), count, observation=SEEN, memory=FAST, **HOW)
     held.reset(seeds=range(count))
     for row, (levels, seen, ticks) in zip(actions, played, strict=True):
         held.step(row, held.ended())
