@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ninja_game.learn.protocol import next_random
-from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN
+from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, MINE_EXPLODED
 from ninja_game.sim.inputs import pressed
 from ninja_game.sim.memory.declare import entry_point
 from ninja_game.sim.memory.schema import MAX_EVENTS
@@ -18,6 +18,8 @@ OUTCOME, TICKS, GOLD, EVENTS, ENDED, PLAYED, WAIT, RANDOM = range(8)
 """Columns of what is told of each world; the last three are the keys of its last step, and of `protocol.py`."""
 TERMINATED, TRUNCATED = 1, 2
 """How an episode has ended; 0: it goes on."""
+CHANGES = (1 << GOLD_TAKEN) | (1 << MINE_EXPLODED) | (1 << EXIT_OPENED)
+"""Events after which objects that stay where they are look another way."""
 
 
 @entry_point
@@ -43,7 +45,7 @@ def advance_worlds(
     where it is held and was not in the tick before. ``repeat`` of CHANCES: how often it plays the keys of the step
     before; while it waits, none. ``weights`` (PAID_EXIT to PAID_TICK): what each is worth;
     ``rewards`` (worlds) receives the sum. ``facts`` (worlds x OUTCOME to RANDOM): EVENTS are those of all ticks, as
-    bits. ``changed`` (worlds): whether gold was taken or an exit opened; also set where the list of events was full.
+    bits. ``changed`` (worlds): whether one of CHANGES happened; also set where the list of events was full.
     """
     total = 0
     for k in range(first, last):
@@ -83,6 +85,6 @@ def advance_worlds(
         facts[index, GOLD] = w.gold
         facts[index, EVENTS] = seen
         facts[index, ENDED] = TERMINATED if w.outcome else TRUNCATED if w.tick >= time_limit else 0
-        changed[index] = crowded or (seen >> GOLD_TAKEN) & 1 or (seen >> EXIT_OPENED) & 1
+        changed[index] = crowded or (seen & CHANGES) != 0
         total += ticks
     return total

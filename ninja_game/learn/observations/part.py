@@ -23,7 +23,7 @@ class Setting:
     """What a part may know of the worlds when it makes its tables.
 
     ``worlds``: they themselves, not loaded yet; ``fresh``: each level as it begins.
-    ``changed`` (worlds): whether gold or exits may be others than at the last observation. ``time_limit``: ticks of an
+    ``changed`` (worlds): whether gold, mines or exits may be others than at the last observation. ``time_limit``: ticks of an
     episode. ``compiled``: whether kernels run compiled. ``goal``: their ``GoalDistance``, for parts that ask for one.
     ``room``: of how many objects another level may be that is put in the place of one; 0: none ever is.
     """
@@ -145,3 +145,10 @@ def clamp(value: float, low: float, high: float) -> float:
     if value != value:
         return 0.0
     return value
+
+
+@fast
+def copy_values(target: Any, source: Any, count: int) -> None:
+    """Copy so many values; compiled, from row to row, this is a copy of memory."""
+    for k in range(count):
+        target[k] = source[k]

@@ -13,7 +13,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
-from ninja_game.learn.observations.part import Part, Setting, clamp
+from ninja_game.learn.observations.part import Part, Setting, clamp, copy_values
 from ninja_game.sim.collision.rays import cast, solid_at
 from ninja_game.sim.collision.tiles import FULL, SHAPE
 from ninja_game.sim.kinds import DOOR
@@ -143,12 +143,9 @@ def observe_distances(
         index = which[k]
         n = worlds[index].ninja
         start = level_of[index] * width * height + corner(n.x, n.y, width)
-        at = offset
-        for _ in range(size):
-            for column in range(size):
-                out[index, at + column] = pictures[start + column]
-            start += width
-            at += size
+        for row in range(size):
+            at = offset + row * size
+            copy_values(out[index, at : at + size], pictures[start + row * width : start + row * width + size], size)
 
 
 @entry_point
