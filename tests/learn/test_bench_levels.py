@@ -154,10 +154,10 @@ def test_copies_and_saved_moments_of_drawn_levels_go_on_alike() -> None:
         for each in (worlds, *copies):
             each.step(keys, each.ended())
     for each in copies:
-        assert (each.observations == np.asarray(worlds.observations)).all()
+        assert np.array_equal(np.asarray(each.observations), np.asarray(worlds.observations))
         assert each.levels_now.tolist() == worlds.levels_now.tolist()
     worlds.restore(moment)
-    assert (worlds.observations == then).all()
+    assert np.array_equal(np.asarray(worlds.observations), then)
     with pytest.raises(ArgumentError, match="do not fit"):
         EnvWorlds("bench:test:hard", 4, memory=FAST).restore(moment)
 
