@@ -5,8 +5,8 @@
 
 It learns in the environment that it is measured in, with no demonstrations and without the solver's field. To the
 reward it adds a share of the straight way to the switch and then to the exit, which the observation tells. The same
-seed makes the same agent. The agent so far is always in the output file, so that it may be stopped at any time (Ctrl-C).
-It needs the extra `train`; the agent in the file needs NumPy alone.
+seed makes the same agent. What it has learned so far is always in the output file, so that it may be stopped at any
+time (Ctrl-C). It needs the extra `train`; the agent in the file needs NumPy alone.
 
 Schulman, Wolski, Dhariwal, Radford, Klimov, "Proximal policy optimization algorithms", 2017; advantages by Schulman and
 others, "High-dimensional continuous control using generalized advantage estimation", 2016.
@@ -259,7 +259,7 @@ def compiled(networks: Networks, settings: Settings) -> tuple[Callable[..., Any]
 
 def train(
     level: Any, steps: int, seed: int = 0, *, watch: str = "", settings: Settings = Settings(),
-    report: Callable[[PolicyAgent], None] = lambda agent: None,
+    report: Callable[[PolicyAgent], object] = bool,
 ) -> PolicyAgent:  # fmt: skip
     """Train an agent; ``report`` is given it at each point of the curve, the last one too.
 
@@ -267,7 +267,8 @@ def train(
     clock and of the processor, the share of its training episodes since the point before that passed, and that of the
     levels ``watch``, which it does not learn in (NaN without). Raises MissingExtraError without JAX and Optax.
     """
-    trainer, curve = Trainer(level, steps, seed, settings), []
+    trainer = Trainer(level, steps, seed, settings)
+    curve: list[list[float]] = []
     began, used = time.monotonic(), time.process_time()
     about = {"level": str(level), "seed": seed, "settings": asdict(settings), "watch": watch, "curve": curve}
     while True:

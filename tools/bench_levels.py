@@ -56,13 +56,13 @@ def main() -> None:
             passed[f"{split}:{found.grade} {'passed' if passes(found) else 'FAILED'}"] += 1
         print(*sorted(passed.items()), sep="\n")
         sys.exit(any("FAILED" in key for key in passed))
-    table, digests = bytearray(), {}
+    table, digests = bytearray(), dict[str, list[str]]()
     with ProcessPoolExecutor(options.jobs) as pool:
         for split, count in COUNTS.items():
-            found = list(pool.map(partial(chosen, split), range(count), chunksize=500))
-            table += bytes(attempt for attempt, _ in found)
-            digests[split] = [digest for _, digest in found]
-            tries = Counter(attempt for attempt, _ in found)
+            every = list(pool.map(partial(chosen, split), range(count), chunksize=500))
+            table += bytes(attempt for attempt, _ in every)
+            digests[split] = [digest for _, digest in every]
+            tries = Counter(attempt for attempt, _ in every)
             print(split, count, "levels,", len(set(digests[split])), "different; tries:", sorted(tries.items()))
     both = set(digests["train"]) & set(digests["test"])
     print(len(both), "levels in both")

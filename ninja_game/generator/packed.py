@@ -77,7 +77,7 @@ def generated_levels(difficulty: int | None = None) -> list[PackedLevel]:
 
 
 def generated_level(place: int) -> PackedLevel:
-    """One of them, by its place in this order, from 0 on; the others are not read. Raises what generated_levels does."""
+    """One of them, by its place in their order, from 0 on; the others are not read. Raises what they raise."""
     return read_line(_lines(data_folder("assets") / PACKED)[place])
 
 

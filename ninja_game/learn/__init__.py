@@ -64,7 +64,7 @@ _HOMES = {name: f"ninja_game.learn.{module}" for module, names in _NAMES.items()
 __all__ = list(_HOMES)
 
 
-_BENCH = {**PROTOCOL, "level": "train"}
+_BENCH = {**PROTOCOL, "level": "bench:train"}
 
 ENVIRONMENTS: dict[str, dict[str, Any]] = {
     "Ninja-v0": {},

@@ -112,7 +112,7 @@ def test_no_environment_of_the_benchmark_shows_the_solvers_field(name: str) -> N
 
 
 def test_version_1_is_what_it_was() -> None:
-    task = {"repeat": 0.25, "longest_wait": 7, "time_limit": 2000, "level": "train"}
+    task = {"repeat": 0.25, "longest_wait": 7, "time_limit": 2000, "level": "bench:train"}
     assert {
         "NinjaBench-v1": task,
         "NinjaBench-Gold-v1": {**task, "reward": ["exit", "gold"]},

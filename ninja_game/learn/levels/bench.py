@@ -97,19 +97,17 @@ def bench_level(split: str, number: int, attempt: int | None = None) -> BenchLev
             # Those where it is slow come first.
             first = int(starts[int(drawn[4] * max(8, len(starts) / 4)) % len(starts)])
         last += first
+    moved: dict[int, tuple[float, ...]] = {}
+    if span is not None:
+        switch = first + int((0.3 + 0.5 * drawn[5]) * (last - first))
+        moved[EXIT] = (*_place(base, last), *_place(base, switch))
+    if first:
+        moved[NINJA] = _place(base, first)
     objects = []
     for spec, chance in zip(base.level.objects, np.resize(drawn[8:], len(base.level.objects)).tolist(), strict=True):
-        if spec.kind == GOLD:
-            kept = chance < gold
-        else:
-            kept = sure or not KIND_OF[spec.kind].killer or chance < killers
-        if spec.kind == EXIT and span is not None:
-            switch = first + int((0.3 + 0.5 * drawn[5]) * (last - first))
-            spec = ObjectSpec(EXIT, (*_place(base, last), *_place(base, switch)))
-        elif spec.kind == NINJA and first:
-            spec = ObjectSpec(NINJA, _place(base, first))
-        if kept:
-            objects.append(spec)
+        kills = KIND_OF[spec.kind].killer != ""
+        if chance < (gold if spec.kind == GOLD else killers if kills and not sure else 1.0):
+            objects.append(ObjectSpec(spec.kind, moved[spec.kind]) if spec.kind in moved else spec)
     keys = base.inputs[first:last]
     if first:
         held, delay = int(drawn[6] * 8), int(drawn[7] * DELAY)

@@ -10,7 +10,7 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from ninja_game.errors import ArgumentError
-from ninja_game.learn.observations.part import Part, Setting, clamp
+from ninja_game.learn.observations.part import Array, Part, Setting, clamp
 from ninja_game.learn.observations.surroundings import FINE, solidity
 from ninja_game.learn.observations.vectors import MAX_SPEED
 from ninja_game.sim import kinds
@@ -242,7 +242,7 @@ class LevelPlanes(Part):
         def shades(number: int) -> Array:
             points = solidity(setting, number, GRID_COLUMNS * FINE, GRID_ROWS * FINE)
             solid = points.reshape(GRID_ROWS, FINE, GRID_COLUMNS, FINE).mean((1, 3))[1:-1, 1:-1]
-            return np.rint(solid * HIGHEST) * factor
+            return np.asarray(np.rint(solid * HIGHEST) * factor)
 
         factor = 1.0 / HIGHEST if self.normalised else 1
         values: Any = np.float64 if self.normalised else np.int64

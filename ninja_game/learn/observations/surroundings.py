@@ -75,7 +75,8 @@ def _measured_distances(setting: Setting, number: int, reach: float) -> NDArray[
         rows = sliding_window_view(along, 2 * margin, axis=0)[FINE // 2 :: FINE][:GRID_ROWS]
         found.append(np.sqrt((rows + squares).min(axis=2)))
     outside, inside = np.minimum(found, reach)
-    return np.where(within, -inside, outside)
+    distances: NDArray[np.float64] = np.where(within, -inside, outside)
+    return distances
 
 
 FORMS = ("distance", "one-hot")
