@@ -24,8 +24,8 @@ class Setting:
 
     ``worlds``: they themselves, not loaded yet; ``fresh``: each level as it begins.
     ``changed`` (worlds): whether gold, mines or exits may be others than at the last observation. ``time_limit``: ticks
-    of an episode. ``compiled``: whether kernels run compiled. ``goal``: their ``GoalDistance``, for parts that ask for one.
-    ``room``: of how many objects another level may be that is put in the place of one; 0: none ever is.
+    of an episode. ``compiled``: whether kernels run compiled. ``goal``: their ``GoalDistance``, for parts that ask for
+    one. ``room``: of how many objects another level may be that is put in the place of one; 0: none ever is.
     """
 
     worlds: Worlds
