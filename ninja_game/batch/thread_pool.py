@@ -110,8 +110,8 @@ class ThreadPool:
 
         The first exception of ``work`` is raised.
         """
-        ranges = chunks(count, ticks, self.threads)
-        if len(ranges) == 1:
+        ranges = chunks(count, ticks, self.threads) if self.threads > 1 else []
+        if len(ranges) <= 1:
             return work(0, count)
         call = _ParallelCall(work, ranges)
         for queue in self._queues:

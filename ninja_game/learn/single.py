@@ -123,7 +123,7 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
             over = "the episode is over" if self._started else "no episode has begun"
             raise ResetNeeded(f"{over}; call reset() before step()")
         worlds = self.worlds
-        worlds.step(self._actions.keys([action], 1))
+        worlds.step(self._actions.key(action))
         down, held = int(worlds.played[0]), self._inputs[-1] & JUMP_HELD if self._inputs else 0
         ticks = int(worlds.ticks[0]) - len(self._inputs)
         self._inputs += bytes([pressed(down, held)]).ljust(ticks, bytes([down]))

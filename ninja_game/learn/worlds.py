@@ -169,7 +169,7 @@ class EnvWorlds:
         self.rewards = np.zeros(count)
         self._facts = np.zeros((8, count), np.int64).T
         self.outcomes, self.ticks, self.gold, self.events = self._facts.T[:ENDED]
-        self.played = self._facts[:, PLAYED]
+        self._ended, self.played = self._facts[:, ENDED], self._facts[:, PLAYED]
         self._longest_wait = longest_wait
         self.terminated, self.truncated = np.zeros((2, count), np.bool_)
         weights = setting.table(weights_of(terms), np.float64)
@@ -244,12 +244,12 @@ class EnvWorlds:
         thread_pool(self.threads).share(lambda first, last: self._write(which, first, last), len(which))
 
     def _conclude(self) -> None:
-        np.equal(self._facts[:, ENDED], TERMINATED, out=self.terminated)
-        np.equal(self._facts[:, ENDED], TRUNCATED, out=self.truncated)
+        np.equal(self._ended, TERMINATED, out=self.terminated)
+        np.equal(self._ended, TRUNCATED, out=self.truncated)
 
     def ended(self) -> Indices:
         """The worlds whose episode is over."""
-        return np.flatnonzero(self._facts[:, ENDED])
+        return self._ended.nonzero()[0]
 
     # --- single worlds ---
 
