@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cache, lru_cache
 from hashlib import sha256
-from typing import NamedTuple, overload
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -90,6 +90,7 @@ def bench_level(split: str, number: int, attempt: int | None = None) -> BenchLev
     span = GRADES[grade]
     ticks = len(base.inputs)
     first, last = 0, ticks
+    moved: dict[int, tuple[float, ...]] = {}
     if span is not None:
         last = min(ticks, span[1] if sure else int(span[0] + drawn[3] * (span[1] + 1 - span[0])))
         starts = base.starts[base.starts <= ticks - last]
@@ -97,8 +98,6 @@ def bench_level(split: str, number: int, attempt: int | None = None) -> BenchLev
             # Those where it is slow come first.
             first = int(starts[int(drawn[4] * max(8, len(starts) / 4)) % len(starts)])
         last += first
-    moved: dict[int, tuple[float, ...]] = {}
-    if span is not None:
         switch = first + int((0.3 + 0.5 * drawn[5]) * (last - first))
         moved[EXIT] = (*_place(base, last), *_place(base, switch))
     if first:
@@ -111,9 +110,8 @@ def bench_level(split: str, number: int, attempt: int | None = None) -> BenchLev
     keys = base.inputs[first:last]
     if first:
         held, delay = int(drawn[6] * 8), int(drawn[7] * DELAY)
-        keys = (
-            keys[:held] + bytes([keys[held] & KEYS_DOWN]) * delay + keys[held:] + bytes([keys[-1] & KEYS_DOWN]) * DELAY
-        )
+        more, longer = (bytes([keys[k] & KEYS_DOWN]) for k in (held, -1))
+        keys = keys[:held] + more * delay + keys[held:] + longer * DELAY
         keys = bytes([pressed(keys[0], 0)]) + keys[1:]
     return BenchLevel(f"bench-{split}-{number}", grade, Level(base.level.tiles, tuple(objects)), keys)
 
@@ -171,15 +169,8 @@ class _Levels(Sequence[Level]):
     def __len__(self) -> int:
         return len(self.numbers)
 
-    @overload
-    def __getitem__(self, place: int) -> Level: ...
-    @overload
-    def __getitem__(self, place: slice) -> list[Level]: ...
-    def __getitem__(self, place: int | slice) -> Level | list[Level]:
-        numbers = self.numbers[place]
-        if isinstance(numbers, range):
-            return [bench_level(self.split, number).level for number in numbers]
-        return bench_level(self.split, numbers).level
+    def __getitem__(self, place: int) -> Level:  # type: ignore[override]
+        return bench_level(self.split, self.numbers[place]).level
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, _Levels) and vars(self) == vars(other)

@@ -23,9 +23,9 @@ class Setting:
     """What a part may know of the worlds when it makes its tables.
 
     ``worlds``: they themselves, not loaded yet; ``fresh``: each level as it begins.
-    ``changed`` (worlds): whether gold, mines or exits may be others than at the last observation. ``time_limit``: ticks
-    of an episode. ``compiled``: whether kernels run compiled. ``goal``: their ``GoalDistance``, for parts that ask for
-    one. ``room``: of how many objects another level may be that is put in the place of one; 0: none ever is.
+    ``changed`` (worlds): whether gold, mines or exits may be others than last observed. ``time_limit``: ticks
+    of an episode. ``compiled``: whether kernels run compiled. ``goal``: their ``GoalDistance``, if a part asks for one.
+    ``room``: of how many objects another level may be that is put in the place of one; 0: none ever is.
     """
 
     worlds: Worlds
