@@ -262,18 +262,16 @@ def observe_pixels(
                 draw_object(o, out, index, offset, frame, sizes[number], box, shades[number], whole)
             for place in range(mover_bounds[2 * level], mover_bounds[2 * level + 1]):
                 number = start + int(movers[place])
-                area = area_of(w.objects[int(slots[number])], sizes[number], 0.0)
-                near = area_of(w.objects[int(slots[number])], sizes[number], 2.0 * max(pixel_x, pixel_y))
+                o = w.objects[int(slots[number])]
+                near = area_of(o, sizes[number], 2.0 * max(pixel_x, pixel_y))
                 if is_covered(number, end, look, near):
-                    first_column, last_column, first_row, last_row = pixels_of(area, frame)
+                    reached = pixels_of(area_of(o, sizes[number], 0.0), frame)
+                    first_column, last_column, first_row, last_row = reached
                     wide = last_column + 1 - first_column
                     for line in range(first_row, last_row + 1):
                         at = line * width + first_column
-                        copy_values(
-                            out[index, offset + at : offset + at + wide],
-                            pictures[corner + at : corner + at + wide],
-                            wide,
-                        )
+                        target = out[index, offset + at : offset + at + wide]
+                        copy_values(target, pictures[corner + at : corner + at + wide], wide)
                     part = (width, 0.0, 0.0, pixel_x, pixel_y, first_column, last_column, first_row, last_row)
                     draw_objects(w, out, index, offset, part, start, end, look, near, True, whole)
         paint(out, index, offset, frame, w.ninja.x, w.ninja.y, RADIUS, RADIUS, True, ninja_shade, whole)
