@@ -15,6 +15,7 @@ from examples.agents import RandomAgent
 from examples.bench_report import interval, iqm, normalised
 from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import FileError
+from tools import ROOT
 
 fast = pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
 
@@ -112,3 +113,8 @@ def test_other_formats_and_missing_runs_are_told(tmp_path: Path) -> None:
     with pytest.raises(FileError, match="another format"):
         bench_report.load_results(tmp_path)
     assert path.exists()
+
+
+def test_the_table_of_the_page_is_made_of_the_results() -> None:
+    made = bench_report.table(bench_report.load_results(ROOT / "benchmarks" / "results" / "ninjabench"))
+    assert f"\n{made}\n" in (ROOT / "docs" / "ninjabench.md").read_text("utf-8")
