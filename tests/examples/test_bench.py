@@ -90,7 +90,7 @@ def test_a_folder_becomes_a_table_and_curves(tmp_path: Path) -> None:
     result = CliRunner().invoke(bench_report.main, [str(tmp_path), "--curves", str(tmp_path / "curves")])
     assert result.exit_code == 0, result.output
     rows = [line.strip("| ").split(" | ") for line in result.stdout.splitlines()]
-    assert rows[2][:5] == ["sight", "ppo", "3", "2M", "60.0 [50.0, 70.0]"]
+    assert rows[2][:5] == ["sight", "ppo", "3", "2.0M", "60.0 [50.0, 70.0]"]
     assert rows[3] == ["sight", "random", "1", "-", "20.0", "20.0", "20.0", "0.0", "10.0", "+0.0", "20.0"]
     assert sorted(path.name for path in (tmp_path / "curves").iterdir()) == ["bench-minutes.png", "bench-steps.png"]
 
