@@ -95,7 +95,7 @@ def table(results: dict[tuple[str, str], list[dict[str, Any]]]) -> str:
         cells = [shown(passed[:, [grade]]) for grade in range(len(GRADES))]
         cells += [shown(normalised(passed, chance)), shown(rates(runs, TEST, "par"))]
         cells += [f"{100 * gap.mean():+.1f}", shown(rates(runs, SET, "passed"))]
-        lines.append([track, name, str(len(runs)), f"{curve[-1][0] / 1e6:.0f}M" if curve else "-", *cells])
+        lines.append([track, name, str(len(runs)), f"{curve[-1][0] / 1e6:.1f}M" if curve else "-", *cells])
     return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
 
 

@@ -163,7 +163,7 @@ class Trainer:
     def _measure(self) -> tuple[Floats, Floats]:
         """Means of the observations, and what makes their deviations 1: from some steps of random play."""
         rows = []
-        action = self.envs.action_space.sample()
+        action = self._rng.integers(len(ACTION_NAMES), size=self.settings.worlds)
         for _ in range(2 * self.settings.round):
             drawn = self._rng.integers(len(ACTION_NAMES), size=len(action))
             action = np.where(self._rng.random(len(action)) < 0.8, action, drawn)

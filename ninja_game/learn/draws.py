@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ninja_game.batch.batch import Indices
 from ninja_game.batch.thread_pool import whole_number
 from ninja_game.errors import ArgumentError
-from ninja_game.learn.levels import LevelChoice, LevelSource
+from ninja_game.learn.levels.source import LevelChoice, LevelSource
 
 Draws = NDArray[np.uint64]
 

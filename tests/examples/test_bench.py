@@ -15,6 +15,7 @@ from examples.agents import RandomAgent
 from examples.bench_report import interval, iqm, normalised
 from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import FileError
+from tools import ROOT
 
 fast = pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
 
@@ -89,7 +90,7 @@ def test_a_folder_becomes_a_table_and_curves(tmp_path: Path) -> None:
     result = CliRunner().invoke(bench_report.main, [str(tmp_path), "--curves", str(tmp_path / "curves")])
     assert result.exit_code == 0, result.output
     rows = [line.strip("| ").split(" | ") for line in result.stdout.splitlines()]
-    assert rows[2][:5] == ["sight", "ppo", "3", "2M", "60.0 [50.0, 70.0]"]
+    assert rows[2][:5] == ["sight", "ppo", "3", "2.0M", "60.0 [50.0, 70.0]"]
     assert rows[3] == ["sight", "random", "1", "-", "20.0", "20.0", "20.0", "0.0", "10.0", "+0.0", "20.0"]
     assert sorted(path.name for path in (tmp_path / "curves").iterdir()) == ["bench-minutes.png", "bench-steps.png"]
 
@@ -112,3 +113,8 @@ def test_other_formats_and_missing_runs_are_told(tmp_path: Path) -> None:
     with pytest.raises(FileError, match="another format"):
         bench_report.load_results(tmp_path)
     assert path.exists()
+
+
+def test_the_table_of_the_page_is_made_of_the_results() -> None:
+    made = bench_report.table(bench_report.load_results(ROOT / "benchmarks" / "results" / "ninjabench"))
+    assert f"\n{made}\n" in (ROOT / "docs" / "ninjabench.md").read_text("utf-8")

@@ -90,7 +90,8 @@ def test_the_same_seed_makes_the_same_agent() -> None:
 def test_a_training_that_is_stopped_leaves_what_it_has_learned(tmp_path: Path) -> None:
     pytest.importorskip("jax")
     output = tmp_path / "agent.npz"
-    program = [sys.executable, "-m", "examples.ppo", "--level", "00-0-first-steps", "-o", str(output)]
+    words = ["--level", "00-0-first-steps", "--steps", "330000", "-o", str(output)]
+    program = [sys.executable, "-m", "examples.ppo", *words]
     with subprocess.Popen(program, stderr=subprocess.PIPE, cwd=ROOT) as training:
         while not output.exists():
             assert training.poll() is None

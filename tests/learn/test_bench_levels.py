@@ -1,4 +1,4 @@
-"""Levels without end: each is passed by its known run, none is both for learning and for the test, worlds draw them."""
+"""Levels without end: a known run passes each, none is both for learning and for the test, worlds draw them."""
 
 from __future__ import annotations
 
