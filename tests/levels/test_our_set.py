@@ -30,10 +30,10 @@ FIRST = sorted(LEVELS)[:20]
 """The levels that teach, in their order."""
 LACKING = {
     "even-gold": "03-4",
-    "far-hazards": "30-3 40-1",
-    "safe-gold": "01-2 03-1 03-3 10-0 10-4 13-1 32-3",
-    "same-bay": "00-4 01-4 21-0 23-1 23-2 31-0 33-2",
-    "unused-space": "00-1 01-0 01-2 02-1 03-0 03-1 20-1 33-3",
+    "far-hazards": "02-0 21-2 30-3 40-1",
+    "safe-gold": "01-0 01-1 01-3 03-1 03-3 10-4 13-1 13-3 32-3",
+    "same-bay": "00-4 01-4 02-0 02-4 20-2 21-0 23-1 31-0 33-2",
+    "unused-space": "00-1 00-3 02-1 03-1 33-3",
 }
 """What some levels still lack (docs/good-levels.md), by their places: a shorter table is a better set."""
 STEP = 1.0
