@@ -7,6 +7,8 @@ run the same worlds through the same ticks, in turn.
 from __future__ import annotations
 
 import argparse
+import os
+import platform
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -20,6 +22,7 @@ from numpy.typing import NDArray
 from benchmarks.charts import Chart
 from benchmarks.measure_worlds import resident_bytes
 from ninja_game.backend.memories import open_worlds
+from ninja_game.batch.thread_pool import cores
 from ninja_game.learn.actions import DISCRETE_KEYS
 from ninja_game.learn.levels import level_source
 from ninja_game.learn.single import NinjaEnv
@@ -29,11 +32,12 @@ from ninja_game.sim.level import Level
 from ninja_game.sim.memory.kernels import run_worlds
 from ninja_game.simulation import Simulation
 
+RESULTS = Path(__file__).parent / "results"
 FRAME_SKIP = 4
 OBSERVATIONS: dict[str, tuple[str, ...]] = {
-    "state vector": ("state",),
-    "state, rays, tiles": ("state", "rays", "tiles"),
-    "near objects": ("objects",),
+    "state": ("state",),
+    "state, 16 rays, 9 x 9 tiles": ("state", "rays", "tiles"),
+    "8 nearest objects": ("objects",),
     "planes": ("planes",),
     "pixels 84 x 84": ("pixels",),
 }
@@ -174,35 +178,49 @@ def memory_of(count: int) -> int:
 def against_worlds(only: str = "") -> Chart:
     """Ticks/s of vector environments against the number of worlds."""
     chart = Chart("learning-speed-against-worlds", "Vector environments, one thread", "worlds", "ticks/s")
-    for name in ("state vector", "state, rays, tiles", "pixels 84 x 84"):
+    for name in ("state", "state, 16 rays, 9 x 9 tiles", "pixels 84 x 84"):
         for count in NUMBERS if only in name else ():
             speed = vector_speed(count, OBSERVATIONS[name], rounds=2)
-            if name == "state vector":
+            if name == "state":
                 chart.add("bare kernel", count, speed.kernel)
             chart.add(name, count, speed.environment)
     return chart
 
 
-def main() -> None:
-    """Print the table, save the chart."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folder", nargs="?", type=Path)
-    folder = parser.parse_args().folder
+def table() -> str:
+    """The table of all speeds, Markdown, with what it was measured on."""
     levels = level_source("set").levels[::5]
-    plain = single_speed(PlainWrapper, levels)
-    print(f"plain wrapper round Simulation: {plain:,.0f} ticks/s")
-    single = single_speed(single_env, levels)
-    print(f"NinjaEnv: {single:,.0f} ticks/s, {single / plain:.2f} of the plain wrapper")
+    rows = [("a plain wrapper round `Simulation` (compiled), four numbers", single_speed(PlainWrapper, levels), "")]
+    rows.append(("`NinjaEnv`, state", single_speed(single_env, levels), ""))
     for name, parts in OBSERVATIONS.items():
         speed = vector_speed(1024, parts)
-        print(
-            f"NinjaVectorEnv, {1024} worlds, {name}: {speed.environment:,.0f} ticks/s, "
-            f"{speed.environment / FRAME_SKIP:,.0f} steps/s, {speed.share:.2f} of the "
-            f"bare kernel's {speed.kernel:,.0f} ticks/s, {speed.environment / plain:,.0f} times the plain wrapper"
-        )
-    print(f"memory of {MANY:,} worlds: {memory_of(MANY) / 2**20:,.0f} MiB")
-    if folder:
-        against_worlds().save(folder)
+        rows.append((f"vector, {name}", speed.environment, f"{speed.share:.2f}"))
+    load = f"{os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else "unknown"
+    lines = "\n".join(f"| {what} | {ticks:,.0f} | {ticks / FRAME_SKIP:,.0f} | {share} |" for what, ticks, share in rows)
+    return f"""# Speed of the environments
+
+Written by `python3 -m benchmarks.measure_learning`; [learning.md](../../docs/learning.md#speed) says what it measures.
+{platform.machine()}, {cores()} cores, load in the last minute {load}: below 1 the machine is quiet; a busy one lowers
+the speeds, less so the shares.
+
+| what | ticks/s | steps/s | share of the bare kernel |
+|---|---|---|---|
+{lines}
+
+{MANY:,} worlds of our levels take {memory_of(MANY) / 2**20:,.0f} MiB.
+"""
+
+
+def main() -> None:
+    """Write the table; save the chart."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", nargs="?", type=Path, help="where the chart goes")
+    parser.add_argument("--table", type=Path, default=RESULTS / "learning-speed.md", help="where the table goes")
+    options = parser.parse_args()
+    options.table.write_text(table(), "utf-8")
+    print(options.table.read_text("utf-8"))
+    if options.folder:
+        against_worlds().save(options.folder)
 
 
 if __name__ == "__main__":

@@ -128,7 +128,7 @@ def load_policy(path: Path) -> PolicyAgent:
             agent = PolicyAgent(layers, arrays["mean"], arrays["scale"], _read(about["settings"]), about["training"])
         _check(agent)
     except (BadZipFile, EOFError, KeyError, TypeError, ValueError, AttributeError, ArgumentError) as error:
-        raise FileError("not an agent that examples/train.py wrote", file=str(path), found=str(error)[:100]) from error
+        raise FileError("not an agent that an example wrote", file=str(path), found=str(error)[:100]) from error
     return agent
 
 

@@ -3,9 +3,9 @@
     python3 -m examples.evaluate random --levels 00-0-first-steps
     python3 -m examples.evaluate learned --levels test --episodes 100 --json -o learned.json
 
-AGENT is random, search, learned, or a file that examples/train.py wrote. A policy is tried in many episodes that
-differ: actions are repeated by chance, and an episode begins with some steps of waiting. The search agent plays the run
-that it found, once in each level.
+AGENT is random, search, learned, or a file that examples/ppo.py or imitate.py wrote. A policy is tried in many
+episodes that differ: actions are repeated by chance, and an episode begins with some steps of waiting. The search agent
+plays the run that it found, once in each level.
 """
 
 from __future__ import annotations

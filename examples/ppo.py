@@ -1,33 +1,68 @@
-"""Proximal policy optimisation: the network and its updates, in JAX with Optax (the extra `train`).
+"""Proximal policy optimisation on levels without end, in one file: what an agent sees of a level, and nothing more.
 
-Schulman, Wolski, Dhariwal, Radford, Klimov, "Proximal policy optimization algorithms", 2017. The advantages are
-those of "High-dimensional continuous control using generalized advantage estimation" (Schulman and others, 2016).
+    python3 -m examples.ppo --steps 10000000 --seed 0 -o agent.npz
+    python3 -m examples.ppo --level 00-0-first-steps --steps 1000000 -o first.npz
+
+It learns in the environment that it is measured in, with no demonstrations and without the solver's field. To the
+reward it adds a share of the straight way to the switch and then to the exit, which the observation tells. The same
+seed makes the same agent. What it has learned so far is always in the output file, so that it may be stopped at any
+time (Ctrl-C). It needs the extra `train`; the agent in the file needs NumPy alone.
+
+Schulman, Wolski, Dhariwal, Radford, Klimov, "Proximal policy optimization algorithms", 2017; advantages by Schulman and
+others, "High-dimensional continuous control using generalized advantage estimation", 2016.
 """
 
 from __future__ import annotations
 
+import sys
+import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from pathlib import Path
 from typing import Any, TypeAlias
 
+import click
+import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.errors import MissingExtraError
+from examples.agents import Floats, PolicyAgent, normalised
+from examples.measure import BENCH, measure
+from ninja_game.errors import MissingExtraError, NinjaGameError
 from ninja_game.learn.actions import ACTION_NAMES
+from ninja_game.learn.observations.objects import OBSERVED_KINDS, NearObjects
+from ninja_game.learn.observations.observation import Observation
+from ninja_game.learn.observations.part import Part
+from ninja_game.learn.observations.surroundings import LocalTiles, Rays
+from ninja_game.learn.observations.vectors import FIELDS, StateVector
+from ninja_game.sim.states import OUTCOME_EXIT
 
-Floats = NDArray[np.float32]
 Layers: TypeAlias = "list[tuple[Floats, Floats]]"
 Networks: TypeAlias = "dict[str, Layers]"
 """``policy``: observations to the scores of the actions; ``value``: to the return that is expected."""
 
+SEEN_KINDS = tuple(kind for kind in OBSERVED_KINDS if kind not in {"gold", "exit", "switch"})
+OBSERVATION: tuple[Part, ...] = (StateVector(), LocalTiles(9), Rays(16), NearObjects(8, kinds=SEEN_KINDS))
+"""Exit and switch are in the state vector; gold is nothing to this agent."""
+SMALLEST_DEVIATION = 0.02
+"""Of an observation; what hardly ever changes would be blown up otherwise."""
+POINTS = 20
+"""Of the curve."""
+OPEN, EXIT_X, EXIT_Y, SWITCH_X, SWITCH_Y = map(
+    list(FIELDS).index, ("exit_open", "exit_dx", "exit_dy", "switch_dx", "switch_dy")
+)
+
 
 @dataclass(frozen=True)
-class PPOSettings:
-    """Numbers of the method. ``learning_rate`` and ``entropy`` fall to ``last`` of themselves."""
+class Settings:
+    """Numbers of the method. ``learning_rate`` and ``entropy`` fall to ``last`` of themselves over the training.
+
+    ``worlds`` play ``round`` steps between two improvements, each of ``passes`` over them. ``exit``, ``way``: what the
+    exit and the way to it are worth; ``time_limit``: ticks of an episode in training.
+    """
 
     hidden: int = 128
-    learning_rate: float = 7e-4
+    learning_rate: float = 1e-3
     entropy: float = 0.01
     last: float = 0.1
     discount: float = 0.99
@@ -35,19 +70,132 @@ class PPOSettings:
     clip: float = 0.2
     value_weight: float = 0.1
     largest_gradient: float = 0.5
-    passes: int = 2
+    passes: int = 3
     batch: int = 4096
+    worlds: int = 512
+    round: int = 32
+    exit: float = 10.0
+    way: float = 5.0
+    time_limit: int = 800
 
 
-@dataclass(frozen=True)
-class Samples:
-    """What was played, row by row: observations, actions, the logarithms of their chances, advantages, returns."""
+class Trainer:
+    """Worlds that play, and networks that learn from them. Raises MissingExtraError without JAX and Optax."""
 
-    observations: Floats
-    actions: NDArray[np.int32]
-    chances: Floats
-    advantages: Floats
-    returns: Floats
+    def __init__(self, level: Any, steps: int, seed: int, settings: Settings) -> None:
+        self.settings, self.seed, self.steps_planned, self.steps = settings, seed, steps, 0
+        parts = Observation(OBSERVATION, flat=True).parts
+        self.made_for: dict[str, Any] = {"observation": parts, "flat": True, "frame_skip": 4}
+        how = {**self.made_for, "level": level, "time_limit": settings.time_limit, "copy": False}
+        self.envs = gymnasium.make_vec(BENCH, num_envs=settings.worlds, **how)
+        self._rng = np.random.default_rng([seed, 1])
+        self._observed: Floats = self.envs.reset(seed=seed * settings.worlds)[0]
+        inputs = self._observed.shape[1]
+        self._begins = np.zeros(settings.worlds, np.bool_)
+        self._whole = way_left(self._observed)
+        self.networks = new_networks(inputs, settings.hidden, self._rng)
+        self._play, self._update, self._memory = compiled(self.networks, settings)
+        self._mean, self._scale = np.zeros(inputs, np.float32), np.ones(inputs, np.float32)
+        self.episodes: list[NDArray[np.bool_]] = []
+        self._mean, self._scale = self._measure()
+
+    def agent(self, training: dict[str, Any]) -> PolicyAgent:
+        return PolicyAgent(self.networks["policy"], self._mean, self._scale, self.made_for, training)
+
+    def improve(self) -> None:
+        """Play a round and learn from it."""
+        settings = self.settings
+        shape = settings.round, settings.worlds
+        seen = np.zeros((*shape, len(self._mean)), np.float32)
+        actions = np.zeros(shape, np.int32)
+        chances, rewards = np.zeros((2, *shape), np.float32)
+        values = np.zeros((settings.round + 1, settings.worlds), np.float32)
+        ended, terminated, counts = np.zeros((3, *shape), np.bool_)
+        for step in range(settings.round):
+            seen[step] = self._seen()
+            scores, values[step] = map(np.asarray, self._play(self.networks, seen[step]))
+            actions[step] = (scores + self._rng.gumbel(size=scores.shape)).argmax(axis=1)
+            chances[step] = np.take_along_axis(scores, actions[step][:, np.newaxis], axis=1)[:, 0]
+            # The step after an episode's last one only begins the next one: nothing is learnt from it.
+            counts[step] = ~self._begins
+            rewards[step], terminated[step], ended[step] = self._step(actions[step])
+        values[-1] = np.asarray(self._play(self.networks, self._seen())[1])
+        gains = advantages(rewards, values, terminated, ended, settings)
+        returns = gains + values[:-1]
+        columns = [seen, actions, chances, (gains - gains[counts].mean()) / (gains[counts].std() + 1e-8), returns]
+        self.steps += actions.size
+        self._learn([column[counts] for column in columns])
+
+    def _learn(self, samples: list[NDArray[Any]]) -> None:
+        """Improve the networks by some passes over the samples."""
+        import jax
+
+        settings = self.settings
+        share = np.float32(1.0 - (1.0 - settings.last) * min(self.steps / self.steps_planned, 1.0))
+        count = len(samples[0])
+        size = min(settings.batch, settings.worlds * settings.round // 2)
+        networks: Any = self.networks
+        for _ in range(settings.passes):
+            order = self._rng.permutation(count)
+            for first in range(0, count - size + 1, size):
+                rows = order[first : first + size]
+                networks, self._memory = self._update(networks, self._memory, share, *(part[rows] for part in samples))
+        self.networks = jax.tree_util.tree_map(np.asarray, networks)
+
+    def _seen(self) -> Floats:
+        return normalised(self._observed, self._mean, self._scale)
+
+    def _step(self, actions: NDArray[Any]) -> tuple[Floats, NDArray[np.bool_], NDArray[np.bool_]]:
+        """Play one step: the rewards, which episodes terminated, and which ended so or by the time."""
+        before = np.maximum(1.0 - way_left(self._observed) / self._whole, -1.0)
+        self._observed, paid, terminated, truncated, infos = self.envs.step(actions)
+        left = way_left(self._observed)
+        begun = self._begins
+        self._whole = np.where(begun, left, self._whole)
+        after = np.where(terminated, 0.0, np.maximum(1.0 - left / self._whole, -1.0))
+        settings = self.settings
+        rewards = settings.exit * paid + settings.way * (settings.discount * after - before) * ~begun
+        self._begins = terminated | truncated
+        if self._begins.any():
+            self.episodes.append(infos["outcome"][self._begins] == OUTCOME_EXIT)
+        return rewards.astype(np.float32), terminated, self._begins
+
+    def _measure(self) -> tuple[Floats, Floats]:
+        """Means of the observations, and what makes their deviations 1: from some steps of random play."""
+        rows = []
+        action = self._rng.integers(len(ACTION_NAMES), size=self.settings.worlds)
+        for _ in range(2 * self.settings.round):
+            drawn = self._rng.integers(len(ACTION_NAMES), size=len(action))
+            action = np.where(self._rng.random(len(action)) < 0.8, action, drawn)
+            self._step(action)
+            rows.append(self._observed.copy())
+        every = np.concatenate(rows)
+        return every.mean(axis=0), 1.0 / np.maximum(every.std(axis=0), np.float32(SMALLEST_DEVIATION))
+
+
+def way_left(observed: Floats) -> Floats:
+    """The straight way to the exit, by its switch while it is closed, (n,); the unit is the world's width."""
+    exit_x, exit_y, x, y = (observed[:, k] for k in (EXIT_X, EXIT_Y, SWITCH_X, SWITCH_Y))
+    is_open = observed[:, OPEN] > 0.0
+    way = np.where(is_open, np.hypot(exit_x, exit_y), np.hypot(x, y) + np.hypot(exit_x - x, exit_y - y))
+    return np.maximum(way, np.float32(0.01))
+
+
+def advantages(
+    rewards: Floats, values: Floats, terminated: NDArray[np.bool_], ended: NDArray[np.bool_], settings: Settings
+) -> Floats:
+    """By how much each step did better than expected, (steps, worlds).
+
+    ``values``: what was expected, (steps + 1, worlds). Nothing is expected behind a step that ``terminated``; where the
+    time was over, what the last observation promises.
+    """
+    result = np.zeros_like(rewards)
+    ahead = np.zeros(rewards.shape[1], np.float32)
+    for step in reversed(range(len(rewards))):
+        error = rewards[step] + settings.discount * values[step + 1] * ~terminated[step] - values[step]
+        ahead = error + settings.discount * settings.trace * ~ended[step] * ahead
+        result[step] = ahead
+    return result
 
 
 def new_networks(inputs: int, hidden: int, rng: np.random.Generator) -> Networks:
@@ -67,64 +215,17 @@ def _orthogonal(rows: int, columns: int, gain: float, rng: np.random.Generator) 
     return np.asarray(gain * (square if rows >= columns else square.T), np.float32)
 
 
-def advantages(rewards: Floats, values: Floats, ended: NDArray[np.bool_], settings: PPOSettings) -> Floats:
-    """By how much each step did better than expected, (steps, worlds).
+def compiled(networks: Networks, settings: Settings) -> tuple[Callable[..., Any], Callable[..., Any], Any]:
+    """What plays, (networks, observations) -> (logarithms of the chances, values); what learns; the optimiser's memory.
 
-    ``values``: what was expected, (steps + 1, worlds); nothing is expected behind a step that ``ended`` an episode.
-    """
-    result = np.zeros_like(rewards)
-    ahead = np.zeros(rewards.shape[1], np.float32)
-    for step in reversed(range(len(rewards))):
-        goes_on = ~ended[step]
-        error = rewards[step] + settings.discount * values[step + 1] * goes_on - values[step]
-        ahead = error + settings.discount * settings.trace * goes_on * ahead
-        result[step] = ahead
-    return result
-
-
-class Learner:
-    """Networks that are improved. Raises MissingExtraError without JAX and Optax."""
-
-    def __init__(self, inputs: int, settings: PPOSettings, seed: int) -> None:
-        self.settings = settings
-        self._rng = np.random.default_rng([seed, 1])
-        self.networks = new_networks(inputs, settings.hidden, self._rng)
-        self._play, self._update, self._memory = _compiled(self.networks, settings)
-
-    def play(self, observations: Floats) -> tuple[Floats, Floats]:
-        """Logarithms of the chances of the actions, (n, 6), and the returns that are expected, (n,)."""
-        scores, values = self._play(self.networks, observations)
-        return np.asarray(scores), np.asarray(values)
-
-    def learn(self, samples: Samples, progress: float) -> None:
-        """Improve the networks by some passes over the samples; ``progress``: the part of the training that is over."""
-        import jax
-
-        settings = self.settings
-        share = np.float32(1.0 - (1.0 - settings.last) * min(progress, 1.0))
-        count = len(samples.actions)
-        size = min(settings.batch, count)
-        networks: Any = self.networks
-        for _ in range(settings.passes):
-            order = self._rng.permutation(count)
-            for first in range(0, count - size + 1, size):
-                rows = order[first : first + size]
-                batch = [column[rows] for column in vars(samples).values()]
-                networks, self._memory = self._update(networks, self._memory, share, *batch)
-        self.networks = jax.tree_util.tree_map(np.asarray, networks)
-
-
-def _compiled(networks: Networks, settings: PPOSettings) -> tuple[Callable[..., Any], Callable[..., Any], Any]:
-    """``Learner.play`` of networks, and (networks, memory, share, batch) -> (networks, memory): one step of Adam.
-
-    With the memory that it begins with.
+    That is (networks, memory, share, batch) -> (networks, memory), one step of Adam.
     """
     try:
         import jax
         import jax.numpy as jnp
         import optax
     except ModuleNotFoundError as error:
-        raise MissingExtraError("training needs JAX and Optax: python3 -m pip install 'ninja-game[train]'") from error
+        raise MissingExtraError("training needs JAX and Optax: python3 -m pip install jax optax") from error
 
     def network(layers: Any, values: Any) -> Any:
         for weights, biases in layers[:-1]:
@@ -154,3 +255,62 @@ def _compiled(networks: Networks, settings: PPOSettings) -> tuple[Callable[..., 
         return optax.apply_updates(nets, jax.tree_util.tree_map(lambda change: rate * change, changes)), memory
 
     return jax.jit(play), jax.jit(update), optimiser.init(networks)
+
+
+def train(
+    level: Any, steps: int, seed: int = 0, *, watch: str = "", settings: Settings = Settings(),
+    report: Callable[[PolicyAgent], object] = bool,
+) -> PolicyAgent:  # fmt: skip
+    """Train an agent; ``report`` is given it at each point of the curve, the last one too.
+
+    Its ``training`` tells ``level``, ``seed``, ``settings``, and of each point of the ``curve`` steps, seconds by the
+    clock and of the processor, the share of its training episodes since the point before that passed, and that of the
+    levels ``watch``, which it does not learn in (NaN without). Raises MissingExtraError without JAX and Optax.
+    """
+    trainer = Trainer(level, steps, seed, settings)
+    curve: list[list[float]] = []
+    began, used = time.monotonic(), time.process_time()
+    about = {"level": str(level), "seed": seed, "settings": asdict(settings), "watch": watch, "curve": curve}
+    while True:
+        trainer.improve()
+        if trainer.steps * POINTS < steps * (len(curve) + 1) and trainer.steps < steps:
+            continue
+        times = [round(time.monotonic() - began, 1), round(time.process_time() - used, 1)]
+        episodes = np.concatenate(trainer.episodes or [np.zeros(1, np.bool_)])
+        trainer.episodes.clear()
+        agent = trainer.agent(about)
+        seen = measure(agent, watch)["passed"].mean() if watch else float("nan")
+        curve.append([trainer.steps, *times, round(float(episodes.mean()), 4), round(float(seen), 4)])
+        report(agent)
+        if trainer.steps >= steps:
+            return agent
+
+
+@click.command(help=__doc__.replace("\n    python3", "\n\b\n    python3", 1))
+@click.option("--level", default="bench:train:easy", show_default=True, help="As of an environment: where it learns.")
+@click.option("--watch", default="", metavar="LEVELS", help="Levels that the curve tells too, such as bench:test:easy.")
+@click.option("--steps", type=click.IntRange(1), default=10_000_000, show_default=True, help="Of all worlds together.")
+@click.option("--seed", type=click.IntRange(0, 999), default=0, show_default=True)
+@click.option("--output", "-o", default="agent.npz", show_default=True, type=click.Path(dir_okay=False, path_type=Path))
+def main(level: str, watch: str, steps: int, seed: int, output: Path) -> None:
+    if output.exists():
+        raise click.UsageError(f"{output} exists; name another file with -o, or remove it")
+
+    def report(agent: PolicyAgent) -> None:
+        agent.save(output)
+        done, seconds, _, passed, seen = agent.training["curve"][-1]
+        others = f", {seen:.1%} of {watch}" if watch else ""
+        click.echo(f"{done / 1e6:.1f}M steps, {seconds:.0f} s: {passed:.1%} of the episodes passed{others}", err=True)
+
+    try:
+        train(level, steps, seed, watch=watch, report=report)
+    except KeyboardInterrupt:
+        click.echo("stopped", err=True)
+        sys.exit(130)
+    except (NinjaGameError, OSError) as error:
+        raise click.ClickException(str(error)) from error
+    click.echo(f"{output}: an agent, after {steps / 1e6:.1f}M steps")
+
+
+if __name__ == "__main__":
+    main()

@@ -27,7 +27,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ninja_game.backend.memories import open_worlds
-from ninja_game.batch.thread_pool import cores, thread_pool
+from ninja_game.batch.thread_pool import thread_count, thread_pool, whole_number
 from ninja_game.errors import ArgumentError
 from ninja_game.sim.digest import state_digest, world_digest
 from ninja_game.sim.inputs import ALL_KEYS, JUMP_HELD, JUMP_PRESSED, KEYS_DOWN
@@ -83,8 +83,8 @@ class Batch:
     records       (count,)            everything: the worlds themselves
     ============  ==================  ======================================================================
 
-    Raises LevelError for a level that cannot be played, ArgumentError for another body or memory, or for no world,
-    MemoryUnavailableError for "compiled" without Numba.
+    Raises LevelError for a level that cannot be played, ArgumentError for another body or memory, no level, world
+    or thread, MemoryUnavailableError for "compiled" without Numba.
     """
 
     def __init__(
@@ -97,11 +97,10 @@ class Batch:
         threads: int | None = None,
     ) -> None:
         self.levels = [levels] if isinstance(levels, (Level, str)) else list(levels)
-        if count < 1 or not self.levels:
-            raise ArgumentError(f"{count} worlds in {len(self.levels)} levels; expected at least one of each")
-        self.count = count
+        if not self.levels:
+            raise ArgumentError("0 levels; expected at least one")
+        self.count, self.threads = whole_number("count", count), thread_count(threads)
         self.body = body
-        self.threads = threads or cores()
         self._worlds = open_worlds(memory, self.levels, count, box=is_box(body))
         self.memory = self._worlds.name
         self._make_views()

@@ -9,9 +9,10 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator
 from functools import cache
+from operator import index
 from queue import SimpleQueue
 from threading import Thread
-from typing import TypeAlias
+from typing import SupportsIndex, TypeAlias
 
 from ninja_game.errors import ArgumentError
 
@@ -42,6 +43,19 @@ def chunks(count: int, ticks: int, threads: int) -> list[tuple[int, int]]:
         size = -(-(count - own) // (threads - 1)) or 1
     rest = [(first, min(first + size, count)) for first in range(own, count, size)]
     return [(0, own), *rest] if own else rest
+
+
+def whole_number(name: str, number: object, least: int = 1, most: int = 2**63 - 1) -> int:
+    """A number as Python's own. Raises ArgumentError for anything but a whole number of that range."""
+    if isinstance(number, bool) or not isinstance(number, SupportsIndex) or not least <= index(number) <= most:
+        expected = f"at least {least}" if most == 2**63 - 1 else f"{least} to {most}"
+        raise ArgumentError(f"{name} is {number!r:.60}; expected a whole number, {expected}")
+    return index(number)
+
+
+def thread_count(threads: int | None) -> int:
+    """How many threads are meant, None: as many as there are cores."""
+    return cores() if threads is None else whole_number("threads", threads)
 
 
 def cores() -> int:
@@ -86,8 +100,6 @@ class ThreadPool:
     """A fixed number of threads, the caller's own among them."""
 
     def __init__(self, threads: int) -> None:
-        if threads < 1:
-            raise ArgumentError(f"threads is {threads}; expected at least 1")
         self.threads = threads
         self._queues: list[SimpleQueue[_ParallelCall]] = [SimpleQueue() for _ in range(threads - 1)]
         for queue in self._queues:
@@ -98,8 +110,8 @@ class ThreadPool:
 
         The first exception of ``work`` is raised.
         """
-        ranges = chunks(count, ticks, self.threads)
-        if len(ranges) == 1:
+        ranges = chunks(count, ticks, self.threads) if self.threads > 1 else []
+        if len(ranges) <= 1:
             return work(0, count)
         call = _ParallelCall(work, ranges)
         for queue in self._queues:

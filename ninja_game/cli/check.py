@@ -16,6 +16,7 @@ from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.shown_text import counted, name_key, shown_text
 from ninja_game.files.tree import Tree
 from ninja_game.files.writing import check_output
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.sim.kinds import DOOR
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
@@ -173,7 +174,7 @@ def _row(goal: str, certified: Certified, level: NamedLevel) -> str:
     run = certified.run
     if run:
         mark = click.style("solvable", fg="green") if first else "all gold"
-        best = f"best {run.end_tick / TICKS_PER_SECOND:7.3f} s  {run.end_tick:>5} ticks  {run.gold:>3} gold"
+        best = f"best {seconds_text(run.end_tick):>7} s  {run.end_tick:>5} ticks  {run.gold:>3} gold"
         return f"{mark} {best}  {certified.how}"
     mark = click.style("??      " if first else "all gold", fg="yellow")
     if not certified.gold or not certified.progress:

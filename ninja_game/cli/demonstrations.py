@@ -11,6 +11,7 @@ import click
 from ninja_game.budget import DATASET_MIB
 from ninja_game.cli.main import complain
 from ninja_game.cli.run_options import level_given, level_option, memory_option, with_progress
+from ninja_game.sim.rules import LIFETIME
 
 
 @click.command(name="demonstrations")
@@ -78,7 +79,8 @@ def demonstrations(
     level = level_given(level_path)
     recordings = [recording for file in files for recording in load_replays(file, level=level)]
     observation = parts[0] if len(parts) == 1 else list(parts)
-    settings: dict[str, Any] = {"observation": observation, "flat": flat, "actions": actions}
+    limit = max([LIFETIME, *(len(recording.inputs) for recording in recordings)])
+    settings: dict[str, Any] = {"observation": observation, "flat": flat, "actions": actions, "time_limit": limit}
     made, left_bytes = [], megabytes * 2**20
     for recording in with_progress(recordings, "recording"):
         try:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import click
 
-from ninja_game.cli.run_options import InputPath, Pixels, heartbeat, level_given, level_option
+from ninja_game.cli.run_options import InputPath, Pixels, choose, heartbeat, level_given, level_option
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
@@ -22,7 +22,7 @@ from ninja_game.formats.links.fragment import is_link
     help="The film: NAME.gif, NAME.webm, or a folder for one PNG picture per tick. [default: a new file with the "
     "replay's name and .gif]",
 )  # fmt: skip
-@click.option("--record", type=click.IntRange(min=0), default=0, help="Which recording of the file, counted from 0.")
+@click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")
 @click.option("--size", type=Pixels(), default="528x400", show_default=True, help="Size of the pictures in px.")
 @click.option("--speed", type=click.FloatRange(0.05, 16), default=1.0, show_default=True, help="1 is the game's speed.")
 @click.option("--from", "first", type=click.IntRange(min=0), default=0, help="First picture: after this many ticks.")
@@ -37,8 +37,8 @@ from ninja_game.formats.links.fragment import is_link
 @click.option("--keys", is_flag=True, help="Show the keys that are down.")
 @level_option
 def film(
-    replay: Path, output: Path | None, record: int, size: tuple[int, int], speed: float, first: int, last: int | None,
-    ghosts: Sequence[Path], keys: bool, level_path: Path | None,
+    replay: Path, output: Path | None, record: int | None, size: tuple[int, int], speed: float, first: int,
+    last: int | None, ghosts: Sequence[Path], keys: bool, level_path: Path | None,
 ) -> None:  # fmt: skip
     """Write a film of a recording: a GIF, a WebM, or a folder of pictures.
 
@@ -55,19 +55,17 @@ def film(
     from ninja_game.formats.load import load_replays
 
     level = level_given(level_path)
-    recordings = load_replays(replay, level=level)
-    if record >= len(recordings):
-        raise NinjaGameError(f"{replay}: there is no record {record}; the last one is {len(recordings) - 1}")
+    recording = choose(load_replays(replay, level=level), "recordings", replay, record)
     path = output or free_path(Path(), "replay" if is_link(replay) else replay.name.partition(".")[0], ".gif")
     if path.exists() and any(not is_link(each) and path.samefile(each) for each in (replay, *ghosts)):
         raise click.UsageError("the film would replace the replay")
     others = [run for file in ghosts for run in load_replays(file, level=level)]
-    if any(run.level != recordings[record].level for run in others):
+    if any(run.level != recording.level for run in others):
         raise click.UsageError("--ghost: a run of another level")
     os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
     from ninja_game.play.replay.film import Film, write_film
 
-    film = Film(recordings[record], size, speed, ghosts=tuple(others), keys=keys, first=first, last=last)
+    film = Film(recording, size, speed, ghosts=tuple(others), keys=keys, first=first, last=last)
     progress = "looking for the end of the run"
 
     def report(made: int) -> bool:

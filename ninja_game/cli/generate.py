@@ -61,7 +61,8 @@ def generate(
     output = output or free_path(Path(), made.name.lower().replace(" ", "-"), ".txt")
     write_atomically(output, made.text)
     if replay:
-        save_replay(replay, named_run(made.run, name=made.name, author=made.author, level_author=made.author))
+        run = named_run(made.run, "generate", name=made.name, author=made.author, level_author=made.author)
+        save_replay(replay, run)
     click.echo(
         f"{output}: {made.name}, seed {seed}, difficulty {made.difficulty:.1f}, "
         f"certified in {options.time_text(made.run.end_tick)}"

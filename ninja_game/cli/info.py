@@ -14,8 +14,8 @@ import click
 from ninja_game.cli.run_options import LevelPath, level_given, level_option
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.sim.level import makes_object
-from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -127,7 +127,11 @@ def _facts(level: NamedLevel, run: Recording | None) -> dict[str, Any]:
         "objects": dict(_counts(level)),
         "level_digest": level_digest(level.level), "warnings": level_warnings(level.level),
     }  # fmt: skip
-    return facts | ({"recording_ticks": run.ticks} if run else {})
+    if not run:
+        return facts
+    return facts | {
+        "recording_ticks": run.ticks, "made": str(run.replay.made), "co_authors": list(run.replay.co_authors)
+    }  # fmt: skip
 
 
 def _show(console: Console, level: NamedLevel, run: Recording | None, picture: bool) -> None:
@@ -149,9 +153,13 @@ def _show(console: Console, level: NamedLevel, run: Recording | None, picture: b
     objects = ", ".join(f"{count} {kind}" for kind, count in _sorts(level).items())
     console.print(Text(objects or "no objects"))
     if run:
-        last = run.ticks - 1
+        length = run.replay.length if run.replay.outcome else run.ticks - 1
         cut = f", truncated: {run.missing} ticks of inputs are missing" if run.missing else ""
-        console.print(Text(f"recording: to tick {last} at most, {last / TICKS_PER_SECOND:.3f} s{cut}"))
+        console.print(Text(f"recording: to tick {length} at most, {seconds_text(length)} s{cut}"))
+        if made := shown_text(str(run.replay.made)):
+            console.print(
+                Text(f"made: {made}" + "".join(f", with {shown_text(name)}" for name in run.replay.co_authors))
+            )
     if run and not run.replay.unclaimed:
         replay = run.replay
         console.print(Text(f"claims: {replay.outcome}, gold {replay.gold}, body {replay.body}, rules {replay.rules}"))

@@ -8,6 +8,7 @@ import click
 
 from ninja_game.cli.run_options import with_progress
 from ninja_game.files.shown_text import shown_text
+from ninja_game.formats.run_time import seconds_text
 
 
 @click.command(name="lint")
@@ -57,7 +58,6 @@ def pars(pack: Path) -> None:
     from ninja_game.formats.pack.files import PARS
     from ninja_game.formats.pack.pack import Pack
     from ninja_game.formats.pack.pars import MARGINS, write_pars
-    from ninja_game.player.records import seconds_text
     from ninja_game.runs.packs import make_pars
 
     opened = Pack(pack)

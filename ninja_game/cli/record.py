@@ -10,7 +10,7 @@ from ninja_game.cli.convert import Output
 from ninja_game.cli.run_options import budget_option, choose, heartbeat, level_given, other_level_option
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
-from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.formats.run_time import seconds_text
 
 
 @click.command()
@@ -51,5 +51,6 @@ def record(
     path = output or free_path(Path(), inputs.name.partition(".")[0], ".replay.txt")
     Output(str(path), [inputs], force=force).write(text)
     new = parse_replay(text)
-    when = f"tick {new.final_tick} ({new.ticks / TICKS_PER_SECOND:.3f} s)"
-    click.echo(f"{shown_text(str(path))}: {new.outcome} in {when}, {new.gold} gold")
+    length = new.length
+    when = f"{'in tick' if new.end_tick >= 0 else 'after ticks:'} {length} ({seconds_text(length)} s)"
+    click.echo(f"{shown_text(str(path))}: {new.outcome} {when}, {new.gold} gold")

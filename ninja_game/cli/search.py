@@ -14,9 +14,8 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
 
 if TYPE_CHECKING:
-    from ninja_game.formats.recording import Recording
     from ninja_game.formats.replay.text import Replay
-    from ninja_game.search.formula.task import Found, SpanTask
+    from ninja_game.search.formula.task import Found
 
 
 @click.command()
@@ -117,7 +116,7 @@ def improve(
     task = Task(recording.level, body=recording.body, first=first, jobs=options.default_threads(jobs), **task_options)
     options.check_gold(task)
     before: list[int] = []
-    save = options.saver(output, recording, recording.author)
+    save = options.saver_of_better(output, recording, "improve")
 
     def keep(found: Replay) -> None:
         before.append(found.end_tick)
@@ -181,8 +180,8 @@ def search(
       ninja-game search run.replay.txt --from 60 --to 100 --goal 'distance(300, 200) < 12' --rest
       ninja-game search run.replay.txt --from 90 --to 102 --maximise speed --method exhaustive --every 2
     """
-    from ninja_game.files.writing import check_output
     from ninja_game.formats.load import load_replays
+    from ninja_game.runs.run import record_replay
     from ninja_game.search.formula.methods import search_span
     from ninja_game.search.formula.task import SpanTask, score_in_words
 
@@ -193,8 +192,7 @@ def search(
     if every > 1 and method != "exhaustive":
         raise click.UsageError("--every is for --method exhaustive")
     recording = choose(load_replays(replay, level=level_given(level_path)), "recordings", replay, record)
-    if output:
-        check_output(output, keep=[Path(recording.file)])
+    save = options.saver_of_better(output, recording, "search") if output else None
     task = SpanTask(
         recording.level, recording.inputs, first, last, goal=goal, measure=maximise or minimise,
         least=bool(minimise), rest=rest, body=recording.body,
@@ -204,9 +202,9 @@ def search(
         saved: list[Found] = []
 
         def report(ticks: int, best: tuple[Found, ...]) -> bool:
-            if output and best and (not saved or best[0] < saved[-1]):
+            if save and best and (not saved or best[0] < saved[-1]):
                 saved.append(best[0])
-                _save(output, recording, task, best[0])
+                save(record_replay(task.level, best[0].inputs, body=task.body))
             standing = score_in_words(task, best[0]) if best else "nothing yet"
             nonlocal start
             start = start or time.monotonic()
@@ -230,13 +228,3 @@ def _keys(found: Found) -> str:
     from ninja_game.sim.inputs import with_press_bits
 
     return " ".join(write_inputs(with_press_bits(found.keys[: found.ticks].tolist())))
-
-
-def _save(output: Path, recording: Recording, task: SpanTask, found: Found) -> None:
-    """Write the run with these keys; authors stay who they are."""
-    from ninja_game.files.writing import write_atomically
-    from ninja_game.formats.replay.text import write_replay
-    from ninja_game.runs.run import record_replay
-
-    new = record_replay(task.level, found.inputs, body=task.body, name=recording.name, author=recording.author)
-    write_atomically(output, write_replay(new), keep=[Path(recording.file)])

@@ -12,7 +12,7 @@ import click
 
 from ninja_game.cli.run_options import ProgressLog
 from ninja_game.files.shown_text import shown_text
-from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.formats.run_time import seconds_text
 
 if TYPE_CHECKING:
     from ninja_game.formats.load import NamedLevel, Recording
@@ -162,7 +162,7 @@ def progress_text(progress: Progress) -> str:
 
 def time_text(end_tick: int) -> str:
     """A run's length in ticks and seconds."""
-    return f"{end_tick} ticks ({end_tick / TICKS_PER_SECOND:.3f} s)"
+    return f"{end_tick} ticks ({seconds_text(end_tick)} s)"
 
 
 def smoothed_run(level: Level, run: Replay, price: int) -> Replay:
@@ -173,10 +173,20 @@ def smoothed_run(level: Level, run: Replay, price: int) -> Replay:
     return verified_run(level, inputs, body=run.body, gold=run.gold)
 
 
-def saver(path: Path, level: NamedLevel | Recording, author: str = "ninja-game solve") -> Callable[[Replay], None]:
+def saver(path: Path, level: NamedLevel) -> Callable[[Replay], None]:
     """A function that writes each better run of a level to a file, which must not be the level's own."""
     from ninja_game.files.writing import check_output
     from ninja_game.search.certificate import named_run, save_replay
 
     check_output(path, keep=[Path(level.file)])
-    return lambda run: save_replay(path, named_run(run, name=level.name, author=author, level_author=level.author))
+    about = {"name": level.name, "author": "ninja-game solve", "level_author": level.author}
+    return lambda run: save_replay(path, named_run(run, "solve", **about))
+
+
+def saver_of_better(path: Path, recording: Recording, command: str) -> Callable[[Replay], None]:
+    """A function that writes each better run that a command made of a recording, to a file that is not its own."""
+    from ninja_game.files.writing import check_output
+    from ninja_game.search.certificate import better_run, save_replay
+
+    check_output(path, keep=[Path(recording.file)])
+    return lambda run: save_replay(path, better_run(run, recording, command))

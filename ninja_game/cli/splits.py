@@ -15,7 +15,7 @@ from ninja_game.cli.main import complain
 from ninja_game.cli.run_options import budget_option, choose, heartbeat, level_given, level_option, with_progress
 from ninja_game.cli.terminal import BAD_INPUT, data_output
 from ninja_game.files.shown_text import counted, shown_text
-from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.formats.run_time import seconds_text
 
 if TYPE_CHECKING:
     from ninja_game.formats.recording import Recording
@@ -86,13 +86,13 @@ def splits(
         raise click.UsageError(f"{', '.join(map(str, files))}: no recordings here")
     if bests and bests[0].level_digest not in groups:
         raise click.UsageError(f"{against} is a run of another level")
-    tables = [_table(group, bests) for group in groups.values()]
+    tables = [table_of(group, bests) for group in groups.values()]
     if form == "json":
-        click.echo(json.dumps([_as_json(*table) for table in tables]))
+        click.echo(json.dumps([as_json(*table) for table in tables]))
     elif form == "csv":
         _write_csv(tables)
     else:
-        _show(tables)
+        show(tables)
     if picture:
         drawn = tables[0][0]
         paths = list(zip(titles([run.recording for run in drawn]), (run.positions for run in drawn), strict=True))
@@ -118,7 +118,8 @@ Table = tuple["list[RunSplits]", "list[SplitRow]"]
 """The runs of a level, the best first, and the rows of their splits."""
 
 
-def _table(group: Sequence[RunSplits], given: Sequence[RunSplits]) -> Table:
+def table_of(group: Sequence[RunSplits], given: Sequence[RunSplits]) -> Table:
+    """The table of runs of a level, against the given one of it or else the fastest."""
     from ninja_game.runs.compare import best_run, split_table
 
     best = next((run for run in given if run.level_digest == group[0].level_digest), None) or best_run(group)
@@ -137,7 +138,8 @@ def titles(recordings: Sequence[Recording]) -> list[str]:
     ]
 
 
-def _show(tables: Sequence[Table]) -> None:
+def show(tables: Sequence[Table]) -> None:
+    """Print tables of splits."""
     from rich.console import Console
     from rich.table import Table as RichTable
 
@@ -146,7 +148,8 @@ def _show(tables: Sequence[Table]) -> None:
     console = Console(highlight=False, markup=False, width=None if sys.stdout.isatty() else WIDTH)
     for runs, rows in tables:
         best, (name, *others) = runs[0], titles([run.recording for run in runs])
-        console.print(f"{name}: {best.outcome} after {best.ticks} ticks, {best.gold} gold")
+        end = best.ticks - (best.outcome != "running")
+        console.print(f"{name}: {best.outcome} after {end} ticks, {seconds_text(end)} s, {best.gold} gold")
         table = RichTable(box=None, pad_edge=False, header_style="bold")
         table.add_column("split")
         for name in ("x", "y", "tick", "segment", *others):
@@ -158,7 +161,7 @@ def _show(tables: Sequence[Table]) -> None:
             table.add_row(str(row.split), *place, _number(first), _number(row.best_segment), *cells)
         console.print(table)
         last = sum_of_best(rows)
-        console.print(f"sum of best: tick {last}, {(last + 1) / TICKS_PER_SECOND:.3f} s\n")
+        console.print(f"sum of best: tick {last}, {seconds_text(last)} s\n")
 
 
 def _number(count: int | None) -> str:
@@ -172,7 +175,7 @@ def _behind(tick: int | None, best: int | None) -> str:
     return f"{tick - best:+d}" if best is not None else str(tick)
 
 
-def _as_json(runs: Sequence[RunSplits], rows: Sequence[SplitRow]) -> dict[str, Any]:
+def as_json(runs: Sequence[RunSplits], rows: Sequence[SplitRow]) -> dict[str, Any]:
     """A table for programs."""
     from ninja_game.runs.compare import sum_of_best
 

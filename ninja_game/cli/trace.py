@@ -7,6 +7,7 @@ import json
 import re
 from collections.abc import Iterator, Sequence
 from functools import partial
+from itertools import chain
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
@@ -189,7 +190,10 @@ def _write(traces: Traces, output: Path | None, files: Sequence[Path]) -> None:
     from ninja_game.files.writing import write_atomically
     from ninja_game.runs.trace_files import write_csv, write_npz
 
-    runs = (traced.trace for traced in traces)
+    found = next(iter(traces), None)
+    if found is None:
+        return  # and no heads of columns before the error
+    runs = (traced.trace for traced in chain([found], traces))
     if output is None:
         write_csv(runs, data_output())
     elif output.suffix == ".npz":

@@ -14,7 +14,7 @@ from ninja_game.cli.main import complain
 from ninja_game.cli.run_options import InputPath, budget_option, jobs_option, with_progress
 from ninja_game.cli.terminal import BAD_INPUT
 from ninja_game.files.shown_text import counted, shown_text
-from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.formats.run_time import seconds_text
 
 if TYPE_CHECKING:
     from ninja_game.runs.archive import Totals
@@ -35,6 +35,7 @@ FAILED = 1
     help="The level that counts, or a file of them: a run on any other fails. One level is also that of recordings "
     "without.",
 )  # fmt: skip
+@click.option("--record", type=click.IntRange(min=0), help="Only this one of a file's recordings, counted from 0.")
 @budget_option
 @click.option("--strict", is_flag=True, help="Accept only what a board can rely on: see docs/verification.md.")
 @jobs_option
@@ -102,6 +103,8 @@ def verify(
                 click.echo(json.dumps(result.as_json()))
             elif not (quiet and result.good):
                 click.echo(_row(result))
+    if options["record"] is not None and not totals.recordings + totals.unreadable:
+        raise click.UsageError(f"{', '.join(map(str, files))}: no record {options['record']}")
     if not as_json:
         click.echo(_summary(totals))
     ctx.exit(BAD_INPUT if totals.unreadable else FAILED if totals.failed else 0)
@@ -138,10 +141,11 @@ def _row(verdict: Verdict) -> str:
     """A recording in a line, and a line for each claim that does not hold."""
     mark = click.style("ok  ", fg="green") if verdict.good else click.style("FAIL", fg="red")
     when = f"tick {verdict.end_tick}" if verdict.end_tick >= 0 else f"{verdict.ticks} ticks"
-    score = f"{verdict.score_ticks / TICKS_PER_SECOND:.3f}" if verdict.score_ticks is not None else ""
+    score = seconds_text(verdict.score_ticks) if verdict.score_ticks is not None else ""
     where = f"{shown_text(verdict.file)}:{verdict.record}"
     name = shown_text(verdict.name)
-    row = f"{mark} {verdict.outcome:<7} {when:>11}  {verdict.gold:>3} gold  {score:>8}  {name}  {where}"
+    made = f"  ({shown_text(verdict.made)})" * bool(verdict.made)
+    row = f"{mark} {verdict.outcome:<7} {when:>11}  {verdict.gold:>3} gold  {score:>8}  {name}  {where}{made}"
     problems = [f"{shown_text(each.text)}. {each.hint} [{each.code}]" for each in verdict.problems]
     return "\n     ".join([row, *problems])
 

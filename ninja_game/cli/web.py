@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import Any
 
 import click
 
-from ninja_game.cli.run_options import InputPath, jobs_option
+from ninja_game.cli.board_options import levels_option, memo_of, rules_option
+from ninja_game.cli.run_options import jobs_option
 
 
 @click.command()
@@ -64,12 +66,23 @@ def _serve(folder: Path, port: int) -> None:
         server.serve_forever()
 
 
-@click.command()
+class _Board(click.Command):
+    """The command ``board``; ``board ask`` is one of its own."""
+
+    def make_context(
+        self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
+    ) -> click.Context:
+        """Of the command that is meant."""
+        if args[:1] == ["ask"]:
+            from ninja_game.cli.board_ask import ask
+
+            return ask.make_context(f"{info_name} ask", args[1:], parent, **extra)
+        return super().make_context(info_name, args, parent, **extra)
+
+
+@click.command(cls=_Board)
 @click.argument("folder", type=click.Path(exists=True, file_okay=False, path_type=Path))
-@click.option(
-    "--levels", metavar="PACK", type=InputPath(),
-    help="The levels that count: a pack, a file, a folder or a link of levels. [default: the game's own]",
-)  # fmt: skip
+@levels_option
 @click.option(
     "--site", metavar="OUT", type=click.Path(file_okay=False, path_type=Path),
     help="Write the pages into OUT/board and the runs into OUT/replays.",
@@ -82,18 +95,21 @@ def _serve(folder: Path, port: int) -> None:
     "--check", metavar="FILE", type=click.Path(exists=True, dir_okay=False, path_type=Path),
     help="Report what differs from this file written by --json; exit code 1 if anything is refused, changed or gone.",
 )  # fmt: skip
+@rules_option
+@click.option("--again", is_flag=True, help="Simulate every run, and write every page, also those known from before.")
 @jobs_option
 @click.pass_context
 def board(
     ctx: click.Context, folder: Path, levels: Path | None, site: Path | None, data: Path | None, check: Path | None,
-    jobs: int | None,
+    rules: Path | None, again: bool, jobs: int | None,
 ) -> None:  # fmt: skip
     """Rank the runs of a folder, all simulated again: tables, pages, checks.
 
     FOLDER holds replays, as people send them to a repository; nothing in them is believed but the inputs. Runs on
     other levels, with another body, under other rules, practice runs, copies and whatever says something that is not
-    so are kept out, with the reason. `ninja-game site OUT` puts the page with the game next to the board, which shows
-    each run. How to keep a board in a repository: docs/board.md.
+    so are kept out, with the reason. What was simulated is remembered in your own cache folder, by all that it depends
+    on, and not simulated again. `ninja-game site OUT` puts the page with the game next to the board, which shows each
+    run. How to keep a board in a repository: docs/board.md.
 
     \b
     Examples:
@@ -101,12 +117,14 @@ def board(
       ninja-game board replays/ --site public/ --json board.json
       ninja-game board replays/ --check board.json
       ninja-game board replays/ --levels my-pack/ --site public/
+      ninja-game board ask --help
     """
     from ninja_game.files.user_folder import data_folder
     from ninja_game.files.writing import check_output, write_atomically
     from ninja_game.web.board.pages import BoardPages, check_ledger, check_site
     from ninja_game.web.board.ranking import Ranking
     from ninja_game.web.board.report import board_text, changes, dates_of, plain, read_board, summary
+    from ninja_game.web.board.rules import USUAL, read_categories
     from ninja_game.web.board.runs import judge
     from ninja_game.web.pages.published import published_levels
 
@@ -118,11 +136,14 @@ def board(
     now = datetime.now(UTC)
     ledger = check or data
     before = read_board(ledger, now) if ledger and ledger.exists() else ({}, {})
+    categories = read_categories(rules) if rules else USUAL
     shown = published_levels(levels or data_folder("levels"))
-    judged = judge(folder, shown, dates=dates_of(before, now) if ledger else None, jobs=jobs)
-    ranking = Ranking(judged, shown)
+    memo = memo_of("runs", folder, folder, again=again)
+    judged = judge(folder, shown, dates=dates_of(before, now) if ledger else None, jobs=jobs, memo=memo)
+    memo.save()
+    ranking = Ranking(judged, shown, categories)
     if site:
-        BoardPages(site, ranking).write()
+        BoardPages(site, ranking, memo=memo_of("pages", site, folder, again=again)).write()
         if not (site / "index.html").exists():
             click.echo(f"{site} has no page with the game yet: ninja-game site {site}", err=True)
     if data:

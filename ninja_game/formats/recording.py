@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -14,6 +14,7 @@ from ninja_game.formats.n14.level_file import LevelRecord, read_level_file
 from ninja_game.formats.n14.level_string import parse_level_string, write_level_string
 from ninja_game.formats.named_level import level_of_replay
 from ninja_game.formats.replay.input_text import included_beside, read_inputs
+from ninja_game.formats.replay.made import with_made, without_made
 from ninja_game.formats.replay.text import Replay, parse_replay
 from ninja_game.formats.tas_lines import in_our_notation
 from ninja_game.sim.inputs import Demo, fitted_demo
@@ -52,8 +53,8 @@ class Recording:
 
     @property
     def title(self) -> str:
-        """What is written above its picture: also the author where it comes from a file."""
-        return (self.name or "Replay") + f" - {self.author}" * bool(self.author and self.file)
+        """What is written above its picture: also who made it where it comes from a file."""
+        return (self.name or "Replay") + f" - {self.replay.credit}" * bool(self.replay.credit and self.file)
 
     @property
     def body(self) -> Body:
@@ -92,7 +93,8 @@ def record_of(recording: Recording) -> LevelRecord:
         short = Demo(inputs[:-1], float(len(inputs) - 1))
         demo = short if short.playback(len(inputs)) == inputs else Demo(inputs, float(len(inputs)))
     level = write_level_string(recording.level, exact=True)
-    return LevelRecord(recording.name, recording.author, recording.comment, level, write_demo(demo))
+    told = with_made(recording.comment, replay.made, replay.co_authors)
+    return LevelRecord(recording.name, recording.author, told, level, write_demo(demo))
 
 
 def holds_recordings(text: str) -> bool:
@@ -172,8 +174,9 @@ def recording_of(record: LevelRecord, file: str, level: Level | None) -> Recordi
         error.what += f" (character {error.column} of the demo)"
         error.file, error.line, error.column = file, record.line, 0
         raise
-    replay = demo_replay(demo, level, record.name, record.author)
-    return Recording(level, replay, record.comment, file, record.number, record.line, "file")
+    comment, made, co_authors = without_made(record.comment)
+    replay = replace(demo_replay(demo, level, record.name, record.author), made=made, co_authors=co_authors)
+    return Recording(level, replay, comment, file, record.number, record.line, "file")
 
 
 def demo_replay(demo: Demo, level: Level, name: str = "", author: str = "") -> Replay:

@@ -95,7 +95,7 @@ def _keep_made(file: Path, named: NamedLevel, run: Replay, difficulty: float) ->
     from ninja_game.runs.verify import verify_recording
     from ninja_game.search.certificate import named_run
 
-    replay = write_replay(named_run(run, name=named.name, author=AUTHOR, level_author=AUTHOR))
+    replay = write_replay(named_run(run, "generate", name=named.name, author=AUTHOR, level_author=AUTHOR))
     verdict = verify_recording(parse_replays(replay, file=file.stem, level=named.level)[0])
     text = write_ascii_level(named.level, name=named.name, author=AUTHOR, comment=named.comment)
     digests = level_digest(named.level)[:DIGITS], verdict.xy_sha256[:DIGITS]

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from ninja_game.errors import MissingExtraError
 from ninja_game.files.user_folder import how_to_install
+from ninja_game.learn.protocol import PROTOCOL
 
 try:
     from gymnasium.envs import registration
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     from ninja_game.learn.levels.origins import generated_levels as generated_levels, level_source as level_source
     from ninja_game.learn.levels.source import LevelSource as LevelSource
     from ninja_game.learn.observations.objects import LevelPlanes as LevelPlanes, NearObjects as NearObjects
-    from ninja_game.learn.observations.pixels import Pixels as Pixels
+    from ninja_game.learn.observations.pixels import Image as Image, Pixels as Pixels
     from ninja_game.learn.observations.surroundings import LocalTiles as LocalTiles, Rays as Rays
     from ninja_game.learn.observations.vectors import Guide as Guide, StateVector as StateVector, TimeLeft as TimeLeft
     from ninja_game.learn.rewards import (
@@ -40,7 +41,6 @@ if TYPE_CHECKING:
         TimePenalty as TimePenalty,
     )
     from ninja_game.learn.single import NinjaEnv as NinjaEnv
-    from ninja_game.learn.sticky import StickyActions as StickyActions
     from ninja_game.learn.vector import NinjaVectorEnv as NinjaVectorEnv
     from ninja_game.learn.worlds import EnvWorlds as EnvWorlds
 
@@ -51,12 +51,11 @@ _NAMES = {
     "levels.origins": "generated_levels level_source",
     "levels.source": "LevelSource",
     "observations.objects": "LevelPlanes NearObjects",
-    "observations.pixels": "Pixels",
+    "observations.pixels": "Image Pixels",
     "observations.surroundings": "LocalTiles Rays",
     "observations.vectors": "Guide StateVector TimeLeft",
     "rewards": "DeathPenalty DistanceShaping ExitReward GoldReward TimePenalty",
     "single": "NinjaEnv",
-    "sticky": "StickyActions",
     "vector": "NinjaVectorEnv",
     "worlds": "EnvWorlds",
 }
@@ -65,13 +64,20 @@ _HOMES = {name: f"ninja_game.learn.{module}" for module, names in _NAMES.items()
 __all__ = list(_HOMES)
 
 
+_BENCH = {**PROTOCOL, "level": "bench:train"}
+
 ENVIRONMENTS: dict[str, dict[str, Any]] = {
     "Ninja-v0": {},
     "NinjaPixels-v0": {"observation": "pixels"},
+    "NinjaPixels-v1": {"observation": "image"},
     "NinjaSet-v0": {"level": "set"},
     "NinjaTrain-v0": {"level": "train"},
     "NinjaTest-v0": {"level": "test"},
     "NinjaCurriculum-v0": {"level": "curriculum"},
+    "NinjaBench-v1": _BENCH,
+    "NinjaBench-Gold-v1": {**_BENCH, "reward": ["exit", "gold"]},
+    "NinjaBench-Pixels-v1": {**_BENCH, "observation": "image"},
+    "NinjaBench-Rays-v1": {**_BENCH, "observation": ["state", "tiles", "rays"], "flat": True},
 }
 """The registered ids and what they set besides the defaults; docs/learning.md tells what their version fixes."""
 

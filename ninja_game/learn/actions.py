@@ -44,6 +44,13 @@ class Actions:
         self._kinds = "iu" if kind == "discrete" else "iub"
         self._shape: tuple[int, ...] = self.space.shape or ()
 
+    def key(self, action: Any) -> Keys:
+        """The keys of one world, uint8 (1,): as ``keys``, and for a number in a tenth of the time."""
+        number = int(action) if isinstance(action, np.integer) else action
+        if self.kind == "discrete" and type(number) is int and 0 <= number < self._choices:
+            return DISCRETE_KEYS[number : number + 1]
+        return self.keys([action], 1)
+
     def keys(self, actions: Any, count: int) -> Keys:
         """The keys down in each of ``count`` worlds, uint8 (count,). Raises InvalidAction for what is not an action."""
         try:

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import Any, Unpack
 
 import gymnasium
 import numpy as np
@@ -23,12 +23,17 @@ from ninja_game.budget import DATASET_MIB
 from ninja_game.errors import ArgumentError, BudgetError, MissingExtraError, NinjaGameError
 from ninja_game.files.user_folder import how_to_install
 from ninja_game.files.writing import write_atomically
+from ninja_game.formats.n14.level_string import level_digest, write_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.learn.actions import BUTTON_KEYS, DISCRETE_KEYS
 from ninja_game.learn.observations.observation import Observed
 from ninja_game.learn.single import NinjaEnv
+from ninja_game.learn.worlds import Shown
 from ninja_game.runs.run import run_level
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, KEYS_DOWN
+from ninja_game.sim.level import Level
+from ninja_game.sim.rules import LIFETIME
+from ninja_game.simulation import Body
 
 _BOTH = KEY_LEFT + KEY_RIGHT
 _ACTION_OF_KEYS = np.array(
@@ -47,10 +52,12 @@ class Demonstration:
 
     ``observations``: (T + 1, …), from the first reset to after the last step, or a dict of such arrays. ``actions``:
     (T,) int64, of buttons (T, 3) int8. ``rewards``: (T,) float64. ``terminations``, ``truncations``: (T,) bool; what
-    ends before the exit or death ends truncated. ``name``: of the recording.
+    ends before the exit or death ends truncated. ``name``, ``level``, ``body``: of the recording.
     """
 
     name: str
+    level: Level
+    body: Body
     observations: Observed
     actions: NDArray[Any]
     rewards: NDArray[np.float64]
@@ -60,24 +67,34 @@ class Demonstration:
     gold: int
 
 
-def demonstration(recording: Recording, *, most_bytes: int = DATASET_MIB * 2**20, **settings: Any) -> Demonstration:
-    """What an environment makes of a recording. ``settings``: of ``NinjaEnv``, but level, body, frame skip, time limit.
+def demonstration(
+    recording: Recording,
+    *,
+    actions: str = "discrete",
+    time_limit: int | None = None,
+    most_bytes: int = DATASET_MIB * 2**20,
+    **settings: Unpack[Shown],
+) -> Demonstration:
+    """What an environment makes of a recording, by ``NinjaEnv`` with its level and body.
+
+    ``time_limit``: ticks (``TimeLeft`` tells them); None: those of the recording. ``settings``: of ``NinjaEnv``.
 
     An environment presses jump when its key goes down; N also has recordings that press it again while it is down. If
     that makes another run of a recording, it is an UnplayableRecordingError. Raises BudgetError for more than
     ``most_bytes`` of observations.
     """
     keys = recording.inputs
-    made = NinjaEnv(recording.level, body=recording.body, frame_skip=1, time_limit=len(keys), **settings)
-    buttons = made.action_space.shape != ()
+    limit = time_limit or len(keys)
+    made = NinjaEnv(recording.level, body=recording.body, frame_skip=1, time_limit=limit, actions=actions, **settings)
     down = np.frombuffer(keys, np.uint8) & KEYS_DOWN
-    actions = ((down[:, np.newaxis] & BUTTON_KEYS) > 0).astype(np.int8) if buttons else _ACTION_OF_KEYS[down]
+    buttons = ((down[:, np.newaxis] & BUTTON_KEYS) > 0).astype(np.int8)
+    played = buttons if actions == "buttons" else _ACTION_OF_KEYS[down]
     seen = [made.reset()[0]]
     size = bytes_of(seen[0])
     rewards: list[float] = []
     info: dict[str, Any] = {}
     terminated = False
-    for action in actions:
+    for action in played:
         observation, reward, terminated, truncated, info = made.step(action)
         seen.append(observation)
         if size * len(seen) > most_bytes:
@@ -94,8 +111,8 @@ def demonstration(recording: Recording, *, most_bytes: int = DATASET_MIB * 2**20
     terminations[-1], truncations[-1] = terminated, not terminated
     observations = _stacked(seen)
     return Demonstration(
-        recording.name, observations, actions[:ticks], np.array(rewards), terminations, truncations,
-        info["outcome"], info["gold"],
+        recording.name, recording.level, recording.body, observations, played[:ticks], np.array(rewards), terminations,
+        truncations, info["outcome"], info["gold"],
     )  # fmt: skip
 
 
@@ -153,31 +170,47 @@ def require_minari() -> None:
 def write_minari(dataset: str, episodes: Sequence[Demonstration], **settings: Any) -> Any:
     """Write episodes as the data set ``dataset`` of Minari ("name-v0"), where Minari keeps its sets; the set.
 
-    ``settings``: those of the demonstrations, in words and numbers, so that the set knows its environment.
+    ``settings``: those of the demonstrations, in words and numbers. The environment that the set recovers has the
+    levels of all episodes; the metadata of an episode have the ``options`` with which it is reset for that one, and
+    ``level_digest``, ``frame_skip`` and the ``name`` of the recording.
 
-    Raises MissingExtraError without Minari, ArgumentError without episodes or for a name that Minari does not take.
+    Raises MissingExtraError without Minari; ArgumentError without episodes, for episodes of different bodies, or for a
+    name that Minari does not take.
     """
     require_minari()
     import minari
     from minari.data_collector import EpisodeBuffer
 
-    if not episodes:
-        raise ArgumentError("there are no demonstrations to write")
+    bodies = {each.body for each in episodes}
+    if len(bodies) != 1:
+        raise ArgumentError(f"{len(episodes)} demonstrations of {len(bodies)} bodies; expected some of one body")
+    digests = [level_digest(each.level) for each in episodes]
+    levels = dict(zip(digests, (write_level_string(each.level, exact=True) for each in episodes), strict=True))
     buffers = [
         EpisodeBuffer(
             id=number, observations=each.observations, actions=each.actions, rewards=each.rewards.tolist(),
             terminations=each.terminations.tolist(), truncations=each.truncations.tolist(),
+            options={"level": list(levels).index(digests[number])},
         )
         for number, each in enumerate(episodes)
     ]  # fmt: skip
-    env = gymnasium.make("ninja_game:Ninja-v0", frame_skip=1, **settings)
+    longest = max(LIFETIME, *(len(each.rewards) for each in episodes))
+    own = {"level": list(levels.values()), "body": bodies.pop(), "frame_skip": 1, "time_limit": longest}
+    env = gymnasium.make("ninja_game:Ninja-v0", **{**own, **settings})
     try:
         with env, warnings.catch_warnings():
             # Minari misses an author's address, a link and scores, which recordings have not.
             warnings.simplefilter("ignore", UserWarning)
-            return minari.create_dataset_from_buffers(
+            written = minari.create_dataset_from_buffers(
                 dataset, buffers, env=env, jpeg_encoding=False, data_format="hdf5", algorithm_name="recordings",
-                requirements=["ninja-game[learn]"], description="Recordings of ninja-game, one step a tick",
+                description="Recordings of ninja-game, one step a tick",
             )  # fmt: skip
+            written.storage.update_episode_metadata(
+                [
+                    {"level_digest": digest, "frame_skip": 1, "name": each.name}
+                    for digest, each in zip(digests, episodes, strict=True)
+                ]
+            )
+            return written
     except ValueError as error:
         raise ArgumentError(f"{dataset}: {error}") from None

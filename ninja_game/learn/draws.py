@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.batch.batch import Indices
+from ninja_game.batch.thread_pool import whole_number
 from ninja_game.errors import ArgumentError
-from ninja_game.learn.levels import LevelChoice, LevelSource
+from ninja_game.learn.levels.source import LevelChoice, LevelSource
 
 Draws = NDArray[np.uint64]
 
@@ -45,14 +46,23 @@ class LevelSequences:
         self._seeds, self._episodes = np.arange(count, dtype=np.uint64), np.zeros(count, np.uint64)
 
     def seed(self, worlds: Indices, seeds: Sequence[int]) -> None:
-        """Begin the sequences of these seeds. Raises ArgumentError for another number of them."""
+        """Begin the sequences of these seeds. Raises ArgumentError for another number of them and for other seeds."""
         if len(seeds) != len(worlds):
             raise ArgumentError(f"{len(seeds)} seeds for {len(worlds)} worlds; expected one for each")
-        self._seeds[worlds] = [seed % 2**64 for seed in seeds]
+        self._seeds[worlds] = [checked_seed(seed) for seed in seeds]
         self._episodes[worlds] = 0
 
-    def next(self, worlds: Indices, chosen: LevelChoice | None) -> Indices:
-        """The numbers of the levels of the next episodes of these worlds, drawn or ``chosen``; either is an episode."""
+    def next(self, worlds: Indices, chosen: LevelChoice | None) -> tuple[Indices, Draws]:
+        """The numbers of the levels of the next episodes of these worlds, drawn or ``chosen``; either is an episode.
+
+        And of each episode another random number, for what is drawn in it.
+        """
         drawn = draws(self._seeds[worlds], self._episodes[worlds])
         self._episodes[worlds] += np.uint64(1)
-        return self._source.choose(drawn) if chosen is None else self._source.numbers(chosen, len(worlds))
+        levels = self._source.choose(drawn) if chosen is None else self._source.numbers(chosen, len(worlds))
+        return levels, _mix(drawn + _STEP)
+
+
+def checked_seed(seed: object) -> int:
+    """A seed as Python's own number. Raises ArgumentError for anything but a whole number of 64 bits."""
+    return whole_number("the seed", seed, 0, 2**64 - 1)

@@ -21,16 +21,10 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.learn.actions import DISCRETE_KEYS
 from ninja_game.learn.levels import Origin, level_source
-from ninja_game.learn.sticky import LONGEST_WAIT, REPEAT, StickyActions
+from ninja_game.learn.protocol import EVALUATION_SEED, LONGEST_WAIT, REPEAT, TIME_LIMIT
 from ninja_game.learn.worlds import EnvWorlds
 from ninja_game.sim.level import Level
 from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_EXIT
-
-EVALUATION_SEED = 1_000_000
-"""The first seed of evaluations; agents are trained with seeds below it."""
-TIME_LIMIT = 2000
-"""Ticks, 50 s: longer than any certificate to the exit of the set."""
-
 
 Actions: TypeAlias = Iterator[NDArray[np.integer]]
 
@@ -146,30 +140,37 @@ def evaluate(
     """The table of an agent on levels.
 
     ``episodes``: of a policy in each level; of a planner's one. ``seed``: equal seeds give equal tables; a level's row
-    does not depend on the other levels. ``repeat``, ``longest_wait``: of ``StickyActions``, for policies.
+    does not depend on the other levels: its episode i is the first of an environment of the same settings after
+    ``reset(seed=first_seed(level, seed) + i)``. ``repeat``, ``longest_wait``: of ``EnvWorlds``, for policies.
     """
     source = level_source(levels)
     results = []
     settings = {**agent.settings, "time_limit": time_limit, "memory": memory}
-    settings.pop("actions", None)
+    for fixed in ("actions", "repeat", "longest_wait"):
+        settings.pop(fixed, None)
     for level_name, level in zip(source.names, source.levels, strict=True):
         if isinstance(agent, Planner):
             worlds = EnvWorlds(level, 1, **settings)
             actions: Actions = iter(np.asarray(agent.plan(level, seed)).reshape(-1, 1))
         else:
-            worlds = EnvWorlds(level, episodes, **settings)
-            seeds = [seed, int(level_digest(level)[:8], 16)]
-            sticky = StickyActions(episodes, seeds, repeat=repeat, longest_wait=longest_wait)
-            actions = _chosen(agent, worlds, sticky, seed)
+            worlds = EnvWorlds(level, episodes, repeat=repeat, longest_wait=longest_wait, **settings)
+            first = first_seed(level, seed)
+            worlds.reset(seeds=range(first, first + episodes))
+            actions = _chosen(agent, worlds, seed)
         results.append(_played(level_name, worlds, actions))
     return Evaluation(name, source.digest, seed, repeat, longest_wait, time_limit, results)
 
 
-def _chosen(agent: Policy, worlds: EnvWorlds, sticky: StickyActions, seed: int) -> Actions:
+def first_seed(level: Level, seed: int = EVALUATION_SEED) -> int:
+    """The seed of the first episode of an evaluation in a level."""
+    return seed + int(level_digest(level)[:12], 16)
+
+
+def _chosen(agent: Policy, worlds: EnvWorlds, seed: int) -> Actions:
     """What a policy does, step by step."""
     agent.reset(worlds.count, seed)
     while True:
-        yield sticky.played(agent.act(worlds.observations))
+        yield agent.act(worlds.observations)
 
 
 def _played(name: str, worlds: EnvWorlds, actions: Actions) -> LevelResult:

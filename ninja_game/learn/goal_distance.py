@@ -13,7 +13,7 @@ import numpy as np
 
 from ninja_game.backend.memories import open_worlds
 from ninja_game.batch.batch import Indices
-from ninja_game.learn.observations.part import Ragged, Setting, clamp
+from ninja_game.learn.observations.part import Setting, clamp
 from ninja_game.search.heuristics import FARTHEST, POINTS, Heuristics, point_at
 from ninja_game.search.switches import open_bits
 from ninja_game.sim.level import Level
@@ -46,8 +46,7 @@ class GoalDistance:
         self._free = list(range(len(self.fields)))
         self._row_of: dict[tuple[int, int], int] = {}
         self._stale = np.zeros(count, np.bool_)
-        slots = Ragged([[(slot,) for slot in self._heuristics(number).slots.tolist()] for number in range(len(levels))])
-        self._switches = slots.columns(setting, 1)
+        self._switches = setting.rows(lambda number: [(slot,) for slot in self._heuristics(number).slots.tolist()], 1)
 
     def _heuristics(self, number: int) -> Heuristics:
         """The fields of a level, which any memory makes alike: the fastest does."""
@@ -90,8 +89,8 @@ class GoalDistance:
                 self._free = [row for row in range(len(self.fields)) if row not in used]
                 self._row_of = {known: row for known, row in self._row_of.items() if row in used}
             self._row_of[key] = row = self._free.pop()
-            n = self._setting.fresh[level][1].ninja
-            np.minimum(self._heuristics(level).field(state, n.x, n.y), np.float32(FARTHEST), out=self.fields[row])
+            start = self._setting.fresh[level].start
+            np.minimum(self._heuristics(level).field(state, *start), np.float32(FARTHEST), out=self.fields[row])
         return self._row_of[key]
 
 
@@ -104,14 +103,14 @@ def point_within(x: float, y: float) -> int:
 @entry_point
 def measure_distance(
     maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int,
-    starts: Any, switches: Any, states: Any, stale: Any, fields: Any, rows: Any, ticks: Any,
+    bounds: Any, switches: Any, states: Any, stale: Any, fields: Any, rows: Any, ticks: Any,
 ) -> None:  # fmt: skip
     """Write the switch states of some worlds and their ``ticks`` to the exit; ``stale``: the state is another now."""
     for k in range(first, last):
         index = which[k]
         level = level_of[index]
         w = worlds[index]
-        state = open_bits(w, switches, starts[level], starts[level + 1])
+        state = open_bits(w, switches, bounds[2 * level], bounds[2 * level + 1])
         if state != states[index]:
             states[index] = state
             stale[index] = True

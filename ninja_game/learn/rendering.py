@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.errors import ArgumentError
 from ninja_game.levels.picture import level_picture
 from ninja_game.sim.kinds import BOUNCE_BLOCK, DRONE, EXIT, FLOOR_GUARD, GOLD, MINE, NINJA, THWUMP
 from ninja_game.sim.level import Level, ObjectSpec, makes_object
@@ -21,15 +22,27 @@ _GONE_WHEN_0 = {GOLD, MINE}
 _NOWHERE = (0.0, 0.0)
 
 
+MOST_PX = 8192
+"""Longest side of a picture."""
+
+
+def checked_size(size: object) -> tuple[int, int]:
+    """Width and height of a picture, px. Raises ArgumentError for anything else."""
+    sides = list(size) if isinstance(size, tuple | list) else []
+    if len(sides) != 2 or not all(isinstance(side, int) and 1 <= side <= MOST_PX for side in sides):
+        raise ArgumentError(f"render_size is {size!r:.40}; expected width and height, 1 to {MOST_PX} px")
+    return sides[0], sides[1]
+
+
 class EpisodePicture:
-    """Follows an episode by its inputs in a world of its own, and draws it as the game does.
+    """Draws a run as the game does, from ``begin`` on; or follows an episode by its inputs in a world of its own.
 
     ``size``: px, width and height. ``window``: show every tick in a window, at the game's speed.
 
     Raises NinjaGameError for a window where there is no display.
     """
 
-    def __init__(self, level: Level, body: Body, size: tuple[int, int], *, window: bool = False) -> None:
+    def __init__(self, size: tuple[int, int], *, window: bool = False) -> None:
         import pygame
 
         from ninja_game.ui.canvas import Canvas
@@ -46,12 +59,12 @@ class EpisodePicture:
         self._clock = pygame.time.Clock()
         self._context = OffscreenContext(size)
         self._surface = pygame.Surface(size)
-        self.begin(level, body)
 
-    def begin(self, level: Level, body: Body) -> None:
+    def begin(self, simulation: Simulation) -> None:
+        """Show a run as it is now."""
         from ninja_game.view.level_view import LevelView
 
-        self._simulation = Simulation(level, body=body)
+        self._simulation = simulation
         self._view = LevelView(self._context, self._simulation, audible=False)
         self._show()
 

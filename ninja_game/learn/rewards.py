@@ -1,14 +1,14 @@
 """Rewards: terms that are added up, each with its weight.
 
->>> [term.weight for term in reward_terms(None)]
-[1.0]
+>>> reward_terms("gold")
+[GoldReward(weight=0.01)]
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from ninja_game.errors import ArgumentError
 
@@ -59,24 +59,31 @@ class DistanceShaping:
 
 
 RewardTerm: TypeAlias = ExitReward | DeathPenalty | GoldReward | TimePenalty | DistanceShaping
-REWARD_TERMS = (ExitReward, DeathPenalty, GoldReward, TimePenalty, DistanceShaping)
+RewardLike: TypeAlias = RewardTerm | str
+REWARD_TERMS: dict[str, type[RewardTerm]] = {
+    "exit": ExitReward, "death": DeathPenalty, "gold": GoldReward, "time": TimePenalty, "distance": DistanceShaping
+}  # fmt: skip
+"""The terms, by name."""
 
 
-def reward_terms(reward: RewardTerm | Sequence[RewardTerm] | None) -> list[RewardTerm]:
-    """The terms that are meant: one, several, or None for the sparse reward. Raises ArgumentError for anything else."""
-    if reward is None:
-        return [ExitReward()]
-    terms = list(reward) if isinstance(reward, Sequence) else [reward]
-    wrong = [term for term in terms if type(term) not in REWARD_TERMS]
+def reward_terms(reward: RewardLike | Sequence[RewardLike] | None) -> list[RewardTerm]:
+    """The terms that are meant: one, several, or None for the sparse reward; by name with their default weights.
+
+    Raises ArgumentError for anything else.
+    """
+    several = isinstance(reward, Sequence) and not isinstance(reward, str)
+    given: Any = ["exit"] if reward is None else reward if several else [reward]
+    terms = [REWARD_TERMS[each]() if isinstance(each, str) and each in REWARD_TERMS else each for each in given]
+    wrong = [term for term in terms if type(term) not in REWARD_TERMS.values()]
     if wrong:
-        expected = ", ".join(kind.__name__ for kind in REWARD_TERMS)
+        expected = ", ".join(f"{name!r} ({kind.__name__})" for name, kind in REWARD_TERMS.items())
         raise ArgumentError(f"a term of the reward is {wrong[0]!r:.60}; expected one of {expected}")
     return terms
 
 
 def weights_of(terms: Sequence[RewardTerm]) -> list[float]:
     """What an exit, a death, a piece of gold and a tick are worth to terms; shaping is none of these."""
-    worth = dict.fromkeys(REWARD_TERMS, 0.0)
+    worth = dict.fromkeys(REWARD_TERMS.values(), 0.0)
     for term in terms:
         worth[type(term)] += term.weight
     return [worth[ExitReward], -worth[DeathPenalty], worth[GoldReward], -worth[TimePenalty]]

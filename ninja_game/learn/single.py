@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from copy import deepcopy
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Unpack
 
 import gymnasium
 import numpy as np
@@ -21,17 +21,16 @@ from gymnasium.error import ClosedEnvironmentError, ResetNeeded, UnsupportedMode
 
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import Actions
+from ninja_game.learn.draws import checked_seed
 from ninja_game.learn.levels import DEFAULT_LEVEL, Origin
-from ninja_game.learn.rendering import EpisodePicture, episode_text
-from ninja_game.learn.worlds import EnvState, EnvWorlds, checked_seed
+from ninja_game.learn.rendering import EpisodePicture, checked_size, episode_text
+from ninja_game.learn.worlds import EnvSettings, EnvState, EnvWorlds, refuse_unknown
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import JUMP_HELD, pressed
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.sim.states import OUTCOME_NAMES
-
-MOST_PX = 8192
-"""Longest side of a picture."""
+from ninja_game.simulation import Simulation
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,9 +46,9 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
     """One world, an episode from its start to the exit or death (terminated), or to the time limit (truncated).
 
     ``level``, ``observation``, ``flat``, ``reward``, ``frame_skip`` (ticks of a step), ``time_limit`` (ticks),
-    ``body``, ``memory``: as ``EnvWorlds`` takes them. ``actions``: "discrete" or "buttons" (``Actions``).
-    ``render_mode``: "human" (a window that shows every tick at the game's speed), "rgb_array" or "ansi" (text);
-    ``render_size``: px, width and height.
+    ``repeat``, ``longest_wait``, ``body``, ``memory``: as ``EnvWorlds`` takes them. ``actions``: "discrete" or
+    "buttons" (``Actions``). ``render_mode``: "human" (a window that shows every tick at the game's speed),
+    "rgb_array" or "ansi" (text); ``render_size``: px, width and height.
 
     ``info``: ``outcome`` ("running", "exit", "dead"), ``ticks`` and ``gold`` of the episode, ``events`` (the names of
     what happened in the last step, of ``EVENT_NAMES``), ``level`` (its name).
@@ -68,15 +67,13 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
         actions: str = "discrete",
         render_mode: str | None = None,
         render_size: tuple[int, int] = (528, 400),
-        **settings: Any,
+        **settings: Unpack[EnvSettings],
     ) -> None:
+        refuse_unknown(settings, "level", "actions", "render_mode", "render_size")
         if render_mode not in {None, *self.metadata["render_modes"]}:
             raise UnsupportedMode(f"render_mode is {render_mode!r}; expected one of {self.metadata['render_modes']}")
-        size = tuple(render_size) if isinstance(render_size, tuple | list) else ()
-        if len(size) != 2 or not all(isinstance(side, int) and 1 <= side <= MOST_PX for side in size):
-            raise ArgumentError(f"render_size is {render_size!r:.40}; expected width and height, 1 to {MOST_PX} px")
         self.render_mode = render_mode
-        self._size = size[0], size[1]
+        self._size = checked_size(render_size)
         self._settings = settings
         self._actions = Actions(actions)
         self.action_space = self._actions.space
@@ -115,7 +112,7 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
         self._inputs.clear()
         self._started = self._running = True
         if self._picture is not None:
-            self._picture.begin(self.level, self.worlds.body)
+            self._picture.begin(Simulation(self.level, body=self.worlds.body))
         self._show(0)
         return self._observation(), self._info()
 
@@ -126,11 +123,10 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
             over = "the episode is over" if self._started else "no episode has begun"
             raise ResetNeeded(f"{over}; call reset() before step()")
         worlds = self.worlds
-        keys = self._actions.keys([action], 1)
-        worlds.step(keys)
-        down, held = int(keys[0]), self._inputs[-1] & JUMP_HELD if self._inputs else 0
+        worlds.step(self._actions.key(action))
+        down, held = int(worlds.played[0]), self._inputs[-1] & JUMP_HELD if self._inputs else 0
         ticks = int(worlds.ticks[0]) - len(self._inputs)
-        self._inputs += bytes([pressed(down, held)]).ljust(ticks, keys.tobytes())
+        self._inputs += bytes([pressed(down, held)]).ljust(ticks, bytes([down]))
         terminated, truncated = bool(worlds.terminated[0]), bool(worlds.truncated[0])
         self._running = not (terminated or truncated)
         self._show(ticks)
@@ -186,7 +182,7 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
         self._inputs[:] = saved.inputs
         self._running = saved.running
         if self._picture is not None:
-            self._picture.begin(self.level, self.worlds.body)
+            self._picture.begin(Simulation(self.level, body=self.worlds.body))
         self._show(1)
         return self._observation(), self._info()
 
@@ -212,7 +208,8 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
         """The picture of the present moment; ``ticks``: how many of the last ticks a window shows."""
         if self._picture is None:
             window = self.render_mode == "human"
-            self._picture = EpisodePicture(self.level, self.worlds.body, self._size, window=window)
+            self._picture = EpisodePicture(self._size, window=window)
+            self._picture.begin(Simulation(self.level, body=self.worlds.body))
         self._picture.follow(self.inputs, ticks)
         return self._picture
 

@@ -12,19 +12,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from copy import deepcopy
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
-from gymnasium.error import ClosedEnvironmentError, ResetNeeded
+from gymnasium.error import ClosedEnvironmentError, ResetNeeded, UnsupportedMode
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import Actions
+from ninja_game.learn.draws import checked_seed
 from ninja_game.learn.levels import DEFAULT_LEVEL, Origin
 from ninja_game.learn.observations.observation import Observed
-from ninja_game.learn.worlds import EnvWorlds, checked_seed
+from ninja_game.learn.rendering import EpisodePicture, checked_size
+from ninja_game.learn.worlds import EnvSettings, EnvWorlds, refuse_unknown
+from ninja_game.sim.rules import TICKS_PER_SECOND
 
 Infos = dict[str, Any]
 
@@ -32,17 +35,20 @@ Infos = dict[str, Any]
 class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
     """``num_envs`` worlds that step together in compiled code.
 
-    ``level``, ``observation``, ``flat``, ``reward``, ``frame_skip``, ``time_limit``, ``body``, ``memory``, ``threads``:
-    as ``EnvWorlds`` takes them. ``actions``: "discrete" or "buttons". ``autoreset_mode``: "NextStep" (a world that has
-    ended begins a new episode in the next step, whose action it does not see), "SameStep" (it begins it at once; what
-    was is in ``infos["final_obs"]`` and ``["final_info"]``) or "Disabled" (you reset it, by ``options={"reset_mask":
-    …}``). ``copy``: whether observations are new arrays; else they are one memory that the next call writes again.
+    ``level``, ``observation``, ``flat``, ``reward``, ``frame_skip``, ``time_limit``, ``repeat``, ``longest_wait``,
+    ``body``, ``memory``, ``threads``: as ``EnvWorlds`` takes them. ``actions``: "discrete" or "buttons".
+    ``autoreset_mode``: "NextStep" (a world that has ended begins a new episode in the next step, whose action it does
+    not see), "SameStep" (it begins it at once; what was is in ``infos["final_obs"]`` and ``["final_info"]``) or
+    "Disabled" (you reset it, by ``options={"reset_mask": …}``). ``copy``: whether observations are new arrays; else
+    they are one memory that the next call writes again.
 
-    ``reset(seed=s)`` gives world i the seed s + i, ``seed=[…]`` each its own. ``options``: ``"reset_mask"``, the worlds
-    to reset; ``"level"``, the name or number of the level to play, or one for each.
+    ``reset(seed=s)`` gives world i the seed s + i (modulo 2^64), ``seed=[…]`` each its own. ``options``:
+    ``"reset_mask"``, the worlds to reset; ``"level"``, the name or number of the level to play, or one for each.
 
     ``infos`` has (num_envs,) arrays: ``outcome`` (0 running, 1 exit, 2 dead), ``ticks`` and ``gold`` of the episode,
-    ``events`` of the step (bit k: event k of `sim/events.py`), ``level`` (a number, of ``worlds.source.names``).
+    ``events`` of the step (bit k: event k of `sim/events.py`), ``level`` (its name; its number: ``worlds.levels_now``).
+
+    ``render_mode="rgb_array"``: ``render`` gives a picture of each world, (height, width, 3) uint8 by ``render_size``.
     """
 
     def __init__(
@@ -53,14 +59,24 @@ class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
         actions: str = "discrete",
         autoreset_mode: str | AutoresetMode = AutoresetMode.NEXT_STEP,
         copy: bool = True,
-        **settings: Any,
+        threads: int | None = None,
+        render_mode: str | None = None,
+        render_size: tuple[int, int] = (528, 400),
+        **settings: Unpack[EnvSettings],
     ) -> None:
-        self.worlds = EnvWorlds(level, num_envs, **settings)
+        refuse_unknown(settings, "level", "actions", "autoreset_mode", "copy", "threads", "render_mode", "render_size")
+        if render_mode not in {None, "rgb_array"}:
+            raise UnsupportedMode(f"render_mode is {render_mode!r}; expected 'rgb_array' or None")
+        self.render_mode, self._size = render_mode, checked_size(render_size)
+        self._picture: EpisodePicture | None = None
+        self.worlds = EnvWorlds(level, num_envs, threads=threads, **settings)
+        self._names, self._named = np.full(num_envs, "", dtype=object), np.full(num_envs, -1)
         self.actions = Actions(actions)
         self.num_envs = num_envs
         self.copy = copy
         self.autoreset_mode = AutoresetMode(autoreset_mode)
-        self.metadata = {"render_modes": [], "autoreset_mode": self.autoreset_mode}
+        fps = TICKS_PER_SECOND / self.worlds.frame_skip
+        self.metadata = {"render_modes": ["rgb_array"], "render_fps": fps, "autoreset_mode": self.autoreset_mode}
         self.single_action_space = self.actions.space
         self.single_observation_space = self.worlds.observation.space
         self.action_space = batch_space(self.single_action_space, num_envs)
@@ -93,11 +109,11 @@ class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
         if seed is None:
             return None if self._reset_before else self.np_random.integers(2**63, size=self.num_envs).tolist()
         if isinstance(seed, int | np.integer):
-            return [int(seed) + index for index in range(self.num_envs)]
-        seeds = list(seed) if isinstance(seed, Sequence | np.ndarray) else [seed]
+            return [(int(seed) + index) % 2**64 for index in range(self.num_envs)]
+        seeds = list(seed) if isinstance(seed, Sequence | np.ndarray) else []
         if len(seeds) != self.num_envs:
             raise ArgumentError(f"seeds are {seed!r:.60}; expected {self.num_envs}, one for each world")
-        return [checked_seed(each) for each in seeds]
+        return seeds
 
     def _checked_mask(self, mask: Any) -> NDArray[np.bool_]:
         if not isinstance(mask, np.ndarray) or mask.shape != (self.num_envs,) or mask.dtype != np.bool_:
@@ -130,6 +146,24 @@ class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
                 worlds.reset(ended)
         return self._shown(), rewards, terminated, truncated, self._infos() | final
 
+    def render(self) -> tuple[NDArray[np.uint8], ...] | None:
+        """A picture of each world as it is now; None without a render mode."""
+        self._refuse_closed()
+        if self.render_mode is None:
+            return None
+        if not self._reset_before:
+            raise ResetNeeded("no episode has begun; call reset() before render()")
+        picture = self._picture = self._picture or EpisodePicture(self._size)
+        pictures = []
+        for index in range(self.num_envs):
+            picture.begin(self.worlds.simulation(index))
+            pictures.append(picture.rgb())
+        return tuple(pictures)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """A copy makes its own picture."""
+        return vars(self) | {"_picture": None}
+
     def __copy__(self) -> NinjaVectorEnv:
         return deepcopy(self)
 
@@ -151,13 +185,16 @@ class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
     def _infos(self, mask: NDArray[np.bool_] | None = None) -> Infos:
         """Infos of all worlds, or of those in ``mask`` and 0 for the others."""
         worlds = self.worlds
+        for index in np.flatnonzero(worlds.levels_now != self._named).tolist():
+            self._named[index] = number = worlds.levels_now[index]
+            self._names[index] = worlds.source.names[number]
         values = {
             "outcome": worlds.outcomes, "ticks": worlds.ticks, "gold": worlds.gold,
-            "events": worlds.events, "level": worlds.levels_now,
+            "events": worlds.events, "level": self._names,
         }  # fmt: skip
         infos: Infos = {}
         for name, value in values.items():
-            infos[name] = value.copy() if mask is None else np.where(mask, value, 0)
+            infos[name] = value.copy() if mask is None else np.where(mask, value, None if name == "level" else 0)
             infos[f"_{name}"] = np.ones(self.num_envs, np.bool_) if mask is None else mask.copy()
         return infos
 

@@ -12,34 +12,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.backend.memories import open_worlds
 from ninja_game.batch.batch import Indices, WorldChoice, numbers_of
-from ninja_game.batch.thread_pool import cores, thread_pool
+from ninja_game.batch.thread_pool import thread_count, thread_pool, whole_number
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import Keys
 from ninja_game.learn.draws import LevelSequences
 from ninja_game.learn.goal_distance import GoalDistance
-from ninja_game.learn.kernels import ENDED, EVENTS, TERMINATED, TRUNCATED, advance_worlds
+from ninja_game.learn.kernels import ENDED, EVENTS, PLAYED, RANDOM, TERMINATED, TRUNCATED, WAIT, advance_worlds
 from ninja_game.learn.levels import LevelChoice, Origin, level_source
+from ninja_game.learn.levels.places import new_levels, put_levels
+from ninja_game.learn.levels.source import nearest
 from ninja_game.learn.observations.observation import Observation, PartLike
 from ninja_game.learn.observations.part import Setting
-from ninja_game.learn.rewards import DistanceShaping, RewardTerm, reward_terms, weights_of
+from ninja_game.learn.protocol import CHANCES, beginnings
+from ninja_game.learn.rewards import DistanceShaping, RewardLike, reward_terms, weights_of
 from ninja_game.learn.shaping import Shaping
 from ninja_game.sim.digest import world_digest
-from ninja_game.sim.memory.plain import load_plain
+from ninja_game.sim.memory.plain import save_plain
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.states import OUTCOME_EXIT
-from ninja_game.simulation import Body, is_box
+from ninja_game.simulation import Body, SaveState, Simulation, is_box
 
+NO_LEVEL = -1
 TOGETHER = 512
 """Worlds that are run and then observed before the next ones: so many stay in the processor's cache."""
 
@@ -55,13 +59,43 @@ class EnvState:
     owner: tuple[Any, ...] = field(repr=False)
 
 
+class Shown(TypedDict, total=False):
+    """Arguments of ``EnvWorlds``: what is shown and paid, and by which memory."""
+
+    observation: PartLike | Sequence[PartLike]
+    flat: bool
+    reward: RewardLike | Sequence[RewardLike] | None
+    goal_distance: bool
+    memory: str
+
+
+class EnvSettings(Shown, total=False):
+    """Arguments of ``EnvWorlds`` that both Gymnasium classes take."""
+
+    frame_skip: int
+    time_limit: int
+    repeat: float
+    longest_wait: int
+    body: Body
+
+
+def refuse_unknown(settings: Mapping[str, object], *own: str) -> None:
+    """Raise ArgumentError for a name that no argument of an environment has; ``own``: further ones that it has."""
+    known = [*own, *sorted(EnvSettings.__optional_keys__)]
+    for name in settings:
+        if name not in EnvSettings.__optional_keys__:
+            raise ArgumentError(f"an environment has no argument {name!r}; expected such as {nearest(name, known)}")
+
+
 class EnvWorlds:
     """``count`` worlds as episodes, one after the other.
 
     ``level``: where the levels come from, as ``level_source`` takes it. Each world has a seed of its own; which level
     its e-th episode plays depends on that seed and on e alone (and on what the source has learned, if it learns).
     ``observation``, ``flat``: as ``Observation`` takes them. ``reward``: a term or several (`rewards.py`).
-    ``frame_skip``: ticks of a step. ``time_limit``: ticks after which an episode is truncated. ``goal_distance``: make
+    ``frame_skip``: ticks of a step. ``time_limit``: ticks after which an episode is truncated. ``repeat``: the chance
+    that a step plays the keys of the step before once more; ``longest_wait``: steps at most that an episode begins with
+    no key down (`protocol.py`); what is drawn depends on the world's seed and the episode. ``goal_distance``: make
     ``goal`` (``GoalDistance``: how far each world is from the exit) even if no reward and no part needs it. ``body``,
     ``memory``, ``threads``: as of a ``Batch``; neither memory nor threads change a result.
 
@@ -75,10 +109,11 @@ class EnvWorlds:
     outcomes      (n,) int64            0 running, 1 exit, 2 dead
     ticks, gold   (n,) int64            ticks of the episode; pieces collected
     events        (n,) int64            bit k: event k (`sim/events.py`) happened in the last step
+    played        (n,) int64            the keys of the last step
     levels_now    (n,) intp             which of ``levels`` each world plays
     ============  ====================  =======================================================================
 
-    Raises what ``Batch`` raises, and ArgumentError for a frame skip or time limit below 1.
+    Raises what ``Batch`` raises, and ArgumentError for numbers that cannot be.
     """
 
     def __init__(
@@ -88,50 +123,65 @@ class EnvWorlds:
         *,
         observation: PartLike | Sequence[PartLike] = "state",
         flat: bool = False,
-        reward: RewardTerm | Sequence[RewardTerm] | None = None,
+        reward: RewardLike | Sequence[RewardLike] | None = None,
         frame_skip: int = 4,
         time_limit: int = LIFETIME,
+        repeat: float = 0.0,
+        longest_wait: int = 0,
         goal_distance: bool = False,
         body: Body = "circle",
         memory: str = "auto",
         threads: int | None = None,
     ) -> None:
         for name, number in (("worlds", count), ("frame_skip", frame_skip), ("time_limit", time_limit)):
-            if not isinstance(number, int | np.integer) or number < 1:
-                raise ArgumentError(f"{name} is {number!r:.60}; expected a whole number, at least 1")
+            whole_number(name, number)
+        whole_number("longest_wait", longest_wait, 0)
+        if not isinstance(repeat, int | float) or not 0.0 <= repeat < 1.0:
+            raise ArgumentError(f"repeat is {repeat!r:.60}; expected a chance, 0 or more and below 1")
         self.source = level_source(level)
         self.levels = self.source.levels
         self.count, self.body, self.frame_skip, self.time_limit = count, body, frame_skip, time_limit
-        self._worlds = open_worlds(memory, self.levels, count, box=is_box(body))
-        self.memory, self.threads = self._worlds.name, threads or cores()
+        self._endless = self.source.largest is not None
+        loaded = self.levels if self.source.largest is None else [self.source.largest] * count
+        self._worlds = open_worlds(memory, loaded, count, box=is_box(body))
+        self.memory, self.threads = self._worlds.name, thread_count(threads)
         self._changed = np.ones(count, np.bool_)
-        fresh = [load_plain(level, is_box(body)) for level in self.levels]
-        setting = Setting(self._worlds, fresh, self._changed, time_limit, self.memory == "compiled")
+        fresh = new_levels(self._worlds, range(len(loaded)))
+        room = self._worlds.slots * self._endless
+        setting = Setting(self._worlds, fresh, self._changed, time_limit, self.memory == "compiled", room=room)
         self.observation = Observation(observation, flat=flat)
-        terms = reward_terms(reward)
+        self.terms = terms = reward_terms(reward)
         shaping = [term for term in terms if isinstance(term, DistanceShaping)]
         self._guided = any(part.needs_goal for part in self.observation.parts)
         wanted = goal_distance or self._guided or shaping
+        if wanted and self._endless:
+            raise ArgumentError("the solver's field is not made for levels without end; take others, such as 'packed'")
         self.goal = GoalDistance(self.levels, setting) if wanted else None
         self._shaping = Shaping(shaping, self.goal) if self.goal and shaping else None
         self.observations = self.observation.memory(count)
-        self._writers = self.observation.writers(self.observations, replace(setting, goal=self.goal))
+        self._setting = replace(setting, goal=self.goal)
+        self._writers = self.observation.writers(self.observations, self._setting)
         self._advance = self._worlds.kernel(advance_worlds)
         self._everyone: Indices = np.arange(count, dtype=np.intp)
         self._levels = LevelSequences(self.source, count)
-        self.levels_now: Indices = np.asarray(self._worlds.level_of)
+        level_of: Indices = np.asarray(self._worlds.level_of)
+        self.levels_now: Indices = np.full(count, NO_LEVEL) if self._endless else level_of
         self.rewards = np.zeros(count)
-        self._facts = np.zeros((5, count), np.int64).T
-        self.outcomes, self.ticks, self.gold, self.events, _ = self._facts.T
+        self._facts = np.zeros((8, count), np.int64).T
+        self.outcomes, self.ticks, self.gold, self.events = self._facts.T[:ENDED]
+        self._ended, self.played = self._facts[:, ENDED], self._facts[:, PLAYED]
+        self._longest_wait = longest_wait
         self.terminated, self.truncated = np.zeros((2, count), np.bool_)
         weights = setting.table(weights_of(terms), np.float64)
         # What the kernels take, first and last.
-        self._places = (self._worlds.maps, self.levels_now, self._worlds.worlds)
-        self._episodes = (frame_skip, time_limit, weights, self.rewards, self._facts, self._changed)
+        self._places = (self._worlds.maps, level_of, self._worlds.worlds)
+        chance = int(repeat * CHANCES)
+        self._episodes = (frame_skip, time_limit, chance, weights, self.rewards, self._facts, self._changed)
         self._settings: dict[str, Any] = {
             "level": self.source, "count": count, "observation": self.observation.parts, "flat": flat, "reward": terms,
-            "frame_skip": frame_skip, "time_limit": time_limit, "goal_distance": goal_distance, "body": body,
-            "memory": self.memory, "threads": threads,
+            "frame_skip": frame_skip, "time_limit": time_limit, "repeat": repeat,
+            "longest_wait": longest_wait, "goal_distance": goal_distance, "body": body, "memory": self.memory,
+            "threads": threads,
         }  # fmt: skip
         self.reset()
 
@@ -150,6 +200,8 @@ class EnvWorlds:
 
     def step(self, keys: Keys, restart: Indices | None = None) -> int:
         """One step of every world with its keys, uint8 (n,): sums of ``Input``; the number of ticks run.
+
+        With ``repeat`` or ``longest_wait`` they may be others: ``played``.
 
         ``restart``: worlds that do not step but begin a new episode instead, without a reward.
         """
@@ -192,12 +244,12 @@ class EnvWorlds:
         thread_pool(self.threads).share(lambda first, last: self._write(which, first, last), len(which))
 
     def _conclude(self) -> None:
-        np.equal(self._facts[:, ENDED], TERMINATED, out=self.terminated)
-        np.equal(self._facts[:, ENDED], TRUNCATED, out=self.truncated)
+        np.equal(self._ended, TERMINATED, out=self.terminated)
+        np.equal(self._ended, TRUNCATED, out=self.truncated)
 
     def ended(self) -> Indices:
         """The worlds whose episode is over."""
-        return np.flatnonzero(self._facts[:, ENDED])
+        return self._ended.nonzero()[0]
 
     # --- single worlds ---
 
@@ -212,9 +264,23 @@ class EnvWorlds:
         self._conclude()
 
     def _restart(self, numbers: Indices, levels: LevelChoice | None = None) -> None:
-        self._worlds.load(numbers.tolist(), self._levels.next(numbers, levels).tolist())
+        chosen, drawn = self._levels.next(numbers, levels)
+        if self._endless:
+            self._enter(numbers, chosen)
+        else:
+            self._worlds.load(numbers.tolist(), chosen.tolist())
         self._facts[numbers] = 0
+        self._facts[numbers, WAIT], self._facts[numbers, RANDOM] = beginnings(drawn, self._longest_wait)
         self._look(numbers, None)
+
+    def _enter(self, numbers: Indices, chosen: Indices) -> None:
+        """Start worlds of levels without end, of which each has a place for the one that it plays."""
+        levels = [self.levels[number] for number in chosen.tolist()]
+        put_levels(self._worlds, numbers, levels)
+        for index, fresh in zip(numbers.tolist(), new_levels(self._worlds, numbers.tolist()), strict=True):
+            self._setting.fresh[index] = fresh
+            self._setting.renew(index)
+        self.levels_now[numbers] = chosen
 
     def _look(self, numbers: Indices, starts: NDArray[np.float64] | None) -> None:
         """After a restart or restore: measure again, no reward. ``starts``: of their episodes, None: here."""
@@ -236,16 +302,25 @@ class EnvWorlds:
     def restore(self, state: EnvState, worlds: WorldChoice = None) -> None:
         """Put saved states into worlds, the same or others, as many. Raises ArgumentError if they do not fit.
 
-        They show the observation of that moment, and no reward and no events.
+        They show the observation of that moment, and no reward and no events. Chance does not go back: which keys are
+        repeated from here on is drawn again.
         """
         numbers = numbers_of(worlds, self.count, "worlds")
         if state.owner != self._owner() or len(state.levels) != len(numbers):
             raise ArgumentError(f"{len(state.levels)} saved worlds do not fit {len(numbers)} of these")
-        self._worlds.restore_many(state.states, numbers, state.levels)
-        self._facts[numbers] = state.facts
+        if self._endless:
+            self._enter(numbers, state.levels)
+        self._worlds.restore_many(state.states, numbers, numbers if self._endless else state.levels)
+        self._facts[numbers, :RANDOM] = state.facts[:, :RANDOM]
         self._facts[numbers, EVENTS] = 0
         self._look(numbers, state.starts)
         self._conclude()
+
+    def simulation(self, index: int) -> Simulation:
+        """A run on the plain memory that stands where a world does, without its past: to look at it, or to go on."""
+        run = Simulation(self.levels[self.levels_now[index]], body=self.body)
+        run.restore(SaveState(run.level, run.body, run.memory, b"", save_plain(self.world(index))))
+        return run
 
     def world(self, index: int) -> World:
         """One world as plain objects, for looking at it."""
@@ -257,13 +332,6 @@ class EnvWorlds:
 
     def _owner(self) -> tuple[Any, ...]:
         return self.levels, self.body, self.memory, self.time_limit, self.goal is not None
-
-
-def checked_seed(seed: object) -> int:
-    """A seed as Python's own number. Raises ArgumentError for anything but a whole number from 0 on."""
-    if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
-        raise ArgumentError(f"the seed is {seed!r:.60}; expected a whole number from 0 on")
-    return int(seed)
 
 
 def _made_with(settings: dict[str, Any]) -> EnvWorlds:

@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from ninja_game.budget import NO_LIMIT
+from ninja_game.formats.replay.made import Made
 from ninja_game.formats.replay.text import Replay
 from ninja_game.player.invincible import spared_tick
 from ninja_game.player.records import level_score
@@ -25,8 +26,8 @@ class Attempt:
     """One try at a level, from its start to the exit, to death, or to giving up.
 
     ``lifetime``: ticks left, which gold adds to. ``inputs``: the recording, one byte per tick. ``score``: ticks, taken
-    at the exit contact. ``ended_tick``: the tick of the first exit contact or death, counted from 0. ``assisted``:
-    tools were used (or it is practice), so it does not count as a record. ``spared``: a death was refused, so that its
+    at the exit contact. ``ended_tick``: the tick of the first exit contact or death, counted from 0. ``assists``: what
+    helped, practice or its tools, so that it does not count as a record. ``spared``: a death was refused, so that its
     keys alone no longer make this run.
     """
 
@@ -45,8 +46,17 @@ class Attempt:
         self.score = 0
         self.ended_tick = -1
         self.own_hand = False
-        self.assisted = self.practice_mode
+        self.assists = {"practice"} if self.practice_mode else set()
         self.spared = False
+
+    @property
+    def assisted(self) -> bool:
+        return bool(self.assists)
+
+    @property
+    def made(self) -> Made:
+        """How its recording was made."""
+        return Made(played=True, assists=tuple(sorted(self.assists)))
 
     @property
     def outcome(self) -> str:
@@ -70,7 +80,7 @@ class Attempt:
         running = world.outcome == 0
         keys = pressed(held, was_held)
         if invincible and running:
-            self.assisted = True
+            self.assists.add("invincible")
             self.spared |= spared_tick(self.simulation, keys)
         else:
             self.simulation.step_keys(keys)
@@ -115,7 +125,7 @@ class Attempt:
         self.simulation.restore(state)
         self.inputs[:] = inputs
         self.score = level_score(self.gold, self.ended_tick) if self.outcome == "exit" else 0
-        self.assisted = True
+        self.assists.add("save-states")
 
     def rewound(self) -> None:
         """Take note that the simulation was put back to an earlier tick of this recording."""
@@ -127,7 +137,7 @@ class Attempt:
             # After a death by the player's own hand ticks went on without input.
             self.inputs.extend(bytes(tick - len(self.inputs)))
             self.ended_tick, self.score, self.own_hand = -1, 0, False
-        self.assisted = True
+        self.assists.add("rewind")
 
     # --- recordings ---
 
@@ -136,4 +146,4 @@ class Attempt:
         ticks = max(1, len(self.inputs) + (self.outcome != "running"))
         level, body, inputs = self.simulation.level, self.simulation.body, bytes(self.inputs)
         replay = record_replay(level, inputs, ticks=ticks, body=body, name=name, author=author, budget=NO_LIMIT)
-        return replace(replay, practice=self.assisted)
+        return replace(replay, made=self.made)

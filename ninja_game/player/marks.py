@@ -6,8 +6,8 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from ninja_game.formats.pack.pars import MEDALS, Pars
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.records import seconds_text
 from ninja_game.player.store import Store
 
 

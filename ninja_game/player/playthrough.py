@@ -19,6 +19,7 @@ from ninja_game.formats.load import load_levels
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.replay.text import Replay
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.formats.sayings import Saying, read_sayings
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry, Episode
@@ -26,7 +27,6 @@ from ninja_game.player.going_on import keep_place, kept_place
 from ninja_game.player.marks import next_par
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import LOCKED, UNLOCKED, Progress, new_unlocks
-from ninja_game.player.records import seconds_text
 from ninja_game.player.saving import EPISODE_BEST, count_of, replay_of, save_best, told
 from ninja_game.player.store import Work
 from ninja_game.sim.level import Level

@@ -11,11 +11,12 @@ from typing import NamedTuple
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
+from ninja_game.formats.replay.made import names_of_text, parse_made
 from ninja_game.formats.replay.text import OUTCOMES, Replay
 from ninja_game.player.store import Store
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import BODIES
-from ninja_game.sim.rules import GOLD_BONUS, LIFETIME, TICK_MS
+from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 
 NEWEST_SHOWN = 500
 """Replays listed at most, the newest first."""
@@ -48,9 +49,10 @@ _level = lru_cache(16)(parse_level_string)
 """A level by its text: replays of one level often stand near each other."""
 
 _WHOLE = (
-    "level, level_text, name, player, body, outcome, final_tick, gold, score, digest, inputs, made_at, kept, practice"
+    "level, level_text, name, player, body, outcome, final_tick, gold, score, digest, inputs, made_at, kept, made, "
+    "co_authors"
 )
-_WHOLE_KINDS = (str, str, str, str, str, str, int, int, int, str, bytes, str, int, int)
+_WHOLE_KINDS = (str, str, str, str, str, str, int, int, int, str, bytes, str, int, str, str)
 
 
 class EpisodeBest(NamedTuple):
@@ -110,14 +112,14 @@ class Records:
     def replay(self, number: int) -> Replay | None:
         """A whole replay by its id, with its level inside; None if it has gone or is damaged."""
         for row in self.store.rows(f"SELECT {_WHOLE} FROM replay WHERE id = ?", (number,), _WHOLE_KINDS):
-            level, text, name, player, body, outcome, final_tick, gold, _, digest, inputs, *_, practice = row
+            level, text, name, player, body, outcome, final_tick, gold, _, digest, inputs, *_, made, co_authors = row
             try:
                 return Replay(
                     inputs=inputs, final_tick=final_tick, outcome=outcome, gold=gold, digest=digest, name=name,
                     author=player, body=body, level_digest=level, level=_level(text),
-                    practice=bool(practice),
+                    made=parse_made(made), co_authors=names_of_text(co_authors),
                 )  # fmt: skip
-            except NinjaGameError as error:
+            except (NinjaGameError, ValueError) as error:
                 self.store.report(f"A replay in the records is damaged ({error}).")
         return None
 
@@ -198,6 +200,8 @@ class Records:
             "score": level_score(replay.gold, replay.final_tick) if replay.outcome == "exit" else 0,
             "inputs": replay.inputs,
             "practice": int(replay.practice),
+            "made": str(replay.made),
+            "co_authors": ", ".join(replay.co_authors),
         }
         condition = " AND ".join(f"{column} = ?" for column in values)
         for saved in self._saved(f"WHERE {condition}", *values.values()):
@@ -230,13 +234,3 @@ def level_score(gold: int, exit_tick: int) -> int:
     3240
     """
     return LIFETIME + GOLD_BONUS * gold - exit_tick
-
-
-def seconds_text(ticks: int) -> str:
-    """Ticks as seconds with three decimals (game.md §1.3).
-
-    >>> seconds_text(3600), seconds_text(1), seconds_text(10176)
-    ('90.000', '0.025', '254.400')
-    """
-    whole, rest = divmod(ticks * TICK_MS, 1000)
-    return f"{whole}.{rest:03d}"

@@ -6,11 +6,12 @@ A disk that is full or locked never ends the game: then the notice says so, and 
 from __future__ import annotations
 
 from ninja_game.formats.replay.text import Replay
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.marks import has_all_gold, medal_of
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.records import level_score, seconds_text
+from ninja_game.player.records import level_score
 from ninja_game.player.store import Work
 
 SAVED = ": saved"

@@ -67,6 +67,7 @@ def verify_all(
     strict: bool = False,
     chunks: Iterable[Chunk] = (),
     budget: int = RUN_BUDGET,
+    record: int | None = None,
 ) -> Iterator[Result]:
     """A verdict on every recording in files and folders, then in ``chunks``, in order.
 
@@ -77,7 +78,7 @@ def verify_all(
     Dask scheduler whose workers do it instead. ``resume``: a checkpoint log; what it has is not run again.
     ``levels``: those that count, by default the game's own where it matters; a single one is also the level of
     recordings that do not hold theirs. ``strict``: what docs/verification.md demands must hold too.
-    ``budget``: of each run (``ninja_game.budget``).
+    ``budget``: of each run (``ninja_game.budget``). ``record``: only this one of each file.
 
     Results never depend on who computed them, nor on workers that died meanwhile. Where only some levels count, runs on
     others are not simulated. Raises ClusterError, FormatError for a file that is not a checkpoint log, SelfTestError
@@ -88,7 +89,7 @@ def verify_all(
     asked = Asked(
         memory, levels[0].level if len(levels) == 1 else None, (*names,) if levels or strict else None, budget
     )
-    for result in _verify_all(chain(chunks_in(paths), chunks), asked, jobs, processes, cluster, resume):
+    for result in _verify_all(chain(chunks_in(paths, record), chunks), asked, jobs, processes, cluster, resume):
         if isinstance(result, Unreadable):
             yield result
         else:

@@ -63,17 +63,19 @@ class Chunk:
         return sha256(json.dumps(asdict(self)).encode()).hexdigest()
 
 
-def chunks_in(paths: Iterable[Path]) -> Iterator[Chunk]:
-    """All chunks of files and folders, in order, each read when it is asked for."""
+def chunks_in(paths: Iterable[Path], record: int | None = None) -> Iterator[Chunk]:
+    """All chunks of files and folders, in order, each read when it is asked for. ``record``: only this one of each."""
     for found in texts_in(paths):
         if isinstance(found, Unreadable):
             yield Chunk("", problem=found.message)
             continue
         file, text, named = found
         records = records_of(text, file)
-        if not records:
+        if not records and not record:
             yield Chunk(file, text=text, named=named)
-        for first in range(0, len(records), RECORDS):
+        elif record is not None and records[record:]:
+            yield Chunk(file, record, records=(records[record],), named=named)
+        for first in range(0, len(records) if record is None else 0, RECORDS):
             yield Chunk(file, first, records=tuple(records[first : first + RECORDS]), named=named)
 
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.budget import RUN_BUDGET, affordable_ticks, over_budget
+from ninja_game.budget import PLAIN_WORK, RUN_BUDGET, affordable_ticks, over_budget, tick_cost
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
@@ -78,14 +78,19 @@ class RunSplits:
         return {split.key: split for split in self.splits}
 
 
-def run_splits(recording: Recording, events: Sequence[str] = SPLIT_EVENTS, budget: int = RUN_BUDGET) -> RunSplits:
-    """Run a recording on the plain memory and note its splits, of these events only.
+def run_splits(
+    recording: Recording, events: Sequence[str] = SPLIT_EVENTS, budget: int = RUN_BUDGET, memory: str = "plain"
+) -> RunSplits:
+    """Run a recording and note its splits, of these events only.
 
+    ``memory``: as of ``Simulation``; "auto" is the plain one where there is little work.
     Raises, naming file and record, LevelError for a level that cannot be played, BudgetError for a run that is not over
     when its ``budget`` of work is.
     """
+    if memory == "auto" and recording.ticks * tick_cost(recording.level) <= PLAIN_WORK:
+        memory = "plain"
     with named_errors(recording):
-        run = Simulation(recording.level, body=recording.body)
+        run = Simulation(recording.level, body=recording.body, memory=memory)
     splits: list[Split] = []
     positions: list[tuple[float, float]] = []
     counts: dict[tuple[str, int | None], int] = {}
@@ -233,8 +238,8 @@ def compare_runs(ours: Recording, theirs: Recording, budget: int = RUN_BUDGET) -
 
 
 def each_second(places: tuple[Lead, ...]) -> list[Lead]:
-    """Of the leads tick by tick, those at the end of every second of the first run."""
-    return [lead for lead in places if (lead.tick + 1) % TICKS_PER_SECOND == 0]
+    """Of the leads tick by tick, those in the ticks of every full second of the first run: 40 at 1.000 s, 80 ..."""
+    return [lead for lead in places if lead.tick and lead.tick % TICKS_PER_SECOND == 0]
 
 
 def aligned(ours: NDArray[np.float64], theirs: NDArray[np.float64]) -> NDArray[np.intp]:

@@ -35,16 +35,21 @@ def replay_texts(recordings: Iterable[Recording], budget: int = RUN_BUDGET) -> I
 
 
 def recorded_again(recording: Recording, budget: int = RUN_BUDGET) -> Replay:
-    """A recording as a replay of today with its level; names, markers and ``practice`` stay. Raises as above."""
+    """A recording as a replay of today with its level; names, markers, how it was made stay. Raises as above.
+
+    One whose claims are no longer so was edited: its text by hand, or its level.
+    """
     old, level, inputs = recording.replay, recording.level, recording.inputs
     with named_errors(recording):
         new = record_replay(
             level, inputs, body=recording.body, name=recording.name, author=recording.author, budget=budget
         )
     markers = tuple(marker for marker in old.markers if marker.tick <= len(new.inputs))
+    told, found = ((each.outcome, each.final_tick, each.gold, each.digest or new.digest) for each in (old, new))
     return replace(
-        new, level_name=old.level_name, level_author=old.level_author, practice=old.practice, markers=markers
-    )
+        new, level_name=old.level_name, level_author=old.level_author, markers=markers, co_authors=old.co_authors,
+        made=old.made if old.unclaimed or told == found else old.made.edited(1),
+    )  # fmt: skip
 
 
 def input_texts(recordings: Iterable[Recording], form: str) -> Iterator[str]:
@@ -72,7 +77,9 @@ def on_level(recording: Recording, level: Level | None = None) -> Recording:
     there = replace(recording, level=level or recording.level)
     digest, now = level_digest(recording.level), level_digest(there.level)
     recorded = recording.replay.level_digest or digest
-    return recording if now == digest == recorded else replace(there, replay=_without_claims(there))
+    if now == digest == recorded:
+        return recording
+    return replace(there, replay=replace(_without_claims(there), made=recording.replay.made.edited(1)))
 
 
 def _without_claims(recording: Recording) -> Replay:
@@ -113,7 +120,7 @@ def left_out(form: str, found: Sequence[NamedLevel | Recording], texts: Sequence
     if form != "ascii" and any(isinstance(named, NamedLevel) and (named.teaches or named.says) for named in found):
         lost.append("what levels teach and say")
     if form in ("celeste", "libtas"):
-        lost.append("levels, names and authors")
+        lost.append("levels, names, authors and how runs were made")
     if form in ("replay", "inputs") and any(recording.comment for recording in found):
         lost.append("comments of recordings")
     if any(map(_own_comments, filter(is_ascii_level, texts))):

@@ -12,9 +12,9 @@ from __future__ import annotations
 import hashlib
 import sys
 from array import array
-from collections.abc import Generator
+from collections.abc import Generator, Iterable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, TypeVar, cast
+from typing import TYPE_CHECKING, Any, SupportsIndex, TypeVar, cast
 
 from ninja_game.backend.memories import go_on, open_worlds
 from ninja_game.budget import PLAIN_WORK, RUN_BUDGET, affordable_ticks, over_budget
@@ -23,7 +23,7 @@ from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.replay.headers import Waypoint
 from ninja_game.formats.replay.text import WAYPOINT_TICKS, Replay
 from ninja_game.sim.digest import replay_digest
-from ninja_game.sim.inputs import check_inputs, fitted_inputs
+from ninja_game.sim.inputs import ALL_KEYS, check_inputs, fitted_inputs
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import RunRecord
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
@@ -106,7 +106,7 @@ class RunResult:
 
 def run_level(
     level: Level,
-    inputs: bytes,
+    inputs: Iterable[SupportsIndex],
     *,
     body: Body = "circle",
     memory: str = "auto",
@@ -115,14 +115,25 @@ def run_level(
 ) -> RunResult:
     """Run a level with one input a tick until the first exit contact or death, or to the end of ``inputs``.
 
-    ``inputs``: one byte per tick, the sum of its ``Input`` flags (``Recording.playback`` gives them). ``memory``: as of
+    ``inputs``: bytes, a list or an array, for each tick the sum of its ``Input`` flags (``Recording.playback`` gives
+    them). ``memory``: as of
     ``Simulation``. ``digest``: tell the digest at the end too, as replays have it. ``budget``: of work
     (``ninja_game.budget``).
 
     Raises LevelError for a level that cannot be played, DemoError for more than a million inputs or for one that there
-    is not, ArgumentError for another body or memory, BudgetError for a run that is not over when its budget is.
+    is not, ArgumentError for another body or memory and for what are no inputs, BudgetError for a run that is not over
+    when its budget is.
     """
-    return drained(run_in_slices(level, inputs, body=body, memory=memory, digest=digest, budget=budget))
+    return drained(run_in_slices(level, inputs_of(inputs), body=body, memory=memory, digest=digest, budget=budget))
+
+
+def inputs_of(given: Iterable[SupportsIndex]) -> bytes:
+    """Inputs as bytes, one a tick. Raises ArgumentError for what are none."""
+    try:
+        return given if isinstance(given, bytes) else bytes(list(given))
+    except (TypeError, ValueError):
+        expected = f"bytes, a list or an array of whole numbers, one a tick, 0 to {ALL_KEYS}"
+        raise ArgumentError(f"inputs are {given!r:.60}; expected {expected}") from None
 
 
 def run_in_slices(
@@ -182,7 +193,7 @@ def _bytes(buffer: Any) -> bytes:
 
 def record_replay(
     level: Level,
-    inputs: bytes,
+    inputs: Iterable[SupportsIndex],
     *,
     ticks: int | None = None,
     body: Body = "circle",
@@ -196,13 +207,14 @@ def record_replay(
     can check. Raises LevelError for a level that cannot be played, ArgumentError for a run without ticks, BudgetError
     as ``run_level`` does.
     """
-    played = fitted_inputs(inputs, ticks) if ticks is not None else inputs
+    keys = inputs_of(inputs)
+    played = fitted_inputs(keys, ticks) if ticks is not None else keys
     if not played:
         raise ArgumentError("a replay has at least one tick")
     run = run_level(level, played, body=body, memory="plain", digest=True, budget=budget)
     waypoints = [run.waypoint(tick) for tick in range(WAYPOINT_TICKS - 1, run.ticks, WAYPOINT_TICKS)]
     return Replay(
-        inputs=inputs[: run.ticks],
+        inputs=keys[: run.ticks],
         final_tick=run.ticks - 1,
         outcome=run.outcome,
         gold=run.gold,

@@ -6,11 +6,11 @@ memories bit for bit. What (x, y, s) means for a kind is listed in ``docs/replay
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from hashlib import sha256
 from itertools import chain
-from typing import Any, TypeAlias
+from typing import Any, SupportsIndex, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,7 @@ from ninja_game.budget import NO_LIMIT, PLAIN_WORK, RUN_BUDGET, affordable_ticks
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.recording_reader import named_errors
+from ninja_game.runs.run import inputs_of
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import MAX_TICKS, check_inputs
 from ninja_game.sim.kinds import KIND_NAMES, KIND_OF
@@ -76,7 +77,7 @@ class RunTrace:
 
 def trace_level(
     level: Level,
-    inputs: bytes,
+    inputs: Iterable[SupportsIndex],
     *,
     body: Body = "circle",
     memory: str = "auto",
@@ -87,7 +88,7 @@ def trace_level(
 
     ``with_objects``: record objects too. ``events``: record the names of what happens. Raises what ``run_level`` does.
     """
-    return _trace(level, inputs, body, memory, with_objects=with_objects, events=events)
+    return _trace(level, inputs_of(inputs), body, memory, with_objects=with_objects, events=events)
 
 
 def trace_recording(

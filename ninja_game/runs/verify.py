@@ -45,8 +45,9 @@ class OutOfRangeError(NinjaGameError):
 class Verdict:
     """The result of a recording, and what it was (docs/verification.md).
 
-    ``name``, ``author``, ``practice``: as the recording says. ``level_digest``: of the level that was played;
-    ``level_name``: of the level with that digest among those that count, else ''. ``body``, ``rules``: of the run.
+    ``name``, ``author``, ``co_authors``, ``made`` ("": unknown), ``assisted`` (None: unknown), ``practice``: as the
+    recording says. ``level_digest``: of the level that was played; ``level_name``: of the level with that digest among
+    those that count, else ''. ``body``, ``rules``: of the run.
 
     ``outcome``: "exit", "dead" or "running"; ``end_tick``: the tick of the first exit contact or death, -1 if neither;
     ``score_ticks``: of a passed level, else None; ``ticks``: how many were run up to and including ``end_tick``, or all
@@ -78,6 +79,9 @@ class Verdict:
     practice: bool
     complete: bool
     problems: tuple[RunProblem, ...] = ()
+    made: str = ""
+    assisted: bool | None = None
+    co_authors: str = ""
 
     @property
     def good(self) -> bool:
@@ -122,7 +126,8 @@ def verify_in_slices(
         level_name="", body=recording.body, rules=recording.replay.rules,
         outcome=NOT_RUN, end_tick=-1, gold=0, score_ticks=None, ticks=0, xy_sha256="",
         possible_by_keyboard=None, in_time=None,
-        practice=recording.replay.practice, complete=not recording.missing,
+        practice=recording.replay.practice, complete=not recording.missing, made=str(recording.replay.made),
+        assisted=recording.replay.made.assisted, co_authors=", ".join(recording.replay.co_authors),
     )  # fmt: skip
     if counting is not None and verdict.level_digest not in counting:
         return verdict

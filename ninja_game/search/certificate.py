@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 from itertools import groupby
 from pathlib import Path
 
 from ninja_game.budget import NO_LIMIT
-from ninja_game.errors import NinjaGameError
+from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.files.writing import write_atomically
+from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.input_runs import Marker
 from ninja_game.formats.replay.text import Replay, write_replay
+from ninja_game.runs.compare import aligned
 from ninja_game.runs.run import record_replay, run_level
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
 from ninja_game.sim.level import Level
@@ -47,9 +51,38 @@ def with_plain_triggers(level: Level, inputs: bytes, *, body: Body = "circle", g
         raise UnverifiedRunError("the run triggers jumps without a fresh press, as no keyboard does") from None
 
 
-def named_run(run: Replay, *, name: str = "", author: str = "", level_author: str = "") -> Replay:
-    """A run under a name, which its level has too."""
-    return replace(run, name=name, author=author, level_name=name, level_author=level_author)
+def named_run(run: Replay, command: str, *, name: str = "", author: str = "", level_author: str = "") -> Replay:
+    """A run that a command found, under a name, which its level has too."""
+    made = run.made.searched(command)
+    return replace(run, name=name, author=author, level_name=name, level_author=level_author, made=made)
+
+
+def better_run(run: Replay, recording: Recording, command: str) -> Replay:
+    """A run that a command made of a recording: names and authors stay, and it says what was done and to whose run."""
+    old = recording.replay
+    return replace(
+        run, name=recording.name, author=recording.author, co_authors=old.co_authors,
+        level_name=old.level_name or recording.name, level_author=old.level_author or recording.author,
+        made=old.made.searched(command, begun_by="" if recording.form == "file" else recording.author),
+        markers=moved_markers(recording, run.inputs),
+    )  # fmt: skip
+
+
+def moved_markers(recording: Recording, inputs: bytes) -> tuple[Marker, ...]:
+    """The markers of a run in one that was made of it: each where its ninja is at the same place, else as late."""
+    old, body = recording.replay.markers, recording.body
+    if not old:
+        return ()
+    runs = [run_level(recording.level, each, body=body).positions for each in (recording.inputs, inputs)]
+    there = [-1] * len(runs[0])
+    with suppress(ArgumentError):
+        there = aligned(*runs).tolist()
+    moved = []
+    for tick, name in old:
+        place = there[tick] if tick < len(there) else -1
+        same = inputs[:tick] == recording.inputs[:tick] or place < 0
+        moved.append(Marker(min(tick if same else place, len(inputs)), name))
+    return tuple(sorted(moved))
 
 
 def save_replay(path: Path, replay: Replay) -> None:

@@ -154,5 +154,5 @@ def kept_run(level: NamedLevel, path: Path, task: Task) -> tuple[Replay, bool] |
 
 def _write(level: NamedLevel, path: Path | None, run: Replay) -> None:
     if path:
-        replay = named_run(run, name=level.name, author=AUTHOR, level_author=level.author)
+        replay = named_run(run, "check", name=level.name, author=AUTHOR, level_author=level.author)
         Tree(path.parent).write(path.name, write_replay(replay))

@@ -8,6 +8,7 @@ from __future__ import annotations
 import gc
 from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
+from contextlib import suppress
 from functools import cache, cached_property
 from math import inf
 from threading import Event
@@ -15,7 +16,7 @@ from threading import Event
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.text import Replay
 from ninja_game.search.best_first import MORE
-from ninja_game.search.certificate import with_plain_triggers
+from ninja_game.search.certificate import UnverifiedRunError, with_plain_triggers
 from ninja_game.search.gold_beam import GoldBeam
 from ninja_game.search.heuristics import Heuristics
 from ninja_game.search.nodes import Resolution, open_start
@@ -73,7 +74,8 @@ class _Job:
                 self._search_other_route()
             else:
                 # The best run most of the time; now and then another one that may have more in it.
-                rank = (0, 1, 0, 2, 0)[self._turn % 5] if not state.task.first else 0
+                given = state.task.first and not state.task.others
+                rank = (0, 1, 0, 2, 0)[self._turn % 5] if not given else 0
                 with state.lock:
                     inputs = state.runs[min(rank, len(state.runs) - 1)]
                 if state.task.first and not self.work:
@@ -234,6 +236,9 @@ def solve(
     state = SharedProgress(task, report, on_better=on_better, cancelled=stop or Event())
     if task.first:
         state.submit(with_plain_triggers(task.level, task.first, body=task.body, gold=task.gold_wanted))
+    for other in task.others:
+        with suppress(UnverifiedRunError):
+            state.submit(with_plain_triggers(task.level, other, body=task.body, gold=task.gold_wanted))
     try:
         _work(state)
     finally:

@@ -44,7 +44,8 @@ class Progress:
 class Task:
     """What to solve: ``gold`` pieces at least (-1: all), for ``seconds``, or for this many ticks of ``work`` a job.
 
-    ``first``: a run to shorten; ``first_only``: the first run that is found will do.
+    ``first``: a run to shorten, ``others``: other runs of the level whose routes are shortened too; ``first_only``: the
+    first run that is found will do.
     """
 
     level: Level
@@ -56,6 +57,7 @@ class Task:
     work: int = 0
     first: bytes = b""
     first_only: bool = False
+    others: tuple[bytes, ...] = ()
 
     @property
     def gold_wanted(self) -> int:

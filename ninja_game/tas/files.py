@@ -176,7 +176,8 @@ def unclaimed_replay(about: Recording, track: InputTrack) -> Replay:
         level_name=old.level_name,
         level_author=old.level_author,
         markers=track.markers,
-        practice=old.practice,
+        made=old.made,
+        co_authors=old.co_authors,
     )
 
 
@@ -194,7 +195,7 @@ def replay_of_track(about: Recording, track: InputTrack) -> Replay:
     if has_tail(track, run.ticks):
         return unclaimed
     return replace(
-        run, markers=track.markers, practice=unclaimed.practice,
+        run, markers=track.markers, made=unclaimed.made, co_authors=unclaimed.co_authors,
         level_name=unclaimed.level_name, level_author=unclaimed.level_author,
     )  # fmt: skip
 

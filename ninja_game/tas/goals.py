@@ -12,9 +12,15 @@ import numpy as np
 
 from ninja_game.errors import ArgumentError
 from ninja_game.runs.compare import run_splits
+from ninja_game.search.formula.task import LONGEST
 from ninja_game.sim.kinds import GOLD
+from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.tas.session import Session
 
+EXIT_TICKS = 5 * TICKS_PER_SECOND
+"""In which the exit is looked for at least, from a run that does not reach it."""
+IMPROVE, IMPROVE_GOLD = "improve", "improve with the gold"
+"""Methods for a whole run: with whatever gold, or with as much as it has."""
 NEAR = 6.0
 """How near to a place counts as there, px."""
 SAME_PLACE, SAME_VELOCITY = 0.5, 0.05
@@ -22,12 +28,17 @@ SAME_PLACE, SAME_VELOCITY = 0.5, 0.05
 
 
 class SpanGoal(NamedTuple):
-    """Goal and measure as formulas, ``least`` and ``rest`` as in a SpanTask."""
+    """Goal and measure as formulas, ``least`` and ``rest`` as in a SpanTask; ``last``: of another end, 0: as it is.
+
+    ``method``: the one that is meant, "": any.
+    """
 
     goal: str = ""
     measure: str = ""
     least: bool = False
     rest: bool = False
+    last: int = 0
+    method: str = ""
 
 
 @dataclass(frozen=True)
@@ -81,19 +92,49 @@ def stay_alive(span: SearchedSpan) -> SpanGoal:
     return SpanGoal(_alive(span.last))
 
 
+def reach_exit(span: SearchedSpan) -> SpanGoal:
+    """From the first tick of the span on, reach the exit, in any way: sooner than the run, or where it does not."""
+    tick, outcome = span.session.timeline.end
+    known = tick if outcome == "exit" else max(len(span.session.track), span.first + EXIT_TICKS)
+    return SpanGoal("won", last=min(max(known, span.first + 1), span.first + LONGEST))
+
+
+def whole_run(span: SearchedSpan) -> SpanGoal:
+    """Shorten all of the run, as `ninja-game improve` does. Raises ArgumentError where it does not reach the exit."""
+    tick, outcome = span.session.timeline.end
+    if outcome != "exit":
+        raise ArgumentError("the run does not reach the exit; Reach the exit sooner looks for a way to it")
+    return SpanGoal("won", last=tick + 1, method=IMPROVE)
+
+
 def collect(span: SearchedSpan) -> SpanGoal:
     """Take the piece of gold nearest to the span's end that the run has not taken by then.
 
     Raises ArgumentError where there is none.
     """
-    end = span.end
+    return SpanGoal(f"taken({_piece_left(span, span.last - 1)})")
+
+
+def collect_too(span: SearchedSpan) -> SpanGoal:
+    """Take the nearest piece that the run leaves on its way, and be where it is at the end, at most a second later.
+
+    Raises ArgumentError where there is none.
+    """
+    rest = _is_passed(span)
+    goal = f"taken({_piece_left(span, span.first)}) and {be_there(span).goal}"
+    return SpanGoal(goal, rest=rest, last=min(span.last + TICKS_PER_SECOND, span.first + LONGEST))
+
+
+def _piece_left(span: SearchedSpan, first: int) -> int:
+    """The id of the piece that is left at the end of the span and is nearest to the way there from a tick on."""
+    _ = span.end
     splits = run_splits(span.session.recording(), ("gold-taken",)).splits
     taken = {split.object_id for split in splits if split.tick < span.last}
     pieces = [each for each in span.session.timeline.objects if each[1] == GOLD and each[0] not in taken]
     if not pieces:
         raise ArgumentError("no gold is left at the end of the span")
-    id_ = min(pieces, key=lambda each: float(np.hypot(each[2] - end["x"], each[3] - end["y"])))[0]
-    return SpanGoal(f"taken({id_})")
+    x, y = span.session.timeline.positions[first : span.last].T
+    return min(pieces, key=lambda each: float(np.hypot(each[2] - x, each[3] - y).min()))[0]
 
 
 def same_end(span: SearchedSpan) -> SpanGoal:
@@ -120,12 +161,15 @@ def _is_passed(span: SearchedSpan) -> bool:
 
 
 PRESETS: tuple[tuple[str, str, Callable[[SearchedSpan], SpanGoal]], ...] = (
+    ("Reach the exit sooner", "Any way to it from the first tick on, also from a run that dies", reach_exit),
+    ("Whole run", "Shorten all of it, also by the routes of the runs beside it: improve", whole_run),
     ("Same end, sooner", "The same place, speed and state; the rest follows", same_end),
     ("Same end exactly, sooner", "By the digest of all that decides what follows", same_state),
     ("Be there sooner", "Where the run is at the end of the span", be_there),
     ("Go beyond sooner", "Past the upright line at the end of the span", go_beyond),
     ("Greatest speed", "At the end of the span", be_fast),
     ("Collect a piece", "The nearest gold that is left at the end of the span", collect),
+    ("This piece too", "The nearest gold that is left on the way; then the same place, and the rest", collect_too),
     ("Stay alive", "Through the whole span", stay_alive),
 )
 """Name, explanation, and what makes goal and measure of a run and its span."""

@@ -29,6 +29,7 @@ from ninja_game.tas.branches import (
     markers_of_json,
     track_of_json,
 )
+from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.files import OpenedRun, RunFile, run_file_of
 from ninja_game.tas.input_track import InputTrack, first_difference
 
@@ -106,12 +107,14 @@ class Journal(RecoveryFile):
 class RecoveredRun:
     """What a session that has died was editing. ``opened``: as it began; ``tracks``: after each edit.
 
-    ``branches``: as they were last; ``said``: the first line of the journal ``file``.
+    ``branches``: as they were last; ``taken``: of those whose keys were taken; ``said``: the first line of the journal
+    ``file``.
     """
 
     opened: OpenedRun
     tracks: tuple[InputTrack, ...]
     branches: Branches
+    taken: Contributions
     said: dict[str, Any]
     file: Path
 
@@ -133,15 +136,17 @@ def read_journal(file: Path) -> RecoveredRun:
         path, digest, branches_digest = (str(said[key]) for key in ("path", "digest", "branches_digest"))
         run_file = run_file_of(Path(path), digest, branches_digest) if path else RunFile()
         tracks = [track_of_json(said["track"])]
-        branches = branches_of_json(said["branches"])
+        branches, taken = branches_of_json(said["branches"]), Contributions()
         for line in lines:
             with suppress(*DAMAGED):
                 change = json.loads(line)
-                if "at" not in change:
+                if "taken" in change:
+                    taken += Contributions.of_json(change["taken"])
+                elif "at" not in change:
                     branches.do(change)
                 elif change.get("goes_on"):
                     tracks[-1] = edited(tracks[-1], change)
                 else:
                     tracks.append(edited(tracks[-1], change))
     opened = OpenedRun(recording, tracks[0], run_file, branches_of_json(said["branches"]))
-    return RecoveredRun(opened, tuple(tracks[1:]), branches, said, file)
+    return RecoveredRun(opened, tuple(tracks[1:]), branches, taken, said, file)

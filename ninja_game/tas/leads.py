@@ -46,7 +46,7 @@ def lead_table(ours: Recording, theirs: Recording, markers: Sequence[Marker]) ->
     there = {lead.tick: lead.other for lead in found.places}
     rows += [LeadRow(tick, there[tick], name, True) for tick, name in markers if tick in there]
     rows += [
-        LeadRow(lead.tick, lead.other, f"{(lead.tick + 1) // TICKS_PER_SECOND} s", False)
+        LeadRow(lead.tick, lead.other, f"{lead.tick // TICKS_PER_SECOND} s", False)
         for lead in each_second(found.places)
     ]
     return LeadTable(tuple(sorted(rows, key=lambda row: row.tick)), found)

@@ -10,6 +10,7 @@ from ninja_game.document import History, digest_of_file
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.tas.branches import Branch, Branches, branch_as_json, track_as_json
+from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.files import OpenedRun, RunFile, has_tail, recording_of, save_run, unclaimed_replay
 from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.journal import Journal, RecoveredRun, edit_as_json
@@ -21,15 +22,16 @@ TICKS_PER_FRAME_PLAIN = 2000
 
 
 class Session:
-    """One run that is edited. ``folder``: the player's, for the journal.
+    """One run that is edited. ``folder``: the player's, for the journal; ``player``: who edits it.
 
     ``about``: level, body, name and author of the run; ``moved``: it was recorded on another level. ``before_track``:
     the run before the last edit; ``before``: what the ninja did in it. Raises LevelError for a level that cannot be
     played.
     """
 
-    def __init__(self, opened: OpenedRun, folder: Path, *, memory: str = "auto") -> None:
+    def __init__(self, opened: OpenedRun, folder: Path, *, player: str = "", memory: str = "auto") -> None:
         self.about: Recording = opened.recording
+        self._first, self._player, self._done = opened, player, Contributions()
         self.file: RunFile = opened.file
         self.branches: Branches = opened.branches
         self.moved = opened.moved
@@ -90,13 +92,16 @@ class Session:
         self.history.begin()
         self._look_back()
 
-    def change(self, track: InputTrack, *, ticks: int | None = None) -> None:
+    def change(self, track: InputTrack, *, ticks: int | None = None, taken: Contributions | None = None) -> None:
         """Another track, as a part of the stroke or an edit of its own. So many ticks of it are simulated at once.
 
-        ``ticks``: None: as many as are quick.
+        ``ticks``: None: as many as are quick; ``taken``: of those whose keys are taken.
         """
         if track == self.track:
             return
+        if taken is not None:
+            self._done += taken
+            self.journal.note({"taken": taken.as_json()})
         if not self.history.in_stroke:
             self._look_back()
         self.history.change(track)
@@ -132,11 +137,20 @@ class Session:
         self.timeline.simulate(self.ticks_per_frame if ticks is None else ticks)
         self._note()
 
+    def _credit(self) -> None:
+        """What is said of the run: once its keys are others, what was done to it since it was opened, and by whom."""
+        opened = self._first.recording
+        changed = self.track.inputs != self._first.track.inputs
+        self.about = self._done.credited(opened, self._player) if changed else opened
+
     def _note(self) -> None:
         """Put what has changed into the journal. What could not be written is a part of the next edit's line."""
         if self.track == self._noted:
             return
         change = edit_as_json(self._noted, self.track)
+        if self._noted.inputs != self.track.inputs and not self._stroke_noted:
+            self._done += Contributions(1)
+        self._credit()
         if self.journal.note(change | {"goes_on": True} if self._stroke_noted else change):
             self._noted = self.track
             self._stroke_noted = self.history.in_stroke
@@ -207,7 +221,10 @@ class Session:
         self.journal.close()
         self.journal = journal
         for track in found.tracks:
+            self._done += Contributions(int(track.inputs != self.track.inputs))
             self.history.change(track)
+        self._done += found.taken
+        self._credit()
         self.branches = found.branches
         # The program may have died when the file was written, and the journal not yet started again.
         self._file_differs = self.file.path is not None and digest_of_file(self.file.path) != self.file.digest

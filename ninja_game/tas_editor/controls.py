@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from ninja_game.play.workspace.commands import Command, CommandTable
+from ninja_game.ui.input.bindings import ACTIONS
+from ninja_game.view.overlays import OVERLAY_ACTIONS
 
 COMMANDS = (
     Command("help", "This page", ("f1",)),
@@ -50,6 +52,7 @@ COMMANDS = (
     Command("take_over", "Take over: play on yourself from here", ("return", "kp_enter")),
     Command("ghosts", "Other runs, on or off", ("g",)),
     Command("whole_level", "All of the level, after the wheel has zoomed", ("0", "kp_0")),
+    *(Command(name, ACTIONS[name].label, ACTIONS[name].keys) for name in OVERLAY_ACTIONS),
     Command("splice", "The selected ticks from the other run", ("ctrl+p",)),
     Command("splice_here", "The rest from the other run, from its nearest tick", ("ctrl+shift+p",)),
     Command("next_other", "Next other run", ("o",)),

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.play.app import App
 from ninja_game.play.workspace.part import Part
+from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.session import Session
 from ninja_game.tas.timeline import Trajectory
@@ -24,11 +25,15 @@ Span = tuple[int, int]
 
 @dataclass(frozen=True)
 class OtherRun:
-    """A run that is shown beside the one under edit. ``trajectory``: what its ninja does."""
+    """A run that is shown beside the one under edit.
+
+    ``trajectory``: what its ninja does; ``made``: how, and by whom.
+    """
 
     name: str
     track: InputTrack
     trajectory: Trajectory = field(repr=False)
+    made: Contributions = field(default_factory=Contributions)
 
     @property
     def positions(self) -> NDArray[np.float64]:
@@ -106,14 +111,17 @@ class TasEditor:
             self.anchor = min(self.anchor, self.last_tick)
         return True
 
-    def edit(self, make: Callable[[InputTrack], InputTrack]) -> bool:
-        """Change the run as a function of what it is; a refusal is reported. Whether it was done."""
-        return self.attempt(lambda: self.session.change(make(self.track)))
+    def edit(self, make: Callable[[InputTrack], InputTrack], taken: Contributions | None = None) -> bool:
+        """Change the run as a function of what it is; a refusal is reported. Whether it was done.
 
-    def edit_selected(self, make: Callable[[InputTrack], InputTrack]) -> bool:
+        ``taken``: of those whose keys are taken.
+        """
+        return self.attempt(lambda: self.session.change(make(self.track), taken=taken))
+
+    def edit_selected(self, make: Callable[[InputTrack], InputTrack], taken: Contributions | None = None) -> bool:
         """Change the selected ticks; undo selects them again. Whether it was done."""
         self.places[self.track] = self.cursor, self.anchor
-        return self.edit(make)
+        return self.edit(make, taken)
 
 
 class TasPart(Part):

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.formats.recording import Recording
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
 from ninja_game.play.workspace.part import Commands
 from ninja_game.play.workspace.screen import WorkspaceScreen
-from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.tas.session import Session
 from ninja_game.tas_editor.commands import RunCommands
 from ninja_game.tas_editor.controls import TABLE
@@ -48,7 +48,7 @@ class TasScreen(WorkspaceScreen):
         self, app: App, opened: OpenedRun, others: Sequence[Recording] = (), found: RecoveredRun | None = None
     ) -> None:
         super().__init__(app)
-        self.session = Session(opened, app.player.folder)
+        self.session = Session(opened, app.player.folder, player=app.settings.name)
         if found is not None:
             self.session.recover(found)
         self.editor = TasEditor(app, self.session)
@@ -143,7 +143,13 @@ class Head(TasPart):
 
     def render_key(self) -> tuple[object, ...]:
         session = self.editor.session
-        return session.about.name, session.file.path, session.is_saved, session.timeline.end, session.journal.problem
+        return (
+            session.about.replay.credit,
+            session.file.path,
+            session.is_saved,
+            session.timeline.end,
+            session.journal.problem,
+        )
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         session, palette, right = self.editor.session, theme.palette, self.area[2] - 8
@@ -153,15 +159,15 @@ class Head(TasPart):
         where = ", on another level" * session.moved
         unsaved = f"{opened}{where}, to be saved as a new file" if opened else "no file yet"
         file = session.file.path.name if session.file.path else unsaved
-        author = f" - {session.about.author}" if session.about.author else ""
-        name = f"{session.about.name}{author}"
+        about = session.about
+        name = " - ".join(filter(None, (about.name, about.replay.credit)))
         title = theme.text(surface, name, 8, 6, size=13, bold=True, colour=palette.on_tile, width=right / 2 - 62)
         x = title.right / theme.canvas.scale + 12
         saved = "" if not session.file.path and session.is_saved else ", saved" if session.is_saved else ", not saved"
         state = session.journal.problem or file + saved
         theme.text(surface, state, x, 9, size=9.5, colour=palette.on_tile, width=right - 224 - x)
         words = {"exit": f"exit in tick {end}", "dead": f"dead in tick {end}"}.get(outcome, "no exit yet")
-        seconds = f", {(end + 1) / TICKS_PER_SECOND:.3f} s" if end >= 0 else ""
+        seconds = f", {seconds_text(end)} s" if end >= 0 else ""
         theme.text(surface, words + seconds, right, 8, size=11, bold=True, colour=palette.on_tile, align="right")
 
 

@@ -15,6 +15,8 @@ from ninja_game.ui.widgets import PAD, TEXT, Widget
 
 MAX_ENTRY = 40
 """How many characters can be typed unless a field says otherwise."""
+_NO_TEXT = {"tab", "escape", "return", "kp_enter", "up", "down", "pageup", "pagedown", "insert"}
+_FUNCTION_KEY = re.compile("f[0-9]+")
 DOUBLE_MS = 400
 """A second click within so many ms selects a word, a third one everything."""
 
@@ -84,8 +86,8 @@ class TextEntry(Widget):
         elif ctrl and not getattr(event, "mod", 0) & pygame.KMOD_ALT:
             return self._command(key)
         else:
-            # What types a character comes again as TEXTINPUT; as a key it must not move the focus.
-            return key == "space" or len(key) == 1
+            # What types a character comes again as TEXTINPUT; as a key it must not do anything else.
+            return key not in _NO_TEXT and not _FUNCTION_KEY.fullmatch(key)
         return True
 
     def _command(self, letter: str) -> bool:

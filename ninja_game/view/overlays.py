@@ -54,19 +54,21 @@ class Overlays:
         if HIT_BOXES in self.on:
             for shape in hit_shapes(world):
                 _draw_shape(target, shape)
+        if self.on & {GRID, EDGES}:
+            # The sheet lies over everything: one rectangle to be mended, not hundreds.
+            target.covered[:] = [target.canvas.stage]
 
     def _draw_sheet(self, target: DrawTarget, world: World) -> None:
         """Grid and edges change seldom: they are drawn once and laid over."""
         wanted = (target.canvas, target.palette.name, GRID in self.on, EDGES in self.on, bytes(world.edges))
         if self._sheet is None or wanted != self._sheet_of:
             self._sheet_of = wanted
-            self._sheet = pygame.Surface(target.canvas.size, pygame.SRCALPHA)
-            local = Canvas(target.canvas.size)
+            self._sheet = pygame.Surface(target.canvas.window, pygame.SRCALPHA)
             if GRID in self.on:
-                _paint_grid(self._sheet, local, target.palette)
+                _paint_grid(self._sheet, target.canvas, target.palette)
             if EDGES in self.on:
-                _paint_edges(self._sheet, local, target.palette, world)
-        target.covered.append(target.surface.blit(self._sheet, target.canvas.origin))
+                _paint_edges(self._sheet, target.canvas, target.palette, world)
+        target.surface.blit(self._sheet, (0, 0))
 
 
 def _paint_grid(sheet: pygame.Surface, canvas: Canvas, palette: Palette) -> None:

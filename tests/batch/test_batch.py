@@ -205,8 +205,12 @@ def test_wrong_use_is_refused(memory: str) -> None:
         batch.restore(batch.save(0))
     with pytest.raises(ValueError, match="do not fit"):
         batch.restore(Batch(LEVELS[1], 2, memory=memory).save())
-    with pytest.raises(ValueError, match="at least one"):
+    with pytest.raises(ValueError, match="at least 1"):
         Batch(LEVELS[0], 0, memory=memory)
+    for wrong in ({"count": 1.5}, {"count": True}, {"threads": 0}, {"threads": -1}, {"threads": "2"}):
+        settings: dict[str, Any] = {"count": 1, "memory": memory, **wrong}
+        with pytest.raises(ArgumentError, match="expected a whole number, at least 1"):
+            Batch(LEVELS[0], **settings)
 
 
 def test_without_numba_the_plain_memory_does_it(monkeypatch: pytest.MonkeyPatch) -> None:

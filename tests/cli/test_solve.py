@@ -139,7 +139,7 @@ def test_runs_that_are_kept_are_not_searched_again(tmp_path: Path) -> None:
 
 def test_a_run_that_is_kept_is_shortened_where_that_is_asked_for(tmp_path: Path) -> None:
     level, runs = level_file(tmp_path, WALK), tmp_path / "runs"
-    slow = named_run(verified_run(parse_level_string(WALK), bytes([0] * 20 + [2] * 60)))
+    slow = named_run(verified_run(parse_level_string(WALK), bytes([0] * 20 + [2] * 60)), "check")
     runs.mkdir()
     save_replay(runs / "level.exit.replay.txt", slow)
     said = command("check", level, "--replays", runs).stdout

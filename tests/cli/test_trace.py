@@ -192,3 +192,9 @@ def test_a_folder_of_levels_has_no_recordings(tmp_path: Path) -> None:
     assert result.exit_code == 2
     assert f"{tmp_path}: no recordings here" in result.stderr
     assert "None" not in result.stderr
+
+
+def test_a_record_that_is_not_there_writes_no_heads_of_columns(two: Path) -> None:
+    result = trace(two, "--record", "99")
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert "no record 99" in result.stderr

@@ -67,6 +67,9 @@ def test_json_has_the_fields_that_programs_read(walk: Path) -> None:
         "in_time": True,
         "practice": False,
         "complete": True,
+        "made": "",
+        "assisted": None,
+        "co_authors": "",
     }
 
 
@@ -195,3 +198,12 @@ def test_closed_outputs_change_no_exit_code(tmp_path: Path, name: str, code: int
 def test_errors_that_cannot_be_written_change_no_exit_code(tmp_path: Path) -> None:
     words = f"{sys.executable} -P -m ninja_game verify --memory plain nowhere.txt"
     assert subprocess.run(["/bin/sh", "-c", f"{words} 2>/dev/full"], cwd=tmp_path, check=False).returncode == 2
+
+
+def test_one_record_of_a_file_is_judged(three: Path) -> None:
+    result = verify(three, "--record", "1", "--json")
+    (verdict,) = map(json.loads, result.stdout.splitlines())
+    assert (verdict["record"], verdict["outcome"]) == (1, "dead")
+    missing = verify(three, "--record", "7")
+    assert missing.exit_code == 2
+    assert "three.txt: no record 7" in missing.output

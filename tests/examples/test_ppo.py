@@ -1,31 +1,48 @@
-"""The method by itself: advantages by their definition, and a network that learns what pays."""
+"""The method by itself: advantages by their definition, the way that it is paid for; the same seed, the same agent."""
 
 from __future__ import annotations
 
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
-from examples.agents import forward
-from examples.ppo import Learner, PPOSettings, Samples, advantages, new_networks
+from examples.agents import PolicyAgent, forward, load_policy
+from examples.imitate import imitate, known_steps
+from examples.ppo import OBSERVATION, Settings, advantages, main, new_networks, train, way_left
+from ninja_game.backend.memories import compiled_available
+from ninja_game.learn.levels import level_source
+from ninja_game.learn.observations.observation import Observation
+from ninja_game.learn.observations.vectors import FIELDS, Guide
+from ninja_game.learn.worlds import EnvWorlds
+from tests.support.waiting import LONGEST
+from tools import ROOT
+
+fast = pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
+SHORT = Settings(hidden=8, worlds=16, round=8, batch=64)
 
 
 def test_advantages_are_discounted_sums_of_what_was_better_than_expected() -> None:
     rng = np.random.default_rng(1)
     rewards = rng.random((6, 2)).astype(np.float32)
     values = rng.random((7, 2)).astype(np.float32)
-    ended = np.zeros((6, 2), np.bool_)
-    ended[3, 1] = True
-    method = PPOSettings(discount=0.9, trace=0.8)
-    found = advantages(rewards, values, ended, method)
+    terminated, ended = np.zeros((2, 6, 2), np.bool_)
+    terminated[3, 1] = ended[3, 1] = True
+    ended[2, 0] = True  # by the time
+    found = advantages(rewards, values, terminated, ended, Settings(discount=0.9, trace=0.8))
     for world in range(2):
         for step in range(6):
             expected, factor = 0.0, 1.0
             for k in range(step, 6):
-                over = ended[k, world]
-                follows = 0.0 if over else 0.9 * values[k + 1, world]
+                follows = 0.0 if terminated[k, world] else 0.9 * values[k + 1, world]
                 expected += factor * (rewards[k, world] + follows - values[k, world])
                 factor *= 0.9 * 0.8
-                if over:
+                if ended[k, world]:
                     break
             assert found[step, world] == pytest.approx(expected, abs=1e-5)
 
@@ -37,19 +54,76 @@ def test_new_networks_expect_nothing_and_prefer_nothing() -> None:
     assert [weights.shape for weights, _ in networks["value"]] == [(10, 16), (16, 16), (16, 1)]
 
 
+def test_the_way_left_goes_by_the_switch_until_the_exit_is_open() -> None:
+    worlds = EnvWorlds("0" * 713 + "|5^100,566!11^300,566,200,566", 1, observation="state", memory="plain")
+    for ticks, left in ((0, 200), (16, None)):
+        for _ in range(ticks):
+            worlds.step(np.array([2], np.uint8))
+        seen = np.asarray(worlds.observations)
+        expected = left or 300 - seen[0, list(FIELDS).index("x")] * 792
+        assert way_left(seen)[0] * 792 == pytest.approx(expected, abs=0.5)
+    assert seen[0, list(FIELDS).index("exit_open")] == 1
+
+
+def test_the_agent_sees_no_field_of_the_solver() -> None:
+    assert not any(isinstance(part, Guide) or part.needs_goal for part in OBSERVATION)
+
+
+def arrays(agent: PolicyAgent) -> bytes:
+    """Everything that decides what an agent does."""
+    parts = [array for layer in agent.layers for array in layer]
+    return b"".join(array.tobytes() for array in (*parts, agent.mean, agent.scale))
+
+
+@fast
 @pytest.mark.slow
-def test_the_policy_learns_which_action_pays_by_what_it_sees() -> None:
+def test_the_same_seed_makes_the_same_agent() -> None:
     pytest.importorskip("jax")
-    learner = Learner(2, PPOSettings(hidden=16, batch=256, learning_rate=0.01), seed=1)
-    rng = np.random.default_rng(2)
-    for _ in range(40):
-        seen = rng.choice([-1.0, 1.0], (512, 2)).astype(np.float32)
-        scores, values = learner.play(seen)
-        actions = (scores + rng.gumbel(size=scores.shape)).argmax(axis=1).astype(np.int32)
-        # Where the first number is positive action 5 pays, else action 0.
-        rewards = (actions == np.where(seen[:, 0] > 0, 5, 0)).astype(np.float32)
-        chances = np.take_along_axis(scores, actions[:, np.newaxis], axis=1)[:, 0]
-        learner.learn(Samples(seen, actions, chances, rewards - values, rewards), 0.0)
-    seen = np.array([[1, 1], [1, -1], [-1, 1], [-1, -1]], np.float32)
-    assert forward(learner.networks["policy"], seen).argmax(axis=1).tolist() == [5, 5, 0, 0]
-    assert np.allclose(learner.play(seen)[1], 1.0, atol=0.2)
+    first, again, other = (train("bench:train:easy", 512, seed, settings=SHORT) for seed in (1, 1, 2))
+    assert arrays(first) == arrays(again) != arrays(other)
+    assert first.training["curve"][-1][0] == 512
+    assert [len(point) for point in first.training["curve"]] == [5] * 4
+
+
+@fast
+@pytest.mark.slow
+def test_a_training_that_is_stopped_leaves_what_it_has_learned(tmp_path: Path) -> None:
+    pytest.importorskip("jax")
+    output = tmp_path / "agent.npz"
+    words = ["--level", "00-0-first-steps", "--steps", "330000", "-o", str(output)]
+    program = [sys.executable, "-m", "examples.ppo", *words]
+    with subprocess.Popen(program, stderr=subprocess.PIPE, cwd=ROOT) as training:
+        while not output.exists():
+            assert training.poll() is None
+            time.sleep(0.2)
+        training.send_signal(signal.SIGINT)
+        _, errors = training.communicate(timeout=LONGEST)
+    assert training.returncode == 130
+    assert b"stopped" in errors
+    assert load_policy(output).training["curve"]
+
+
+def test_an_agent_is_not_replaced(tmp_path: Path) -> None:
+    (tmp_path / "agent.npz").touch()
+    result = CliRunner().invoke(main, ["-o", str(tmp_path / "agent.npz")])
+    assert (result.exit_code, "exists; name another file" in result.output) == (2, True)
+
+
+@fast
+def test_known_runs_are_seen_as_an_agent_would_see_them() -> None:
+    seen, actions = known_steps("bench:train:0-2")
+    assert seen.shape == (len(actions), *(Observation(OBSERVATION, flat=True).space.shape or ()))
+    assert set(actions.tolist()) <= set(range(6))
+    assert len(level_source("bench:train:0-2").names) == 3
+
+
+@fast
+@pytest.mark.slow
+def test_imitation_learns_to_press_what_the_runs_press() -> None:
+    pytest.importorskip("jax")
+    agent = imitate("bench:train:0-29", passes=40, hidden=64, batch=64)
+    seen, actions = known_steps("bench:train:0-29")
+    from examples.agents import normalised
+
+    right = forward(agent.layers, normalised(seen, agent.mean, agent.scale)).argmax(axis=1) == actions
+    assert right.mean() > 0.6

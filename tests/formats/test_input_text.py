@@ -17,6 +17,7 @@ from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.recording import parse_replays, record_of
 from ninja_game.formats.replay.input_runs import Marker, write_inputs
 from ninja_game.formats.replay.input_text import MOST_INCLUDES, read_inputs
+from ninja_game.formats.replay.made import Made
 from ninja_game.formats.replay.text import Replay
 from ninja_game.formats.tas_lines import in_our_notation
 from ninja_game.runs.conversion import input_texts
@@ -169,7 +170,9 @@ def test_a_cut_replay_is_noticed() -> None:
 def test_loose_replays_read_back_equal(inputs: bytes, box: bool) -> None:
     final_tick = max(0, len(inputs) - 1)
     for last in (final_tick, final_tick + 5):
-        replay = Replay(inputs, last, "", level=LEVEL, body="box" if box else "circle", name="x", practice=box)
+        replay = Replay(
+            inputs, last, "", level=LEVEL, body="box" if box else "circle", name="x", made=Made(edits=int(box))
+        )
         assert parse_replay(write_replay(replay)) == replay
 
 

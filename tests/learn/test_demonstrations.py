@@ -13,7 +13,7 @@ from ninja_game.cli.main import cli
 from ninja_game.errors import ArgumentError
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.n14.level_file import LevelRecord
-from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.recording import demo_replay, recording_of
 from ninja_game.learn.demonstrations import (
     Demonstration,
@@ -114,6 +114,39 @@ def test_minari_reads_what_was_written(tmp_path: Path, monkeypatch: pytest.Monke
     for name in ("ninja/three-v0", "no name"):
         with pytest.raises(ArgumentError, match=name):
             write_minari(name, episodes)
+
+
+def test_minaris_environment_plays_every_episode_as_it_was(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of several levels, by the command."""
+    monkeypatch.setenv("MINARI_DATASETS_PATH", str(tmp_path))
+    minari = pytest.importorskip("minari")
+    paths = [str(path) for path in bundled_replays()[:6:2]]
+    words = [
+        "demonstrations",
+        *paths,
+        "--minari",
+        "ninja/several-v0",
+        "--observation",
+        "state",
+        "--observation",
+        "time",
+    ]
+    result = CliRunner().invoke(cli, [*words, "--memory", "plain"])
+    assert result.exit_code == 0, result.output
+    dataset = minari.load_dataset("ninja/several-v0")
+    env = dataset.recover_environment(memory="plain")
+    metadata = list(dataset.storage.get_episode_metadata(range(3)))
+    assert [each["frame_skip"] for each in metadata] == [1] * 3
+    assert [each["options"]["level"] for each in metadata] == [0, 1, 2]
+    for each, path, told in zip(dataset.iterate_episodes(), paths, metadata, strict=True):
+        assert told["level_digest"] == level_digest(load_replays(path)[0].level)
+        seen = [env.reset(options=told["options"])[0]]
+        for action, reward, terminated in zip(each.actions, each.rewards, each.terminations, strict=True):
+            observation, *paid = env.step(action)
+            assert paid[:2] == [reward, terminated]
+            seen.append(observation)
+        for name, array in each.observations.items():
+            assert np.array_equal(array, np.stack([row[name] for row in seen]))
 
 
 def test_several_parts_are_written_under_their_names(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from examples import evaluate, train
+from examples import bench_report, evaluate, measure, ppo
 from examples.agents import LEARNED
 from ninja_game.cli.main import cli
 from ninja_game.files.user_folder import data_folder
@@ -30,13 +30,13 @@ SHORTER = {
     "test": "00-2-the-chimney",
     "50": "3",
     "100": "3",
-    "240": "1",
+    "500000": "1",
     "agent.npz": str(LEARNED),
 }
 """What a command of the page is run with instead, so that a test takes seconds."""
 
 
-TRIED = [pytest.param(line, marks=[pytest.mark.slow] * ("examples.train" in line)) for line in COMMANDS]
+TRIED = [pytest.param(line, marks=[pytest.mark.slow] * ("examples.ppo" in line)) for line in COMMANDS]
 
 
 @pytest.mark.parametrize("line", TRIED)
@@ -45,10 +45,23 @@ def test_a_command_of_the_page_does_what_it_says(line: str, tmp_path: Path, monk
     monkeypatch.chdir(tmp_path)
     (tmp_path / "levels").symlink_to(data_folder("levels"))
     program, *words = [SHORTER.get(word, word) for word in shlex.split(line.removeprefix("python3 -m "))]
-    command = {"ninja-game": cli, "examples.train": train.main, "examples.evaluate": evaluate.main}[program]
+    command = {"ninja-game": cli, "examples.ppo": ppo.main, "examples.evaluate": evaluate.main}[program]
     result = CliRunner().invoke(command, words)
     assert result.exit_code == 0, result.output
     assert result.stdout
+
+
+def test_the_commands_of_the_protocol_are_ones_that_can_be_given(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "results").mkdir()
+    page = (Path(__file__).resolve().parents[2] / "docs" / "ninjabench.md").read_text("utf-8")
+    lines = re.findall(r"^python3 -m examples\.(\w+) (.*)$", page, re.MULTILINE)
+    assert {name for name, _ in lines} == {"ppo", "measure", "bench_report"}
+    for name, words in lines:
+        command = {"ppo": ppo.main, "measure": measure.main, "bench_report": bench_report.main}[name]
+        command.make_context(name, shlex.split(words))
 
 
 def test_the_page_tells_every_part_of_an_observation_with_its_arguments_and_shape() -> None:
@@ -65,9 +78,10 @@ def test_the_page_tells_every_part_of_an_observation_with_its_arguments_and_shap
 
 def test_the_page_tells_every_reward() -> None:
     section = DOC.partition("## Rewards")[2].partition("\n## ")[0]
-    assert set(re.findall(r"^\| `(\w+)\(", section, re.MULTILINE)) == {term.__name__ for term in REWARD_TERMS}
+    rows = re.findall(r"^\| `\"(\w+)\"` \| `(\w+)\(", section, re.MULTILINE)
+    assert rows == [(name, term.__name__) for name, term in REWARD_TERMS.items()]
 
 
 def test_the_page_tells_every_id() -> None:
     section = DOC.partition("## Ids and versions")[2].partition("\n## ")[0]
-    assert set(re.findall(r"`(Ninja\w*-v\d+)`", section)) == set(ENVIRONMENTS)
+    assert set(re.findall(r"`(Ninja[\w-]*-v\d+)`", section)) == set(ENVIRONMENTS)

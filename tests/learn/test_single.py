@@ -70,7 +70,7 @@ def test_gymnasium_finds_nothing_wrong_with_all_parts_together(normalised: bool)
 
 
 def test_gymnasium_finds_nothing_wrong_with_all_rewards_together() -> None:
-    checked(made("Ninja-v0", reward=[term() for term in REWARD_TERMS]))
+    checked(made("Ninja-v0", reward=[*REWARD_TERMS]))
 
 
 def test_an_episode_ends_at_the_exit_and_pays_for_it(env: NinjaEnv) -> None:

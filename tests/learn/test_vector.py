@@ -7,7 +7,7 @@ from typing import Any
 import gymnasium as gym
 import numpy as np
 import pytest
-from gymnasium.error import ClosedEnvironmentError, InvalidAction, ResetNeeded
+from gymnasium.error import ClosedEnvironmentError, InvalidAction, ResetNeeded, UnsupportedMode
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 from gymnasium.vector.utils import batch_space
 from gymnasium.wrappers import vector as wrappers
@@ -15,6 +15,7 @@ from gymnasium.wrappers import vector as wrappers
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.vector import NinjaVectorEnv
 from tests.support.learning import LEVELS, random_actions, same
+from tests.support.memories import BOTH
 
 MODES = [mode.value for mode in AutoresetMode]
 
@@ -85,21 +86,21 @@ def test_without_autoreset_ended_worlds_wait_for_a_reset() -> None:
 def test_each_world_plays_the_level_that_it_is_told() -> None:
     envs = NinjaVectorEnv(3, level=LEVELS)
     _, infos = envs.reset(seed=1, options={"level": [2, 0, 1]})
-    assert infos["level"].tolist() == [2, 0, 1]
+    assert infos["level"].tolist() == ["level#2", "level#0", "level#1"]
     starts = envs.worlds.observations
     assert isinstance(starts, np.ndarray)
     assert (starts[:, 0] * 792).round().tolist() == [700, 100, 100]
 
 
 def test_seeds_decide_which_levels_are_played() -> None:
-    def levels(seed: int | list[int]) -> list[list[int]]:
+    def levels(seed: int | list[int]) -> list[list[str]]:
         envs = NinjaVectorEnv(40, level=LEVELS, time_limit=4)
         played = [envs.reset(seed=seed)[1]["level"].tolist()]
         return [*played, *(envs.step([1] * 40)[4]["level"].tolist() for _ in range(4))]
 
     assert levels(5) == levels(5) == levels(list(range(5, 45)))
     assert levels(5) != levels(6)
-    assert {0, 1, 2} == {level for row in levels(5) for level in row}
+    assert {"level#0", "level#1", "level#2"} == {level for row in levels(5) for level in row}
 
 
 def test_a_reused_memory_is_written_anew_and_a_copy_is_not() -> None:
@@ -159,6 +160,8 @@ def test_calls_out_of_order_are_refused() -> None:
         {"seed": [1, 2, None]},
         {"seed": [1, 2, -3]},
         {"seed": -1},
+        {"seed": 2**64},
+        {"seed": [0, 1, 2**64]},
         {"seed": True},
         {"seed": 1.5},
         {"seed": "abc"},
@@ -183,7 +186,8 @@ def test_a_reset_that_does_not_fit_is_refused(call: dict[str, Any]) -> None:
         {"num_envs": 0}, {"level": "no such level"}, {"frame_skip": 0}, {"frame_skip": "4"},
         {"time_limit": 2.5}, {"observation": 3}, {"time_limit": 0}, {"body": "square"},
         {"memory": "fast"}, {"actions": "keys"}, {"observation": "sight"}, {"observation": ["state", "state"]},
-        {"observation": []}, {"reward": "exit"}, {"reward": [1.0]},
+        {"observation": []}, {"reward": "fame"}, {"reward": [1.0]},
+        {"threads": 0}, {"threads": -1}, {"threads": 1.5}, {"levle": "set"}, {"render_size": (0, 5)},
     ],
 )  # fmt: skip
 def test_settings_that_there_are_not_are_refused(settings: dict[str, Any]) -> None:
@@ -219,3 +223,31 @@ def test_gymnasiums_vector_wrappers_take_it(mode: str) -> None:
     assert max(lengths) == 10
     envs.close()
     assert made.closed
+
+
+@pytest.mark.parametrize("memory", BOTH)
+def test_a_picture_of_each_world_is_that_of_a_single_environment(memory: str) -> None:
+    settings: dict[str, Any] = {"level": LEVELS, "memory": memory, "render_mode": "rgb_array"}
+    settings["render_size"], seed = (132, 100), 1
+    envs = gym.make_vec("ninja_game:Ninja-v0", 3, **settings)
+    with pytest.raises(ResetNeeded):
+        envs.render()
+    envs.reset(seed=seed)
+    for _ in range(3):
+        envs.step(np.array([0, 4, 3]))
+    frames = envs.render()
+    assert frames is not None
+    assert [np.asarray(frame).shape for frame in frames] == [(100, 132, 3)] * 3
+    for world, action in enumerate((0, 4, 3)):
+        env = gym.make("ninja_game:Ninja-v0", **settings)
+        env.reset(seed=seed + world)
+        for _ in range(3):
+            env.step(action)
+        # The single environment has seen all ticks, and draws what lingers of them too.
+        difference = np.abs(np.asarray(env.render(), np.int64) - np.asarray(frames[world]))
+        assert (difference > 0).mean() < 0.02
+
+
+def test_another_render_mode_is_refused() -> None:
+    with pytest.raises(UnsupportedMode, match="'rgb_array' or None"):
+        NinjaVectorEnv(2, LEVELS, render_mode="human")

@@ -9,7 +9,7 @@ import pygame
 import pytest
 
 from ninja_game.play.menus.panels import FormPanel
-from ninja_game.ui.input.keys import SCANCODES
+from ninja_game.ui.input.keys import SCANCODES, key_name
 from ninja_game.ui.text_entry import EditedText, TextEntry
 from tests.support.menu_driver import MenuDriver
 
@@ -215,3 +215,19 @@ def test_tab_goes_to_the_next_field_and_never_hides_what_is_typed(at: Writer) ->
     at.key("tab", SHIFT)
     assert at.field is first
     assert first.text == "one two-three"
+
+
+NO_TEXT = {"tab", "escape", "return", "kp_enter", "up", "down", "left", "right", "home", "end", "pageup", "pagedown",
+           "insert", "backspace", "delete", *(f"f{number}" for number in range(1, 25))}  # fmt: skip
+
+
+def test_a_field_takes_every_key_that_makes_text() -> None:
+    """Also those of other keyboards, which have no name here; the letter itself comes as TEXTINPUT."""
+    for shift in (0, SHIFT):
+        for scancode in range(4, 120):
+            name = key_name(scancode)
+            field = TextEntry((0, 0, 100, 20), "prompt", "text", print)
+            event = pygame.Event(pygame.KEYDOWN, key=0, scancode=scancode, mod=shift, unicode="")
+            if name not in NO_TEXT:
+                assert field.text_event(event), name
+                assert field.text == "text"

@@ -84,7 +84,7 @@ def test_giving_up_is_a_death_by_own_hand() -> None:
 def test_a_replay_of_practice_says_so() -> None:
     assert played(short_level(), practice=True).replay().practice
     assert not played(short_level()).replay().practice
-    assert "practice: yes" in write_replay(played(short_level(), practice=True).replay())
+    assert "made: played (practice)\n" in write_replay(played(short_level(), practice=True).replay())
 
 
 def test_who_gave_up_and_goes_back_has_not_given_up() -> None:

@@ -10,9 +10,10 @@ from pathlib import Path
 
 import pytest
 
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.player.playthrough import EpisodeRun, LevelRun
 from ninja_game.player.progress import LOCKED, UNLOCKED
-from ninja_game.player.records import Records, seconds_text
+from ninja_game.player.records import Records
 from ninja_game.player.saving import keep_replay
 from ninja_game.player.statistics import KILLERS
 from ninja_game.player.store import Store

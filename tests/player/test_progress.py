@@ -108,7 +108,7 @@ def test_practised_level_makes_the_whole_run_illegitimate(tmp_path: Path) -> Non
     run = EpisodeRun(data, episode())
     for level in range(5):
         attempt = played(run.entry.named.level, lifetime=run.lifetime)
-        attempt.assisted = level == 0
+        attempt.assists = {"practice"} if level == 0 else set()
         run.passed(attempt)
         run.advance()
     assert data.records.episode_best(episode().key) is None

@@ -5,10 +5,12 @@ from __future__ import annotations
 import sqlite3
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from ninja_game.formats.replay.made import Made
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.player.playthrough import EpisodeRun, LevelRun
 from ninja_game.player.progress import UNLOCKED
@@ -40,7 +42,7 @@ def test_record_and_its_replay_come_back_equal(tmp_path: Path) -> None:
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("version, age", [(VERSION + 1, "newer"), (VERSION - 1, "older")])
+@pytest.mark.parametrize("version, age", [(VERSION + 1, "newer"), (VERSION - 2, "older")])
 def test_file_of_another_version_is_set_aside(tmp_path: Path, version: int, age: str) -> None:
     path = tmp_path / "records.sqlite"
     Store(path).close()
@@ -72,13 +74,15 @@ def test_setting_aside_never_overwrites(tmp_path: Path) -> None:
     ]
 
 
-def test_file_of_this_version_opens_with_its_records(tmp_path: Path) -> None:
+@pytest.mark.parametrize("version", [VERSION, VERSION - 1])
+def test_file_of_this_version_and_the_last_opens_with_its_records(tmp_path: Path, version: int) -> None:
     made = sqlite3.connect(tmp_path / "records.sqlite")
-    made.executescript(Path(__file__).with_name(f"records-version-{VERSION}.sql").read_text("utf-8"))
-    tables = "SELECT type, name, sql FROM sqlite_master WHERE sql IS NOT NULL ORDER BY name"
-    assert made.execute(tables).fetchall() == Store(None).connection.execute(tables).fetchall(), "backups compare them"
+    made.executescript(Path(__file__).with_name(f"records-version-{version}.sql").read_text("utf-8"))
     made.close()
     data = player_data(tmp_path, episode())
+    tables = "SELECT type, name, sql FROM sqlite_master WHERE sql IS NOT NULL ORDER BY name"
+    there = data.store.connection.execute(tables).fetchall()
+    assert there == Store(None).connection.execute(tables).fetchall(), "backups compare them"
     assert data.store.connection.execute("PRAGMA user_version").fetchone()[0] == VERSION
     assert not data.messages
     best = data.records.episode_best(episode().key)
@@ -279,9 +283,19 @@ def test_practice_replay_carries_its_mark(tmp_path: Path) -> None:
     practised, plain = marks["practised"], marks["played"]
     assert practised is not None
     assert plain is not None
-    assert "practice: yes\n" in write_replay(practised)
+    assert "made: played (practice)\n" in write_replay(practised)
     assert parse_replay(write_replay(practised)).practice
-    assert "practice" not in write_replay(plain)
+    assert "made: played\n" in write_replay(plain)
+
+
+def test_records_keep_how_a_run_was_made_and_who_took_part(tmp_path: Path) -> None:
+    data = player_data(tmp_path)
+    made = Made(edits=34, searches=("improve", "search"), begun_by="Ann")
+    keep_replay(data, replace(played(short_level()).replay(), author="Ann", made=made, co_authors=("Bob", "Cy")))
+    (saved,) = data.records.replays()
+    replay = data.records.replay(saved.id)
+    assert replay is not None
+    assert (replay.made, replay.co_authors) == (made, ("Bob", "Cy"))
 
 
 def test_replay_that_a_best_needs_is_not_forgotten(tmp_path: Path) -> None:

@@ -185,7 +185,7 @@ def test_the_run_of_a_search_is_verified_and_written_by_running_it_once(
     tmp_path: Path, ticks_run: Callable[[], int]
 ) -> None:
     run = verified_run(parse_level(WALK), bytes([2] * 60))
-    save_replay(tmp_path / "run.txt", named_run(run, name="Walk"))
+    save_replay(tmp_path / "run.txt", named_run(run, "solve", name="Walk"))
     assert ticks_run() == WALK_END + 1
 
 

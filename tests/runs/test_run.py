@@ -9,10 +9,12 @@ import signal
 import subprocess
 import sys
 import time
+from typing import Any
 
+import numpy as np
 import pytest
 
-from ninja_game import ArgumentError, DemoError, Input, Simulation, parse_level, run_level, trace_level
+from ninja_game import ArgumentError, DemoError, Input, Simulation, parse_level, record_replay, run_level, trace_level
 from ninja_game.backend.memories import compiled_available
 from ninja_game.runs import trace
 from ninja_game.sim.inputs import MAX_TICKS, Demo
@@ -138,3 +140,17 @@ def test_a_level_with_a_nan_equals_its_copies() -> None:
     assert {level, pickle.loads(pickle.dumps(level)), copy.deepcopy(level), parse_level(TEXT + "!12^100,what")} == {
         level
     }
+
+
+def test_inputs_may_be_a_list_or_an_array() -> None:
+    keys = [2] * 20 + [6] * 10
+    several = (keys, np.array(keys), np.array(keys, np.uint8), bytearray(keys), [Input(key) for key in keys])
+    assert {run_level(LEVEL, each) for each in several} == {run_level(LEVEL, bytes(keys))}
+    assert {record_replay(LEVEL, each).inputs for each in several} == {bytes(keys)}
+
+
+@pytest.mark.parametrize("wrong", ["222", [2.0], [256], [-1], np.zeros((3, 2), np.int64), 7, None], ids=repr)
+def test_what_are_no_inputs_is_refused(wrong: Any) -> None:
+    for call in (run_level, record_replay, trace_level):
+        with pytest.raises(ArgumentError, match="expected bytes, a list or an array"):
+            call(LEVEL, wrong)

@@ -341,3 +341,46 @@ def test_the_page_explains_every_name() -> None:
     page = (Path(__file__).resolve().parents[2] / "docs" / "speedruns.md").read_text("utf-8")
     missing = [name for name in SPAN_NAMES if f"`{name}" not in page]
     assert json.dumps(missing) == "[]"
+
+
+# --- How far it is to a fact that is not so ---
+
+SWITCH_BEHIND = parse_level("0" * 713 + "|5^400,566!11^500,564,300,564!0^600,566!9^200,564,0,0,0,0,0,0,0!12^700,100")
+"""The exit at the right, its switch at the left: the way is first to the left, then to the right."""
+
+
+def margins(goal: str, keys: list[int], ticks: int) -> list[float]:
+    """Of worlds that have held these keys."""
+    worlds = SpanWorlds(SpanTask(SWITCH_BEHIND, bytes(200), 0, 200, goal=goal), len(keys))
+    worlds.batch.run([keys] * ticks)
+    found: list[float] = worlds.measured()[1].tolist()
+    return found
+
+
+@pytest.mark.parametrize(
+    "goal, better, worse", [("won", 1, 2), ("opened(1)", 1, 2), ("taken(2)", 2, 1), ("won and gold >= 0", 1, 2)]
+)
+def test_what_is_not_so_yet_is_nearer_on_the_right_way(goal: str, better: int, worse: int) -> None:
+    left, still, right = margins(goal, [1, 0, 2], 15)
+    by_keys = {1: left, 2: right}
+    assert by_keys[worse] < still < by_keys[better] < 0.0
+
+
+def test_behind_the_switch_the_way_leads_to_the_exit() -> None:
+    worlds = SpanWorlds(SpanTask(SWITCH_BEHIND, bytes(200), 0, 200, goal="won"), 2)
+    keys = np.array([[1, 1]] * 60 + [[1, 2]] * 20, np.uint8)
+    worlds.batch.run(keys)
+    assert set(worlds.batch.objects[:, 2]["is_open"].tolist()) <= {0, 1}
+    away, back = worlds.measured()[1].tolist()
+    assert away < back < 0.0
+    assert worlds.measured()[1].min() > -4.0 * 5000
+
+
+def test_a_search_from_a_run_that_stands_still_finds_switch_and_exit() -> None:
+    task = SpanTask(SWITCH_BEHIND, bytes(10), 5, 305, goal="won")
+    found = search_span(task, lambda ticks, found: not found and ticks < 10_000_000)
+    assert found
+    run = Simulation(SWITCH_BEHIND)
+    for key in found[0].inputs:
+        run.step_keys(key)
+    assert run.outcome == "exit"

@@ -184,7 +184,8 @@ def test_a_level_without_a_ninja_is_refused() -> None:
 
 
 def test_the_replay_says_what_was_played() -> None:
-    replay = named_run(verified_run(WALK, bytes([2] * 40)), name="Walk")
+    replay = named_run(verified_run(WALK, bytes([2] * 40)), "solve", name="Walk")
+    assert str(replay.made) == "searched (solve)"
     assert (replay.final_tick, replay.outcome, replay.gold) == (WALK_TICKS, "exit", 1)
     assert len(replay.inputs) == WALK_TICKS + 1
 

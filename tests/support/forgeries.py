@@ -8,6 +8,7 @@ from itertools import repeat
 from ninja_game import parse_level, record_replay, write_replay
 from ninja_game.formats.n14.demo import write_demo, write_legacy_demo
 from ninja_game.formats.replay.headers import Waypoint
+from ninja_game.formats.replay.made import Made
 from ninja_game.formats.replay.text import Replay
 from ninja_game.sim.inputs import Demo
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
@@ -28,6 +29,9 @@ BELL = "\x1b[2J\x1b[31mok   exit\nok   exit       tick 1"
 def record(frames: bytes = WALKING, level: str = WALK, name: str = "Walk", demo: str = "") -> str:
     """A record as N's programs write it."""
     return f"${name}#me#test#{level}#{demo or write_demo(Demo(frames, float(len(frames))))}#\n"
+
+
+PRACTISED = Made(played=True, assists=("practice",))
 
 
 def replay(frames: bytes = WALKING + b"\2", level: str = WALK, *, body: Body = "circle", **lies: object) -> str:
@@ -134,8 +138,9 @@ FORGERIES = {
     "rules of yesterday": (replay_of_walk(rules=0), "rules"),
     "the box instead of the circle": (replay(body="box"), "body"),
     "a circle that is said to be a box": (replay_of_walk(body="box"), "body"),
-    "practice": (replay(practice=True), "practice"),
-    "a practice mark that is none": (replay(practice=True).replace("practice: yes", "practice: maybe"), "practice"),
+    "practice": (replay(made=PRACTISED), "practice"),
+    "a practice mark of older texts": (replay().replace("outcome:", "practice: yes\noutcome:"), "practice"),
+    "a practice mark that is none": (replay().replace("outcome:", "practice: maybe\noutcome:"), "practice"),
     "two ends": (replay().replace("outcome:", "outcome: exit\noutcome:", 1), "given twice"),
     "a format of yesterday": (replay().replace("replay 3", "replay 1", 1), "unknown version"),
     "a format of tomorrow": (replay().replace("replay 3", "replay 9", 1), "version"),

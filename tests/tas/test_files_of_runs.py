@@ -6,6 +6,7 @@ import json
 from dataclasses import replace
 from pathlib import Path
 from random import Random
+from typing import Any
 
 import pytest
 from hypothesis import given, strategies as st
@@ -15,11 +16,13 @@ from ninja_game.errors import ArgumentError, FileError, NinjaGameError, ReplayEr
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.made import Made
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.runs.archive import verify_all
 from ninja_game.runs.verify import Verdict
 from ninja_game.sim.inputs import fitted_inputs
 from ninja_game.tas.branches import Branches
+from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.files import OpenedRun, RunFile, branches_path, open_run, save_run, track_of
 from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.journal import FOLDER, recovered
@@ -254,7 +257,7 @@ def test_branches_travel_beside_their_run(tmp_path: Path) -> None:
             open_run(path)
 
 
-def test_markers_that_no_text_can_hold_are_not_written() -> None:
+def test_markers_that_no_text_can_hold_are_not_replay_of_walk() -> None:
     replay = parse_replay(replay_of_walk())
     for markers in (((1, "a b"),), ((1, "a"), (2, "a")), ((-1, "a"),), ((99, "a"),)):
         track = InputTrack(replay.inputs).named(1, "x")
@@ -286,3 +289,47 @@ def test_names_come_from_load_replays(tmp_path: Path) -> None:
     path.write_text(replay_of_walk(name=""), "utf-8")
     opened = open_run(path)
     assert opened.recording.name == load_replays(path)[0].name
+
+
+def by_ann(path: Path, **about: Any) -> Session:
+    """A session of Bob's with a run that Ann played."""
+    path.write_text(replay_of_walk(author="Ann", made=Made(played=True), **about), "utf-8")
+    return Session(open_run(path), path.parent, player="Bob", memory="plain")
+
+
+def test_a_saved_run_says_how_often_it_was_edited_and_by_whom(tmp_path: Path) -> None:
+    path = tmp_path / "walk.replay.txt"
+    session = by_ann(path)
+    session.change(session.track.named(3, "corner"))
+    assert session.about.replay.made == Made(played=True), "a name for a tick is no edit"
+    session.begin()
+    for tick in (3, 4):
+        session.change(session.track.replaced(tick, tick + 1, [0]))
+    session.end()
+    session.change(session.track.replaced(5, 6, [0]))
+    session.save(path)
+    replay = parse_replay(path.read_text("utf-8"))
+    assert replay.made == Made(played=True, edits=2, begun_by="Ann")
+    assert (replay.author, replay.co_authors) == ("Ann", ("Bob",))
+    session.undo()
+    session.undo()
+    assert session.about.replay.made == Made(played=True), "the keys are Ann's again"
+    session.close()
+
+
+def test_keys_that_are_taken_bring_their_authors_and_searches_along(tmp_path: Path) -> None:
+    path = tmp_path / "walk.replay.txt"
+    session = by_ann(path)
+    found = Contributions.of(parse_replay(replay_of_walk(author="Cy", made=Made(searches=("solve",)))))
+    session.change(session.track.replaced(5, 6, [0]), taken=found)
+    session.change(session.track.replaced(6, 7, [0]), taken=Contributions(commands=("search",)))
+    expected = Made(played=True, edits=2, searches=("solve", "search"), begun_by="Ann"), ("Bob", "Cy")
+    assert (session.about.replay.made, session.about.replay.co_authors) == expected
+    session.close(keep=True)
+    (lost,) = recovered(tmp_path)
+    again = Session(lost.opened, tmp_path, player="Bob", memory="plain")
+    again.recover(lost)
+    assert (again.about.replay.made, again.about.replay.co_authors) == expected
+    again.save(path)
+    assert parse_replay(path.read_text("utf-8")).made == expected[0]
+    again.close()

@@ -12,7 +12,7 @@ from ninja_game.formats.load import load_replays
 from ninja_game.runs.compare import run_splits
 from ninja_game.search.formula.task import SpanTask, SpanWorlds
 from ninja_game.tas.files import open_run
-from ninja_game.tas.goals import PRESETS, SearchedSpan, collect, same_end
+from ninja_game.tas.goals import PRESETS, SearchedSpan, collect, collect_too, reach_exit, same_end
 from ninja_game.tas.session import Session
 from tests.support.own_pack import PACK
 
@@ -24,12 +24,12 @@ def session_of_a_run(tmp_path: Path) -> Session:
     return Session(open_run(RUN), tmp_path)
 
 
-@pytest.mark.parametrize("make", [make for *_, make in PRESETS if make is not collect])
+@pytest.mark.parametrize("make", [make for *_, make in PRESETS if make not in (collect, collect_too, reach_exit)])
 @pytest.mark.parametrize("span", [(0, 40), (100, 150), (300, 333)])
 def test_the_run_itself_is_there_at_the_end_of_the_span(session: Session, make: object, span: tuple[int, int]) -> None:
     wanted = make(SearchedSpan(session, *span))  # type: ignore[operator]
     about = session.about
-    task = SpanTask(about.level, session.track.inputs, *span, *wanted)
+    task = SpanTask(about.level, session.track.inputs, *span, *wanted[:4])
     trials = SpanWorlds(task, 1).try_all(task.base[:, np.newaxis])
     assert 0 < trials.ticks[0] <= task.length
 
@@ -50,3 +50,20 @@ def test_the_rest_follows_where_the_run_reaches_the_exit(session: Session) -> No
 def test_a_span_behind_the_run_is_refused(session: Session) -> None:
     with pytest.raises(ArgumentError, match="the span ends in tick"):
         same_end(SearchedSpan(session, 0, len(session.track) + 500))
+
+
+def test_a_piece_is_taken_too_on_the_way_to_the_same_place(session: Session) -> None:
+    span = SearchedSpan(session, 0, 40)
+    wanted = collect_too(span)
+    assert wanted.goal.startswith(collect(span).goal.split("(")[0])
+    assert " and distance(" in wanted.goal
+    assert (wanted.rest, wanted.last) == (True, 80)
+    task = SpanTask(session.about.level, session.track.inputs, 0, 80, *wanted[:4], behind=40)
+    assert bytes(SpanWorlds(task, 1).rest) == bytes(key & 7 for key in session.track.inputs[40:])
+
+
+def test_the_exit_is_looked_for_from_a_tick_on(session: Session) -> None:
+    end = session.timeline.end[0]
+    assert reach_exit(SearchedSpan(session, 20, 40))[::4] == ("won", end)
+    session.change(session.track.replaced(100, len(session.track), []))
+    assert reach_exit(SearchedSpan(session, 90, 95))[::4] == ("won", 290)

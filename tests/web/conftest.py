@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -14,6 +15,13 @@ from ninja_game.files.locking import locked
 from ninja_game.web.site.build import MARK
 from tests.support.visitor import Visitor
 from tests.support.web_page import browser, built_site, missing, python_page, served
+
+
+@pytest.fixture(autouse=True)
+def board_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The cache folder of boards in a test."""
+    monkeypatch.setattr("ninja_game.cli.board_options.cache_folder", lambda: tmp_path / "board-cache")
+    return tmp_path / "board-cache"
 
 
 @pytest.fixture(scope="session")

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import json
+import shutil
+import subprocess
+import tarfile
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
+from hashlib import sha256
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -12,6 +16,7 @@ from typing import Any
 import pytest
 
 from ninja_game.files.user_folder import data_folder
+from ninja_game.files.writing import write_atomically
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.web.board.pages import BoardPages
@@ -22,7 +27,7 @@ from ninja_game.web.pages.published import published_levels
 from tests.support.forgeries import WALKING, replay
 from tests.support.samples import WALK
 from tests.support.visitor import LOADING, eventually
-from tests.support.web_page import served
+from tests.support.web_page import CACHE, served
 
 HOSTILE = (
     "<script>document.title='owned'</script>", "<img src=x onerror=\"document.title='owned'\">",
@@ -100,12 +105,13 @@ def all_pages(site: Path) -> list[str]:
 def test_no_script_of_a_name_runs(site: Path, open_page: Callable[..., Any]) -> None:
     page = open_page("board/index.html")
     names = all_pages(site)
-    assert len(names) == 5 + len(HOSTILE) + len(HOSTILE) + 1
+    assert len(names) == 5 + 2 * len(HOSTILE) + 2 * (len(HOSTILE) + 1)
     for name in names:
         page.goto(page.url.split("/board/")[0] + "/" + name)
         assert "owned" not in page.title().replace("document.title='owned'", "")
         assert page.evaluate("document.scripts.length") == 1
-        assert page.evaluate("document.querySelectorAll('main img:not([alt]), main svg, iframe, object').length") == 0
+        foreign = "main img:not([alt]), main svg:not([role=img], [aria-hidden]), iframe, object"
+        assert page.evaluate(f"document.querySelectorAll('{foreign}').length") == 0
         for link in page.evaluate("Array.from(document.links, (link) => link.protocol)"):
             assert link == "http:"
 
@@ -180,7 +186,7 @@ def test_everything_is_read_without_a_script(open_page: Callable[..., Any]) -> N
     page.locator(".card a").first.click()
     page.get_by_role("heading", name="Par times").wait_for()
     board = open_page("board/index.html", java_script_enabled=False)
-    assert board.get_by_role("table").count() == 2
+    assert board.get_by_role("table").count() == 3
 
 
 @contextmanager
@@ -245,3 +251,42 @@ def test_every_letter_stands_out(site: Path, scheme: str, open_page: Callable[..
         page.goto(page.url.split("/gallery/")[0].split("/board/")[0] + "/" + name)
         ratio, where = page.evaluate(CONTRAST)
         assert ratio >= 4.5, (name, where)
+
+
+AXE, AXE_DIGEST = "axe-core@4.14.1", "29348999450cdf2849a8e70b7912fc2da85a849da39c0d0d5394f51d4a9ed95c"
+"""The npm package of rules about access, and the sha256 of its script."""
+
+
+@pytest.fixture(scope="module")
+def axe(tmp_path_factory: pytest.TempPathFactory) -> str:
+    """The script of axe-core; skips where npm cannot get it."""
+    kept = CACHE / f"{AXE}.js"
+    if not kept.exists():
+        npm, scratch = shutil.which("npm"), tmp_path_factory.mktemp("axe")
+        if npm is None:
+            pytest.skip("npm is not here")
+        words = [npm, "pack", AXE, "--silent", "--pack-destination", str(scratch)]
+        if subprocess.run(words, check=False, capture_output=True, timeout=120, cwd=scratch).returncode:
+            pytest.skip(f"npm cannot get {AXE}")
+        with tarfile.open(next(scratch.glob("*.tgz"))) as package:
+            script = package.extractfile("package/axe.min.js")
+            assert script is not None
+            write_atomically(kept, script.read())
+    data = kept.read_bytes()
+    assert sha256(data).hexdigest() == AXE_DIGEST
+    return data.decode("utf-8")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_axe_has_no_serious_finding(site: Path, scheme: str, axe: str, open_page: Callable[..., Any]) -> None:
+    page = open_page("board/index.html", bypass_csp=True, color_scheme=scheme, viewport=PHONE)
+    address = page.url.split("/board/")[0]
+    names = [name for name in all_pages(site) if "/levels/" in name][:4]
+    names += [name for name in all_pages(site) if "/players/" in name][:4]
+    names += ["board/index.html", *(f"board/{each}.html" for each in ("players", "levels", "episodes", "rejected"))]
+    for name in names:
+        page.goto(f"{address}/{name}")
+        page.evaluate(axe)
+        found = page.evaluate("axe.run().then((run) => run.violations.map((each) => [each.impact, each.id]))")
+        assert not [each for each in found if each[0] in ("serious", "critical")], name

@@ -13,6 +13,7 @@ from ninja_game.errors import ReplayError
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.lines import MOST_NAME, Line
 from ninja_game.formats.numbers import NAN, parse_number
+from ninja_game.formats.replay.made import Made, parse_made
 from ninja_game.sim.level import Level
 
 W = TypeVar("W", bound=str)
@@ -25,6 +26,8 @@ KEYS = (
     *REQUIRED,
     "name",
     "author",
+    "co-authors",
+    "made",
     "level",
     "level-record",
     "level-digest",
@@ -129,6 +132,18 @@ class Headers:
             if word == self.raw(key):
                 return word
         raise self.error(key, f"an unknown {key}", " or ".join(choices))
+
+    def made(self) -> Made:
+        """How the run was made; ``practice``, which older texts have, is an assist."""
+        try:
+            made = parse_made(self.text("made"))
+        except ValueError:
+            expected = "such as played (practice), edited 34, searched (improve, search)"
+            hint = "leave the line out if you do not know"
+            raise self.error("made", "not how a run is made", expected, hint) from None
+        if "practice" in self.lines and self.choice("practice", ("yes", "no")) == "yes" and not made.assists:
+            return made._replace(played=True, assists=("practice",))
+        return made
 
     def digest(self, key: str) -> str:
         """64 hex digits; '' without the header."""

@@ -5,17 +5,19 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any, Self
 
 from ninja_game.errors import ReplayError
 from ninja_game.formats.ascii.reader import write_ascii_level
-from ninja_game.formats.lines import Line, numbered_lines
+from ninja_game.formats.lines import MOST_NAME, Line, numbered_lines
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.numbers import format_number
 from ninja_game.formats.replay.headers import COUNT_LIMIT, Headers, Waypoint, read_level, read_waypoints
 from ninja_game.formats.replay.input_runs import Marker, is_marker_name, write_inputs
 from ninja_game.formats.replay.input_text import included_beside, read_inputs
+from ninja_game.formats.replay.made import UNKNOWN, Made, names_of_text, parse_made
 from ninja_game.sim.inputs import MAX_TICKS, Demo, fitted_inputs
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import BODIES, Body
@@ -43,8 +45,8 @@ class Replay:
     the last tick that is run, counted from 0; ``outcome``, ``gold`` and ``digest`` (64 hex digits of what the world
     shows, or '') are as after it. The level is given by one or more of: its digest, a path from the replay's folder
     with the number of the record in that file, the level itself with its name and author. ``waypoints``: where the
-    ninja passes, by tick, so that a run that goes another way is noticed where it does. ``practice``: it was made in
-    practice, or with its tools.
+    ninja passes, by tick, so that a run that goes another way is noticed where it does. ``made``: how it was made, and
+    ``co_authors`` who took part besides ``author``, as the tools that made it say.
     """
 
     inputs: bytes
@@ -63,9 +65,10 @@ class Replay:
     level_name: str = ""
     level_author: str = ""
     waypoints: tuple[Waypoint, ...] = ()
-    practice: bool = False
+    made: Made = UNKNOWN
     markers: tuple[Marker, ...] = ()
     demo_length: float | None = None
+    co_authors: tuple[str, ...] = ()
 
     @classmethod
     def of_inputs(cls, inputs: bytes, level: Level, **about: Any) -> Self:
@@ -78,6 +81,19 @@ class Replay:
         return not self.outcome
 
     @property
+    def practice(self) -> bool:
+        """Whether it was played in practice, or with its tools or other help in play."""
+        return bool(self.made.assists)
+
+    @property
+    def credit(self) -> str:
+        """Who made it, and whether not only by playing: ``Ann, Bob (edited, searched)``."""
+        made = self.made
+        how = ["assisted"] * bool(made.assists) + ["edited"] * bool(made.edits) + ["searched"] * bool(made.searches)
+        names = ", ".join(filter(None, (self.author, *self.co_authors)))
+        return f"{names} ({', '.join(how)})".strip() if how else names
+
+    @property
     def end_tick(self) -> int:
         """The tick of the exit contact or death that it claims; -1 where it claims neither."""
         return self.final_tick if self.outcome in ("exit", "dead") else -1
@@ -86,6 +102,11 @@ class Replay:
     def ticks(self) -> int:
         """How many ticks are run."""
         return self.final_tick + 1
+
+    @property
+    def length(self) -> int:
+        """Its length, and its time in ticks: the tick of exit contact or death, else all ticks that are run."""
+        return self.ticks if self.end_tick < 0 else self.end_tick
 
     def playback(self, ticks: int) -> bytes:
         """The input of each of the first ``ticks`` ticks."""
@@ -138,9 +159,10 @@ def parse_replay(text: str, *, file: str = "", level: Level | None = None) -> Re
         level_name=level_name,
         level_author=level_author,
         waypoints=read_waypoints(headers.section("waypoints"), file),
-        practice="practice" in headers.lines and headers.choice("practice", ("yes", "no")) == "yes",
+        made=headers.made(),
         markers=inputs.markers,
         demo_length=length,
+        co_authors=names_of_text(headers.text("co-authors")),
     )
     problem = _contradiction(replay)
     if problem:
@@ -175,6 +197,8 @@ def _contradiction(replay: Replay) -> tuple[str, ReplayError] | None:
             return key, ReplayError(f"an unknown {key}", found=repr(word), expected=" or ".join(words))
     if replay.unclaimed and (replay.gold or replay.digest or replay.waypoints):
         return "inputs", ReplayError("claims without an outcome", expected=" or ".join(OUTCOMES))
+    if not _is_told(replay):
+        return "made", ReplayError("not how a run is made", found=f"{replay.made!s}, {replay.co_authors}"[:60])
     names = [marker.name for marker in replay.markers]
     if len(set(names)) < len(names) or not all(map(is_marker_name, names)):
         return "inputs", ReplayError("names of ticks that cannot be written", found=repr(names)[:60])
@@ -198,6 +222,15 @@ def _contradiction(replay: Replay) -> tuple[str, ReplayError] | None:
     return None
 
 
+def _is_told(replay: Replay) -> bool:
+    """Whether a text can hold who made a replay, and how."""
+    made, names = str(replay.made), ", ".join(replay.co_authors)
+    with suppress(ValueError):
+        whole = max(len(made), len(names)) <= MOST_NAME
+        return whole and parse_made(made.strip()) == replay.made and names_of_text(names) == replay.co_authors
+    return False
+
+
 def write_replay(replay: Replay) -> str:
     """The replay as text; reading it gives an equal replay.
 
@@ -209,13 +242,14 @@ def write_replay(replay: Replay) -> str:
     headers = {
         "name": _text(replay.name),
         "author": _text(replay.author),
+        "co-authors": _text(", ".join(replay.co_authors)),
+        "made": _text(str(replay.made)),
         "level": _text(replay.level_path),
         "level-record": str(replay.level_record or ""),
         "level-digest": replay.level_digest,
         "rules": "" if replay.unclaimed else str(replay.rules),
         "body": replay.body,
         **_claims(replay),
-        "practice": "yes" * replay.practice,
     }
     lines = [f"{MAGIC} {VERSION}", *(f"{key}: {value}" for key, value in headers.items() if value)]
     lines += ["inputs:", *(f"  {line}" for line in write_inputs(replay.inputs, replay.markers))]

@@ -40,8 +40,10 @@ class Curriculum(LevelSource):
         threshold: float = 0.5,
         memory: float = 20.0,
     ) -> None:
-        if not isinstance(source, LevelSource):
-            raise ArgumentError(f"found {source!r:.60}; expected a LevelSource, such as level_source('train')")
+        if not isinstance(source, LevelSource) or source.largest is not None:
+            raise ArgumentError(
+                f"found {source!r:.60}; expected a LevelSource that holds its levels, such as level_source('train')"
+            )
         measured = measured_difficulties(source) if difficulties is None else difficulties
         if len(measured) != len(source.levels) or start < 1 or not 0.0 < threshold < 1.0 or memory < 1.0:
             found = f"{len(measured)} difficulties for {len(source.levels)} levels, {start=}, {threshold=}, {memory=}"

@@ -43,6 +43,8 @@ def level_source(origin: Origin) -> LevelSource:
     "generated:3:1-8"         generated levels of difficulty 3, seeds 1 to 8; made when they are asked for, in some
                               seconds each (docs/generator.md)
     "packed", "packed:3"      the generated levels that come with the game, all thousand or those of difficulty 3
+    "bench:train:easy"        variations of those, made from their numbers (``ninja_game.learn.levels.bench``):
+                              "bench:train" 100,000, "bench:test" 1,000; ":easy", ":medium", ":hard", ":0-999": of these
     a path                    all levels of a file, folder or pack
     a text                    the levels of a text in any format
     a Level, a NamedLevel     itself
@@ -63,6 +65,10 @@ def level_source(origin: Origin) -> LevelSource:
         raise ArgumentError(f"level is {origin!r:.60}; expected a name, a path, a Level, or several of these")
     if not isinstance(origin, str):
         parts = [level_source(each) for each in origin]
+        if len(parts) == 1:
+            return parts[0]
+        if any(part.largest is not None for part in parts):
+            raise ArgumentError("'bench:…' is a source of its own; expected it alone, not in a list with others")
         return LevelSource([n for p in parts for n in p.names], [level for p in parts for level in p.levels])
     if "\n" in origin or "|" in origin:
         return _named(parse_levels(origin))
@@ -71,6 +77,10 @@ def level_source(origin: Origin) -> LevelSource:
         return Curriculum(level_source(rest or "train"))
     if word == "generated":
         return _generated(rest)
+    if word == "bench":
+        from ninja_game.learn.levels.bench import bench_source
+
+        return bench_source(rest)
     if word == "packed":
         return _packed(rest)
     files = _own_files()

@@ -25,6 +25,10 @@ class LevelSource:
     Names that are there twice get a number: "level#0", "level#1".
     """
 
+    levels: Sequence[Level]
+    largest: Level | None = None
+    """Where there are too many levels to hold (`bench.py`), one with as many objects as any of them."""
+
     def __init__(self, names: Sequence[str], levels: Sequence[Level]) -> None:
         if not levels or len(names) != len(levels):
             raise ArgumentError(f"{len(names)} names for {len(levels)} levels; expected at least one level, named")
@@ -52,7 +56,7 @@ class LevelSource:
         Raises ArgumentError for others.
         """
         chosen = list(which) if isinstance(which, Sequence | np.ndarray) and not isinstance(which, str) else [which]
-        found = [self.names.index(each) if each in self.names else each for each in chosen]
+        found = [self.names.index(each) if isinstance(each, str) and each in self.names else each for each in chosen]
         for each in found:
             if not isinstance(each, int | np.integer) or not 0 <= each < len(self.levels):
                 expected = f"0 to {len(self.levels) - 1} or a name: {nearest(str(each), self.names)}"

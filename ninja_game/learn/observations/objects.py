@@ -10,7 +10,7 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from ninja_game.errors import ArgumentError
-from ninja_game.learn.observations.part import Part, Ragged, Setting, clamp
+from ninja_game.learn.observations.part import Array, Part, Setting, clamp
 from ninja_game.learn.observations.surroundings import FINE, solidity
 from ninja_game.learn.observations.vectors import MAX_SPEED
 from ninja_game.sim import kinds
@@ -154,12 +154,11 @@ class NearObjects(Part):
         """How many; factors and limits; each level's objects, their columns; room for the nearest of each world."""
         low, high, divisors = self._range()
         columns = {kind.number: place for place, kind in enumerate(OBSERVED) if kind.name in self.kinds}
-        objects = [[(o.slot, columns[o.kind]) for _, o in found] for found in setting.objects(*columns)]
         room = [[0] * (setting.count * self.count)] * 2
         return (
             self.count,
             *(setting.table(values, np.float64) for values in (1.0 / divisors, low, high)),
-            *Ragged(objects).columns(setting, 2),
+            *setting.rows(lambda number: [(o.slot, columns[o.kind]) for o in setting.objects(number, *columns)], 2),
             *(setting.table(values, np.float64) for values in room),
         )
 
@@ -167,7 +166,7 @@ class NearObjects(Part):
 @entry_point
 def observe_objects(
     maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
-    count: int, factors: Any, lows: Any, highs: Any, starts: Any, slots: Any, columns: Any,
+    count: int, factors: Any, lows: Any, highs: Any, bounds: Any, slots: Any, columns: Any,
     nearest: Any, distances: Any,
 ) -> None:  # fmt: skip
     """Find the nearest objects of some worlds, by insertion, and write them."""
@@ -178,7 +177,7 @@ def observe_objects(
         n = w.ninja
         base = index * count
         found = 0
-        for object_ in range(starts[level], starts[level + 1]):
+        for object_ in range(bounds[2 * level], bounds[2 * level + 1]):
             o = w.objects[int(slots[object_])]
             if is_there(w, o):
                 x, y = contact_place_of(o)
@@ -239,20 +238,18 @@ class LevelPlanes(Part):
 
     def tables(self, setting: Setting) -> tuple[Any, ...]:
         """The solid plane of each level; each level's objects and their planes; the values."""
-        solid = [
-            solidity(setting, number, GRID_COLUMNS * FINE, GRID_ROWS * FINE)
-            .reshape(GRID_ROWS, FINE, GRID_COLUMNS, FINE)
-            .mean((1, 3))[1:-1, 1:-1]
-            for number in range(len(setting.fresh))
-        ]
-        shades = np.rint(np.array(solid) * HIGHEST)
+
+        def shades(number: int) -> Array:
+            points = solidity(setting, number, GRID_COLUMNS * FINE, GRID_ROWS * FINE)
+            solid = points.reshape(GRID_ROWS, FINE, GRID_COLUMNS, FINE).mean((1, 3))[1:-1, 1:-1]
+            return np.asarray(np.rint(solid * HIGHEST) * factor)
+
         factor = 1.0 / HIGHEST if self.normalised else 1
         values: Any = np.float64 if self.normalised else np.int64
         planes = {kind.number: 1 + place for place, kind in enumerate(OBSERVED)}
-        objects = [[(o.slot, planes[o.kind]) for _, o in found] for found in setting.objects(*planes)]
         return (
-            setting.table((shades * factor).ravel(), values),
-            *Ragged(objects).columns(setting, 2),
+            setting.values(shades, values),
+            *setting.rows(lambda number: [(o.slot, planes[o.kind]) for o in setting.objects(number, *planes)], 2),
             HIGHEST * factor,
             CLOSED_EXIT * factor,
         )
@@ -261,7 +258,7 @@ class LevelPlanes(Part):
 @entry_point
 def observe_planes(
     maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
-    solid: Any, starts: Any, slots: Any, planes: Any, highest: Any, closed: Any,
+    solid: Any, bounds: Any, slots: Any, planes: Any, highest: Any, closed: Any,
 ) -> None:  # fmt: skip
     """Write the planes of some worlds."""
     for k in range(first, last):
@@ -272,7 +269,7 @@ def observe_planes(
             out[index, offset + j] = solid[level * TILES + j]
         for j in range(offset + TILES, offset + len(PLANES) * TILES):
             out[index, j] = 0
-        for number in range(starts[level], starts[level + 1]):
+        for number in range(bounds[2 * level], bounds[2 * level + 1]):
             o = w.objects[int(slots[number])]
             if is_there(w, o):
                 x, y = contact_place_of(o)

@@ -17,12 +17,13 @@ from numpy.typing import NDArray
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.observations.objects import LevelPlanes, NearObjects
 from ninja_game.learn.observations.part import Array, Part, Setting
-from ninja_game.learn.observations.pixels import Pixels
+from ninja_game.learn.observations.pixels import Image, Pixels
 from ninja_game.learn.observations.surroundings import LocalTiles, Rays
 from ninja_game.learn.observations.vectors import Guide, StateVector, TimeLeft
 
 PARTS: dict[str, type[Part]] = {
-    part.name: part for part in (StateVector, LocalTiles, Rays, NearObjects, LevelPlanes, Pixels, TimeLeft, Guide)
+    part.name: part
+    for part in (StateVector, LocalTiles, Rays, NearObjects, LevelPlanes, Pixels, Image, TimeLeft, Guide)
 }
 """The parts, by name."""
 

@@ -11,10 +11,9 @@ import numpy as np
 from gymnasium.spaces import Box
 from numpy.typing import NDArray
 
+from ninja_game.learn.levels.places import NewLevel, NewObject
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.interface import Kernel, R, Worlds
-from ninja_game.sim.memory.object_fields import Object
-from ninja_game.sim.memory.schema import TileMap, World
 
 Array = NDArray[Any]
 
@@ -23,17 +22,20 @@ Array = NDArray[Any]
 class Setting:
     """What a part may know of the worlds when it makes its tables.
 
-    ``worlds``: they themselves, not loaded yet; ``fresh``: of each level its map and a new world, as plain objects.
-    ``changed`` (worlds): whether gold or exits may be others than at the last observation. ``time_limit``: ticks of an
-    episode. ``compiled``: whether kernels run compiled. ``goal``: their ``GoalDistance``, for parts that ask for one.
+    ``worlds``: they themselves, not loaded yet; ``fresh``: each level as it begins.
+    ``changed`` (worlds): whether gold, mines or exits may be others than last observed. ``time_limit``: ticks
+    of an episode. ``compiled``: whether kernels run compiled. ``goal``: their ``GoalDistance``, if a part asks for one.
+    ``room``: of how many objects another level may be that is put in the place of one; 0: none ever is.
     """
 
     worlds: Worlds
-    fresh: Sequence[tuple[TileMap, World]]
+    fresh: list[NewLevel]
     changed: NDArray[np.bool_]
     time_limit: int
     compiled: bool
     goal: Any = None
+    room: int = 0
+    writers: list[Callable[[int], None]] = field(default_factory=list, repr=False)
 
     @property
     def maps(self) -> Any:
@@ -48,27 +50,51 @@ class Setting:
     def count(self) -> int:
         return len(self.changed)
 
-    def objects(self, *kinds: int) -> list[list[tuple[World, Object]]]:
-        """Of each level its new world with each of the objects of these kinds, in the order of their slots."""
-        return [[(w, o) for o in w.objects[1:] if o.kind in kinds] for _, w in self.fresh]
+    def objects(self, number: int, *kinds: int) -> list[NewObject]:
+        """The objects of a level of these kinds, in the order of their slots."""
+        return [o for o in self.fresh[number].objects[1:] if o.kind in kinds]
 
     def table(self, values: Any, dtype: Any) -> Any:
         """A table for kernels: an array, or for the plain memory, which reads those slowly, a list."""
         array = np.array(values, dtype)
         return array if self.compiled else array.tolist()
 
+    def values(self, make: Callable[[int], Any], dtype: Any) -> Any:
+        """A table of what ``make`` gives for each level, as many numbers for each."""
+        every = np.array([make(number) for number in range(len(self.fresh))]).reshape(len(self.fresh), -1)
+        size, table = every.shape[1], self.table(every.ravel(), dtype)
 
-class Ragged:
-    """Tuples of numbers, several for each level, in one table: level i has ``starts[i]`` to ``starts[i + 1]``."""
+        def write(number: int) -> None:
+            table[number * size : (number + 1) * size] = self.table(np.ravel(make(number)), dtype)
 
-    def __init__(self, levels: Sequence[Sequence[tuple[float, ...]]]) -> None:
-        self.starts = np.cumsum([0, *(len(rows) for rows in levels)])
-        self.rows = [row for rows in levels for row in rows]
+        self.writers.append(write)
+        return table
 
-    def columns(self, setting: Setting, width: int) -> list[Any]:
-        """The starts, and ``width`` columns of float64, as tables for kernels."""
-        columns = np.array(self.rows, np.float64).reshape(-1, width).T
-        return [setting.table(self.starts, np.int64), *(setting.table(column, np.float64) for column in columns)]
+    def rows(self, make: Callable[[int], Sequence[tuple[float, ...]]], width: int) -> list[Any]:
+        """Tables of what ``make`` gives for each level, some rows of ``width`` numbers.
+
+        First the bounds: level i has the rows from 2 i to 2 i + 1 of these; then a float64 column for each number.
+        """
+        sizes = [self.room or len(make(number)) for number in range(len(self.fresh))]
+        starts = np.cumsum([0, *sizes])
+        bounds = self.table(np.repeat(starts[:-1], 2), np.int64)
+        columns = [self.table(np.zeros(starts[-1]), np.float64) for _ in range(width)]
+
+        def write(number: int) -> None:
+            rows, start = make(number), bounds[2 * number]
+            bounds[2 * number + 1] = end = start + len(rows)
+            for column, numbers in zip(columns, zip(*rows, strict=True), strict=False):
+                column[start:end] = numbers
+
+        for number in range(len(sizes)):
+            write(number)
+        self.writers.append(write)
+        return [bounds, *columns]
+
+    def renew(self, number: int) -> None:
+        """Another level has come in the place of one: write again what the tables have of it."""
+        for write in self.writers:
+            write(number)
 
 
 @dataclass(frozen=True)
@@ -119,3 +145,10 @@ def clamp(value: float, low: float, high: float) -> float:
     if value != value:
         return 0.0
     return value
+
+
+@fast
+def copy_values(target: Any, source: Any, count: int) -> None:
+    """Copy so many values; compiled, from row to row, this is a copy of memory."""
+    for k in range(count):
+        target[k] = source[k]

@@ -13,12 +13,13 @@ from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.observations.objects import OBSERVED, activity_of, contact_place_of, is_there
-from ninja_game.learn.observations.part import Part, Ragged, Setting, clamp
+from ninja_game.learn.observations.part import Part, Setting, clamp, copy_values
 from ninja_game.learn.observations.surroundings import solidity
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, UNIT_X, UNIT_Y
 from ninja_game.sim.memory.declare import entry_point, fast
 from ninja_game.sim.memory.object_fields import Object
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import HALF, RADIUS, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.states import DRONE_FIRING, WEAPON_LASER
 
@@ -26,6 +27,20 @@ FAR = 2.0 * WORLD_WIDTH
 """px; nothing farther from a picture is drawn."""
 DOOR_HALF, BEAM_RADIUS, CROSS_RADIUS = 4.0, 2.0, 4.0
 """px."""
+EVERYWHERE = (-FAR, FAR, -FAR, FAR)
+
+
+@fast
+def pixels_of(area: Any, frame: Any) -> tuple[int, int, int, int]:
+    """The first and the last column and row of a frame that an area, px from its corner, may reach."""
+    left, right, top, bottom = area
+    _, _, _, pixel_x, pixel_y, first, last, low, high = frame
+    return (
+        int(clamp(left / pixel_x - 0.5, float(first), float(last))),
+        int(clamp(right / pixel_x + 0.5, first - 1.0, float(last))),
+        int(clamp(top / pixel_y - 0.5, float(low), float(high))),
+        int(clamp(bottom / pixel_y + 0.5, low - 1.0, float(high))),
+    )
 
 
 @fast
@@ -34,15 +49,12 @@ def paint(
     shade: float, whole: int,
 ) -> None:  # fmt: skip
     """Paint a disc or a box about (x, y), px of the level; its rim gets a share of the shade. ``whole``: rounded."""
-    width, height, left, top, pixel_x, pixel_y = frame
+    width, left, top, pixel_x, pixel_y, _, _, _, _ = frame
     x -= left
     y -= top
     if not (-FAR < x < FAR and -FAR < y < FAR):
         return
-    first = int(clamp((x - half_x) / pixel_x - 0.5, 0.0, width - 1.0))
-    last = int(clamp((x + half_x) / pixel_x + 0.5, -1.0, width - 1.0))
-    low = int(clamp((y - half_y) / pixel_y - 0.5, 0.0, height - 1.0))
-    high = int(clamp((y + half_y) / pixel_y + 0.5, -1.0, height - 1.0))
+    first, last, low, high = pixels_of((x - half_x, x + half_x, y - half_y, y + half_y), frame)
     for row in range(low, high + 1):
         dy = abs((row + 0.5) * pixel_y - y)
         for column in range(first, last + 1):
@@ -59,17 +71,22 @@ def paint(
 
 
 @fast
+def door_middle(o: Object) -> tuple[float, float]:
+    """The middle of a door's line, px."""
+    cell = o.edge_1 // 4
+    side = o.edge_1 % 4
+    return CENTRE_X[cell] + HALF * UNIT_X[side], CENTRE_Y[cell] + HALF * UNIT_Y[side]
+
+
+@fast
 def draw_object(
     o: Object, out: Any, index: int, offset: int, frame: Any, size: float, box: bool, shade: float, whole: int
 ) -> None:
     """Paint an object that is there: what one touches of it, a closed door's line, a beam, a crosshair."""
     if o.kind == kinds.DOOR:
         if o.edge_1 and activity_of(o) == 1.0:
-            cell = o.edge_1 // 4
-            side = o.edge_1 % 4
-            x = CENTRE_X[cell] + HALF * UNIT_X[side]
-            y = CENTRE_Y[cell] + HALF * UNIT_Y[side]
-            upright = UNIT_X[side] != 0.0
+            x, y = door_middle(o)
+            upright = UNIT_X[o.edge_1 % 4] != 0.0
             half_x = DOOR_HALF if upright else HALF
             half_y = HALF if upright else DOOR_HALF
             paint(out, index, offset, frame, x, y, half_x, half_y, False, shade, whole)
@@ -105,6 +122,8 @@ SHADES = {
     kinds.MINE: 210, kinds.SWITCH: 175,
 }  # fmt: skip
 """0 is empty, 255 the ninja; 205 to 230 kill. A closed exit has half its shade."""
+STILL = {kinds.GOLD, kinds.MINE, kinds.EXIT, kinds.SWITCH, kinds.LAUNCH_PAD, kinds.ONE_WAY}
+"""Kinds that stay where they are, and look another way only after an event (``Setting.changed``)."""
 PLAIN_SIZE = 6.0
 """Radius, px, at which what cannot be touched is drawn."""
 
@@ -147,20 +166,39 @@ class Pixels(Part):
         across, down = ceil(WORLD_WIDTH / pixel_x - 1e-9), ceil(WORLD_HEIGHT / pixel_y - 1e-9)
         margins = [(side, side) if self.view else (0, 0) for side in (self.height, self.width)]
         factor = 1.0 / 255.0 if self.normalised else 1.0
-        pictures = [
-            np.pad(tile_picture(setting, number, across, down, pixel_x, pixel_y), margins, constant_values=1.0)
-            for number in range(len(setting.fresh))
-        ]
+
+        def picture(number: int) -> NDArray[np.float64]:
+            tiles = tile_picture(setting, number, across, down, pixel_x, pixel_y)
+            return np.rint(np.pad(tiles, margins, constant_values=1.0) * SOLID_SHADE) * factor
+
+        def objects(number: int) -> list[tuple[float, ...]]:
+            found = setting.objects(number, *SHADES)
+            return [(o.slot, *sizes[o.kind], SHADES[o.kind] * factor, o.kind not in STILL, o.x, o.y) for o in found]
+
+        def movers(number: int) -> list[tuple[float, ...]]:
+            return [(place,) for place, o in enumerate(setting.objects(number, *SHADES)) if o.kind not in STILL]
+
         sizes = {kind.number: (kind.disc or kind.box or PLAIN_SIZE, kind.box is not None) for kind in OBSERVED}
-        objects = [
-            [(o.slot, *sizes[o.kind], SHADES[o.kind] * factor) for _, o in found] for found in setting.objects(*SHADES)
-        ]
+        sizes[kinds.DOOR] = HALF, False
+        layers = np.zeros((1, 1) if self.view else (setting.count, self.length), self.box.dtype)
         return (
-            setting.table(np.rint(np.array(pictures).ravel() * SOLID_SHADE) * factor, np.float32),
+            setting.values(picture, self.box.dtype),
             across + 2 * margins[1][0], down + 2 * margins[0][0], self.width, self.height, int(self.view is not None),
-            pixel_x, pixel_y, NINJA_SHADE * factor, int(not self.normalised),
-            *Ragged(objects).columns(setting, 4),
+            pixel_x, pixel_y, NINJA_SHADE * factor, int(not self.normalised), setting.changed, layers,
+            *setting.rows(movers, 1), *setting.rows(objects, 7),
         )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Image(Pixels):
+    """``Pixels`` with one channel, (``height``, ``width``, 1): the shape of pictures as convolutions take them."""
+
+    name: ClassVar[str] = "image"
+
+    @property
+    def box(self) -> Box:
+        flat = super().box
+        return Box(flat.low[..., np.newaxis], flat.high[..., np.newaxis], dtype=flat.dtype.type)
 
 
 def tile_picture(
@@ -180,34 +218,114 @@ def observe_pixels(
     maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
     pictures: Any, across: int, down: int, width: int, height: int, follows: int,
     pixel_x: float, pixel_y: float, ninja_shade: float, whole: int,
-    starts: Any, slots: Any, sizes: Any, boxes: Any, shades: Any,
+    changed: Any, layers: Any, mover_bounds: Any, movers: Any,
+    bounds: Any, slots: Any, sizes: Any, boxes: Any, shades: Any, moves: Any, xs: Any, ys: Any,
 ) -> None:  # fmt: skip
-    """Draw the pictures of some worlds: the tiles, copied; the objects; the ninja. With a view, whole pixels move."""
+    """Draw the pictures of some worlds: the tiles, copied; the objects in the order of their slots; the ninja.
+
+    Without a view, tiles and objects that stay where they are lie in ``layers``, drawn again after a change. Over them
+    come those that move; where one of these may overlap what is drawn later, all of that place is drawn again in order.
+    With a view, whole pixels move.
+    """
     for k in range(first, last):
         index = which[k]
         level = level_of[index]
         w = worlds[index]
-        column = 0
-        row = 0
-        left = 0.0
-        top = 0.0
+        start = bounds[2 * level]
+        end = bounds[2 * level + 1]
+        look = (slots, sizes, boxes, shades, moves, xs, ys)
         if follows:
             column = int(clamp(w.ninja.x / pixel_x, 0.0, across - 2.0 * width)) + width - width // 2
             row = int(clamp(w.ninja.y / pixel_y, 0.0, down - 2.0 * height)) + height - height // 2
             column = min(column, across - width)
             row = min(row, down - height)
+            corner = (level * down + row) * across + column
             left = (column - width) * pixel_x
             top = (row - height) * pixel_y
-        at = offset
-        for line in range(height):
-            start = (level * down + row + line) * across + column
-            for j in range(width):
-                out[index, at + j] = pictures[start + j]
-            at += width
-        frame = (width, height, left, top, pixel_x, pixel_y)
-        for number in range(starts[level], starts[level + 1]):
+            frame = (width, left, top, pixel_x, pixel_y, 0, width - 1, 0, height - 1)
+            for line in range(height):
+                at = offset + line * width
+                source = corner + line * across
+                copy_values(out[index, at : at + width], pictures[source : source + width], width)
+            draw_objects(w, out, index, offset, frame, start, end, look, EVERYWHERE, True, whole)
+        else:
+            corner = level * down * across
+            frame = (width, 0.0, 0.0, pixel_x, pixel_y, 0, width - 1, 0, height - 1)
+            if changed[index]:
+                copy_values(layers[index], pictures[corner : corner + width * height], width * height)
+                draw_objects(w, layers, index, 0, frame, start, end, look, EVERYWHERE, False, whole)
+            copy_values(out[index, offset : offset + width * height], layers[index], width * height)
+            for place in range(mover_bounds[2 * level], mover_bounds[2 * level + 1]):
+                number = start + int(movers[place])
+                o = w.objects[int(slots[number])]
+                box = boxes[number] == 1.0
+                draw_object(o, out, index, offset, frame, sizes[number], box, shades[number], whole)
+            for place in range(mover_bounds[2 * level], mover_bounds[2 * level + 1]):
+                number = start + int(movers[place])
+                o = w.objects[int(slots[number])]
+                near = area_of(o, sizes[number], 2.0 * max(pixel_x, pixel_y))
+                if is_covered(number, end, look, near):
+                    reached = pixels_of(area_of(o, sizes[number], 0.0), frame)
+                    first_column, last_column, first_row, last_row = reached
+                    wide = last_column + 1 - first_column
+                    for line in range(first_row, last_row + 1):
+                        at = line * width + first_column
+                        target = out[index, offset + at : offset + at + wide]
+                        copy_values(target, pictures[corner + at : corner + at + wide], wide)
+                    part = (width, 0.0, 0.0, pixel_x, pixel_y, first_column, last_column, first_row, last_row)
+                    draw_objects(w, out, index, offset, part, start, end, look, near, True, whole)
+        paint(out, index, offset, frame, w.ninja.x, w.ninja.y, RADIUS, RADIUS, True, ninja_shade, whole)
+
+
+@fast
+def draw_objects(
+    w: World, out: Any, index: int, offset: int, frame: Any, first: int, last: int, look: Any, area: Any,
+    moving: bool, whole: int,
+) -> None:  # fmt: skip
+    """Draw the objects that are there and may lie in an area, with or without those that are ``moving``."""
+    slots, sizes, boxes, shades, moves, _, _ = look
+    for number in range(first, last):
+        if moving if moves[number] else is_near(number, look, area):
             o = w.objects[int(slots[number])]
             if is_there(w, o):
                 box = boxes[number] == 1.0
                 draw_object(o, out, index, offset, frame, sizes[number], box, shades[number], whole)
-        paint(out, index, offset, frame, w.ninja.x, w.ninja.y, RADIUS, RADIUS, True, ninja_shade, whole)
+
+
+@fast
+def area_of(o: Object, size: float, gap: float) -> tuple[float, float, float, float]:
+    """Left, right, top and bottom of what is drawn of an object that moves, px, with so much room about it."""
+    x, y = door_middle(o) if o.kind == kinds.DOOR else contact_place_of(o)
+    dx = 0.0
+    dy = 0.0
+    if o.kind == kinds.TURRET and o.updating:
+        dx = o.aim_x - x
+        dy = o.aim_y - y
+    if o.kind == kinds.DRONE and o.weapon == WEAPON_LASER and o.routine == DRONE_FIRING:
+        dx = o.end_x - x
+        dy = o.end_y - y
+    room = size + gap
+    return (
+        x + clamp(dx, -FAR, 0.0) - room, x + clamp(dx, 0.0, FAR) + room,
+        y + clamp(dy, -FAR, 0.0) - room, y + clamp(dy, 0.0, FAR) + room,
+    )  # fmt: skip
+
+
+@fast
+def is_near(number: int, look: Any, area: Any) -> bool:
+    """Whether an object that stays where it is may lie in an area."""
+    _, sizes, _, _, _, xs, ys = look
+    left, right, top, bottom = area
+    size = float(sizes[number])
+    inside: bool = left - size < xs[number] < right + size and top - size < ys[number] < bottom + size
+    return inside
+
+
+@fast
+def is_covered(number: int, last: int, look: Any, area: Any) -> bool:
+    """Whether an object of the layer that is drawn later may lie in the area of this one."""
+    moves = look[4]
+    for other in range(number + 1, last):  # noqa: SIM110 - what compiles
+        if not moves[other] and is_near(other, look, area):
+            return True
+    return False

@@ -9,10 +9,11 @@ from typing import Any, ClassVar
 
 import numpy as np
 from gymnasium.spaces import Box
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
-from ninja_game.learn.observations.part import Part, Setting, clamp
+from ninja_game.learn.observations.part import Part, Setting, clamp, copy_values
 from ninja_game.sim.collision.rays import cast, solid_at
 from ninja_game.sim.collision.tiles import FULL, SHAPE
 from ninja_game.sim.kinds import DOOR
@@ -42,24 +43,39 @@ def mark_solid(maps: Any, number: int, wide: float, high: float, points: Any) ->
                 points[row, column] = 1
 
 
+_DISTANCES: dict[tuple[tuple[int, ...], float], NDArray[np.float64]] = {}
+MOST_DISTANCES = 4096
+"""Levels whose distances are kept, by their tiles, which many levels share."""
+
+
 def surface_distances(setting: Setting, number: int, reach: float) -> NDArray[np.float64]:
     """Of every cell (25, 33) how far its centre is from the nearest surface, px, at most ``reach``; within below 0.
 
     What is outside the world counts as solid.
     """
+    key = tuple(setting.fresh[number].tiles), reach
+    if key not in _DISTANCES:
+        if len(_DISTANCES) >= MOST_DISTANCES:
+            _DISTANCES.clear()
+        _DISTANCES[key] = _measured_distances(setting, number, reach)
+    return _DISTANCES[key]
+
+
+def _measured_distances(setting: Setting, number: int, reach: float) -> NDArray[np.float64]:
+    """Of each row of points near a cell the nearest one, and of these the nearest."""
     spacing = WORLD_WIDTH / GRID_COLUMNS / FINE
     margin = int(reach / spacing)
-    points = np.pad(solidity(setting, number, GRID_COLUMNS * FINE, GRID_ROWS * FINE), margin, constant_values=1)
-    centres = solidity(setting, number, GRID_COLUMNS, GRID_ROWS)
-    offsets = (np.arange(2 * margin) - margin + 0.5) * spacing
-    far = np.sqrt(offsets * offsets + (offsets * offsets)[:, np.newaxis])
-    distances = np.full((GRID_ROWS, GRID_COLUMNS), reach)
-    for row, column in np.ndindex(*distances.shape):
-        top, left = row * FINE + FINE // 2, column * FINE + FINE // 2
-        within = centres[row, column]
-        others = far[points[top : top + 2 * margin, left : left + 2 * margin] != within]
-        nearest = min(reach, others.min()) if others.size else reach
-        distances[row, column] = -nearest if within else nearest
+    solid = np.pad(solidity(setting, number, GRID_COLUMNS * FINE, GRID_ROWS * FINE), margin, constant_values=1)
+    within = solidity(setting, number, GRID_COLUMNS, GRID_ROWS) == 1
+    squares = ((np.arange(2 * margin) - margin + 0.5) * spacing) ** 2
+    shares = sliding_window_view(solid, 2 * margin, axis=1)[:, FINE // 2 :: FINE][:, :GRID_COLUMNS]
+    found = []
+    for wanted in (1, 0):
+        along = np.where(shares == wanted, squares, np.inf).min(axis=2)
+        rows = sliding_window_view(along, 2 * margin, axis=0)[FINE // 2 :: FINE][:GRID_ROWS]
+        found.append(np.sqrt((rows + squares).min(axis=2)))
+    outside, inside = np.minimum(found, reach)
+    distances: NDArray[np.float64] = np.where(within, -inside, outside)
     return distances
 
 
@@ -107,18 +123,15 @@ class LocalTiles(Part):
         """Of each level a padded picture: distances, or tile ids; the width and height of a picture, and the size."""
         margin = self.size // 2
         height, width = GRID_ROWS + 2 * margin, GRID_COLUMNS + 2 * margin
-        maps = [tiles for tiles, _ in setting.fresh]
-        pictures = np.full((len(maps), height, width), FULL_TILE if self.form == "one-hot" else -1.0)
-        for number, (picture, tiles) in enumerate(zip(pictures, maps, strict=True)):
-            inner = picture[margin : height - margin, margin : width - margin]
+        unit = REACH if self.normalised else 1.0
+
+        def picture(number: int) -> NDArray[Any]:
             if self.form == "one-hot":
-                inner[:] = np.reshape(tiles.tiles, (-1, STRIDE))[1 : GRID_ROWS + 1, 1 : GRID_COLUMNS + 1]
-            else:
-                inner[:] = surface_distances(setting, number, REACH) / REACH
-        if not self.normalised and self.form == "distance":
-            pictures *= REACH
-        dtype: Any = np.int64 if self.form == "one-hot" else np.float32
-        return setting.table(pictures.ravel(), dtype), width, height, self.size
+                tiles = np.reshape(setting.fresh[number].tiles, (-1, STRIDE))
+                return np.pad(tiles[1 : GRID_ROWS + 1, 1 : GRID_COLUMNS + 1], margin, constant_values=FULL_TILE)
+            return np.pad(surface_distances(setting, number, REACH), margin, constant_values=-REACH) / unit
+
+        return setting.values(picture, np.int64 if self.form == "one-hot" else np.float32), width, height, self.size
 
 
 @entry_point
@@ -131,12 +144,9 @@ def observe_distances(
         index = which[k]
         n = worlds[index].ninja
         start = level_of[index] * width * height + corner(n.x, n.y, width)
-        at = offset
-        for _ in range(size):
-            for column in range(size):
-                out[index, at + column] = pictures[start + column]
-            start += width
-            at += size
+        for row in range(size):
+            at = offset + row * size
+            copy_values(out[index, at : at + size], pictures[start + row * width : start + row * width + size], size)
 
 
 @entry_point
@@ -201,11 +211,14 @@ class Rays(Part):
 
         In a level without doors the edges never change: those of a new world lie nearer than those of each world.
         """
+
+        def doors(number: int) -> bool:
+            return bool(setting.objects(number, DOOR))
+
         angles = [2.0 * pi * k / self.count for k in range(self.count)]
         directions = [setting.table([round(f(angle), 12) for angle in angles], np.float64) for f in (cos, sin)]
-        doors = [int(bool(found)) for found in setting.objects(DOOR)]
         factor = 1.0 / self.reach if self.normalised else 1.0
-        return *directions, float(self.reach), factor, setting.worlds.fresh, setting.table(doors, np.int64)
+        return *directions, float(self.reach), factor, setting.worlds.fresh, setting.values(doors, np.int64)
 
 
 @entry_point

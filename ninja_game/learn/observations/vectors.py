@@ -10,7 +10,8 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from ninja_game.learn.goal_distance import point_within
-from ninja_game.learn.observations.part import Part, Ragged, Setting, clamp
+from ninja_game.learn.levels.places import NewLevel
+from ninja_game.learn.observations.part import Part, Setting, clamp
 from ninja_game.search.heuristics import FARTHEST
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_at
@@ -93,30 +94,27 @@ class StateVector(Part):
         """
         box = self.box
         factors = [1.0 / scale if self.normalised else 1.0 for _, _, scale in FIELDS.values()]
-        exits = Ragged([[exit_row(w, o.slot) for w, o in found] for found in setting.objects(EXIT)])
-        gold = Ragged([[(o.slot, o.x, o.y) for _, o in found] for found in setting.objects(GOLD)])
         return (
             *(setting.table(values, np.float64) for values in (factors, box.low, box.high)),
-            *exits.columns(setting, 5),
-            *gold.columns(setting, 3),
+            *setting.rows(lambda number: exit_rows(setting.fresh[number]), 5),
+            *setting.rows(lambda number: [(o.slot, o.x, o.y) for o in setting.objects(number, GOLD)], 3),
             setting.changed,
             *(setting.table([0] * setting.count, np.int64) for _ in range(2)),
         )
 
 
-def exit_row(w: World, slot: int) -> tuple[float, ...]:
-    """Slot and place of an exit, place of its switch."""
-    o = w.objects[slot]
-    switch = w.objects[o.partner]
-    return slot, o.x, o.y, switch.x, switch.y
+def exit_rows(level: NewLevel) -> list[tuple[float, ...]]:
+    """Slot and place of each exit, place of its switch."""
+    exits = [o for o in level.objects[1:] if o.kind == EXIT]
+    return [(o.slot, o.x, o.y, level.objects[o.partner].x, level.objects[o.partner].y) for o in exits]
 
 
 @entry_point
 def observe_state(
     maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
     factors: Any, lows: Any, highs: Any,
-    exit_starts: Any, exits: Any, exit_x: Any, exit_y: Any, switch_x: Any, switch_y: Any,
-    gold_starts: Any, gold: Any, gold_x: Any, gold_y: Any,
+    exit_bounds: Any, exits: Any, exit_x: Any, exit_y: Any, switch_x: Any, switch_y: Any,
+    gold_bounds: Any, gold: Any, gold_x: Any, gold_y: Any,
     changed: Any, opened: Any, nearest: Any,
 ) -> None:  # fmt: skip
     """Write the state vector of some worlds."""
@@ -128,8 +126,8 @@ def observe_state(
         observe_ninja(w, out, index, offset, factors, lows, highs)
         for j in range(offset + FIRST_EXIT, offset + FIRST_STATE):
             out[index, j] = 0.0
-        start = exit_starts[level]
-        end = exit_starts[level + 1]
+        start = exit_bounds[2 * level]
+        end = exit_bounds[2 * level + 1]
         if changed[index]:
             opened[index] = open_exits(w, exits, start, end)
         chosen = choose_exit(n.x, n.y, opened[index], exit_x, exit_y, switch_x, switch_y, start, end)
@@ -142,8 +140,8 @@ def observe_state(
             if not is_open:
                 put(out, index, offset, FIRST_EXIT + 4, factors, lows, highs, switch_x[chosen] - n.x)
                 put(out, index, offset, FIRST_EXIT + 5, factors, lows, highs, switch_y[chosen] - n.y)
-        start = gold_starts[level]
-        end = gold_starts[level + 1]
+        start = gold_bounds[2 * level]
+        end = gold_bounds[2 * level + 1]
         guess = nearest[index]
         if changed[index] and not (start <= guess < end and not w.objects[int(gold[guess])].taken):
             guess = -1

@@ -171,5 +171,5 @@ class EditorSession:
             return
         from ninja_game.search.certificate import named_run
 
-        replay = named_run(run, name=self.name, author="solver", level_author=self.draft.author)
+        replay = named_run(run, "solve", name=self.name, author="solver", level_author=self.draft.author)
         self.app.notify(keep_replay(self.app.player, replay))

@@ -10,12 +10,12 @@ import pygame
 
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.pack.pars import Pars
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.formats.sayings import named_keys, things_named
 from ninja_game.play.level.play import DEATH_PAUSE, LevelPlay, Phase
 from ninja_game.play.level.sayings import FALL_HELP, WHY
 from ninja_game.play.menus.thumbnails import PAR_WIDE, draw_pars
 from ninja_game.player.marks import Mark, next_par
-from ninja_game.player.records import seconds_text
 from ninja_game.player.statistics import SELF
 from ninja_game.sim.collision.tiles import FULL, SHAPE
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT

@@ -228,7 +228,8 @@ class LevelPlay:
 
     def run_ticks(self, due: int) -> None:
         """So many ticks, each with the keys of its moment."""
-        self.attempt.assisted |= bool(due) and self.phase is Phase.PLAY and self.app.settings.game_speed < 100
+        if due and self.phase is Phase.PLAY and self.app.settings.game_speed < 100:
+            self.attempt.assists.add("slow motion")
         for _ in range(due):
             # Sampled right before the tick: as late as can be.
             self.keys = self.app.controls.poll() if self.phase is Phase.PLAY else 0

@@ -160,7 +160,7 @@ class LevelScreen(Screen):
                 name=context.title,
                 author=self.app.settings.name,
                 body=context.body,
-                practice=self.attempt.assisted,
+                made=self.attempt.made,
             )
             self.app.push(ReplayScreen(self.app, [Recording(context.level, replay)]))
 

@@ -14,6 +14,7 @@ from ninja_game.files.shown_text import name_problem, unreadable
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.load import load_levels
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.level.screen import play_level
@@ -23,7 +24,7 @@ from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text, where_from
 from ninja_game.player.catalogue import Entry, author_name
 from ninja_game.player.marks import Mark, opens_author
-from ninja_game.player.records import SavedReplay, seconds_text
+from ninja_game.player.records import SavedReplay
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.text_entry import TextEntry

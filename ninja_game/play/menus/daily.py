@@ -11,13 +11,13 @@ import pygame
 
 from ninja_game.backend.memories import choose_memory
 from ninja_game.files.user_folder import LEVELS
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.generator import daily
 from ninja_game.play.app import App
 from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, draw_pars, time_and_par, tries_text
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.records import seconds_text
 from ninja_game.runtime import require_desktop, run_in_background
 from ninja_game.ui.theme import wrapped
 from ninja_game.ui.widgets import Button, Widget

@@ -8,6 +8,7 @@ import pygame
 
 from ninja_game.files.shown_text import unreadable
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.level.screen import LevelScreen, play_level
@@ -18,7 +19,6 @@ from ninja_game.player.catalogue import Episode, EpisodeSet
 from ninja_game.player.marks import Mark, has_all_gold, tally, worst_medal
 from ninja_game.player.playthrough import EpisodeRun, left_half_way
 from ninja_game.player.progress import CHEATED, LOCKED
-from ninja_game.player.records import seconds_text
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import BAR, ListView
 from ninja_game.ui.theme import Area, Theme

@@ -6,12 +6,12 @@ from collections.abc import Callable, Sequence
 
 import pygame
 
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal
 from ninja_game.player.catalogue import Episode
 from ninja_game.player.playthrough import EpisodeRun
-from ninja_game.player.records import seconds_text
 from ninja_game.ui.canvas import WIDTH
 from ninja_game.ui.widgets import Button, Widget
 

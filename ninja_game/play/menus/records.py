@@ -7,10 +7,10 @@ from typing import NamedTuple
 
 import pygame
 
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.replays import watch
-from ninja_game.player.records import seconds_text
 from ninja_game.sim.rules import TICK_MS
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.theme import Area, Theme

@@ -17,6 +17,7 @@ from ninja_game.formats.links.making import recording_link, replay_link
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay, write_replay
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.menus.menu_screen import MenuScreen
@@ -24,7 +25,7 @@ from ninja_game.play.menus.panels import Question
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.catalogue import author_name
 from ninja_game.player.marks import opens_author
-from ninja_game.player.records import NEWEST_SHOWN, SavedReplay, has_words, level_score, seconds_text
+from ninja_game.player.records import NEWEST_SHOWN, SavedReplay, has_words, level_score
 from ninja_game.player.saving import forget_replay
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import ListView
@@ -236,11 +237,11 @@ def _row_of(saved: SavedReplay) -> ReplayRow:
 def _row_of_recording(recording: Recording, when: str) -> ReplayRow:
     replay = recording.replay
     if replay.unclaimed:
-        result = f"recording, {seconds_text(recording.ticks)} s"
+        result = f"recording, {seconds_text(recording.ticks - 1)} s"
     else:
         result = _result(replay.outcome, replay.gold, replay.final_tick, recording.level.gold)
     passed = replay.outcome == "exit"
-    return ReplayRow(recording.name or "unnamed", author_name(recording.author), result, when, passed, recording)
+    return ReplayRow(recording.name or "unnamed", author_name(replay.credit), result, when, passed, recording)
 
 
 def _result(outcome: str, gold: int, final_tick: int, all_gold: int = 0) -> str:
@@ -248,7 +249,7 @@ def _result(outcome: str, gold: int, final_tick: int, all_gold: int = 0) -> str:
     if outcome == "exit":
         what = "all gold" if gold == all_gold > 0 else f"{gold} gold" if gold else "exit"
         return f"{what}, {seconds_text(level_score(gold, final_tick))} s left"
-    return f"{OUTCOMES[outcome]}, {seconds_text(final_tick + 1)} s"
+    return f"{OUTCOMES[outcome]}, {seconds_text(final_tick + (outcome == 'running'))} s"
 
 
 def watch(app: App, replays: Iterable[Replay | None]) -> bool:

@@ -5,10 +5,17 @@ from __future__ import annotations
 from threading import Event, Thread
 from time import monotonic
 
+import numpy as np
+
+from ninja_game.batch.thread_pool import cores
 from ninja_game.errors import ArgumentError
+from ninja_game.formats.replay.text import Replay
+from ninja_game.runs.run import run_level
 from ninja_game.runtime import require_desktop, run_in_background
 from ninja_game.search.formula.methods import METHODS, search_span
 from ninja_game.search.formula.task import Found, SpanTask
+from ninja_game.search.solve import Progress, Task, solve
+from ninja_game.sim.inputs import KEYS_DOWN
 
 
 class SpanSearch:
@@ -86,3 +93,47 @@ class SpanSearch:
         self.ticks_run, self.found = ticks, found
         late = self._limit and self.seconds >= self._limit
         return not (late or self._cancelled.is_set())
+
+
+LONGEST_SECONDS = 1e6
+"""Of a search that goes on until it is cancelled."""
+MOST_JOBS = 4
+"""Of a search of a whole run, each of which may take a gigabyte."""
+
+
+class RunSearch(SpanSearch):
+    """The same for a whole run, ``task.inputs``, which is shortened as `ninja-game improve` does.
+
+    ``gold``: pieces that it must still take; ``others``: runs of the level whose routes are shortened too. ``found``:
+    what no other one beats in ticks and gold.
+    """
+
+    def __init__(
+        self, task: SpanTask, jobs: int | None = None, *, seconds: float = 0.0, seed: int = 1, gold: int = 0,
+        others: tuple[bytes, ...] = (),
+    ) -> None:  # fmt: skip
+        super().__init__(task, seconds=seconds)
+        self._wanted = Task(
+            task.level, task.body, gold, seconds or LONGEST_SECONDS, seed, min(jobs or cores(), MOST_JOBS),
+            first=task.inputs.ljust(task.length, b"\0"), others=others,
+        )  # fmt: skip
+
+    def _work(self) -> None:
+        solve(self._wanted, report=self._note_progress, on_better=self._note_run, stop=self._cancelled)
+        self._ended = monotonic()
+
+    def _note_progress(self, progress: Progress) -> None:
+        self.ticks_run = progress.ticks
+
+    def _note_run(self, run: Replay) -> None:
+        places = run_level(self.task.level, run.inputs, body=self.task.body).positions[-2:]
+        keys = np.frombuffer(run.inputs.ljust(self.task.length, b"\0"), np.uint8) & np.uint8(KEYS_DOWN)
+        end = tuple(np.concatenate([places[-1], places[-1] - places[0]]).tolist())
+        found = Found(float(run.ticks), run.ticks, keys, run.inputs, run.gold, end)
+        if not self._began:
+            self._began, self.own = monotonic(), found
+        best: list[Found] = []
+        for each in sorted([*self.found, found]):
+            if not best or each.gold > best[-1].gold:
+                best.append(each)
+        self.found = tuple(best)

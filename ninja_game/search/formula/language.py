@@ -27,6 +27,9 @@ View = Mapping[str, Callable[..., Values]]
 UNTRUE = -1000.0
 """The margin of a fact that is not so, such as ``dead``: nothing is near to it."""
 
+FAR = " far"
+"""Behind the name of a fact: what a view may have as its margin where it is not so, less than 0."""
+
 LONGEST, DEEPEST = 1000, 40
 """Of a formula: characters, and parts in parts."""
 
@@ -187,7 +190,12 @@ class _Reader:
 
         if name not in self.facts:
             return _number(value)
-        return Formula(True, value, lambda view: np.where(value(view) > 0, 0.0, UNTRUE))
+
+        def margin(view: View) -> Any:
+            far = view[name + FAR](*(number(view) for number in numbers)) if name + FAR in view else UNTRUE
+            return np.where(value(view) > 0, 0.0, far)
+
+        return Formula(True, value, margin)
 
 
 def _number(value: Callable[[View], Any]) -> Formula:

@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 from ninja_game.batch.batch import Batch
 from ninja_game.errors import ArgumentError
+from ninja_game.search.formula.distances import Distances
+from ninja_game.search.formula.language import FAR
 from ninja_game.sim.kinds import DOOR, EXIT, GOLD, KIND_NAMES, LAUNCHER, MINE, TURRET
 from ninja_game.sim.level import Level
 from ninja_game.sim.states import LAUNCHER_FLIGHT, OUTCOME_DEAD, OUTCOME_EXIT
@@ -55,6 +57,16 @@ def view_of(batch: Batch) -> dict[str, Callable[..., NDArray[np.float64]]]:
         "object_x": lambda number: _place(batch, number, "x"), "object_y": lambda number: _place(batch, number, "y"),
         "taken": flag("taken"), "opened": flag("opened"),
     }  # fmt: skip
+
+
+def distance_views(level: Level, batch: Batch) -> dict[str, Callable[..., Any]]:
+    """The margins of facts that are not so yet: how far it is to what makes them so, by the solver's fields."""
+    distances = Distances(level, batch)
+
+    def far(number: Any) -> Any:
+        return distances.to_object(_object(batch, number))
+
+    return {"won" + FAR: distances.to_exit, "taken" + FAR: far, "opened" + FAR: far}
 
 
 def difference_from(level: Level, inputs: bytes, batch: Batch) -> Callable[[Any], NDArray[np.float64]]:

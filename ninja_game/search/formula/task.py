@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ninja_game.batch.batch import Batch
 from ninja_game.errors import ArgumentError
 from ninja_game.search.formula.language import Formula, FormulaError, Values, parse_number, parse_truth
-from ninja_game.search.formula.names import FACTS, SPAN_NAMES, difference_from, view_of
+from ninja_game.search.formula.names import FACTS, SPAN_NAMES, difference_from, distance_views, view_of
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
 from ninja_game.sim.level import Level
 from ninja_game.sim.states import OUTCOME_EXIT
@@ -31,8 +31,8 @@ class SpanTask:
     ``inputs``: the run, one byte per tick. ``goal``: a formula that must be true after one of these ticks; "": after
     the last one, whatever it is. ``measure``: a formula that is to be as great as possible at that moment, or, with
     ``least``, as small; "": the goal is to be reached as early as possible. ``rest``: from that moment on is played
-    what follows in the run after its own first moment at the goal (or after the span, if it has none there); the
-    exit must still be reached, as early as possible.
+    what follows in the run after its own first moment at the goal (or from tick ``behind`` on, if it has none there; 0:
+    behind the span); the exit must still be reached, as early as possible.
 
     Raises FormulaError for a broken formula, ArgumentError for a span that is not in the run.
     """
@@ -46,6 +46,7 @@ class SpanTask:
     least: bool = False
     rest: bool = False
     body: Body = "circle"
+    behind: int = 0
 
     def __post_init__(self) -> None:
         if not 0 <= self.first < self.last <= self.first + LONGEST:
@@ -101,6 +102,8 @@ def score_in_words(task: SpanTask, found: Found) -> str:
     last = task.first + found.ticks - 1
     if task.rest:
         return f"exit in tick {found.score - 1:.0f}"
+    if task.goal == "won":
+        return f"exit in tick {last}"
     if task.measure:
         return f"{task.measure} is {found.score if task.least else -found.score:.6g} after tick {last}"
     return f"goal after tick {last}"
@@ -130,7 +133,8 @@ class SpanWorlds:
     def __init__(self, task: SpanTask, count: int, *, memory: str = "auto", threads: int | None = None) -> None:
         self.task = task
         self.batch = Batch(task.level, count, body=task.body, memory=memory, threads=threads)
-        self.view = {**view_of(self.batch), "difference": difference_from(task.level, task.inputs, self.batch)}
+        difference = {"difference": difference_from(task.level, task.inputs, self.batch)}
+        self.view = view_of(self.batch) | distance_views(task.level, self.batch) | difference
         self.goal, self.measure = task.formulas()
         before = np.frombuffer(task.inputs[: task.first], np.uint8)
         single = Batch(task.level, 1, body=task.body, memory=memory)
@@ -141,7 +145,9 @@ class SpanWorlds:
         self.batch.restore(self.start)
         self.ticks_run = task.first
         own = int(self._try(np.tile(task.base[:, np.newaxis], (1, count))).ticks[0]) if task.rest and task.goal else 0
-        self.rest = np.frombuffer(task.inputs[task.first + own if own else task.last :], np.uint8) & KEYS_DOWN
+        self.rest = (
+            np.frombuffer(task.inputs[task.first + own if own else task.behind or task.last :], np.uint8) & KEYS_DOWN
+        )
 
     def measured(self) -> tuple[NDArray[np.bool_], Values, Values]:
         """Of all worlds now: whether they are at the goal, their margin, their score."""

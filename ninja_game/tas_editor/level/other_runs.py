@@ -19,6 +19,7 @@ from ninja_game.play.menus.panels import FormPanel
 from ninja_game.play.menus.replays import FILES_SHOWN, ReplayRow, ReplaysScreen
 from ninja_game.play.workspace.part import Commands
 from ninja_game.player.records import SavedReplay
+from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.files import runs_of_level, same_level, track_of
 from ninja_game.tas.timeline import Timeline
 from ninja_game.tas_editor.editor import OtherRun, TasEditor
@@ -68,7 +69,7 @@ class OtherRuns:
         if other is not None:
             first, last = self.editor.selection
             keys = [other.track.keys_at(tick) for tick in range(first, last)]
-            if self.editor.edit_selected(lambda track: track.replaced(first, last, keys)):
+            if self.editor.edit_selected(lambda track: track.replaced(first, last, keys), other.made):
                 self.editor.app.notify(f"Ticks {first} to {last - 1} are those of {other.name}")
 
     def splice_here(self) -> None:
@@ -80,7 +81,7 @@ class OtherRuns:
         far = np.hypot(*(other.positions - positions[tick]).T)
         there = int(np.argmin(far))
         keys = [other.track.keys_at(k) for k in range(there + 1, len(other.track))]
-        if editor.edit(lambda track: track.replaced(tick + 1, max(tick + 1, len(track)), keys)):
+        if editor.edit(lambda track: track.replaced(tick + 1, max(tick + 1, len(track)), keys), other.made):
             editor.app.notify(f"From here on {other.name} from its tick {there} on, {far[there]:.2f} px away")
 
 
@@ -93,7 +94,9 @@ def other_run(editor: TasEditor, recording: Recording) -> OtherRun:
     track = track_of(recording)
     timeline = Timeline(about.level, track.inputs, body=about.body, memory=editor.session.timeline.memory)
     timeline.simulate(len(timeline))
-    return OtherRun(_free_name(recording, about, {other.name for other in editor.others}), track, timeline.trajectory())
+    name = _free_name(recording, about, {other.name for other in editor.others})
+    made = Contributions.of(recording.replay) if recording.form != "file" else Contributions()
+    return OtherRun(name, track, timeline.trajectory(), made)
 
 
 def _free_name(recording: Recording, about: Recording, taken: set[str]) -> str:
@@ -131,7 +134,8 @@ class OtherRunScreen(ReplaysScreen):
 
     def places(self) -> list[tuple[str, Iterable[Path | LeftOut]]]:
         """Beside the file of the run, too."""
-        file = Path(self.others.editor.session.about.file)
+        session = self.others.editor.session
+        file = session.file.path or Path(session.about.file)
         beside = sorted(each for each in file.parent.glob("*.txt") if each.name != file.name) if file.is_file() else []
         return [("Same folder", beside[:FILES_SHOWN]), *super().places()]
 

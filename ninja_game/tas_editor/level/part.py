@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
 from math import hypot
 
 import numpy as np
@@ -10,7 +12,7 @@ import pygame
 
 from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.play.workspace.part import Commands
-from ninja_game.sim.kinds import KIND_NAMES
+from ninja_game.sim.kinds import EXIT, KIND_NAMES, SWITCH
 from ninja_game.simulation import ObjectView, Simulation
 from ninja_game.tas_editor.controls import TABLE
 from ninja_game.tas_editor.editor import TasEditor, TasPart
@@ -32,6 +34,7 @@ from ninja_game.tas_editor.tabs.values_tab import proposal
 from ninja_game.ui.canvas import Point
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.theme import Theme
+from ninja_game.view.overlays import OVERLAY_ACTIONS
 
 _REACH = 16.0
 """px of the level within which an object is pointed at."""
@@ -59,8 +62,11 @@ def nearest_tick(positions: Positions, x: float, y: float, cursor: int, *, dragg
 
 
 def object_at(run: Simulation, x: float, y: float) -> ObjectView | None:
-    """The object that is nearest to a place now, if it is near."""
-    found = min(run.objects, key=lambda each: hypot(each.x - x, each.y - y), default=None)
+    """The object that is nearest to a place now, if it is near; a switch of an exit is that exit."""
+    world, objects = run.world, run.objects
+    switches = (world.objects[world.objects[each.id + 1].partner] for each in objects if each.kind == KIND_NAMES[EXIT])
+    objects += [replace(run.object(each.partner - 1), x=each.x, y=each.y) for each in switches if each.kind == SWITCH]
+    found = min(objects, key=lambda each: hypot(each.x - x, each.y - y), default=None)
     return found if found is not None and hypot(found.x - x, found.y - y) < _REACH else None
 
 
@@ -94,6 +100,7 @@ class LevelPart(TasPart):
         shared: Commands = {
             "faster": lambda: playing.change_speed(1), "slower": lambda: playing.change_speed(-1),
             "ghosts": self._toggle_ghosts, "whole_level": self.picture.camera.show_all, **self.others.commands(),
+            **{name: partial(self.picture.overlays.toggle, name) for name in OVERLAY_ACTIONS},
         }  # fmt: skip
         if taken.on:
             return {
@@ -166,7 +173,8 @@ class LevelPart(TasPart):
             editor.track, editor.cursor, editor.selection, timeline.simulated_until, editor.session.before,
             editor.ghosts, tuple(editor.others), editor.preview, self.hover, self.pointed, editor.app.settings,
             playing.on, playing.speed,
-            self.picture.camera.render_key, self.take_over.on, self.take_over.still, self.take_over.waiting,
+            self.picture.camera.render_key, frozenset(self.picture.overlays.on),
+            self.take_over.on, self.take_over.still, self.take_over.waiting,
             moving and playing.clock.remainder,
         )  # fmt: skip
 

@@ -17,6 +17,7 @@ from ninja_game.ui.theme import Palette
 from ninja_game.view.level_view import LevelView, OffscreenContext
 from ninja_game.view.ninja.ninja_animation import NinjaAnimation
 from ninja_game.view.ninja.ragdoll import Ragdoll
+from ninja_game.view.overlays import Overlays
 
 ZOOM_STEP = 1.25
 """One notch of the wheel."""
@@ -170,12 +171,13 @@ class CachedWorldSimulation(Simulation):
 class LevelPicture:
     """``canvas``: from px of the level to px of ``surface``, which is the picture. ``run``: what it shows.
 
-    ``camera``: which part of the level.
+    ``camera``: which part of the level; ``overlays``: those of the game, which are shown over it.
     """
 
     def __init__(self, editor: TasEditor) -> None:
         self.editor = editor
         self.run = self._new_run()
+        self.overlays = Overlays()
         self._context = OffscreenContext((1, 1), editor.app.settings)
         self._view: LevelView | None = None
         self.surface = pygame.Surface((1, 1))
@@ -213,6 +215,7 @@ class LevelPicture:
         self._context.canvas = self.camera.canvas(size)
         if self._view is None:
             self._view = LevelView(self._context, self.run, audible=False)
+            self._view.overlays = self.overlays
             self._view.on_seek()
         return True
 

@@ -10,6 +10,7 @@ from ninja_game.tas_editor.controls import BY_PAD, COMMANDS
 from ninja_game.tas_editor.editor import TasEditor
 from ninja_game.tas_editor.level.picture import LevelPicture
 from ninja_game.ui.input.bindings import InputEvent
+from ninja_game.view.overlays import OVERLAY_ACTIONS
 
 
 class Playing:
@@ -73,10 +74,14 @@ _OF_THE_APP = frozenset({"fullscreen", "screenshot", "boss"})
 _MOVES = frozenset({"left", "right", "jump"})
 _BY_ACTION = {"pause": "play", "back": "take_over", "frame_forward": "step", "frame_back": "step_back"}
 """Commands by actions of the game, for pads and for other keys."""
+_WHILE_PLAYING = {
+    "play", "take_over", "step", "step_back", "faster", "slower", "ghosts", "whole_level", *OVERLAY_ACTIONS
+}  # fmt: skip
 _BY_KEY = {"escape": "take_over"} | {
     key: command.name
     for command in COMMANDS
-    if command.name in ("play", "take_over", "step", "step_back", "faster", "slower", "ghosts", "whole_level")
+    if command.name
+    in ("play", "take_over", "step", "step_back", "faster", "slower", "ghosts", "whole_level", *OVERLAY_ACTIONS)
     for key in command.keys
 }
 """The commands of a run that is taken over."""

@@ -34,6 +34,7 @@ class RollCommands:
         return {
             **{name: partial(self._move, to) for name, to in moves.items()},
             **{f"select_{name}": partial(self._move, to, select=True) for name, to in moves.items()},
+            "select_last": partial(self._move, lambda: max(len(editor.track) - 1, self._last()), select=True),
             "select_all": self.select_all, "go_to": self.ask_where,
             "next_marker": lambda: self._to_marker(1), "previous_marker": lambda: self._to_marker(-1),
             "next_difference": lambda: self._to_difference(1),

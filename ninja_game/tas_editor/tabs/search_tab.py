@@ -15,12 +15,14 @@ from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.files.shown_text import counted
 from ninja_game.play.menus.panels import Menu
 from ninja_game.play.workspace.part import Commands
-from ninja_game.search.formula.background import SpanSearch
+from ninja_game.search.certificate import moved_markers
+from ninja_game.search.formula.background import RunSearch, SpanSearch
 from ninja_game.search.formula.language import FormulaError
 from ninja_game.search.formula.methods import KEPT, fewest_ticks
 from ninja_game.search.formula.task import Found, SpanTask, score_in_words
 from ninja_game.sim.rules import TICKS_PER_SECOND
-from ninja_game.tas.goals import PRESETS, SearchedSpan, SpanGoal
+from ninja_game.tas.contributions import Contributions
+from ninja_game.tas.goals import IMPROVE, IMPROVE_GOLD, PRESETS, SearchedSpan, SpanGoal, whole_run
 from ninja_game.tas.input_track import InputTrack, first_difference
 from ninja_game.tas.timeline import Timeline
 from ninja_game.tas_editor.editor import OtherRun, Span, TasEditor
@@ -45,6 +47,8 @@ _METHODS = (
     ("beam", "beam"),
     ("small changes", "local"),
     ("all keys there are", "exhaustive"),
+    ("the whole run", IMPROVE),
+    ("the whole run, same gold", IMPROVE_GOLD),
 )
 _ORDERS = (("the earliest", EARLIEST), ("the greatest", GREATEST), ("the smallest", SMALLEST))
 _RESTS = (("end at the goal", False), ("then the rest", True))
@@ -68,8 +72,9 @@ class SpanResults:
     def __init__(self, editor: TasEditor, task: SpanTask, method: str, every: int) -> None:
         self.editor = editor
         self.task = task
-        memory = editor.session.timeline.asked_memory
-        self.search = SpanSearch(task, method, max(1, cores() - 1), every=every, memory=memory)
+        memory, jobs = editor.session.timeline.asked_memory, max(1, cores() - 1)
+        self.taken = Contributions(commands=("search",))
+        self.search = SpanSearch(task, method, jobs, every=every, memory=memory) if every else self._whole(method, jobs)
         # The begins of runs that results fit to, and the first tick that follows a result in each: the run that is
         # searched and those that results were put into.
         whole = len(task.inputs) if task.rest else task.last
@@ -79,6 +84,12 @@ class SpanResults:
         self._preview: tuple[Found, OtherRun] | None = None
         self.search.start()
         self._started = monotonic()
+
+    def _whole(self, method: str, jobs: int) -> RunSearch:
+        """The search that shortens the whole run, by the routes of the runs beside it too."""
+        self.taken = sum((other.made for other in self.editor.others), Contributions(commands=("improve",)))
+        gold = int(self.editor.session.timeline.column("gold")[self.task.last - 1]) if method == IMPROVE_GOLD else 0
+        return RunSearch(self.task, jobs, gold=gold, others=tuple(other.track.inputs for other in self.editor.others))
 
     @property
     def running(self) -> bool:
@@ -111,7 +122,7 @@ class SpanResults:
             self.editor.app.notify("The run was changed: search again")
             return False
         made = self._made(self.editor.track, found, behind)
-        if not self.editor.edit(lambda _: made):
+        if not self.editor.edit(lambda _: made, self.taken):
             return False
         end = self.task.first + found.ticks
         self._fitting.append((made.inputs if self.task.rest else made.inputs[:end], end))
@@ -121,6 +132,9 @@ class SpanResults:
     def _made(self, track: InputTrack, found: Found, behind: int) -> InputTrack:
         """The run with a result in it; with ``rest`` it is the run that reached the exit in the search."""
         first, keys = self.task.first, found.keys[: found.ticks].tolist()
+        if self.task.goal == "won":  # behind an exit nothing follows: keys there would take its claims from the run
+            inputs = track.inputs[:first] + found.inputs[first:]
+            return InputTrack(inputs, moved_markers(self.editor.session.recording(), inputs))
         if not self.task.rest:
             return track.replaced(first, behind, keys)
         rest = len(found.inputs) - first - found.ticks
@@ -147,15 +161,15 @@ class SpanResults:
             self._fitting[0] = self._fitting[0][0], self.task.first + own.ticks
         different: dict[object, Found] = {}
         for each in sorted([*self.better, *found]):
-            if own is None or each.score < own.score:
+            if own is None or each.score < own.score or (each.score == own.score and each.gold > own.gold):
                 different.setdefault((each.gold, *np.round(each.end, 2)), each)
         self.better = tuple(different.values())[:KEPT]
 
     def words(self, found: Found) -> tuple[str, ...]:
         """What a better result brings; from where on it has other keys; place and speed at the goal; what it gains."""
         own, words = self.search.own, score_in_words(self.task, found)
-        if own is not None and self.task.rest and found.gold < own.gold:
-            words += f", {own.gold - found.gold} gold fewer"
+        if own is not None and (self.task.rest or self.task.goal == "won") and found.gold != own.gold:
+            words += f", {abs(own.gold - found.gold)} gold {'fewer' if found.gold < own.gold else 'more'}"
         gain = "new"
         if own is not None:
             more = own.score - found.score
@@ -197,6 +211,7 @@ class SearchTab(Tab):
     def __init__(self, editor: TasEditor) -> None:
         super().__init__(editor)
         self.span: Span = (0, 0)
+        self._behind = 0
         self.order = EARLIEST
         self.rest = False
         self.method = "auto"
@@ -251,6 +266,7 @@ class SearchTab(Tab):
         first, last = self.editor.selection
         second = min(first + TICKS_PER_SECOND, max(len(self.editor.track), last))
         before, self.span = self.span, (first, last if last > first + 1 else second)
+        self._behind = 0
         if self.span == before:
             return
         if self.results is not None and not self.results.running:
@@ -274,6 +290,9 @@ class SearchTab(Tab):
         self.measure.show(wanted.measure)
         self.order = EARLIEST if not wanted.measure else SMALLEST if wanted.least else GREATEST
         self.rest = wanted.rest
+        self.method = wanted.method or ("auto" if self.method in (IMPROVE, IMPROVE_GOLD) else self.method)
+        first, self._behind = self.span
+        self.span = 0 if wanted.method else first, wanted.last or self._behind
         self.wants = self.goal
 
     def _put_order(self, order: str) -> None:
@@ -291,8 +310,16 @@ class SearchTab(Tab):
         measure = "" if self.order == EARLIEST else self.measure.text.strip() or "speed"
         return SpanTask(
             session.about.level, session.track.inputs, first, last, self.goal.text.strip(), measure,
-            least=self.order == SMALLEST, rest=self.rest, body=session.about.body,
+            least=self.order == SMALLEST, rest=self.rest, body=session.about.body, behind=self._behind,
         )  # fmt: skip
+
+    @property
+    def _whole_task(self) -> SpanTask:
+        """The whole run, to be shortened. Raises ArgumentError for one that does not reach the exit."""
+        session = self.editor.session
+        session.timeline.simulate(len(session.timeline))
+        self.span = 0, whole_run(SearchedSpan(session, *self.span)).last
+        return SpanTask(session.about.level, session.track.inputs, *self.span, "won", body=session.about.body)
 
     # --- the search ---
 
@@ -301,10 +328,11 @@ class SearchTab(Tab):
         self.close()
         self.list.over = -1
         try:
-            task = self.task
+            whole = self.method in (IMPROVE, IMPROVE_GOLD)
+            task = self._whole_task if whole else self.task
             if not (task.goal or task.measure or task.rest):
                 raise ArgumentError("Say what for: a goal, or a value that is to be the greatest or smallest")
-            every = fewest_ticks(task.length) if self.method == "exhaustive" else 1
+            every = 0 if whole else fewest_ticks(task.length) if self.method == "exhaustive" else 1
             self.results = SpanResults(self.editor, task, self.method, every)
         except FormulaError as error:
             self.editor.app.notify(what_is_wrong(error))

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from hashlib import sha256
 from pathlib import Path
 
-from ninja_game.errors import NinjaGameError, ReplayError, reason
+from ninja_game.errors import FileError, NinjaGameError, ReplayError, reason
 from ninja_game.files.reading import LeftOut, decoded, files_below, read_bytes
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.recording import holds_recordings
@@ -23,6 +24,20 @@ MOST_RECORDS = 200
 
 
 @dataclass(frozen=True)
+class SentFile:
+    """A file of the folder by its path from there: its content, or why it is refused."""
+
+    name: str
+    data: bytes = field(default=b"", repr=False)
+    problem: str = ""
+
+    @property
+    def digest(self) -> str:
+        """Sha256 (hex) of its name and content."""
+        return sha256(f"{self.name}\0{self.problem}\0".encode("utf-8", "surrogateescape") + self.data).hexdigest()
+
+
+@dataclass(frozen=True)
 class Sent:
     """A run, or what cannot be one, as a chunk with one result. ``replay``: where it is one of ours."""
 
@@ -34,45 +49,68 @@ class Sent:
         return (self.replay or parse_demo(self.chunk.records[0].demo)).playback(ticks)
 
 
-def sent_below(folder: Path, levels: Mapping[str, Level]) -> Iterator[Sent]:
-    """What the files of the folder hold, by their paths from there; a file that is refused says why.
+class RunFolder:
+    """A folder of runs. ``levels``: those that count, by digest; replays that hold no level are given theirs."""
 
-    ``levels``: those that count, by digest; replays that hold no level are given theirs; paths in them are not
-    followed.
-    """
-    for found in files_below(folder, follow_links=False):
-        path = found.path if isinstance(found, LeftOut) else found
-        name = path.relative_to(folder).as_posix()
-        if isinstance(found, LeftOut):
-            yield Sent(Chunk(name, problem=found.why))
-        else:
-            yield from _sent(path, name, levels)
+    def __init__(self, folder: Path, levels: Mapping[str, Level]) -> None:
+        self.folder = folder
+        self.levels = levels
+        self.known: dict[tuple[str, int], bytes] = {}
+        """Inputs of runs that were judged just now, by file and record."""
 
+    def files(self) -> Iterator[SentFile]:
+        """All its files, by their paths from there; no link is followed."""
+        for found in files_below(self.folder, follow_links=False):
+            path, why = (found.path, found.why) if isinstance(found, LeftOut) else (found, "")
+            name = path.relative_to(self.folder).as_posix()
+            yield SentFile(name, problem=why) if why else self.file(name)
 
-def _sent(path: Path, name: str, levels: Mapping[str, Level]) -> list[Sent]:
-    try:
-        text = decoded(read_bytes(path, MOST_BYTES), name)
-        if is_replay(text):
-            replay = _whole(text, levels)
-            return [Sent(Chunk(name, text=write_replay(replay)), replay)]
-        records = records_of(text, name)
-        if not records and holds_recordings(text):
-            raise ReplayError("inputs without a level", hint="send a replay, or a record of N")
-    except NinjaGameError as error:
-        return [Sent(Chunk(name, problem=str(error).removeprefix(f"{path}: ")))]
-    except OSError as error:
-        return [Sent(Chunk(name, problem=reason(error)))]
-    if len(records) > MOST_RECORDS:
-        return [Sent(Chunk(name, problem=f"{len(records)} recordings in one file; at most {MOST_RECORDS}"))]
-    chunks = [Chunk(name, index, records=(record,)) for index, record in enumerate(records)]
-    return [Sent(chunk) for chunk in chunks or [Chunk(name, text=text)]]
+    def file(self, name: str) -> SentFile:
+        """One of its files."""
+        path = self.folder / name
+        try:
+            return SentFile(name, read_bytes(path, MOST_BYTES))
+        except NinjaGameError as error:
+            return SentFile(name, problem=str(error).removeprefix(f"{path}: "))
+        except OSError as error:
+            return SentFile(name, problem=reason(error))
 
+    def recordings(self, file: SentFile) -> list[Sent]:
+        """What a file holds; one that is refused says why. Paths in replays are not followed."""
+        name = file.name
+        if file.problem:
+            return [Sent(Chunk(name, problem=file.problem))]
+        try:
+            text = decoded(file.data, name)
+            if is_replay(text):
+                # Without the name of a file nothing in it leads to another one.
+                parsed = parse_replay(text)
+                whole = self._whole(parsed)
+                return [Sent(Chunk(name, text=text if whole is parsed else write_replay(whole)), whole)]
+            records = records_of(text, name)
+            if not records and holds_recordings(text):
+                raise ReplayError("inputs without a level", hint="send a replay, or a record of N")
+        except NinjaGameError as error:
+            return [Sent(Chunk(name, problem=str(error)))]
+        if len(records) > MOST_RECORDS:
+            return [Sent(Chunk(name, problem=f"{len(records)} recordings in one file; at most {MOST_RECORDS}"))]
+        chunks = [Chunk(name, index, records=(record,)) for index, record in enumerate(records)]
+        return [Sent(chunk) for chunk in chunks or [Chunk(name, text=text)]]
 
-def _whole(text: str, levels: Mapping[str, Level]) -> Replay:
-    """The replay, with a level inside and everything in it that it takes in. Raises ReplayError, LevelError."""
-    # Without the name of a file nothing in it leads to another one.
-    parsed = parse_replay(text)
-    level = parsed.level or levels.get(parsed.level_digest)
-    if level is None:
-        raise ReplayError("it holds no level, and its level-digest matches no level that counts")
-    return replace(parsed, level=level, level_path="", level_record=0)
+    def inputs(self, name: str, record: int, digest: str, ticks: int) -> bytes:
+        """The inputs of a run, read again. Raises FileError where its file is not as it was judged."""
+        if (name, record) not in self.known:
+            file = self.file(name)
+            if file.digest != digest:
+                raise FileError("the file was changed while the board was made", name, hint="start again")
+            self.known[name, record] = self.recordings(file)[record].inputs(ticks)
+        return self.known[name, record]
+
+    def _whole(self, parsed: Replay) -> Replay:
+        """The replay with its level inside, and no path. Raises ReplayError."""
+        if parsed.level is not None and not parsed.level_path:
+            return parsed
+        level = parsed.level or self.levels.get(parsed.level_digest)
+        if level is None:
+            raise ReplayError("it holds no level, and its level-digest matches no level that counts")
+        return replace(parsed, level=level, level_path="", level_record=0)

@@ -1,35 +1,35 @@
-"""The board's pages: newest records, players, episodes, a table a level, and what does not count."""
+"""The board's pages: what is new, players, levels, episodes, and what does not count."""
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Sequence
-from hashlib import sha256
+from functools import partial
 from pathlib import Path
+from statistics import mean, median
+from typing import Any
+from uuid import NAMESPACE_OID, uuid5
+from xml.etree import ElementTree as ET
 
 from ninja_game.errors import FileError
 from ninja_game.files.reading import SUFFIXES
-from ninja_game.files.shown_text import shown_text
+from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.pars import MEDALS
-from ninja_game.player.catalogue import Entry
-from ninja_game.player.records import seconds_text
-from ninja_game.web.board.ranking import FASTEST, HIGHEST, Ranked, Ranking
+from ninja_game.formats.run_time import seconds_text
+from ninja_game.web.board.level_pages import FIRST, LevelPages
+from ninja_game.web.board.parts import UP, level_link, player_link, player_page
+from ninja_game.web.board.ranking import Record, Standing
 from ninja_game.web.board.report import summary
-from ninja_game.web.board.runs import Rejected, Run
-from ninja_game.web.pages.frame import REPLAYS, Content, Markup, Pages, joined, page, section, table, tag
-from ninja_game.web.pages.gallery import BOARD, medal_mark, write_levels
-from ninja_game.web.pages.published import page_name, shared_name, shared_text, watch_address
+from ninja_game.web.board.runs import PLAYED, Run
+from ninja_game.web.pages.frame import REPLAYS, Content, page, section, table, tag
+from ninja_game.web.pages.gallery import BOARD, medal_mark
+from ninja_game.web.pages.published import page_name, shared_text
 
-NEWEST, LEADING, TOGETHER = 40, 25, 4
-"""Rows of the newest records and of the players on the first page; runs that are watched together."""
+NEWEST, LEADING, CONTESTED = 30, 20, 10
+"""Rows on the first page of records, players and levels."""
 
-LONGEST_NAME = 40
-"""Characters of a name in a table."""
-
-HEADS = {FASTEST: "Fastest", HIGHEST: "Highest score"}
-LINKS = [
-    ("index.html", "Board"), ("players.html", "Players"), ("episodes.html", "Episodes"), ("rejected.html", "Rejected"),
-]  # fmt: skip
+FEED = "feed.xml"
+BY_LEVELS = "By levels led, then by levels passed"
 WHY_REJECTED = {
     "practice": "Practice runs",
     "copy": "Copies of runs",
@@ -41,182 +41,250 @@ WHY_REJECTED = {
 def check_site(out: Path, folder: Path) -> None:
     """Raise FileError where the pages in ``out`` would be written into the folder of runs, or around it."""
     for written in (out / BOARD, out / REPLAYS):
-        if _is_in(written, folder) or _is_in(folder, written):
+        if is_in(written, folder) or is_in(folder, written):
             what = f"the pages would be written into {written.name!r}, and the runs are read there"
             raise FileError(what, str(out), found=str(folder), hint="choose another folder for the pages")
 
 
 def check_ledger(data: Path, folder: Path) -> None:
     """Raise FileError where the ledger would be read as a run the next time."""
-    if _is_in(data, folder) and data.name.lower().endswith(SUFFIXES):
+    if is_in(data, folder) and data.name.lower().endswith(SUFFIXES):
         raise FileError("the board would be read as a run", str(data), hint="choose a name that ends in .json")
 
 
-def _is_in(path: Path, folder: Path) -> bool:
+def is_in(path: Path, folder: Path) -> bool:
     """Whether a path, of something that may not be there yet, is a folder or leads into it; links are followed."""
     place = path.resolve()
     return folder.exists() and any(each.exists() and each.samefile(folder) for each in (place, *place.parents))
 
 
-class BoardPages:
+class BoardPages(LevelPages):
     """Writes the pages of a ranking into ``out/board/``, and its runs into ``out/replays/``.
 
-    ``game``: name of the page with the game in ``out``. Raises FileError where ``out/board`` holds something else.
+    ``game``: name of the page with the game in ``out``; ``memo``: of earlier pages in ``out``. Raises FileError where
+    ``out/board`` holds something else.
     """
-
-    def __init__(self, out: Path, ranking: Ranking, game: str = "index.html") -> None:
-        self.pages = Pages(out, BOARD)
-        self.ranking = ranking
-        self.game = f"../{game}"
-        self.links = [(self.game, "Play"), *LINKS, ("levels.html", "Levels")]
-        self.stems: dict[tuple[str, int], str] = {}
 
     def write(self) -> None:
         for run in self.ranking.judged.runs:
-            text = shared_text(run.replay, run.entry.named.level)
-            self.stems[run.key] = shared_name(text)
-            self.pages.write_replay(self.stems[run.key], text)
-        for standing in self.ranking.standings:
-            self.pages.write(_player_page(standing.player), self._player(standing.player))
-        links = [(self.game, "Play"), *LINKS]
-        write_levels(self.pages, self.ranking.shown, self.game, "levels.html", links, self._level)
-        self.pages.write("index.html", self._first())
-        self.pages.write("players.html", page("Players", self._players(len(self.ranking.standings)), links=self.links))
+            self.pages.make_replay(self.stems[run.key], partial(_text, run))
+        self._players()
+        for entry in self.entries.values():
+            self.level(entry)
+        self._levels()
+        self._rejected()
         self.pages.write("episodes.html", page("Episodes", *self._episodes(), links=self.links))
-        self.pages.write("rejected.html", page("Rejected", *self._rejected(), links=self.links))
-        self.pages.clear("players")
+        self.pages.write("index.html", self._first())
+        self.pages.write(FEED, self._feed())
+        # Last of all: where the disk is full, the pages of an earlier time are all there.
+        for folder in ("players", "levels", "pictures"):
+            self.pages.clear(folder)
+        self.pages.finish()
 
-    # --- parts of several pages ---
-
-    def _watch(self, runs: Sequence[Run], up: str, text: str) -> Markup:
-        """A link that watches a run, the others as ghosts."""
-        address = watch_address(f"{up}{self.game}", *(self.stems[run.key] for run in runs))
-        names = f"{runs[0].player} on {runs[0].entry.title}"
-        return tag("a", text, href=address, aria_label=f"{text}: {names}")
-
-    @staticmethod
-    def _name(player: str, up: str = "") -> Markup:
-        return tag("a", shown_text(player, LONGEST_NAME), href=up + _player_page(player))
-
-    @staticmethod
-    def _entry(entry: Entry, up: str = "") -> Markup:
-        return tag("a", shown_text(entry.title, LONGEST_NAME), href=up + page_name(entry.digest))
-
-    # --- the pages ---
+    # --- the first page and the feed ---
 
     def _first(self) -> str:
         rows = [
             (
-                self._entry(record.run.entry), self._watch([record.run], "", "Watch"), HEADS[record.kind],
-                self._name(record.run.player), _value(record.kind, record.run),
-                _gain(record.kind, record.run, record.before), record.run.day,
+                level_link(record.run.entry), self.watch([record.run], ""), player_link(record.run.player),
+                *self._achieved(record), _gains(record), record.run.day,
             )
             for record in self.ranking.records[:NEWEST]
         ]  # fmt: skip
-        heads = ("Level", "", "Record", "Player", "Result", "Better by", "Date")
-        newest = section("Newest records", table("Newest first", heads, rows)) if rows else None
-        leading = section("Players", self._players(LEADING))
+        heads = ("Level", "Watch", "Player", "Record", "Result", "Better by", "Date")
+        feed = tag("p", tag("a", "Feed of new records (Atom)", href=FEED))
+        newest = section("Newest records", table("Newest first", heads, rows), feed) if rows else None
+        leaders = table(BY_LEVELS, self._heads(), map(self._standing, self.ranking.standings[PLAYED][:LEADING]))
         lead = tag("p", f"{self.ranking.shown.name}: {summary(self.ranking.judged)}.", class_="lead")
-        said = "Every run was simulated again: times, gold and scores are the result of its inputs."
-        return page("Board", lead, tag("p", said), newest, leading, links=self.links)
+        said = tag("p", "Every run was simulated again: times, gold and scores are the result of its inputs.")
+        contents = self._week(), newest, section("Players", leaders), self._contested()
+        return page("Board", lead, said, *contents, links=self.links)
 
-    def _players(self, most: int) -> Markup:
-        heads = ("Player", "Levels", "Runs", "Fastest", "Highest", *(medal.capitalize() for medal in MEDALS))
-        rows: list[tuple[Content, ...]] = [
-            (self._name(each.player), each.levels, each.runs, *each.records.values(), *each.medals.values())
-            for each in self.ranking.standings[:most]
-        ]
-        return table("By levels led, then by levels passed", heads, rows)
+    def _achieved(self, record: Record) -> tuple[str, str]:
+        """The categories of a record, and its results in them."""
+        names = [self.part_name((record.run.ladder, each)) for each in record.before]
+        return ", ".join(names), ", ".join(self.value(each, record.run) for each in record.before)
 
-    def _player(self, player: str) -> str:
-        rows = []
-        for fastest, highest in self.ranking.of_player(player):
-            entry = (fastest or highest).run.entry  # type: ignore[union-attr]
-            cells = *self._cells(FASTEST, fastest), *self._cells(HIGHEST, highest)
-            rows.append((entry.episode, self._entry(entry, "../"), *cells))
-        heads = ("", "Level", "Time", "Place", "", "", "Score", "Place", "")
-        links = [(f"../{address}", name) for address, name in self.links]
-        return page(player, table("Best run of each level", heads, rows), up="../", links=links)
+    def _week(self) -> Content:
+        if not (found := self.ranking.level_of_the_week):
+            return None
+        digest, players, runs = found
+        sent = f": {counted(runs, 'run')} by {counted(players, 'player')} in the seven days up to the newest run."
+        return section("Level of the week", tag("p", level_link(self.entries[digest]), sent))
 
-    def _cells(self, kind: str, ranked: Ranked | None) -> tuple[Content, ...]:
-        """Result and place of a player in a table, the medal, and a link to the run."""
-        medal = kind == FASTEST
-        if ranked is None:
-            return ("", "", "", "") if medal else ("", "", "")
-        run = ranked.run
-        marks = (medal_mark(run.medal),) if medal else ()
-        return _value(kind, run), ranked.place, *marks, self._watch([run], "../", "Watch")
+    def _contested(self) -> Content:
+        rows: list[tuple[Content, ...]] = []
+        for digest in self.ranking.contested[:CONTESTED]:
+            if ranked := self.ranking.tables[digest].get((PLAYED, self.main), []):
+                first, records = ranked[0], self.ranking.history[digest, (PLAYED, self.main)]
+                spread = [self.main.difference(each.values[0] - first.values[0]) for each in ranked[1:5:3]]
+                leader = player_link(first.run.player), self.main.text(first.values[0])
+                counts = len(records), len(ranked)
+                rows.append((level_link(first.run.entry), *counts, *leader, *spread, *[""] * (2 - len(spread))))
+        heads = ("Level", "Records", "Players", "First", self.main.name, "Second behind", "Fifth behind")
+        caption = "By how often a record was beaten"
+        return section("Most contested levels", table(caption, heads, rows)) if rows else None
 
-    def _level(self, entry: Entry) -> Content:
-        """The tables of a level, for its page."""
-        tables = self.ranking.tables.get(entry.digest)
-        if not tables:
-            return section("Runs", tag("p", "Nobody has passed this level here yet."))
-        return joined(*(self._table(kind, ranked) for kind, ranked in tables.items()))
-
-    def _table(self, kind: str, ranked: Sequence[Ranked]) -> Markup:
-        rows: list[tuple[Content, ...]] = [
-            (
-                each.place, self._name(each.run.player, "../"), _value(kind, each.run),
-                self._watch([each.run], "../", "Watch"), medal_mark(each.run.medal), each.run.gold, each.run.day,
-                each.run.remark,
+    def _feed(self) -> str:
+        """New records as Atom (RFC 4287); dates are those of the ledger."""
+        dated, name = [each for each in self.ranking.records[:NEWEST] if each.run.added], self.ranking.shown.name
+        feed = ET.Element("feed", xmlns="http://www.w3.org/2005/Atom")
+        _about(feed, f"New records: {name}", name, dated[0].run.added if dated else "")
+        ET.SubElement(feed, "link", rel="self", href=FEED)
+        for record in dated:
+            run, entry = record.run, ET.SubElement(feed, "entry")
+            _about(
+                entry, ", ".join((run.player, run.entry.title, *self._achieved(record))), self.stems[run.key], run.added
             )
-            for each in ranked
-        ]  # fmt: skip
-        heads = ["Place", "Player", "Score" if kind == HIGHEST else "Time", "", "", "Gold", "Date", "Remark"]
-        if not any(each.run.remark for each in ranked):
-            rows, heads = [row[:-1] for row in rows], heads[:-1]
-        first = [each.run for each in ranked[:TOGETHER]]
-        together = tag("p", self._watch(first, "../", f"Watch the first {len(first)} together"))
-        return section(HEADS[kind], together if len(first) > 1 else None, table("Best run of each player", heads, rows))
+            ET.SubElement(ET.SubElement(entry, "author"), "name").text = shown_text(run.player)
+            ET.SubElement(entry, "link", href=page_name(run.entry.digest))
+        return '<?xml version="1.0" encoding="utf-8"?>\n' + ET.tostring(feed, "unicode") + "\n"
+
+    # --- players ---
+
+    def _heads(self) -> list[str]:
+        firsts = [category.name for category in self.ranking.categories]
+        return ["Player", "Levels", "Runs", *firsts, *map(str.capitalize, MEDALS)]
+
+    def _standing(self, each: Standing) -> tuple[Content, ...]:
+        firsts = [each.records[category] for category in self.ranking.categories]
+        return (player_link(each.player), each.levels, each.runs, *firsts, *each.medals.values())
+
+    def _players(self) -> None:
+        sums: dict[str, list[Content]] = defaultdict(list)
+        for ladder, standings in self.ranking.standings.items():
+            name = "players" if ladder == PLAYED else "assisted"
+            self.list(name, name.capitalize(), BY_LEVELS, self._heads(), [*map(self._standing, standings)])
+            for each in standings:
+                sums[each.player].append(tag("p", _sums(ladder, each)))
+        runs: dict[str, list[Run]] = defaultdict(list)
+        for run in self.ranking.judged.runs:
+            runs[run.player].append(run)
+        places = {
+            ranked.run.key: (ranked.place, self.main.difference(ranked.values[0] - table[0].values[0]))
+            for tables in self.ranking.tables.values() for part, table in tables.items() if part[1] is self.main
+            for ranked in table
+        }  # fmt: skip
+        held, lost = self._records()
+        heads = ("Level", "Record", "Result", "Date", "Lost to", "With", "On")
+        for player, own in runs.items():
+            name, records = player_page(player), held[player] + lost[player]
+            said = f"Records: {len(held[player])} held, {len(lost[player])} lost"
+            link = tag("p", tag("a", said, href=f"{UP}{name}-records.html")) if records else None
+            self._runs_of(player, own, places, [*sums[player], link])
+            if records:
+                self.list(f"{name}-records", player, "Records held, then those lost", heads, records)
+
+    def _records(self) -> tuple[dict[str, list[tuple[Content, ...]]], dict[str, list[tuple[Content, ...]]]]:
+        """By player the rows of the records that are held, and of those that were lost."""
+        held: dict[str, list[tuple[Content, ...]]] = defaultdict(list)
+        lost: dict[str, list[tuple[Content, ...]]] = defaultdict(list)
+        for (level, part), runs in self.ranking.history.items():
+            last = {run.player: number for number, run in enumerate(runs)}
+            for player, number in last.items():
+                best, by = runs[number], runs[number + 1] if number + 1 < len(runs) else None
+                about = level_link(self.entries[level], UP), self.part_name(part), self.value(part[1], best), best.day
+                loss = (player_link(by.player, UP), self.value(part[1], by), by.day) if by else ("", "", "")
+                (lost if by else held)[player].append((*about, *loss))
+        return held, lost
+
+    def _runs_of(
+        self, player: str, runs: Sequence[Run], places: dict[tuple[str, int], tuple[int, str]], lead: Sequence[Content]
+    ) -> None:
+        """A player's page: the sums, and all runs in playing order."""
+        order = {level: number for number, level in enumerate(self.entries)}
+        known = {self.stems[run.key]: run for run in runs}
+
+        def cells(row: Sequence[Any]) -> tuple[Content, ...]:
+            run = known[row[0]]
+            result = seconds_text(run.tick), medal_mark(run.medal), seconds_text(run.score), run.gold
+            return (
+                row[1],
+                level_link(run.entry, UP),
+                *result,
+                *row[3:5],
+                run.made or "unknown",
+                *self.files(run, UP),
+                run.day,
+            )
+
+        rows = [
+            [self.stems[run.key], run.entry.episode, run.medal, *places.get(run.key, ("", "")), run.day]
+            for run in sorted(runs, key=lambda run: (order[run.entry.digest], run.added, run.key))
+        ]
+        heads = ("No.", "Level", "Time", "Medal", "Score", "Gold", "Place", "Behind", "Made", "Watch", "File", "Date")
+        self.list(player_page(player), player, "All runs", heads, rows, *lead, cells=cells)
+
+    # --- levels, episodes, and what does not count ---
+
+    def _levels(self) -> None:
+        rows: list[tuple[Content, ...]] = []
+        for digest, entry in self.entries.items():
+            ranked = self.ranking.tables.get(digest, {}).get((PLAYED, self.main), [])
+            best = [(self.main.text(each.values[0]), player_link(each.run.player)) for each in ranked[:1]] or [("", "")]
+            counts = len(self.ranking.by_level.get(digest, ())), len(ranked)
+            rows.append((entry.episode, level_link(entry), *counts, *best[0]))
+        heads = ("No.", "Level", "Runs", "Players", self.main.name, "First")
+        self.list("levels", "Levels", "In playing order", heads, rows)
 
     def _episodes(self) -> list[Content]:
         found: list[Content] = []
+        parts = [(ladder, each) for ladder in self.ranking.ladders for each in self.ranking.categories if each.episodes]
         for number, episode in sorted(self.ranking.shown.levels.episodes.items()):
-            rows = [
-                (place, self._name(player), f"{seconds_text(ticks)} s", ", ".join(map(_time, runs)))
-                for place, (player, ticks, runs) in enumerate(self.ranking.episode(episode), 1)
-            ]
-            levels = [joined(", " if place else "", self._entry(each)) for place, each in enumerate(episode.levels)]
-            heads = ("Place", "Player", "Sum", "Levels")
-            best = table("Sum of the best times of all its levels", heads, rows) if rows else tag("p", "No player yet.")
-            found.append(section(f"Episode {number:02d}: {episode.name}", tag("p", *levels), best))
+            tables = []
+            for part in parts:
+                rows = [
+                    (
+                        place,
+                        player_link(player),
+                        part[1].text(total),
+                        ", ".join(self.value(part[1], run) for run in runs),
+                    )
+                    for place, (player, total, runs) in enumerate(self.ranking.episode(episode, part)[:FIRST], 1)
+                ]
+                caption = f"Episode {number:02d}, {self.part_name(part)}: sum of the best of all its levels"
+                tables += [table(caption, ("Place", "Player", "Sum", "Levels"), rows)] if rows else []
+            levels = [tag("li", level_link(each)) for each in episode.levels]
+            nobody = tag("p", "No player yet.")
+            listed = tag("ul", *levels, class_="facts")
+            found.append(section(f"Episode {number:02d}: {episode.name}", listed, *tables or [nobody]))
         return found or [tag("p", "These levels have no episodes.")]
 
-    def _rejected(self) -> list[Content]:
-        rejected = self.ranking.judged.rejected
+    def _rejected(self) -> None:
+        rejected, order = self.ranking.judged.rejected, list(WHY_REJECTED)
         counts = Counter(each.kind for each in rejected)
-        found: list[Content] = []
-        for kind, title in WHY_REJECTED.items():
-            rows = [
-                (_place(each), shown_text(each.player, LONGEST_NAME), shown_text(each.level, LONGEST_NAME), each.why)
-                for each in rejected
-                if each.kind == kind
-            ]
-            if rows:
-                listed = table("None of them is ranked", ("File", "Player", "Level", "Why"), rows)
-                found.append(section(f"{title} ({counts[kind]})", listed))
-        return found or [tag("p", "Every file of the folder is a run that counts.")]
+        said = ", ".join(f"{title.lower()}: {counts[kind]}" for kind, title in WHY_REJECTED.items() if counts[kind])
+        rows = [
+            (WHY_REJECTED[each.kind], each.file + f", record {each.record}" * (each.record > 0), each.player,
+             each.level, each.why)
+            for each in sorted(rejected, key=lambda each: order.index(each.kind))
+        ]  # fmt: skip
+        lead = f"None of them is ranked; {said}." if said else "Every file of the folder is a run that counts."
+        heads = ("What", "File", "Player", "Level", "Why")
+        self.list("rejected", "Rejected", "What does not count", heads, rows, tag("p", lead))
 
 
-def _player_page(player: str) -> str:
-    """The file of a player's page: an untrusted name never becomes a path."""
-    return f"players/{sha256(player.encode('utf-8', 'replace')).hexdigest()[:16]}.html"
+def _text(run: Run) -> str:
+    return shared_text(run.replay, run.entry.named.level)
 
 
-def _place(rejected: Rejected) -> str:
-    return rejected.file + (f", record {rejected.record}" if rejected.record else "")
+def _gains(record: Record) -> str:
+    gains = record.before.items()
+    return ", ".join("first" if amount is None else category.difference(amount) for category, amount in gains)
 
 
-def _time(run: Run) -> str:
-    return seconds_text(run.tick)
+def _sums(ladder: str, each: Standing) -> str:
+    """What a player has reached in a ladder, in a sentence."""
+    said = f"{ladder.capitalize()}: {counted(each.runs, 'run')} on {counted(each.levels, 'level')}"
+    if not each.ranks:
+        return f"{said}."
+    ranks = f"total of ranks {sum(each.ranks)}, {mean(each.ranks):.2f} on average"
+    close = f"in the median {100 * median(each.behind):.1f}% slower than the fastest"
+    return f"{said}; first on {each.ranks.count(1)}; {ranks}; {close}."
 
 
-def _value(kind: str, run: Run) -> str:
-    return seconds_text(run.score if kind == HIGHEST else run.tick)
-
-
-def _gain(kind: str, run: Run, before: Run | None) -> str:
-    if before is None:
-        return "first"
-    return seconds_text(run.score - before.score if kind == HIGHEST else before.tick - run.tick)
+def _about(element: ET.Element, title: str, name: str, date: str) -> None:
+    """What Atom demands of a feed and of its entries."""
+    ET.SubElement(element, "id").text = f"urn:uuid:{uuid5(NAMESPACE_OID, f'ninja-game board {name}')}"
+    ET.SubElement(element, "title").text = shown_text(title)
+    ET.SubElement(element, "updated").text = date or "1970-01-01T00:00:00Z"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 from ninja_game.files.shown_text import INVISIBLE
 
@@ -32,6 +33,7 @@ def player_named(author: str) -> str:
     return " ".join(unicodedata.normalize("NFKC", author).split()) or UNNAMED
 
 
+@lru_cache(4096)
 def folded(player: str) -> str:
     r"""A name as people read it: without case, and without characters that are not seen.
 
@@ -43,6 +45,7 @@ def folded(player: str) -> str:
     return player_named(INVISIBLE.sub("", seen))
 
 
+@lru_cache(4096)
 def look(player: str) -> str:
     r"""What a name looks like: equal for names that a reader may take for one another.
 
@@ -60,6 +63,7 @@ def _plain(letter: str) -> str:
     return (form[1] or form[2].split()[-1][0]) if form else letter
 
 
+@lru_cache(4096)
 def mixed_word(player: str) -> bool:
     """Whether a word of a name has letters of scripts that look alike."""
     for word in player_named(player).split():

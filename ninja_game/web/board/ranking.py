@@ -3,125 +3,193 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from datetime import datetime, timedelta
 from functools import cached_property
 
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.player.catalogue import Episode
-from ninja_game.web.board.runs import Run, ValidatedRuns
+from ninja_game.web.board.rules import USUAL, Category
+from ninja_game.web.board.runs import PLAYED, Run, ValidatedRuns
 from ninja_game.web.pages.published import PublishedLevels
 
-Order = Callable[[Run], tuple[int, ...]]
+Part = tuple[str, Category]
+"""A ladder and a category: runs are ranked within them."""
 
-FASTEST, HIGHEST = "fastest", "highest score"
-ORDERS: dict[str, Order] = {FASTEST: lambda run: (run.tick, -run.gold), HIGHEST: lambda run: (-run.score, run.tick)}
-"""What runs are ranked by, the smaller the better: the time to the exit, or the score with gold (game.md §1.3)."""
+WEEK = timedelta(days=7)
 
 
 @dataclass(frozen=True)
 class Ranked:
-    """A run with its place; equal runs share one."""
+    """A run with its place, equal runs share one, and what it is ranked by."""
 
     place: int
     run: Run
+    values: tuple[float, ...]
 
 
 @dataclass(frozen=True)
 class Record:
-    """A run that was the best of its level when it was added. ``before``: the one that it beat, None for the first."""
+    """A run that was the best of its level when it was added.
 
-    kind: str
+    ``before``: by category, how much better its first number is; None where it was the first run.
+    """
+
     run: Run
-    before: Run | None
+    before: Mapping[Category, float | None]
 
 
 @dataclass
 class Standing:
-    """A player's sums. ``medals``: levels by best medal; ``records``: levels led, by what is ranked."""
+    """A player's sums in a ladder. ``medals``: levels by best medal; ``records``: levels led, by category.
+
+    ``ranks``: places of the best runs in the first category; ``behind``: their times by the best one's, less one.
+    """
 
     player: str
     levels: int = 0
     runs: int = 0
     medals: dict[str, int] = field(default_factory=lambda: dict.fromkeys(MEDALS, 0))
-    records: dict[str, int] = field(default_factory=lambda: dict.fromkeys(ORDERS, 0))
+    records: dict[Category, int] = field(default_factory=lambda: defaultdict(int))
+    ranks: list[int] = field(default_factory=list)
+    behind: list[float] = field(default_factory=list)
 
 
 class Ranking:
     """Everything that the pages tell of the runs of a folder."""
 
-    def __init__(self, judged: ValidatedRuns, shown: PublishedLevels) -> None:
+    def __init__(self, judged: ValidatedRuns, shown: PublishedLevels, categories: Sequence[Category] = USUAL) -> None:
         self.judged = judged
         self.shown = shown
+        self.categories = tuple(categories)
         self.by_level: dict[str, list[Run]] = defaultdict(list)
         for run in judged.runs:
             self.by_level[run.entry.digest].append(run)
+        self._values = {
+            category: dict(zip((run.key for run in judged.runs), category.values(judged.runs), strict=True))
+            for category in self.categories
+        }
 
-    def table(self, level: str, kind: str) -> list[Ranked]:
-        """The best run of each player on a level, in order; of equal ones of a player the one that came first."""
-        order = ORDERS[kind]
-        best: dict[str, Run] = {}
-        for run in self.by_level.get(level, ()):
-            if run.player not in best or order(run) < order(best[run.player]):
-                best[run.player] = run
-        ranked = sorted(best.values(), key=lambda run: (order(run), run.added, run.key))
-        keys = [order(run) for run in ranked]
-        return [Ranked(keys.index(order(run)) + 1, run) for run in ranked]
+    def values(self, category: Category, run: Run) -> tuple[float, ...] | None:
+        """What a run is ranked by; None where it is not of the category."""
+        return self._values[category][run.key]
+
+    def _table(self, runs: Iterable[Run], category: Category) -> list[Ranked]:
+        """The best run of each player, in order; of equal ones of a player the one that came first."""
+        best: dict[str, tuple[tuple[float, ...], Run]] = {}
+        for run in runs:
+            values = self.values(category, run)
+            if values is not None and (run.player not in best or values < best[run.player][0]):
+                best[run.player] = values, run
+        found: list[Ranked] = []
+        for number, (values, run) in enumerate(
+            sorted(best.values(), key=lambda each: (each[0], each[1].added, each[1].key)), 1
+        ):
+            place = found[-1].place if found and found[-1].values == values else number
+            found.append(Ranked(place, run, values))
+        return found
 
     @cached_property
-    def tables(self) -> dict[str, dict[str, list[Ranked]]]:
-        """All tables, by level and by what is ranked."""
-        return {level: {kind: self.table(level, kind) for kind in ORDERS} for level in self.by_level}
+    def tables(self) -> dict[str, dict[Part, list[Ranked]]]:
+        """All tables that have a run, by level, then by ladder and category."""
+        found: dict[str, dict[Part, list[Ranked]]] = {}
+        for level, runs in self.by_level.items():
+            ladders: dict[str, list[Run]] = defaultdict(list)
+            for run in runs:
+                ladders[run.ladder].append(run)
+            parts = {
+                (ladder, each): self._table(ladders[ladder], each)
+                for ladder in self.ladders
+                for each in self.categories
+            }
+            found[level] = {part: table for part, table in parts.items() if table}
+        return found
+
+    @cached_property
+    def ladders(self) -> list[str]:
+        """The ladders that have runs, the one of played runs first, and always there."""
+        return sorted({PLAYED} | {run.ladder for run in self.judged.runs}, key=lambda ladder: ladder != PLAYED)
+
+    @cached_property
+    def history(self) -> dict[tuple[str, Part], list[Run]]:
+        """By level, ladder and category the runs that were its record, the first one first."""
+        found: dict[tuple[str, Part], list[Run]] = defaultdict(list)
+        for run in self.judged.runs:
+            for category in self.categories:
+                values = self.values(category, run)
+                records = found[run.entry.digest, (run.ladder, category)] if values else []
+                best = self.values(category, records[-1]) if records else None
+                if values and (best is None or values[0] < best[0]):
+                    records.append(run)
+        return found
 
     @cached_property
     def records(self) -> list[Record]:
-        """Every record that was ever set, the newest first."""
-        found = []
-        best: dict[tuple[str, str], Run] = {}
-        for run in self.judged.runs:
-            for kind, order in ORDERS.items():
-                before = best.get((run.entry.digest, kind))
-                if before is None or order(run)[0] < order(before)[0]:
-                    best[run.entry.digest, kind] = run
-                    found.append(Record(kind, run, before))
-        return found[::-1]
+        """Every record that was ever set, a run once, the newest first."""
+        found: dict[tuple[str, int], dict[Category, float | None]] = defaultdict(dict)
+        for (_, (_, category)), runs in self.history.items():
+            numbers = [(self.values(category, run) or (0.0,))[0] for run in runs]
+            for number, run in enumerate(runs):
+                found[run.key][category] = numbers[number - 1] - numbers[number] if number else None
+        set_ = [Record(run, found[run.key]) for run in self.judged.runs if run.key in found]
+        return set_[::-1]
 
     @cached_property
-    def standings(self) -> list[Standing]:
-        """All players, who leads most levels first."""
-        found: dict[str, Standing] = {}
+    def standings(self) -> dict[str, list[Standing]]:
+        """By ladder all players, who leads most levels first."""
+        found: dict[str, dict[str, Standing]] = {ladder: {} for ladder in self.ladders}
         for run in self.judged.runs:
-            found.setdefault(run.player, Standing(run.player)).runs += 1
+            found[run.ladder].setdefault(run.player, Standing(run.player)).runs += 1
         for tables in self.tables.values():
-            for kind, table in tables.items():
+            for (ladder, category), table in tables.items():
                 for ranked in table:
-                    found[ranked.run.player].records[kind] += ranked.place == 1
-            for ranked in tables[FASTEST]:
-                standing = found[ranked.run.player]
-                standing.levels += 1
-                if ranked.run.medal:
-                    standing.medals[ranked.run.medal] += 1
-        return sorted(found.values(), key=lambda each: (-sum(each.records.values()), -each.levels, each.player))
+                    standing = found[ladder][ranked.run.player]
+                    standing.records[category] += ranked.place == 1
+                    if category is self.categories[0]:
+                        standing.levels += 1
+                        standing.ranks.append(ranked.place)
+                        standing.behind.append(ranked.run.tick / max(1, table[0].run.tick) - 1)
+                        if ranked.run.medal:
+                            standing.medals[ranked.run.medal] += 1
+        return {
+            ladder: sorted(players.values(), key=lambda each: (-sum(each.records.values()), -each.levels, each.player))
+            for ladder, players in found.items()
+        }
 
-    def of_player(self, player: str) -> list[tuple[Ranked | None, Ranked | None]]:
-        """A player's best run of each level, by time and by score, in playing order."""
+    def episode(self, episode: Episode, part: Part) -> list[tuple[str, float, Sequence[Run]]]:
+        """Who has passed every level of an episode: player, sum of the best numbers, and the runs; the best first."""
+        tables = [
+            {each.run.player: each for each in self.tables.get(entry.digest, {}).get(part, ())}
+            for entry in episode.levels
+        ]
         found = []
-        for level in self.shown.entries:
-            places = [self._place(self.tables.get(level, {}).get(kind, ()), player) for kind in ORDERS]
-            if any(places):
-                found.append((places[0], places[1]))
-        return found
-
-    @staticmethod
-    def _place(table: Iterable[Ranked], player: str) -> Ranked | None:
-        return next((each for each in table if each.run.player == player), None)
-
-    def episode(self, episode: Episode) -> list[tuple[str, int, Sequence[Run]]]:
-        """Who has passed every level of an episode: player, sum of the best ticks, and the runs; the fastest first."""
-        tables = [self.tables.get(entry.digest, {}).get(FASTEST, []) for entry in episode.levels]
-        found = []
-        for ranked in tables[0]:
-            runs = [place.run for table in tables if (place := self._place(table, ranked.run.player))]
-            if len(runs) == len(tables):
-                found.append((ranked.run.player, sum(run.tick for run in runs), runs))
+        for player in tables[0] if tables else ():
+            best = [table[player] for table in tables if player in table]
+            if len(best) == len(tables):
+                found.append((player, sum(each.values[0] for each in best), [each.run for each in best]))
         return sorted(found, key=lambda each: (each[1], each[0]))
+
+    @cached_property
+    def contested(self) -> list[str]:
+        """The levels by how often their records were beaten, then by players."""
+        beaten: dict[str, int] = defaultdict(int)
+        for (level, _), runs in self.history.items():
+            beaten[level] += len(runs) - 1
+        players = {level: len({run.player for run in runs}) for level, runs in self.by_level.items()}
+        return sorted(self.by_level, key=lambda level: (-beaten[level], -players[level]))
+
+    @cached_property
+    def level_of_the_week(self) -> tuple[str, int, int] | None:
+        """The level that most players sent runs of in the seven days up to the newest run; of equal ones most runs.
+
+        With how many players and runs. None without dates: it depends on the ledger alone, never on a clock.
+        """
+        dated = [(datetime.fromisoformat(run.added), run) for run in self.judged.runs if run.added]
+        week: dict[str, list[Run]] = defaultdict(list)
+        for date, run in dated:
+            if date > dated[-1][0] - WEEK:
+                week[run.entry.digest].append(run)
+        counts = {level: (len({run.player for run in runs}), len(runs)) for level, runs in week.items()}
+        best = max((level for level in self.shown.entries if level in counts), key=counts.__getitem__, default=None)
+        return (best, *counts[best]) if best else None

@@ -12,9 +12,9 @@ from typing import Any
 from ninja_game.errors import FormatError
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.shown_text import counted, shown_text
-from ninja_game.player.records import seconds_text
-from ninja_game.web.board.ranking import ORDERS, Ranking
-from ninja_game.web.board.runs import Dates, Key, Rejected, Run, ValidatedRuns
+from ninja_game.formats.run_time import seconds_text
+from ninja_game.web.board.ranking import Ranking
+from ninja_game.web.board.runs import PLAYED, Dates, Key, Rejected, Run, ValidatedRuns
 
 VERSION = 2
 DATE = "%Y-%m-%dT%H:%M:%SZ"
@@ -44,6 +44,7 @@ def _run_data(run: Run) -> dict[str, Any]:
         "file": run.file, "record": run.record, "player": run.player, "level": run.entry.digest,
         "level_name": run.entry.title, "tick": run.tick, "gold": run.gold, "score": run.score,
         "way": run.way, "added": run.added,
+        **({"made": run.made} if run.made else {}),
     }  # fmt: skip
 
 
@@ -134,13 +135,10 @@ def changes(ranking: Ranking, before: tuple[Rows, Rows]) -> Iterator[tuple[bool,
 def _achieved(ranking: Ranking, run: Run) -> str:
     """What a run is worth, in words."""
     text = f"{plain(run.player)} passes {plain(run.entry.title)} in {seconds_text(run.tick)} s with {run.gold} gold"
-    for kind in ORDERS:
-        table = ranking.tables[run.entry.digest][kind]
-        place = next((each.place for each in table if each.run is run), 0)
-        if place == 1:
-            text += f"; the {kind}"
-        elif place:
-            text += f"; {kind}: place {place} of {len(table)}"
+    for (ladder, category), table in ranking.tables[run.entry.digest].items():
+        place = next((each.place for each in table if each.run is run), 0) if ladder == run.ladder else 0
+        if place:
+            text += f"; {'assisted, ' * (ladder != PLAYED)}{category.name.lower()}: place {place} of {len(table)}"
     if run.medal:
         text += f"; {run.medal} medal"
     return f"{text}; note: {plain(run.remark)}" if run.remark else text

@@ -3,21 +3,26 @@
 from __future__ import annotations
 
 import re
-from collections import defaultdict
-from collections.abc import Callable, Mapping
+from collections import defaultdict, deque
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from pathlib import Path
+from typing import NamedTuple
 
+from ninja_game.budget import RUN_BUDGET
+from ninja_game.formats.replay.made import names_of_text, parse_made
 from ninja_game.formats.replay.text import Replay
 from ninja_game.player.catalogue import Entry
 from ninja_game.runs.archive import verify_all
 from ninja_game.runs.chunks import Chunk, Result
 from ninja_game.runs.recording_reader import Unreadable
 from ninja_game.runs.run import run_level
-from ninja_game.runs.verify import Verdict
-from ninja_game.web.board.collect import Sent, sent_below
+from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN
+from ninja_game.web.board.collect import RunFolder, Sent
 from ninja_game.web.board.copies import Course, course_of, nearest
 from ninja_game.web.board.players import Players, player_named
+from ninja_game.web.pages.memo import Memo, digest_of, program
 from ninja_game.web.pages.published import PublishedLevels
 
 Key = tuple[str, int]
@@ -26,15 +31,41 @@ Key = tuple[str, int]
 Dates = Callable[[Key, str], str]
 """When the board first took in a run, by its key and way: UTC as in 2026-01-31T12:00:00Z, "" where nobody knows."""
 
+PLAYED, ASSISTED = "played", "assisted"
+"""The two ladders; a run of which nobody says how it was made is on the first one."""
+
 _LINE = re.compile(r"^(?=[0-9])")
+
+
+class Judged(NamedTuple):
+    """What a recording of a file comes to, as plain values that can be remembered.
+
+    ``kind``: "" for a run that counts, else as in Rejected, with ``why``; ``level``: its digest; ``way``: digest of the
+    ninja's positions; ``presses``: keys pressed, ``jumps`` of them; the rest: as of Verdict.
+    """
+
+    record: int
+    kind: str
+    why: str = ""
+    author: str = ""
+    level: str = ""
+    tick: int = -1
+    gold: int = 0
+    score: int = 0
+    way: str = ""
+    presses: int = 0
+    jumps: int = 0
+    made: str = ""
+    assisted: bool | None = None
+    co_authors: str = ""
 
 
 @dataclass(frozen=True)
 class Run:
     """A run that counts, as the simulation says: ``tick`` of the exit contact, ``gold``, ``score`` (ticks).
 
-    ``file``: path in the folder, ``record`` in it; ``added``: as Dates say; ``way``: digest of the ninja's positions;
-    ``remark``: what a reader should know.
+    ``file``: path in the folder, ``record`` in it; ``added``: as Dates say; ``remark``: what a reader should know;
+    ``digest``: of its file; the rest as in Judged.
     """
 
     file: str
@@ -45,8 +76,14 @@ class Run:
     gold: int
     score: int
     added: str
-    replay: Replay = field(repr=False)
     way: str = field(repr=False)
+    presses: int
+    jumps: int
+    made: str
+    assisted: bool | None
+    co_authors: str
+    digest: str = field(repr=False)
+    folder: RunFolder = field(repr=False, compare=False)
     remark: str = ""
 
     @property
@@ -59,9 +96,25 @@ class Run:
         return self.added.partition("T")[0]
 
     @property
+    def ladder(self) -> str:
+        """Where it is ranked."""
+        return ASSISTED if self.assisted else PLAYED
+
+    @property
     def medal(self) -> str:
         """Its medal, "" for none."""
         return self.entry.pars.medal(self.tick) if self.entry.pars else ""
+
+    @property
+    def replay(self) -> Replay:
+        """Its inputs, read again, and what the simulation says. Raises FileError where the file was changed since."""
+        named = self.entry.named
+        inputs = self.folder.inputs(self.file, self.record, self.digest, self.tick + 1)
+        return Replay(
+            inputs, self.tick, "exit", self.gold, name=self.entry.title, author=self.player,
+            level_name=self.entry.title, level_author=named.author, level=named.level, made=parse_made(self.made),
+            co_authors=names_of_text(self.co_authors),
+        )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -90,24 +143,66 @@ class ValidatedRuns:
 
 
 def judge(
-    folder: Path, shown: PublishedLevels, *, dates: Dates | None = None, jobs: int | None = None
-) -> ValidatedRuns:
+    folder: Path, shown: PublishedLevels, *, dates: Dates | None = None, jobs: int | None = None,
+    memo: Memo | None = None,
+) -> ValidatedRuns:  # fmt: skip
     """Simulate every run below a folder again, on the levels that are shown. Raises OSError.
 
-    ``dates``: those of the board's ledger; without it runs go by the names of their files.
+    ``dates``: those of the board's ledger; without it runs go by the names of their files. ``memo``: what was found
+    out before, of the same files, levels and rules; it is not simulated again.
     """
-    found = list(sent_below(folder, {digest: entry.named.level for digest, entry in shown.entries.items()}))
-    levels = [entry.named for entry in shown.entries.values()]
-    results = verify_all((), chunks=[sent.chunk for sent in found], levels=levels, strict=True, jobs=jobs)
+    memo = memo or Memo()
+    sent = RunFolder(folder, {digest: entry.named.level for digest, entry in shown.entries.items()})
     runs: list[Run] = []
     rejected: list[Rejected] = []
-    for sent, result in zip(found, results, strict=True):
-        if isinstance(result, Verdict) and result.good:
-            runs.append(_run(result, sent, shown.entries, dates))
-        else:
-            rejected.append(_rejected(sent.chunk, result, shown.entries))
-    counted, copies = _without_copies(_of_players(sorted(runs, key=_first)))
+    for name, digest, rows in _judged(sent, shown, jobs, memo):
+        for found in rows:
+            entry = shown.entries.get(found.level)
+            if found.kind or entry is None:
+                title = entry.title if entry else ""
+                rejected.append(Rejected(name, found.record, found.kind, found.why, player_named(found.author), title))
+                continue
+            added = dates((name, found.record), found.way) if dates else ""
+            runs.append(
+                Run(name, found.record, found.author, entry, found.tick, found.gold, found.score, added, found.way,
+                    found.presses, found.jumps, *found[11:], digest, sent)
+            )  # fmt: skip
+    counted, copies = _without_copies(_of_players(sorted(runs, key=_first)), memo)
     return ValidatedRuns(tuple(counted), tuple(sorted([*rejected, *copies], key=lambda each: (each.file, each.record))))
+
+
+def _judged(
+    folder: RunFolder, shown: PublishedLevels, jobs: int | None, memo: Memo
+) -> Iterator[tuple[str, str, list[Judged]]]:
+    """Name, digest and recordings of each file, simulated where the memo does not know them."""
+    context = digest_of([program(), RUN_BUDGET, sorted(shown.entries)])
+    files: deque[tuple[str, str, str, list[Sent]]] = deque()
+
+    def chunks() -> Iterator[Chunk]:
+        for file in folder.files():
+            key = digest_of([context, file.digest])
+            sent = folder.recordings(file) if memo.recall(key) is None else []
+            files.append((file.name, file.digest, key, sent))
+            yield from (each.chunk for each in sent)
+
+    levels = [entry.named for entry in shown.entries.values()]
+    found: list[Judged] = []
+    for result in verify_all((), chunks=chunks(), levels=levels, strict=True, jobs=jobs):
+        yield from _remembered(files, memo)
+        name, digest, key, sent = files[0]
+        found.append(_row(sent[len(found)], result, folder))
+        if len(found) == len(sent):
+            memo.note(key, found)
+            found = []
+            yield name, digest, memo.recall(files.popleft()[2])
+    yield from _remembered(files, memo)
+
+
+def _remembered(files: deque[tuple[str, str, str, list[Sent]]], memo: Memo) -> Iterator[tuple[str, str, list[Judged]]]:
+    """The files in front that the memo knows; they are taken away."""
+    while files and not files[0][3]:
+        name, digest, key, _ = files.popleft()
+        yield name, digest, [Judged(*row) for row in memo.recall(key)]
 
 
 def _first(run: Run) -> tuple[str, Key]:
@@ -115,16 +210,22 @@ def _first(run: Run) -> tuple[str, Key]:
     return run.added, run.key
 
 
-def _run(verdict: Verdict, sent: Sent, entries: Mapping[str, Entry], dates: Dates | None) -> Run:
-    """A run that counts. What is kept of its text are its inputs alone; all else is what the simulation says."""
-    entry = entries[verdict.level_digest]
-    replay = Replay(
-        sent.inputs(verdict.ticks), verdict.end_tick, verdict.outcome, verdict.gold,
-        name=entry.title, level_name=entry.title, level_author=entry.named.author, level=entry.named.level,
+def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
+    """What is kept of a recording."""
+    if isinstance(result, Unreadable):
+        return Judged(sent.chunk.first, "unreadable", _without_name(result.message, sent.chunk.file))
+    if not result.good:
+        why = "; ".join(map(str, result.problems))
+        kind = "practice" if result.practice else "refused"
+        return Judged(result.record, kind, why, result.author, result.level_digest)
+    inputs = folder.known[result.file, result.record] = sent.inputs(result.ticks)
+    pressed = [new & ~old & KEYS_DOWN for old, new in pairwise(b"\0" + inputs)]
+    jumps = sum(bool(keys & JUMP_HELD) for keys in pressed)
+    return Judged(
+        result.record, "", "", result.author, result.level_digest, result.end_tick, result.gold,
+        result.score_ticks or 0, result.xy_sha256, sum(map(int.bit_count, pressed)), jumps,
+        result.made, result.assisted, result.co_authors,
     )  # fmt: skip
-    key, ended = (verdict.file, verdict.record), (verdict.end_tick, verdict.gold)
-    added = dates(key, verdict.xy_sha256) if dates else ""
-    return Run(*key, verdict.author, entry, *ended, verdict.score_ticks or 0, added, replay, verdict.xy_sha256)
 
 
 def _of_players(runs: list[Run]) -> list[Run]:
@@ -133,18 +234,8 @@ def _of_players(runs: list[Run]) -> list[Run]:
     found = []
     for run in runs:
         player, remark = players.meet(run.player)
-        found.append(replace(run, player=player, remark=remark, replay=replace(run.replay, author=player)))
+        found.append(replace(run, player=player, remark=remark))
     return found
-
-
-def _rejected(chunk: Chunk, result: Result, entries: Mapping[str, Entry]) -> Rejected:
-    """What does not count, and why."""
-    if isinstance(result, Unreadable):
-        return Rejected(chunk.file, chunk.first, "unreadable", _without_name(result.message, chunk.file))
-    entry = entries.get(result.level_digest)
-    kind = "practice" if result.practice else "refused"
-    why = "; ".join(map(str, result.problems))
-    return Rejected(chunk.file, result.record, kind, why, player_named(result.author), entry.title if entry else "")
 
 
 def _without_name(message: str, name: str) -> str:
@@ -158,7 +249,7 @@ def _without_name(message: str, name: str) -> str:
     return _LINE.sub("line ", message.strip())
 
 
-def _without_copies(runs: list[Run]) -> tuple[list[Run], list[Rejected]]:
+def _without_copies(runs: list[Run], memo: Memo) -> tuple[list[Run], list[Rejected]]:
     """The runs without those that do what an earlier one does; near copies of an earlier one are marked."""
     on_level: dict[str, list[Run]] = defaultdict(list)
     copies: list[Rejected] = []
@@ -172,27 +263,33 @@ def _without_copies(runs: list[Run]) -> tuple[list[Run], list[Rejected]]:
             what = f"a copy of the run by {first.player} in" if stolen else "the same run as"
             why = f"{what} {first.file}"
             copies.append(Rejected(*run.key, "copy", why, run.player, run.entry.title, run.way, run.added))
-    kept = [run for level in on_level.values() for run in _remarked(level)]
+    kept = [run for level in on_level.values() for run in _remarked(level, memo)]
     return sorted(kept, key=_first), copies
 
 
-def _remarked(runs: list[Run]) -> list[Run]:
+def _remarked(runs: list[Run], memo: Memo) -> list[Run]:
     """The runs of a level, in order, with a remark on each that is near to earlier ones of others alone."""
     if len({run.player for run in runs}) == 1:
         return runs
     found: list[Run] = []
-    earlier: list[tuple[Run, Course]] = []
-    for run in runs:
-        inputs = run.replay.playback(run.tick + 1)
-        course = course_of(inputs, run_level(run.entry.named.level, inputs))
-        if near := _near_to_another(run.player, course, earlier):
-            other, how = near
-            said = f"{how} the run by {other.player} in {other.file}"
-            found.append(replace(run, remark="; ".join(filter(None, (said, run.remark)))))
-        else:
-            found.append(run)
-        earlier.append((run, course))
+    courses: list[tuple[Run, Course]] = []
+    key = ""
+    for number, run in enumerate(runs):
+        # A remark depends on all earlier runs of the level, and on nothing else.
+        key = digest_of([key, program(), run.entry.digest, run.digest, run.record, run.player])
+        said = memo.recall(key)
+        if said is None:
+            courses += [(each, _course(each)) for each in runs[len(courses) : number + 1]]
+            near = _near_to_another(run.player, courses[number][1], courses[:number])
+            said = f"{near[1]} the run by {near[0].player} in {near[0].file}" if near else ""
+            memo.note(key, said)
+        found.append(replace(run, remark="; ".join(filter(None, (said, run.remark)))))
     return found
+
+
+def _course(run: Run) -> Course:
+    inputs = run.replay.inputs
+    return course_of(inputs, run_level(run.entry.named.level, inputs))
 
 
 def _near_to_another(player: str, course: Course, earlier: list[tuple[Run, Course]]) -> tuple[Run, str] | None:

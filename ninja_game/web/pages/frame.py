@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from html import escape
 from pathlib import Path
 from typing import TypeAlias
@@ -17,11 +17,12 @@ from ninja_game.play.window import icon, png_of
 from ninja_game.ui.glyphs import CAP
 from ninja_game.ui.lettering import SPACING, WEIGHTS, glyph
 from ninja_game.ui.theme import PALETTES, Palette, mixed
+from ninja_game.web.pages.memo import Memo, digest_of, program
 
 LONGEST = 400
 """Characters of a text that are shown."""
 
-_EMPTY = frozenset({"img", "input", "link", "meta", "path"})
+_EMPTY = frozenset({"img", "input", "link", "meta"})
 """Elements without an end tag."""
 
 _ADDRESS = re.compile(r"(?:https?://[\w.:-]+/)?(?!//)[\w./#=&,-]*")
@@ -96,10 +97,14 @@ _LONGEST_LINE = 24
 
 
 class Pages:
-    """The folder ``name`` of a site, with pages. Raises FileError where it holds something that was not made here."""
+    """The folder ``name`` of a site, with pages. Raises FileError where it holds something that was not made here.
 
-    def __init__(self, site: Path, name: str) -> None:
+    ``memo``: of the same site; what it says was made, and lies there as it was written, is not made again.
+    """
+
+    def __init__(self, site: Path, name: str, memo: Memo | None = None) -> None:
         self.folder = site / name
+        self._memo = memo or Memo()
         self._site = Tree(site)
         self._written: set[str] = set()
         there = self._site.names(name)
@@ -116,9 +121,38 @@ class Pages:
         self._site.write(f"{self.folder.name}/{name}", content)
         self._written.add(name)
 
+    def make(self, name: str, data: object, content: Callable[[], str | bytes]) -> None:
+        """A file of the folder as ``write``, unless it lies there as it was made of the same plain values."""
+        self._make(f"{self.folder.name}/{name}", data, content)
+        self._written.add(name)
+
+    def make_replay(self, stem: str, content: Callable[[], str]) -> None:
+        """A replay that pages lead to, in the site's folder of them; its stem says what it holds."""
+        self._make(f"{REPLAYS}/{stem}.txt", stem, content)
+
+    def _make(self, name: str, data: object, content: Callable[[], str | bytes]) -> None:
+        digest = digest_of([program(), data])
+        if self._memo.recall(name) != [digest, *self._there(name)]:
+            self._site.write(name, content())
+            self._memo.note(name, [digest, *self._there(name)])
+
+    def _there(self, name: str) -> list[int]:
+        """What tells that a file is not the one that was written: its size and times; git and archives set no ctime."""
+        try:
+            about = (self._site.root / name).lstat()
+        except OSError:
+            return []
+        return [about.st_size, about.st_mtime_ns, about.st_ctime_ns, about.st_ino]
+
     def write_replay(self, stem: str, text: str) -> None:
         """A replay that pages lead to, in the site's folder of them."""
         self._site.write(f"{REPLAYS}/{stem}.txt", text)
+
+    def finish(self) -> None:
+        """Remove what this memo's earlier pages had and these have not, and keep the memo."""
+        for name in self._memo.forgotten:
+            self._site.remove(name)
+        self._memo.save()
 
     def clear(self, below: str) -> None:
         """Remove the pages of an earlier time from a folder of it: all that were not written now."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from ninja_game.errors import NinjaGameError
@@ -11,8 +11,8 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.links.making import level_link
 from ninja_game.formats.pack.pars import MARGINS, MEDALS, Pars
 from ninja_game.formats.recording import Recording
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.records import seconds_text
 from ninja_game.sim.kinds import KIND_NAMES
 from ninja_game.sim.level import makes_object
 from ninja_game.web.pages.frame import Content, Markup, Pages, definitions, joined, page, section, table, tag
@@ -127,25 +127,16 @@ def write_gallery(out: Path, shown: PublishedLevels, *, game: str = "index.html"
     return pages.folder / "index.html"
 
 
-def write_levels(
-    pages: Pages,
-    shown: PublishedLevels,
-    game: str,
-    name: str,
-    links: Links,
-    more: Callable[[Entry], Content] | None = None,
-) -> None:
+def write_levels(pages: Pages, shown: PublishedLevels, game: str, name: str, links: Links) -> None:
     """Write pictures, level pages and their list into a folder of pages.
 
     ``game``: address of the page with the game, as seen from the list; ``name``: file of the list; ``links``: what
-    stands above every page, addresses as seen from the list; ``more``: what a level's page has besides.
+    stands above every page, addresses as seen from the list.
     """
     deeper = [(f"../{address}", title) for address, title in (*links, (name, "Levels"))]
     for digest, entry in shown.entries.items():
         pages.write(picture_name(digest), picture(entry.named.level))
-        text, replays = level_page(
-            entry, shown.runs.get(digest, {}), f"../{game}", deeper, more(entry) if more else None
-        )
+        text, replays = level_page(entry, shown.runs.get(digest, {}), f"../{game}", deeper)
         pages.write(page_name(digest), text)
         for stem, replay in replays.items():
             pages.write_replay(stem, replay)

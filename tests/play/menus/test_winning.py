@@ -5,12 +5,12 @@ from __future__ import annotations
 import pygame
 import pytest
 
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.level.hud import hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, STAMP_TICKS, TRIES_FROM, TRIES_TICKS, Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.wipe import WIPE_MS
 from ninja_game.player.playthrough import LevelRun
-from ninja_game.player.records import seconds_text
 from ninja_game.sim.events import LANDED, MINE_EXPLODED
 from tests.support.menu_driver import FRAME_MS, MenuDriver
 from tests.support.players import deadly_level, entry

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from random import Random
@@ -20,6 +21,7 @@ from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.tas.files import open_run, runs_of_level
 from ninja_game.tas.timeline import Timeline
 from ninja_game.tas_editor.level.other_runs import OtherRunScreen
+from ninja_game.tas_editor.level.part import object_at
 from ninja_game.tas_editor.level.paths import shown_span
 from ninja_game.tas_editor.screen import TasScreen
 from ninja_game.tas_editor.tabs.values_tab import ValuesTab
@@ -297,3 +299,57 @@ def test_the_picture_goes_over_to_another_memory_with_the_run(at: TasDriver) -> 
     assert [memory for memory, *_ in used] == ["plain", "compiled"]
     assert used[0][1:] == used[1][1:]
     assert used[0][2] != place
+
+
+def test_the_switch_of_an_exit_is_pointed_at_too(at: TasDriver) -> None:
+    run = at.screen.level.picture.run
+    world = run.world
+    (exit_,) = (each for each in run.objects if each.kind == "exit")
+    switch = world.objects[world.objects[exit_.id + 1].partner]
+    assert object_at(run, switch.x, switch.y) == replace(exit_, x=switch.x, y=switch.y)
+    assert object_at(run, exit_.x, exit_.y) == exit_
+
+
+def test_other_runs_in_the_folder_of_a_run_that_was_saved_anew_are_listed(at: TasDriver, tmp_path: Path) -> None:
+    folder = tmp_path / "elsewhere"
+    folder.mkdir()
+    for name in ("other.replay.txt", "saved.replay.txt"):
+        at.session.save(folder / name)
+    screen = OtherRunScreen(at.app, at.screen.level.others)
+    assert [(name, [each.name for each in files if isinstance(each, Path)]) for name, files in screen.places()][:1] == [
+        ("Same folder", ["other.replay.txt"])
+    ]
+
+
+def test_the_last_tick_of_a_run_is_selected_behind_its_end(at: TasDriver) -> None:
+    at.editor.edit(lambda track: track.replaced(len(track), len(track), [0] * 50))
+    at.editor.go(3)
+    at.screen.run("select_last")
+    assert at.editor.selection == (3, len(at.editor.track))
+
+
+def test_the_overlays_of_the_game_lie_over_the_level_also_where_it_is_zoomed(at: TasDriver) -> None:
+    def picture() -> bytes:
+        at.frames(2)
+        return pygame.image.tobytes(at.screen.level.picture.surface, "RGB")
+
+    for _ in range(2):
+        at.editor.go(120)
+        bare = picture()
+        for key in "12345":
+            at.press(key)
+            assert len(at.screen.level.picture.overlays.on) == 1
+            assert picture() != bare or key == "4", "nothing looks for the ninja here"
+            at.press(key)
+            assert picture() == bare, key
+        for key in "12345":
+            at.press(key)
+        at.editor.go(125)
+        picture()
+        at.editor.go(120)
+        for key in "12345":
+            at.press(key)
+        left = picture()
+        at.screen.level.picture.draw(1.0, whole=True)
+        assert picture() == left, "nothing of them stays"
+        at.screen.level.picture.camera.zoom_at(at.screen.level.picture.surface.get_size(), (200, 150), 4)

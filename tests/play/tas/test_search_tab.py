@@ -14,6 +14,7 @@ from ninja_game.search.formula import background
 from ninja_game.search.formula.methods import fewest_ticks
 from ninja_game.search.formula.task import Found
 from ninja_game.sim.inputs import Input
+from ninja_game.tas.goals import IMPROVE
 from ninja_game.tas_editor.tabs import search_tab as module
 from ninja_game.tas_editor.tabs.search_tab import COMPILING, NOT_BEGUN, NOTHING, NOTHING_YET, SearchTab, SpanResults
 from ninja_game.ui.input.keys import SCANCODES
@@ -314,3 +315,50 @@ def test_the_rest_of_the_run_and_a_measure_exclude_each_other(at: TasDriver, tab
 def test_all_keys_are_tried_where_there_are_few_ways() -> None:
     assert fewest_ticks(8) == 1
     assert 6 ** -(-130 // fewest_ticks(130)) <= 2_000_000
+
+
+@pytest.mark.parametrize("name", ["goal", "measure"])
+def test_no_key_that_makes_text_is_a_command_while_a_field_has_the_focus(
+    at: TasDriver, tab: SearchTab, name: str
+) -> None:
+    field = getattr(tab, name)
+    tab.wants = field
+    at.frames(2)
+    before = at.editor.cursor, at.editor.selection, at.screen.level.playing.speed, at.editor.track, at.editor.tab
+    for key in ("comma", "period", "equals", "minus", "slash", "semicolon", "leftbracket", "kp_plus", "kp_minus",
+                "0", "a", "z", "space", "backslash", "grave", "apostrophe"):  # fmt: skip
+        at.press(key)
+        assert at.screen.focus is field, key
+    assert before == (
+        at.editor.cursor, at.editor.selection, at.screen.level.playing.speed, at.editor.track, at.editor.tab,
+    )  # fmt: skip
+
+
+def test_the_whole_run_is_shortened_in_the_background_and_keeps_its_markers(at: TasDriver, tab: SearchTab) -> None:
+    end = at.session.timeline.end[0]
+    # A second in which nothing is done, that any search finds.
+    at.editor.edit(lambda track: track.replaced(0, 0, bytes(40)).named(40, "begins"))
+    wish(at, "Whole run")
+    assert tab.span == (0, end + 41)
+    at.press("return")
+    results = results_of(tab)
+    at.wait(lambda: bool(tab.found) and tab.found[0].ticks < end + 20, "a shorter run")
+    at.choose("Stop")
+    at.wait(lambda: not results.running, "the end")
+    at.frames(2)
+    found = tab.found[0]
+    assert results.words(found)[0].startswith(f"exit in tick {found.ticks - 1}")
+    row(at, tab, 0)
+    assert at.editor.track.inputs == found.inputs
+    assert at.session.timeline.end == (found.ticks - 1, "exit")
+    (marker,) = at.editor.track.markers
+    assert (marker.name, marker.tick < 40) == ("begins", True)
+    assert at.session.about.replay.made.searches == ("improve",)
+
+
+def test_a_run_that_does_not_reach_the_exit_is_not_shortened(at: TasDriver, tab: SearchTab) -> None:
+    at.editor.edit(lambda track: track.replaced(20, len(track), b""))
+    tab.method = IMPROVE
+    tab.start()
+    assert tab.results is None
+    assert "does not reach the exit" in at.app.notice

@@ -1,0 +1,114 @@
+"""How a run was made, as the tools that made it say: played, edited, searched (`docs/replay-format.md`)."""
+
+from __future__ import annotations
+
+import re
+from contextlib import suppress
+from typing import NamedTuple, Self
+
+from ninja_game.formats.lines import MOST_NAME
+
+_BEGUN = " from a run by "
+_NAMES = "[a-z][a-z -]{0,30}(?:, [a-z][a-z -]{0,30}){0,20}"
+_MADE = re.compile(
+    rf"(?:played(?: \((?P<assists>{_NAMES})\))?)?(?:(?:^|, )edited (?P<edits>[1-9][0-9]{{0,8}}))?"
+    rf"(?:(?:^|, )searched \((?P<searches>{_NAMES})\))?"
+)
+_MOST_EDITS, _LONGEST = 10**9 - 1, 200
+
+
+class Made(NamedTuple):
+    """How a run was made; all of it empty: nobody knows.
+
+    ``played``: in the game, with the help of ``assists``, such as "practice"; ``edits``: in a TAS editor;
+    ``searches``: the commands that found keys of it, such as "improve"; ``begun_by``: whose run it was before these.
+    """
+
+    played: bool = False
+    assists: tuple[str, ...] = ()
+    edits: int = 0
+    searches: tuple[str, ...] = ()
+    begun_by: str = ""
+
+    @property
+    def assisted(self) -> bool | None:
+        """Whether anything but a person's keys in the game made it; None: unknown."""
+        return True if self.assists or self.edits or self.searches else False if self.played else None
+
+    def __str__(self) -> str:
+        """As replay texts have it.
+
+        >>> str(Made(edits=34, searches=("improve", "search"), begun_by="Ann")), str(Made())
+        ('edited 34, searched (improve, search) from a run by Ann', '')
+        """
+        parts = [
+            "played" + f" ({', '.join(self.assists)})" * bool(self.assists) if self.played else "",
+            f"edited {self.edits}" if self.edits else "",
+            f"searched ({', '.join(self.searches)})" if self.searches else "",
+        ]
+        return ", ".join(filter(None, parts)) + (_BEGUN + self.begun_by if self.begun_by else "")
+
+    def edited(self, edits: int) -> Self:
+        """The same with so many edits more."""
+        return self._replace(edits=min(self.edits + edits, _MOST_EDITS))
+
+    def searched(self, *commands: str, begun_by: str = "") -> Self:
+        """The same with commands that searched. ``begun_by``: the author so far, unless it says one already."""
+        searches = tuple(dict.fromkeys((*self.searches, *commands)))
+        return self._replace(searches=searches, begun_by=self.begun_by or " ".join(begun_by.split())[:_LONGEST])
+
+
+UNKNOWN = Made()
+
+
+def parse_made(text: str) -> Made:
+    """What ``str`` of one gives. Raises ValueError for any other text.
+
+    >>> parse_made("played (practice)"), parse_made("edited 3 from a run by Ann").begun_by
+    (Made(played=True, assists=('practice',), edits=0, searches=(), begun_by=''), 'Ann')
+    """
+    told, _, begun_by = text.partition(_BEGUN)
+    if match := _MADE.fullmatch(told):
+        assists, searches = (tuple(filter(None, (match[each] or "").split(", "))) for each in ("assists", "searches"))
+        made = Made(told.startswith("played"), assists, int(match["edits"] or 0), searches, begun_by)
+        if str(made) == text:
+            return made
+    raise ValueError(f"{text[:60]!r} does not say how a run was made")
+
+
+def names_of_text(text: str) -> tuple[str, ...]:
+    """The names that a list of them has, each once.
+
+    >>> names_of_text("Bob,Cy , Bob")
+    ('Bob', 'Cy')
+    """
+    return tuple(dict.fromkeys(filter(None, (" ".join(name.split()) for name in text.split(",")))))
+
+
+_MARK, _WITH = "[made: ", "; co-authors: "
+
+
+def with_made(comment: str, made: Made, co_authors: tuple[str, ...]) -> str:
+    """The comment of a record of N, which has no other place for it, with how the run was made.
+
+    >>> with_made("all gold", Made(edits=3), ("Bob",))
+    'all gold [made: edited 3; co-authors: Bob]'
+    """
+    if not (made.assisted is not None or co_authors):
+        return comment
+    told = f"{_MARK}{made}" + f"{_WITH}{', '.join(co_authors)}" * bool(co_authors) + "]"
+    return f"{comment} {told}".strip()
+
+
+def without_made(comment: str) -> tuple[str, Made, tuple[str, ...]]:
+    """The other way: what else the comment says, how the run was made, its co-authors.
+
+    >>> without_made("all gold [made: edited 3; co-authors: Bob]")[::2], without_made("[made: by me]")[0]
+    (('all gold', ('Bob',)), '[made: by me]')
+    """
+    start = comment.rfind(_MARK)
+    if start >= 0 and comment.endswith("]") and len(_MARK) + 1 < len(comment) - start <= 2 * MOST_NAME:
+        told, _, names = comment[start + len(_MARK) : -1].partition(_WITH)
+        with suppress(ValueError):
+            return comment[:start].removesuffix(" "), parse_made(told), names_of_text(names)
+    return comment, UNKNOWN, ()

@@ -1,0 +1,213 @@
+"""Levels without end: 100,000 to learn in and 1,000 to be tried in, each made from its number in microseconds.
+
+A level is one of the thousand that come with the game (``generator/packed.py``), varied: mirrored, with a part of its
+gold and of what kills, and, but for the hard ones, with a shorter task: start, switch and exit are put on the way of
+the run that is known. That run, cut alike, passes every one of them: the world itself has played it. Of the first
+``TRIES`` variations of a number the table ``TABLE`` names the one with which it did (tools/bench_levels.py).
+
+>>> level = bench_level("test", 0)
+>>> level.grade, level.name, len(level.inputs) <= 120
+('easy', 'bench-test-0', True)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache, lru_cache
+from hashlib import sha256
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.backend.memories import open_worlds
+from ninja_game.editor.motion import SYMMETRIES
+from ninja_game.editor.specs import carried
+from ninja_game.errors import ArgumentError
+from ninja_game.files.reading import read_bytes
+from ninja_game.files.user_folder import data_folder
+from ninja_game.generator.packed import MOST_BYTES, PACKED, generated_level
+from ninja_game.learn.draws import draws
+from ninja_game.learn.levels.source import LevelSource
+from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, KEYS_DOWN, pressed
+from ninja_game.sim.kinds import EXIT, GOLD, KIND_OF, NINJA
+from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
+from ninja_game.sim.states import SKIDDING
+
+COUNTS = {"train": 100_000, "test": 1_000}
+GRADES = {"easy": (30, 88), "medium": (89, 208), "hard": None}
+"""Least and most ticks that are taken of the known run; the hard ones have the whole task."""
+DELAY = 16
+"""Who starts elsewhere starts from rest: up to so many ticks of the known run are held longer, and its last one."""
+AWAY = 36.0
+"""Px, at least, between a new start and the old one."""
+KEPT = {"easy": 0.0, "medium": 0.3, "hard": 0.6}
+"""Of what kills at least this share stays."""
+BASES, LARGEST = 1000, 306
+"""How many levels are varied; one with as many objects as any of them."""
+TRIES = 32
+"""The last one takes away only gold, is not mirrored, and begins where the run does: that run passes it."""
+TABLE = "bench.bin"
+"""Among the game's assets: which try each level is, a byte each, those of `train` before those of `test`."""
+
+
+class BenchLevel(NamedTuple):
+    """``inputs``: of a run that passes the level, a byte a tick, to the tick of the exit or some ticks more."""
+
+    name: str
+    grade: str
+    level: Level
+    inputs: bytes
+
+
+class _Base(NamedTuple):
+    """A level to be varied. ``places``: the ninja's after each tick of the run, px.
+
+    ``starts``: ticks of the run after which another one may begin, the slowest first: it stands, far from the start.
+    """
+
+    level: Level
+    inputs: bytes
+    places: NDArray[np.float64]
+    starts: NDArray[np.intp]
+
+
+def bench_level(split: str, number: int, attempt: int | None = None) -> BenchLevel:
+    """The level of a number of "train" or "test"; ``attempt``: another of its variations, which perhaps no run passes.
+
+    Raises ArgumentError for another number or split, FileError where the files of the game are not there.
+    """
+    if split not in COUNTS or not 0 <= number < COUNTS[split]:
+        raise ArgumentError(f"found level {number!r:.30} of {split!r:.30}; expected one of {COUNTS}, counted from 0")
+    place = number if split == "train" else COUNTS["train"] + number
+    attempt = _table()[place] if attempt is None else attempt
+    grade = list(GRADES)[number % len(GRADES)]
+    drawn = draws(np.full(256, place * TRIES + attempt, np.uint64), np.arange(256, dtype=np.uint64)) / 2.0**64
+    sure = attempt == TRIES - 1
+    bases = _bases(split)
+    base = _base(bases[number // len(GRADES) % len(bases)], bool(drawn[0] < 0.5 and not sure))
+    gold, killers = drawn[1], KEPT[grade] + (1.0 - KEPT[grade]) * drawn[2]
+    span = GRADES[grade]
+    ticks = len(base.inputs)
+    first, last = 0, ticks
+    moved: dict[int, tuple[float, ...]] = {}
+    if span is not None:
+        last = min(ticks, span[1] if sure else int(span[0] + drawn[3] * (span[1] + 1 - span[0])))
+        starts = base.starts[base.starts <= ticks - last]
+        if len(starts) and not sure:
+            # Those where it is slow come first.
+            first = int(starts[int(drawn[4] * max(8, len(starts) / 4)) % len(starts)])
+        last += first
+        switch = first + int((0.3 + 0.5 * drawn[5]) * (last - first))
+        moved[EXIT] = (*_place(base, last), *_place(base, switch))
+    if first:
+        moved[NINJA] = _place(base, first)
+    objects = []
+    for spec, chance in zip(base.level.objects, np.resize(drawn[8:], len(base.level.objects)).tolist(), strict=True):
+        kills = KIND_OF[spec.kind].killer != ""
+        if chance < (gold if spec.kind == GOLD else killers if kills and not sure else 1.0):
+            objects.append(ObjectSpec(spec.kind, moved[spec.kind]) if spec.kind in moved else spec)
+    keys = base.inputs[first:last]
+    if first:
+        held, delay = int(drawn[6] * 8), int(drawn[7] * DELAY)
+        more, longer = (bytes([keys[k] & KEYS_DOWN]) for k in (held, -1))
+        keys = keys[:held] + more * delay + keys[held:] + longer * DELAY
+        keys = bytes([pressed(keys[0], 0)]) + keys[1:]
+    return BenchLevel(f"bench-{split}-{number}", grade, Level(base.level.tiles, tuple(objects)), keys)
+
+
+def _place(base: _Base, tick: int) -> tuple[float, float]:
+    """Where the ninja is after so many ticks, whole px."""
+    x, y = base.places[tick - 1].round().tolist()
+    return x, y
+
+
+@cache
+def _bases(split: str) -> list[int]:
+    """The numbers of the levels that are varied: one of ten, of every difficulty as many, is kept for the test."""
+    return [number for number in range(BASES) if (number // 10 % 10 == 7) == (split == "test")]
+
+
+@cache
+def _table() -> bytes:
+    return read_bytes(data_folder("assets") / TABLE, sum(COUNTS.values()))
+
+
+@lru_cache(maxsize=2 * BASES)
+def _base(number: int, mirrored: bool) -> _Base:
+    """A level that comes with the game, or its mirror image, with the run that passes it."""
+    if not mirrored:
+        packed = generated_level(number)
+        record = open_worlds("auto", packed.level, box=False).run(packed.inputs)
+        places = np.frombuffer(record.places, np.float64).reshape(-1, 2)
+        speeds = np.abs(np.diff(places, axis=0, prepend=places[:1])).sum(1)
+        stands = np.frombuffer(record.states, np.uint8) <= SKIDDING
+        away = np.abs(places - places[0]).sum(1) >= AWAY
+        order = np.argsort(speeds, kind="stable")
+        return _Base(packed.level, packed.inputs[: len(places)], places, order[(stands & away)[order]] + 1)
+    base = _base(number, mirrored=False)
+    (mirror,) = SYMMETRIES["left-right"]
+    columns = np.reshape(base.level.tiles, (COLUMNS, ROWS))[::-1]
+    tiles = tuple(mirror.tile(tile) for tile in columns.ravel().tolist())
+    level = Level(tiles, tuple(carried(spec, mirror) for spec in base.level.objects))
+    places = base.places * (-1.0, 1.0) + (mirror.dx, 0.0)
+    return _Base(level, base.inputs.translate(bytes(map(_swapped, range(256)))), places, base.starts)
+
+
+def _swapped(keys: int) -> int:
+    """Left for right."""
+    sides = KEY_LEFT | KEY_RIGHT
+    return keys ^ sides if keys & sides in (KEY_LEFT, KEY_RIGHT) else keys
+
+
+class _Levels(Sequence[Level]):
+    """Levels by number, made when they are asked for."""
+
+    def __init__(self, split: str, numbers: range) -> None:
+        self.split, self.numbers = split, numbers
+
+    def __len__(self) -> int:
+        return len(self.numbers)
+
+    def __getitem__(self, place: int) -> Level:  # type: ignore[override]
+        return bench_level(self.split, self.numbers[place]).level
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Levels) and vars(self) == vars(other)
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+class BenchSource(LevelSource):
+    """Levels of "train" or "test" by their numbers. None is held."""
+
+    def __init__(self, split: str, numbers: range) -> None:
+        self.levels: _Levels = _Levels(split, numbers)
+        self.names = [f"bench-{split}-{number}" for number in numbers]
+        self.largest = _base(LARGEST, mirrored=False).level
+
+    @property
+    def digest(self) -> str:
+        """Sha256 (hex) of what makes them."""
+        assets = [read_bytes(data_folder("assets") / name, MOST_BYTES) for name in (PACKED, TABLE)]
+        return sha256(repr(self.levels.numbers).encode() + b"".join(assets)).hexdigest()
+
+
+def bench_source(text: str) -> BenchSource:
+    """What follows "bench:" in the name of a source: "train", "test:easy", "train:17", "train:0-999".
+
+    Raises ArgumentError for anything else, FileError where the files of the game are not there.
+    """
+    split, _, which = text.partition(":")
+    first, _, last = which.partition("-")
+    numbers = range(COUNTS.get(split, 0))
+    if which in GRADES:
+        numbers = numbers[list(GRADES).index(which) :: len(GRADES)]
+    elif first.isdecimal() and (last or first).isdecimal():
+        numbers = numbers[int(first) : int(last or first) + 1]
+    elif which:
+        numbers = range(0)
+    if not numbers:
+        expected = "'bench:train' or 'bench:test', and ':easy', ':medium', ':hard' or numbers, as ':0-999'"
+        raise ArgumentError(f"found 'bench:{text:.60}'; expected {expected}")
+    return BenchSource(split, numbers)

@@ -1,0 +1,75 @@
+"""How far worlds are from a fact that is not so yet, such as ``won``: by the distance fields of the solver."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.backend.memories import open_worlds
+from ninja_game.batch.batch import Batch
+from ninja_game.search.formula.language import Values
+from ninja_game.search.heuristics import ACROSS, DOWN, FARTHEST, SPACING, Field, Heuristics
+from ninja_game.sim.kinds import EXIT
+from ninja_game.sim.level import Level
+
+_SPEED = 4.0
+"""px that a tick of a field counts, so that distances in formulas and these are of one size: a step of 6 px is 1.5."""
+
+Target = Callable[[int, float, float], Field]
+"""The field of a target in a switch state, for a ninja at (x, y)."""
+
+
+class Distances:
+    """Fields of a level, by target and by switch state: made when a world of the batch first needs them."""
+
+    def __init__(self, level: Level, batch: Batch) -> None:
+        self._level, self._batch = level, batch
+        self._fields: dict[tuple[object, int], Field] = {}
+
+    @cached_property
+    def _heuristics(self) -> Heuristics:
+        alone = open_worlds(self._batch.memory, self._level, box=False)
+        return Heuristics(alone.maps, alone.records)
+
+    def to_exit(self) -> Values:
+        """From the exit, by way of its switch: px about, less than 0 for all worlds."""
+        return self._margins("exit", self._heuristics.field)
+
+    def to_object(self, record: Any) -> Values:
+        """The same from an object, or from the switch of an exit."""
+        found = self._batch.objects[:, int(record["partner"][0])] if int(record["kind"][0]) == EXIT else record
+        place = float(found["x"][0]), float(found["y"][0])
+        return self._margins(place, lambda state, x, y: self._heuristics.field_to(place, state, x, y))
+
+    def _margins(self, key: object, target: Target) -> Values:
+        batch = self._batch
+        places, states = batch.positions, self._states()
+        points = _points(places)
+        margins = np.empty(batch.count)
+        for state in np.unique(states).tolist():
+            here = states == state
+            if (key, state) not in self._fields:
+                x, y = places[np.argmax(here)].tolist()
+                self._fields[key, state] = np.minimum(target(state, x, y), np.float32(FARTHEST))
+            margins[here] = -1.0 - _SPEED * self._fields[key, state][points[here]]
+        return margins
+
+    def _states(self) -> NDArray[np.int64]:
+        """What is open in each world, a bit a switch."""
+        states = np.zeros(self._batch.count, np.int64)
+        for bit, switch in enumerate(self._heuristics.switches):
+            record = self._batch.objects[:, switch.slot]
+            states |= (record["switched" if switch.door else "is_open"] != 0).astype(np.int64) << bit
+        return states
+
+
+def _points(places: NDArray[np.float64]) -> NDArray[np.int64]:
+    """``heuristics.point_at`` of many places; NaN is 0."""
+    limits = np.array([[ACROSS - 1], [DOWN - 1]])
+    i, j = (np.nan_to_num(places).T / SPACING + 0.5).clip(0, limits).astype(np.int64)
+    points: NDArray[np.int64] = j * ACROSS + i
+    return points

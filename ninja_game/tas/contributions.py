@@ -1,0 +1,45 @@
+"""What was done to a run since it was opened, and who took part: what its file says of how it was made."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any, Self
+
+from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.made import names_of_text
+from ninja_game.formats.replay.text import Replay
+
+
+@dataclass(frozen=True)
+class Contributions:
+    """``edits``: of keys; ``commands``: those that searched keys which were taken; ``names``: who else took part."""
+
+    edits: int = 0
+    commands: tuple[str, ...] = ()
+    names: tuple[str, ...] = ()
+
+    @classmethod
+    def of(cls, replay: Replay) -> Self:
+        """Those of a run whose keys are taken."""
+        return cls(0, replay.made.searches, names_of_text(", ".join((replay.author, *replay.co_authors))))
+
+    def __add__(self, other: Contributions) -> Contributions:
+        return Contributions(self.edits + other.edits, self.commands + other.commands, self.names + other.names)
+
+    def credited(self, about: Recording, player: str) -> Recording:
+        """A recording as it was opened, with what was done to it since then by a player."""
+        old = about.replay
+        names = names_of_text(", ".join((*old.co_authors, player, *self.names)))
+        # The author of a record of N is its level's.
+        begun_by = about.author if about.form != "file" and about.author != player else ""
+        made = old.made.edited(self.edits).searched(*self.commands, begun_by=begun_by)
+        others = tuple(name for name in names if name != about.author)
+        return replace(about, replay=replace(old, made=made, co_authors=others))
+
+    def as_json(self) -> dict[str, Any]:
+        return {"edits": self.edits, "commands": list(self.commands), "names": list(self.names)}
+
+    @classmethod
+    def of_json(cls, kept: dict[str, Any]) -> Self:
+        """What ``as_json`` gave. Raises one of DAMAGED for anything else."""
+        return cls(int(kept["edits"]), tuple(map(str, kept["commands"])), tuple(map(str, kept["names"])))

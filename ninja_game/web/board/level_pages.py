@@ -1,0 +1,125 @@
+"""What a level's page tells of its runs: tables, how the record fell, the first runs side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from datetime import datetime
+from itertools import pairwise
+from typing import Any
+
+from ninja_game.files.shown_text import counted, shown_text
+from ninja_game.formats.recording import Recording
+from ninja_game.formats.run_time import seconds_text
+from ninja_game.player.catalogue import Entry
+from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, run_splits, split_table
+from ninja_game.tas.leads import split_name
+from ninja_game.web.board.charts import paths, steps, swatch
+from ninja_game.web.board.parts import LONGEST_NAME, RUN_HEADS, UP, Parts, player_link, signed
+from ninja_game.web.board.ranking import Part, Ranked
+from ninja_game.web.board.runs import Run
+from ninja_game.web.pages.frame import Content, Markup, joined, section, table, tag
+from ninja_game.web.pages.gallery import level_page
+from ninja_game.web.pages.published import page_name, picture, picture_name
+
+FIRST, TOGETHER, MOST_SPLITS = 10, 5, 60
+"""Rows of a table; runs side by side; rows of splits, and where there were more, gold is left out."""
+
+
+class LevelPages(Parts):
+    """Adds the pages of levels."""
+
+    def level(self, entry: Entry) -> None:
+        """A level's page, and the list of all its runs."""
+        digest, named, runs = entry.digest, entry.named, self.ranking.by_level.get(entry.digest, [])
+        told: list[list[Any]] = [[self.stems[run.key], run.day, run.remark, run.tick] for run in runs]
+        rules = [[each.name, each.rank, each.when] for each in self.ranking.categories]
+        about = [named.name, named.author, named.comment, entry.episode, repr(entry.pars), digest, self.ranking.ladders]
+
+        def content() -> str:
+            return level_page(entry, {}, UP + self.game, self.deeper, self._runs(entry))[0]
+
+        self.pages.make(picture_name(digest), digest, lambda: picture(named.level))
+        self.pages.make(page_name(digest), [about, told, rules, self.deeper], content)
+        known = {self.stems[run.key]: run for run in runs}
+
+        def cells(row: Sequence[Any]) -> tuple[Content, ...]:
+            run = known[row[0]]
+            return self.run(run, seconds_text(run.tick), seconds_text(run.score))
+
+        if runs:
+            heads, back = ("Player", "Time", "Score", *RUN_HEADS), tag("a", "The level", href=UP + page_name(digest))
+            rows = sorted(told, key=lambda row: row[-1])
+            name, caption = f"levels/{digest[:16]}-runs", "All runs, the fastest first"
+            self.list(name, entry.title, caption, heads, rows, tag("p", back), cells=cells)
+
+    def _runs(self, entry: Entry) -> Content:
+        tables = self.ranking.tables.get(entry.digest, {})
+        if not tables:
+            return section("Runs", tag("p", "Nobody has passed this level here yet."))
+        said = f"All runs: {len(self.ranking.by_level[entry.digest])}"
+        link = tag("p", tag("a", said, href=f"{entry.digest[:16]}-runs.html"))
+        part, ranked = next(iter(tables.items()))
+        runs = [each.run for each in ranked[:TOGETHER]]
+        beside = self._side_by_side(runs) if len(runs) > 1 else None
+        return joined(*map(self._table, tables, tables.values()), link, self._progression(entry, part), beside)
+
+    def _table(self, part: Part, ranked: Sequence[Ranked]) -> Markup:
+        rows = [(each.place, *self.run(each.run, part[1].text(each.values[0]))) for each in ranked[:FIRST]]
+        heads = ("Place", "Player", part[1].unit, *RUN_HEADS)
+        name = self.part_name(part)
+        return section(name, table(f"{name}: best run of each player", heads, rows))
+
+    def _progression(self, entry: Entry, part: Part) -> Content:
+        """How the record fell."""
+        category, runs = part[1], self.ranking.history[entry.digest, part]
+        numbers = [(self.ranking.values(category, run) or (0.0,))[0] for run in runs]
+        better = ["", *(category.difference(before - now) for before, now in pairwise(numbers))]
+        rows = [
+            (run.day, player_link(run.player, UP), category.text(number), gain, self.watch([run], UP))
+            for run, number, gain in zip(runs, numbers, better, strict=True)
+        ]
+        chart = None
+        if len(runs) > 1:
+            moments = [datetime.fromisoformat(run.added).timestamp() if run.added else 0.0 for run in runs]
+            if moments[0] == moments[-1]:
+                moments = [*map(float, range(len(runs)))]
+            start, end = (f"{category.text(numbers[at])} {runs[at].day}" for at in (0, -1))
+            said = f"The record fell from {start} to {end} in {counted(len(runs) - 1, 'step')}"
+            chart = steps(list(zip(moments, numbers, strict=True)), start, end, said)
+        heads = ("Date", "Player", category.unit, "Better by", "Watch")
+        return section("How the record fell", chart, table("Newest first", heads, rows[: -FIRST - 1 : -1]))
+
+    def _side_by_side(self, runs: Sequence[Run]) -> Markup:
+        """The first runs: their paths, any two of them, their splits."""
+        names = [shown_text(run.player, LONGEST_NAME) for run in runs]
+        found = [run_splits(Recording(run.entry.named.level, run.replay), memory="auto") for run in runs]
+        places = [(name, each.positions) for name, each in zip(names, found, strict=True)]
+        drawn = paths(UP + picture_name(runs[0].entry.digest), places)
+        together = tag("p", self.watch(runs, UP, f"Watch the first {len(runs)} together"))
+        pairs = [
+            (joined(swatch(number), " ", names[number]), *(self._pair(run, other) for other in runs))
+            for number, run in enumerate(runs)
+        ]
+        races = table("Seconds by which the left one is later; a link watches both", ("Run", *names), pairs)
+        splits = table("Seconds; later than the first: +", ("Split", *names), _splits(found))
+        first = section(f"The first {len(runs)} runs", together, drawn)
+        return joined(first, section("Any two of them", races), section("Splits", splits))
+
+    def _pair(self, run: Run, other: Run) -> Content:
+        return "" if run is other else self.watch([run, other], UP, signed(run.tick - other.tick))
+
+
+def _splits(found: Sequence[RunSplits]) -> Iterator[tuple[Content, ...]]:
+    """Rows of splits against the first run; gold that only others take is left out."""
+    gold = SPLIT_EVENTS[0]
+    rows = [row for row in split_table(found, found[0]) if row.ticks[0] is not None or row.split.event != gold]
+    if len(rows) > MOST_SPLITS:
+        rows = [row for row in rows if row.split.event != gold][:MOST_SPLITS]
+    for row in rows:
+        first, *others = row.ticks
+        cells = ["" if tick is None else _later(tick, first) for tick in others]
+        yield split_name(str(row.split)), "" if first is None else seconds_text(first), *cells
+
+
+def _later(tick: int, first: int | None) -> str:
+    return seconds_text(tick) if first is None else signed(tick - first)

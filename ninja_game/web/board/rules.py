@@ -1,0 +1,132 @@
+"""What runs are ranked by: categories as the text ``board.toml`` states them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ninja_game.errors import FormatError
+from ninja_game.files.reading import read_utf8
+from ninja_game.files.toml import parse_toml
+from ninja_game.formats.run_time import seconds_text
+from ninja_game.search.formula.language import Formula, FormulaError, Values, parse_number, parse_truth
+from ninja_game.web.board.runs import Run
+
+NAMES: dict[str, Callable[[Run], float]] = {
+    "ticks": lambda run: run.tick, "gold": lambda run: run.gold, "score": lambda run: run.score,
+    "all_gold": lambda run: run.entry.all_gold, "jumps": lambda run: run.jumps, "presses": lambda run: run.presses,
+}  # fmt: skip
+"""What formulas may say of a run: ticks to the exit, gold, score (ticks), gold of the level, jumps, keys pressed."""
+
+MOST_BYTES, MOST_CATEGORIES, MOST_RANKS, LONGEST_NAME = 2**20, 12, 4, 40
+"""Of ``board.toml``; of a category: formulas that rank it, characters of its name."""
+
+_KEYS: Mapping[str, type] = {"name": str, "rank": list, "when": str, "episodes": bool}
+_ARGUMENTS = dict.fromkeys(NAMES, 0)
+
+
+@dataclass(frozen=True)
+class Category:
+    """Runs for which ``when`` holds (all, if it is ""), by the numbers ``rank``, the least first.
+
+    ``episodes``: whether the first number is added up over the levels of an episode.
+    """
+
+    name: str
+    rank: tuple[str, ...]
+    when: str = ""
+    episodes: bool = False
+    _numbers: tuple[Formula, ...] = field(init=False, repr=False, compare=False)
+    _truth: Formula = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        """Read the formulas. Raises FormulaError."""
+        object.__setattr__(self, "_numbers", tuple(parse_number(each, _ARGUMENTS, ()) for each in self.rank))
+        object.__setattr__(self, "_truth", parse_truth(self.when or "0 == 0", _ARGUMENTS, ()))
+
+    def values(self, runs: Sequence[Run]) -> list[tuple[float, ...] | None]:
+        """What each run is ranked by, the smaller the better; None for a run that is not of the category."""
+        view = {name: _all(np.array([value(run) for run in runs], np.float64)) for name, value in NAMES.items()}
+        with np.errstate(all="ignore"):
+            columns = [np.broadcast_to(each.value(view), len(runs)) for each in (self._truth, *self._numbers)]
+        table = np.stack(columns, axis=1)
+        counts = np.isfinite(table).all(axis=1) & (table[:, 0] > 0)
+        return [tuple(row[1:]) if good else None for row, good in zip(table.tolist(), counts.tolist(), strict=True)]
+
+    @cached_property
+    def _shown(self) -> str:
+        """What its first number is of, without the sign by which the greatest is first."""
+        words = self.rank[0].strip()
+        return words[1:] if words[1:] in NAMES else words
+
+    @property
+    def unit(self) -> str:
+        """What its first number is called above a table."""
+        return {"ticks": "Time", "score": "Score"}.get(self._shown, "Value")
+
+    def text(self, value: float) -> str:
+        """Its first number as people read it."""
+        return self.difference(-value if self.rank[0].strip() == f"-{self._shown}" else value)
+
+    def difference(self, amount: float) -> str:
+        """By how much a first number is better, as people read it."""
+        if self.unit == "Value":
+            return f"{amount:g}"
+        return "-" * (amount < 0) + seconds_text(round(abs(amount)))
+
+
+def _all(values: Values) -> Callable[[], Values]:
+    return lambda: values
+
+
+FASTEST = Category("Fastest", ("ticks", "-gold"), episodes=True)
+HIGHEST = Category("Highest score", ("-score", "ticks"))
+USUAL = (FASTEST, HIGHEST)
+"""The categories where no text states any: the time to the exit, and the score with gold (game.md §1.3)."""
+
+
+def read_categories(path: Path) -> tuple[Category, ...]:
+    """The categories that a text states. Raises FormatError with what is wrong where, FileError, OSError."""
+    file = str(path)
+    text = read_utf8(path, MOST_BYTES)
+    try:
+        table = parse_toml(text)
+    except ValueError as error:
+        raise FormatError(f"no TOML: {error}", file) from None
+    found = table.get("category")
+    if set(table) != {"category"} or not isinstance(found, list) or not 1 <= len(found) <= MOST_CATEGORIES:
+        raise FormatError(
+            "not the rules of a board", file, expected=f"1 to {MOST_CATEGORIES} tables [[category]] alone"
+        )
+    categories = tuple(_category(each, f"{file}: category {number}") for number, each in enumerate(found, 1))
+    names = [each.name.casefold() for each in categories]
+    if len(set(names)) < len(names):
+        raise FormatError("two categories have one name", file, found=next(n for n in names if names.count(n) > 1))
+    return categories
+
+
+def _category(table: Any, place: str) -> Category:
+    """A category from its table. Raises FormatError."""
+    if not isinstance(table, dict) or not {"name", "rank"} <= set(table) <= set(_KEYS):
+        found = ", ".join(map(str, table))[:60] if isinstance(table, dict) else ascii(table)[:60]
+        raise FormatError("not the keys of a category", place, found=found, expected="name, rank; also when, episodes")
+    for key, value in table.items():
+        if not isinstance(value, _KEYS[key]):
+            raise FormatError(f"{key!r} is of the wrong type", place, expected=_KEYS[key].__name__)
+    name, rank = table["name"], table["rank"]
+    if not name.strip() or len(name) > LONGEST_NAME:
+        raise FormatError("a name that is empty or too long", place, expected=f"1 to {LONGEST_NAME} characters")
+    if not 1 <= len(rank) <= MOST_RANKS or not all(isinstance(each, str) for each in rank):
+        raise FormatError(
+            "'rank' is no list of formulas", place, expected=f'1 to {MOST_RANKS}, such as ["gold", "ticks"]'
+        )
+    try:
+        return Category(name.strip(), tuple(rank), table.get("when", ""), table.get("episodes", False))
+    except FormulaError as error:
+        error.file = place
+        raise

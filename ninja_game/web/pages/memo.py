@@ -1,0 +1,75 @@
+"""What an earlier command found out, so that the next one need not: of the user's own cache folder and no other."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from ninja_game import __version__
+from ninja_game.errors import DAMAGED
+from ninja_game.files.reading import read_bytes
+from ninja_game.files.writing import write_atomically
+from ninja_game.sim.memory.code_digest import code_digest
+from ninja_game.sim.memory.kernels import run_world
+
+MOST_BYTES, MOST_MEMOS = 2**30, 100
+"""Of a file: that of a million runs has half of it. How many files stay in their folder: the newest."""
+
+
+def digest_of(data: object) -> str:
+    """Sha256 (hex) of plain values."""
+    return sha256(json.dumps(data).encode("utf-8", "replace")).hexdigest()
+
+
+@cache
+def program() -> str:
+    """Digest of all code that decides what is remembered: of the world's rules, and of boards and pages."""
+    here = Path(__file__).parent
+    files = sorted((*here.glob("*.*"), *here.with_name("board").glob("*.py")))
+    return digest_of(
+        [__version__, code_digest(run_world, ""), *(sha256(each.read_bytes()).hexdigest() for each in files)]
+    )
+
+
+class Memo:
+    """Plain values by keys; what is not asked for or noted again is forgotten. ``path``: None: nothing is kept.
+
+    A file that is missing, or no memo, is an empty one: all in it can be found out again. ``again``: as if it were.
+    """
+
+    def __init__(self, path: Path | None = None, *, again: bool = False) -> None:
+        self.path = path
+        self._before: dict[str, Any] = {}
+        self._now: dict[str, Any] = {}
+        try:
+            found = json.loads(read_bytes(path, MOST_BYTES)) if path and not again else {}
+            self._before = found if isinstance(found, dict) else {}
+        except (*DAMAGED, OSError):
+            pass
+
+    def recall(self, key: str) -> Any:
+        """What was noted under a key, None for nothing."""
+        if key not in self._now and key in self._before:
+            self._now[key] = self._before[key]
+        return self._now.get(key)
+
+    def note(self, key: str, value: Any) -> None:
+        """Note a plain value."""
+        self._now[key] = value
+
+    @property
+    def forgotten(self) -> set[str]:
+        """Keys that nobody has asked for, or noted, this time."""
+        return self._before.keys() - self._now.keys()
+
+    def save(self) -> None:
+        """Write it where it was. Raises FileError, OSError."""
+        if self.path and self._now != self._before:
+            self.path.parent.mkdir(parents=True, exist_ok=True)
+            write_atomically(self.path, json.dumps(self._now))
+            kept = sorted(self.path.parent.glob("*.json"), key=lambda path: path.stat().st_mtime, reverse=True)
+            for old in kept[MOST_MEMOS:]:
+                old.unlink(missing_ok=True)

@@ -1,0 +1,34 @@
+"""A run has one length and one time, whoever tells it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from click.testing import CliRunner
+
+from ninja_game.cli.main import cli
+from tests.support.samples import WALK, WALK_END, replay_of_walk, unclaimed_text
+
+SECONDS = "0.575 s"
+
+
+def said(*words: object) -> str:
+    result = CliRunner().invoke(cli, [*map(str, words)])
+    assert result.exit_code == 0, result.output
+    return result.stdout
+
+
+def test_all_commands_tell_the_same_time_of_a_run(tmp_path: Path) -> None:
+    run, other, idea = (tmp_path / name for name in ("run.replay.txt", "other.replay.txt", "idea.inputs.txt"))
+    run.write_text(replay_of_walk(author="Ann"), "utf-8")
+    idea.write_text(unclaimed_text(WALK, "R*40"), "utf-8")
+    assert f"exit in tick {WALK_END} ({SECONDS})" in said("record", idea, "-o", other)
+    assert f"{WALK_END} ticks ({SECONDS})" in said(
+        "improve", run, "--ticks", "20000", "--jobs", "1", "-o", tmp_path / "x.txt"
+    )
+    splits = said("splits", run)
+    assert f"exit after {WALK_END} ticks, {SECONDS}" in splits
+    assert f"sum of best: tick {WALK_END}, {SECONDS}" in splits
+    assert f"to tick {WALK_END} at most, {SECONDS}" in said("info", run)
+    # 90 s and two for the piece of gold, less the time
+    assert "91.425" in said("verify", run)

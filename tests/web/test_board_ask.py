@@ -1,0 +1,88 @@
+"""`ninja-game board ask`: what a board knows, for people and for bots."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from ninja_game.cli.main import cli
+from tests.support.forgeries import WALKING, replay
+from tests.support.samples import WALK_END
+from tests.web.test_board import HOSTILE, levels, put, runs, slow_walk  # noqa: F401
+
+
+@pytest.fixture
+def folder(runs: Path) -> Path:  # noqa: F811
+    put(runs, "ann.txt", replay(author="Ann"))
+    put(runs, "bea.txt", slow_walk(author="Bea"))
+    put(runs, "cid.txt", replay(bytes(8) + WALKING + b"\2", author=HOSTILE))
+    return runs
+
+
+def ask(folder: Path, pack: Path, *words: str) -> tuple[int, str]:
+    result = CliRunner().invoke(cli, ["board", "ask", str(folder), *words, "--levels", str(pack), "--jobs", "1"])
+    return result.exit_code, result.stdout or result.stderr
+
+
+def answer(folder: Path, pack: Path, *words: str) -> list[dict[str, object]]:
+    code, text = ask(folder, pack, *words, "--json")
+    assert code == 0, text
+    found: list[dict[str, object]] = json.loads(text)
+    return found
+
+
+@pytest.mark.parametrize("level", ["Walk", "walk", "00-0", "wal"])
+def test_a_level_is_ranked(level: str, folder: Path, levels: Path) -> None:  # noqa: F811
+    code, text = ask(folder, levels, "rank", level)
+    assert code == 0
+    first, second, third = text.splitlines()
+    assert first == f"1. Ann: 0.575 ({WALK_END} ticks, 1 gold, unknown) "
+    assert second.startswith("2. Bea: 0.700")
+    assert "\u202e" not in third
+    assert [row["ticks"] for row in answer(folder, levels, "rank", level)] == [WALK_END, WALK_END + 5, WALK_END + 8]
+
+
+def test_the_best_and_a_players_run(folder: Path, levels: Path) -> None:  # noqa: F811
+    assert [row["player"] for row in answer(folder, levels, "best", "Walk")] == ["Ann"]
+    (row,) = answer(folder, levels, "rank", "Walk", "BEA", "--category", "highest score")
+    assert (row["place"], row["score"], row["file"]) == (2, 3680 - WALK_END - 5, "bea.txt")
+
+
+def test_inputs_are_counted(folder: Path, levels: Path) -> None:  # noqa: F811
+    (row,) = answer(folder, levels, "inputs", "Walk", "Bea")
+    counted = {key: row[key] for key in ("left", "right", "neither", "jump", "strokes", "longest", "presses", "jumps")}
+    right = WALK_END + 1
+    assert counted == {
+        "left": 0, "right": right, "neither": 5, "jump": 0, "strokes": 2, "longest": right, "presses": 1, "jumps": 0,
+    }  # fmt: skip
+
+
+def test_splits_pictures_and_films(folder: Path, levels: Path, tmp_path: Path) -> None:  # noqa: F811
+    code, text = ask(folder, levels, "splits", "Walk", "Ann", "Bea")
+    assert (code, "won" in text, "+5" in text) == (0, True, True), text
+    ((event, *_),) = (
+        [row["event"], row] for row in json.loads(ask(folder, levels, "splits", "Walk", "--json")[1])["splits"][-1:]
+    )
+    assert event == "won"
+    for what, name, mark in (("trace", "out.png", b"\x89PNG"), ("film", "out.gif", b"GIF8")):
+        code, text = ask(folder, levels, what, "Walk", "Ann", "Bea", "-o", str(tmp_path / name))
+        assert code == 0, text
+        assert (tmp_path / name).read_bytes().startswith(mark)
+    assert ask(folder, levels, "trace", "Walk")[0] == 2
+
+
+@pytest.mark.parametrize(
+    "words, told",
+    [
+        (["rank", "nothing"], "is no level"), (["rank", "a"], "is several levels"),
+        (["rank", "Spiked"], "nobody has a run"), (["rank", "Walk", "Zed"], "has no run there; players: Ann"),
+        (["rank", "Walk", "--category", "x"], "there are Fastest"),
+        (["rank", "Walk", "--assisted"], "nobody has a run"),
+    ],
+)  # fmt: skip
+def test_what_there_is_not_is_named(words: list[str], told: str, folder: Path, levels: Path) -> None:  # noqa: F811
+    code, text = ask(folder, levels, *words)
+    assert (code, told in text) == (2, True), text

@@ -1,0 +1,182 @@
+"""What a board remembers: nothing is done twice, nothing that came with the runs is believed, no page is other."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+from ninja_game.cli.main import cli
+from ninja_game.files.tree import Tree
+from ninja_game.runs.archive import verify_all
+from ninja_game.runs.chunks import Chunk
+from ninja_game.web.board import runs as board_runs
+from ninja_game.web.pages.memo import Memo
+from tests.support.forgeries import WALKING, replay
+from tests.support.samples import WALK_END
+from tests.web.test_board import levels, put, runs, slow_walk  # noqa: F401
+
+
+def board(folder: Path, pack: Path, *words: str) -> str:
+    """The output of a command on the board that goes well."""
+    result = CliRunner().invoke(cli, ["board", str(folder), "--levels", str(pack), "--jobs", "1", *words])
+    assert result.exit_code == 0, result.output
+    return result.stdout
+
+
+@pytest.fixture
+def simulated(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The files that are simulated."""
+    found: list[str] = []
+
+    def noted(chunk: Chunk) -> Chunk:
+        found.append(chunk.file)
+        return chunk
+
+    def noting(paths: Any, *, chunks: Any, **about: Any) -> Any:
+        return verify_all(paths, chunks=map(noted, chunks), **about)
+
+    monkeypatch.setattr(board_runs, "verify_all", noting)
+    return found
+
+
+@pytest.fixture
+def drawn(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The files that are written below the pages, and the replays."""
+    found: list[str] = []
+    write = Tree.write
+
+    def noting(self: Tree, name: str, content: bytes | str) -> None:
+        found.append(name)
+        write(self, name, content)
+
+    monkeypatch.setattr(Tree, "write", noting)
+    return found
+
+
+def test_only_what_is_new_is_simulated_and_written(
+    tmp_path: Path, levels: Path, runs: Path, simulated: list[str], drawn: list[str],  # noqa: F811
+) -> None:  # fmt: skip
+    site = str(tmp_path / "site")
+    put(runs, "ann.txt", replay(author="Ann"))
+    put(runs, "bad.txt", replay(author="Ann", gold=77))
+    first = board(runs, levels, "--site", site)
+    assert simulated == ["ann.txt", "bad.txt"]
+    simulated.clear()
+    drawn.clear()
+    assert board(runs, levels, "--site", site) == first
+    assert simulated == []
+    assert not [name for name in drawn if "/levels/" in name or "/pictures/" in name or name.startswith("replays/")]
+    put(runs, "bea.txt", slow_walk(author="Bea"))
+    board(runs, levels, "--site", site)
+    assert simulated == ["bea.txt"]
+    assert len([name for name in drawn if name.startswith("replays/")]) == 1
+    assert len([name for name in drawn if name.startswith("board/levels/")]) == 2
+    simulated.clear()
+    board(runs, levels / "00-0-level.txt", "--site", site)
+    assert simulated == ["ann.txt", "bad.txt", "bea.txt"], "other levels count"
+    simulated.clear()
+    board(runs, levels / "00-0-level.txt", "--site", site, "--again")
+    assert simulated == ["ann.txt", "bad.txt", "bea.txt"]
+
+
+def tree(folder: Path) -> dict[str, bytes]:
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*.*") if path.is_file()}
+
+
+def test_pages_are_the_same_as_made_again(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+    """Runs come, change and go; whatever was remembered, the pages are those of a board that remembers nothing."""
+    some = {
+        "ann.txt": replay(author="Ann"), "bea.txt": slow_walk(40, author="Bea"),
+        "cid.txt": replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Cid"), "dan.txt": replay(author="Dan"),
+        "bad.txt": "nothing",
+    }  # fmt: skip
+    for step in (["ann.txt"], ["bea.txt", "bad.txt"], ["cid.txt", "dan.txt"], ["-bea.txt"], ["-ann.txt"], ["bea.txt"]):
+        for name in step:
+            put(runs, name, some[name]) if name in some else (runs / name[1:]).unlink()
+        said = board(runs, levels, "--site", str(tmp_path / "site"))
+        shutil.rmtree(tmp_path / "again", ignore_errors=True)
+        assert board(runs, levels, "--site", str(tmp_path / "again"), "--again") == said
+        assert tree(tmp_path / "site") == tree(tmp_path / "again"), step
+
+
+def test_a_page_that_somebody_changed_is_written_again(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+    put(runs, "ann.txt", replay(author="Ann"))
+    board(runs, levels, "--site", str(tmp_path / "site"))
+    before = tree(tmp_path / "site")
+    for path in (tmp_path / "site").rglob("*.*"):
+        if path.is_file() and path.name[0] != ".":
+            times = path.stat()
+            path.write_bytes(path.read_bytes()[::-1])
+            os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
+    board(runs, levels, "--site", str(tmp_path / "site"))
+    assert tree(tmp_path / "site") == before
+
+
+def test_a_run_that_is_withdrawn_leaves_no_file(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+    put(runs, "ann.txt", replay(author="Ann"))
+    put(runs, "bea.txt", slow_walk(author="Bea"))
+    other = put(tmp_path, "site/replays/0123456789abcdef.txt", "of the gallery")
+    board(runs, levels, "--site", str(tmp_path / "site"))
+    (runs / "bea.txt").unlink()
+    board(runs, levels, "--site", str(tmp_path / "site"))
+    assert len(list((tmp_path / "site" / "replays").iterdir())) == 2
+    assert other.exists()
+
+
+def test_what_comes_with_the_runs_is_not_remembered(
+    tmp_path: Path, levels: Path, runs: Path, board_cache: Path, simulated: list[str]  # noqa: F811
+) -> None:  # fmt: skip
+    """Memos, checkpoint logs and ledgers beside the runs, in the pages, or in the current folder judge nothing."""
+    put(runs, "ann.txt", slow_walk(author="Ann"))
+    board(runs, levels)
+    (memo,) = board_cache.glob("runs-*.json")
+    forged = memo.read_text("utf-8").replace(f", {3600 + 80 - WALK_END - 5}", ", 99999")
+    assert forged != memo.read_text("utf-8")
+    shutil.rmtree(board_cache)
+    simulated.clear()
+    for folder in (runs, runs / ".cache", runs / "board-cache", tmp_path / "site" / "board", tmp_path / "site"):
+        put(folder, memo.name, forged)
+    put(tmp_path, "site/board/.ninja-game-pages", "made by ninja-game\n")
+    put(runs, "board.json", json.dumps({"version": 2, "runs": [], "rejected": []}))
+    assert board(runs, levels, "--site", str(tmp_path / "site")).startswith("1 run by 1 player")
+    assert simulated == ["ann.txt"]
+    assert "99999" not in "".join(
+        text.decode("utf-8", "replace") for text in tree(tmp_path / "site").values() if b"<html" in text
+    )
+
+
+@pytest.mark.parametrize("place", ["runs", "runs/deep", "."])
+def test_a_cache_folder_where_runs_come_in_is_refused(
+    place: str, tmp_path: Path, levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch  # noqa: F811
+) -> None:  # fmt: skip
+    put(runs, "ann.txt", replay(author="Ann"))
+    folder = Path(place) if place == "." else tmp_path / place
+    monkeypatch.setattr("ninja_game.cli.board_options.cache_folder", lambda: folder)
+    result = CliRunner().invoke(cli, ["board", str(runs), "--levels", str(levels)])
+    assert (result.exit_code, "choose another one" in result.output) == (2, True), result.output
+
+
+@pytest.mark.parametrize("text", ["", "[]", "{", '"x"', "\0", "[" * 99_999])
+def test_a_broken_memo_is_an_empty_one(text: str, tmp_path: Path) -> None:
+    path = put(tmp_path, "memo.json", text)
+    memo = Memo(path)
+    assert memo.recall("key") is None
+    memo.note("key", [1])
+    memo.save()
+    assert Memo(path).recall("key") == [1]
+
+
+def test_other_rules_of_the_world_are_other_runs(
+    tmp_path: Path, levels: Path, runs: Path, simulated: list[str], monkeypatch: pytest.MonkeyPatch  # noqa: F811
+) -> None:  # fmt: skip
+    put(runs, "ann.txt", replay(author="Ann"))
+    board(runs, levels)
+    monkeypatch.setattr(board_runs, "program", lambda: "another")
+    board(runs, levels)
+    assert simulated == ["ann.txt", "ann.txt"]

@@ -1,0 +1,182 @@
+"""Ladders and categories: what runs are ranked by, as a text states it, and what is wrong with such a text."""
+
+from __future__ import annotations
+
+import json
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from ninja_game.cli.main import cli
+from ninja_game.errors import NinjaGameError
+from ninja_game.formats.replay.made import Made
+from ninja_game.web.board.charts import path_data
+from ninja_game.web.board.ranking import Ranking
+from ninja_game.web.board.rules import FASTEST, MOST_CATEGORIES, NAMES, USUAL, read_categories
+from ninja_game.web.board.runs import ASSISTED, PLAYED, judge
+from ninja_game.web.pages.published import published_levels
+from tests.support.forgeries import GOLD_LATER, WALKING, replay
+from tests.support.samples import WALK_END
+from tests.web.test_board import DIGEST, Tags, levels, put, runs, slow_walk  # noqa: F401
+from tests.web.test_board_memo import board
+
+SEARCHED = Made(edits=3, searches=("improve",), begun_by="Ann")
+RULES = Path("docs/board-template/board.toml")
+
+
+def rules(folder: Path, text: str) -> Path:
+    return put(folder, "board.toml", text)
+
+
+def category(name: str = "A", **more: object) -> str:
+    keys = {"name": name, "rank": ["ticks"]} | more
+    return "[[category]]\n" + "".join(f"{key} = {json.dumps(value)}\n" for key, value in keys.items())
+
+
+def test_an_assisted_run_is_on_a_ladder_of_its_own(runs: Path, levels: Path, tmp_path: Path) -> None:  # noqa: F811
+    put(runs, "ann.txt", slow_walk(author="Ann"))
+    put(runs, "bea.txt", replay(bytes(9) + WALKING + b"\2", author="Bea", made=Made(played=True)))
+    put(runs, "tas.txt", replay(author="Ann", made=SEARCHED, co_authors=("<b>Eve</b>",)))
+    shown = published_levels(levels)
+    ranking = Ranking(judge(runs, shown, jobs=1), shown)
+    tables = ranking.tables[DIGEST]
+    assert [each.run.file for each in tables[PLAYED, FASTEST]] == ["ann.txt", "bea.txt"]
+    assert [each.run.file for each in tables[ASSISTED, FASTEST]] == ["tas.txt"]
+    assert [each.player for each in ranking.standings[ASSISTED]] == ["Ann"]
+    board(runs, levels, "--site", str(tmp_path / "site"))
+    page = (tmp_path / "site" / "board" / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
+    assert "<td>unknown</td>" in page, "marked"
+    assert "edited 3, searched (improve) from a run by Ann" in page
+    assert "with &lt;b&gt;Eve&lt;/b&gt;" in page
+    assert "Fastest, assisted" in page
+    assert (tmp_path / "site" / "board" / "assisted.html").exists()
+    text = next((tmp_path / "site" / "replays").glob("*.txt"), None)
+    assert text
+    assert any("made: edited 3" in each.read_text("utf-8") for each in text.parent.iterdir())
+
+
+def test_the_rules_of_the_template_rank_as_they_say(runs: Path, levels: Path) -> None:  # noqa: F811
+    """Ann goes straight through the gold; Bea jumps over nothing and takes it later; the level's gold is one piece."""
+    put(runs, "ann.txt", replay(author="Ann"))
+    put(runs, "bea.txt", slow_walk(author="Bea"))
+    put(runs, "cid.txt", replay(level=GOLD_LATER, author="Cid"))
+    shown = published_levels(levels)
+    categories = read_categories(RULES)
+    assert [each.name for each in categories] == ["Any %", "Highest score", "All gold", "Low gold", "Fewest keys"]
+    ranking = Ranking(judge(runs, shown, jobs=1), shown, categories)
+    for (ladder, each), table in ranking.tables[DIGEST].items():
+        assert (ladder, [ranked.run.player for ranked in table]) == (PLAYED, ["Ann", "Bea"]), each.name
+    assert len(ranking.tables[DIGEST]) == len(categories)
+    assert categories[3].text(0) == "0"
+    assert categories[0].text(WALK_END) == f"{WALK_END / 40:.3f}"
+    assert categories[1].text(-3657) == "91.425"
+
+
+def test_a_run_is_in_a_category_only_where_its_formula_holds(runs: Path, levels: Path, tmp_path: Path) -> None:  # noqa: F811
+    put(runs, "ann.txt", slow_walk(author="Ann"))
+    put(runs, "bea.txt", replay(author="Bea"))
+    others = category("B", rank=["-ticks"]) + category("C", rank=["1 / (gold - 1)"])
+    given = read_categories(rules(tmp_path, category(when=f"ticks > {WALK_END}") + others))
+    shown = published_levels(levels)
+    tables = Ranking(judge(runs, shown, jobs=1), shown, given).tables[DIGEST]
+    players = {each.name: [ranked.run.player for ranked in table] for (_, each), table in tables.items()}
+    assert players == {"A": ["Ann"], "B": ["Ann", "Bea"]}, "where a number is not finite, a run is not of the category"
+
+
+BROKEN = {
+    "": "1 to 12 tables [[category]] alone", "category = 3": "not the rules", "x = 1\n" + category(): "not the rules",
+    "[[category": "no TOML", category() * (MOST_CATEGORIES + 1): "not the rules", category() * 2: "two categories",
+    category(rank=[]): "list of formulas", category(rank=[3]): "list of formulas", category(rank="ticks"): "wrong type",
+    category(name=""): "empty or too long", category(name="x" * 41): "empty or too long",
+    category(order=3): "not the keys",
+    category(when="ticks >"): "category 1, column 8: not a formula", category(when="ticks"): "neither true nor false",
+    category(rank=["ticks > 3"]): "true or false", category(rank=["x"]): "an unknown name",
+    category(rank=["__import__('os')"]): "a character that no formula has", category(rank=["(" * 999]): "formula",
+    category(episodes=1): "wrong type", "[[category]]\nname = 'A'": "not the keys",
+    "[category]\nname = 'A'\nrank = ['ticks']": "not the rules",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("text", BROKEN)
+def test_broken_rules_are_named(text: str, tmp_path: Path) -> None:
+    with pytest.raises(NinjaGameError) as caught:
+        read_categories(rules(tmp_path, text))
+    assert BROKEN[text] in str(caught.value)
+    assert "board.toml" in str(caught.value)
+
+
+def test_rules_of_a_mebibyte_are_too_many(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+    path = rules(tmp_path, "#" * 2**20 + "#")
+    result = CliRunner().invoke(cli, ["board", str(runs), "--levels", str(levels), "--rules", str(path)])
+    assert (result.exit_code, "too large" in result.output) == (2, True)
+
+
+def test_every_name_of_a_formula_is_in_the_documents() -> None:
+    text = Path("docs/board.md").read_text("utf-8")
+    assert all(f"`{name}`" in text for name in NAMES)
+
+
+def test_no_record_depends_on_the_clock(runs: Path, levels: Path, tmp_path: Path) -> None:  # noqa: F811
+    """The level of the week, the feed and the records follow from the ledger."""
+    put(runs, "ann.txt", replay(author="Ann"))
+    put(runs, "bea.txt", slow_walk(author="Bea"))
+    put(runs, "cid.txt", replay(level=GOLD_LATER, author="Cid"))
+    shown = published_levels(levels)
+    days = {"ann.txt": "2026-01-02T12:00:00Z", "bea.txt": "2026-01-01T12:00:00Z", "cid.txt": "2025-12-20T12:00:00Z"}
+    ranking = Ranking(judge(runs, shown, jobs=1, dates=lambda key, _: days[key[0]]), shown, USUAL)
+    assert ranking.level_of_the_week == (DIGEST, 2, 2)
+    assert [(each.run.player, [*each.before.values()]) for each in ranking.records] == [
+        ("Ann", [5.0, 5.0]), ("Bea", [None, None]), ("Cid", [None, None]),
+    ]  # fmt: skip
+    assert ranking.contested[0] == DIGEST
+
+
+def test_the_feed_is_atom_and_leads_to_levels(runs: Path, levels: Path, tmp_path: Path) -> None:  # noqa: F811
+    name = "<b>\x1b\u202e&\ud800"
+    put(
+        runs,
+        "ann.txt",
+        replay(author="Ann").replace("author: Ann", f"author: {name.encode('utf-8', 'replace').decode()}"),
+    )
+    board(runs, levels, "--site", str(tmp_path / "site"), "--json", str(tmp_path / "board.json"))
+    feed = ET.fromstring((tmp_path / "site" / "board" / "feed.xml").read_text("utf-8"))
+    atom = "{http://www.w3.org/2005/Atom}"
+    (entry,) = feed.findall(f"{atom}entry")
+    for element in (feed, entry):
+        assert all(element.findtext(f"{atom}{each}") for each in ("id", "title", "updated"))
+    (link,) = entry.findall(f"{atom}link")
+    assert (tmp_path / "site" / "board" / link.attrib["href"]).exists()
+    board(runs, levels, "--site", str(tmp_path / "site"), "--json", str(tmp_path / "board.json"))
+    again = ET.fromstring((tmp_path / "site" / "board" / "feed.xml").read_text("utf-8"))
+    assert again.findtext(f"{atom}entry/{atom}id") == entry.findtext(f"{atom}id")
+
+
+def test_long_lists_go_on_on_other_pages(
+    runs: Path, levels: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,  # noqa: F811
+) -> None:  # fmt: skip
+    monkeypatch.setattr("ninja_game.web.board.parts.PER_PAGE", 3)
+    for wait in range(3, 10):
+        put(runs, f"{wait}.txt", slow_walk(wait, author="Ann"))
+    board(runs, levels, "--site", str(tmp_path / "site"))
+    pages = sorted((tmp_path / "site" / "board" / "levels").glob("*-runs*.html"))
+    assert [path.name.partition("-runs")[2] for path in pages] == ["-2.html", "-3.html", ".html"]
+    rows = [path.read_text("utf-8").count("<tr>") - 1 for path in pages]
+    assert rows == [3, 1, 3]
+    for path in pages:
+        links = [attributes.get("href") for name, attributes in Tags(path.read_text("utf-8")).found if name == "a"]
+        assert len([link for link in links if link and "-runs" in link]) == 2
+    bad = [put(runs, f"bad{number}.txt", "nothing") for number in range(4)]
+    for files in (["rejected-2.html", "rejected.html"], ["rejected.html"]):
+        board(runs, levels, "--site", str(tmp_path / "site"))
+        assert sorted(path.name for path in (tmp_path / "site" / "board").glob("rejected*")) == files
+        bad[0].unlink(missing_ok=True)
+
+
+def test_a_path_has_no_more_points_than_it_needs() -> None:
+    import numpy as np
+
+    straight = np.array([[24.0 + 5 * tick, 36.0] for tick in range(4000)])
+    assert len(path_data(straight)) < 5000
+    assert path_data(straight[:1]) == "M24 36"
