@@ -453,7 +453,7 @@ def build_app(
 
 
 class BossScreen(Screen):
-    """The key that hides the game comes back to it; the key for leaving ends the program."""
+    """The key that hides the game comes back to it, and so does Esc; the key for leaving ends the program."""
 
     def enter(self) -> None:
         """Give the window a dull title too."""
@@ -463,7 +463,9 @@ class BossScreen(Screen):
         pygame.display.set_caption(TITLE)
 
     def handle(self, event: InputEvent) -> None:
-        if "quit" in event.pressed:
+        if event.source == ("keys", "escape"):
+            self.app.pop()
+        elif "quit" in event.pressed:
             self.app.quit()
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:

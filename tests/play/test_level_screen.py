@@ -5,6 +5,8 @@ from __future__ import annotations
 from itertools import pairwise
 from pathlib import Path
 
+import pygame
+
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.recording import Recording
@@ -194,6 +196,12 @@ def test_the_boss_sees_a_sheet_of_figures(app: App, recording: Recording) -> Non
     tap(app, "boss", pictures=2)
     assert app.top is screen
     assert tick <= screen.attempt.simulation.tick <= tick + 2, "time stood still"
+    for leave in (pygame.K_ESCAPE, pygame.K_TAB):
+        tap(app, "boss", pictures=2)
+        assert app.top is not screen
+        pygame.event.post(pygame.event.Event(pygame.KEYDOWN, key=leave, mod=0, unicode="", scancode=0))
+        frames(app)
+        assert app.top is screen, "Esc comes back too, whatever hides"
     tap(app, "boss", pictures=2)
     tap(app, "quit")
     assert not app.running

@@ -150,7 +150,9 @@ class BindingTable(ListView):
 
     def click(self, x: float, y: float) -> bool:
         left, width = self._cells()
-        if left <= x < left + SLOTS * width:
+        if x < left:  # the name of the row: only a slot waits for a press
+            return self.hover(x, y)
+        if x < left + SLOTS * width:
             self.slot = int((x - left) // width)
         return super().click(x, y)
 

@@ -6,7 +6,7 @@ import pytest
 
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.panels import Menu
-from ninja_game.play.menus.settings import PAGES, SLOTS, SettingsScreen, clash
+from ninja_game.play.menus.settings import LIST, PAGES, ROW, SLOTS, Capture, SettingsScreen, clash
 from ninja_game.ui.input.bindings import ACTIONS
 from ninja_game.ui.widgets import Slider
 from tests.support.menu_driver import MenuDriver
@@ -83,6 +83,16 @@ def test_taken_key_asks_what_becomes_of_it(
     assert driver.top() is screen
     assert ("r" in driver.keys.keys["jump"]) == jump
     assert ("r" in driver.keys.keys["retry"]) == retry
+
+
+def test_only_a_click_on_a_slot_waits_for_a_press(driver: MenuDriver, screen: SettingsScreen) -> None:
+    driver.settings_page("Keyboard")
+    x, y, width, _ = LIST
+    driver.mouse(x + 10, y + 2.5 * ROW)
+    assert driver.top() is screen
+    assert screen.tables["keys"].index == 2
+    driver.mouse(x + width / 2, y + 2.5 * ROW)
+    assert driver.shown(Capture)
 
 
 def test_defaults_do_not_clash_and_every_input_has_a_place() -> None:
