@@ -21,6 +21,7 @@ from click.testing import CliRunner
 from ninja_game.cli.main import cli
 from ninja_game.files.user_folder import bundled_replays, data_folder
 from ninja_game.formats.load import load_replays
+from ninja_game.formats.replay.made import Made
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.runs.run import record_replay, run_level
 from ninja_game.web.board.copies import ALIGNED, course_of, edit_distance, nearest
@@ -205,6 +206,20 @@ def test_one_odd_file_does_not_stop_the_others(tmp_path: Path, levels: Path, run
     code, _ = board(runs, levels, "--site", str(tmp_path / "site"), "--json", str(tmp_path / JSON))
     assert code == 0
     assert {"ann.txt", "a\nb.txt"} <= set(rows(tmp_path / JSON))
+
+
+@pytest.mark.parametrize("odd", ["[made:  from a run by Ann]", "odd"])
+def test_a_run_that_cannot_be_written_stops_no_page(
+    odd: str, tmp_path: Path, levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch  # noqa: F811
+) -> None:  # fmt: skip
+    put(runs, "ann.txt", slow_walk(author="Ann"))
+    put(runs, "bea.txt", record().replace("#test#", f"#{odd}#"))
+    if odd == "odd":
+        unwritten = Made(edits=3, begun_by="B" * 1500)
+        monkeypatch.setattr("ninja_game.formats.recording.without_made", lambda comment: (comment, unwritten, ()))
+    code, text = board(runs, levels, "--site", str(tmp_path / "site"))
+    assert (code, "unreadable: bea.txt: not how a run is made" in text) == (0, odd == "odd"), text
+    assert (tmp_path / "site" / "board" / "index.html").exists()
 
 
 def test_a_record_without_a_level_counts_where_one_level_does(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ninja_game.budget import RUN_BUDGET
+from ninja_game.errors import NinjaGameError
 from ninja_game.formats.replay.made import names_of_text, parse_made
 from ninja_game.formats.replay.text import Replay
 from ninja_game.player.catalogue import Entry
@@ -23,7 +24,7 @@ from ninja_game.web.board.collect import RunFolder, Sent
 from ninja_game.web.board.copies import Course, course_of, nearest
 from ninja_game.web.board.players import Players, player_named
 from ninja_game.web.pages.memo import Memo, digest_of, program
-from ninja_game.web.pages.published import PublishedLevels
+from ninja_game.web.pages.published import PublishedLevels, shared_text
 
 Key = tuple[str, int]
 """A run's file, as a path in the folder, and its record there."""
@@ -163,10 +164,7 @@ def judge(
                 rejected.append(Rejected(name, found.record, found.kind, found.why, player_named(found.author), title))
                 continue
             added = dates((name, found.record), found.way) if dates else ""
-            runs.append(
-                Run(name, found.record, found.author, entry, found.tick, found.gold, found.score, added, found.way,
-                    found.presses, found.jumps, *found[11:], digest, sent)
-            )  # fmt: skip
+            runs.append(_run(name, digest, found, entry, sent, added))
     counted, copies = _without_copies(_of_players(sorted(runs, key=_first)), memo)
     return ValidatedRuns(tuple(counted), tuple(sorted([*rejected, *copies], key=lambda each: (each.file, each.record))))
 
@@ -190,7 +188,14 @@ def _judged(
     for result in verify_all((), chunks=chunks(), levels=levels, strict=True, jobs=jobs):
         yield from _remembered(files, memo)
         name, digest, key, sent = files[0]
-        found.append(_row(sent[len(found)], result, folder))
+        row = _row(sent[len(found)], result, folder)
+        entry = shown.entries.get(row.level)
+        if entry and not row.kind:
+            try:
+                shared_text(_run(name, digest, row, entry, folder).replay, entry.named.level)
+            except (NinjaGameError, ValueError) as error:
+                row = Judged(row.record, "unreadable", str(error))
+        found.append(row)
         if len(found) == len(sent):
             memo.note(key, found)
             found = []
@@ -203,6 +208,13 @@ def _remembered(files: deque[tuple[str, str, str, list[Sent]]], memo: Memo) -> I
     while files and not files[0][3]:
         name, digest, key, _ = files.popleft()
         yield name, digest, [Judged(*row) for row in memo.recall(key)]
+
+
+def _run(name: str, digest: str, row: Judged, entry: Entry, folder: RunFolder, added: str = "") -> Run:
+    return Run(
+        name, row.record, row.author, entry, row.tick, row.gold, row.score, added, row.way, row.presses, row.jumps,
+        *row[11:], digest, folder,
+    )  # fmt: skip
 
 
 def _first(run: Run) -> tuple[str, Key]:
