@@ -13,8 +13,10 @@ from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
 from ninja_game.files.tree import Tree
+from ninja_game.runs import archive
 from ninja_game.runs.archive import verify_all
 from ninja_game.runs.chunks import Chunk
+from ninja_game.runs.workers import WorkerLostError
 from ninja_game.web.board import runs as board_runs
 from ninja_game.web.pages.memo import Memo
 from tests.support.forgeries import WALKING, replay
@@ -83,6 +85,17 @@ def test_only_what_is_new_is_simulated_and_written(
     simulated.clear()
     board(runs, levels / "00-0-level.txt", "--site", site, "--again")
     assert simulated == ["ann.txt", "bad.txt", "bea.txt"]
+
+
+def test_a_lost_worker_is_not_remembered(
+    levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch  # noqa: F811
+) -> None:  # fmt: skip
+    put(runs, "ann.txt", replay(author="Ann"))
+    with monkeypatch.context() as patch:
+        died = WorkerLostError("the worker died again and again")
+        patch.setattr(archive, "_verify", lambda asked, job: died)
+        assert "unreadable: ann.txt: the worker died again and again" in board(runs, levels)
+    assert board(runs, levels).startswith("1 run by 1 player")
 
 
 def tree(folder: Path) -> dict[str, bytes]:

@@ -15,7 +15,7 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.formats.replay.made import names_of_text, parse_made
 from ninja_game.formats.replay.text import Replay
 from ninja_game.player.catalogue import Entry
-from ninja_game.runs.archive import verify_all
+from ninja_game.runs.archive import Lost, verify_all
 from ninja_game.runs.chunks import Chunk, Result
 from ninja_game.runs.recording_reader import Unreadable
 from ninja_game.runs.run import run_level
@@ -185,6 +185,7 @@ def _judged(
 
     levels = [entry.named for entry in shown.entries.values()]
     found: list[Judged] = []
+    certain = True
     for result in verify_all((), chunks=chunks(), levels=levels, strict=True, jobs=jobs):
         yield from _remembered(files, memo)
         name, digest, key, sent = files[0]
@@ -196,10 +197,13 @@ def _judged(
             except (NinjaGameError, ValueError) as error:
                 row = Judged(row.record, "unreadable", str(error))
         found.append(row)
+        certain &= not isinstance(result, Lost)
         if len(found) == len(sent):
-            memo.note(key, found)
-            found = []
-            yield name, digest, memo.recall(files.popleft()[2])
+            if certain:
+                memo.note(key, found)
+            files.popleft()
+            yield name, digest, found
+            found, certain = [], True
     yield from _remembered(files, memo)
 
 
