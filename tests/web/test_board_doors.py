@@ -128,6 +128,21 @@ def test_a_run_keeps_the_date_at_which_the_board_took_it_in(tmp_path: Path, leve
     assert str(rows(data)["bea.txt"]["added"]) > "2026-02"
 
 
+def test_a_bad_moment_loses_no_date(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+    data, date = tmp_path / JSON, "2026-01-31T12:00:00Z"
+    good = {"ann.txt": replay(author="Ann"), "bea.txt": record(WALKING + b"\2") + record(b"\0" * 9 + WALKING)}
+    bad = {"ann.txt": replay(author="Ann", gold=77), "bea.txt": "\0"}
+    for step in (good, bad, bad, good):
+        for name, text in step.items():
+            put(runs, name, text)
+        board(runs, levels, "--json", str(data))
+        if step is good:
+            found = json.loads(data.read_text("utf-8"))
+            dates = {(row["file"], row["record"]): row["added"] for row in found["runs"] + found["rejected"]}
+            backdated(data, date, *good)
+    assert dates == {("ann.txt", 0): date, ("bea.txt", 0): date, ("bea.txt", 1): date}
+
+
 def test_the_first_one_in_the_ledger_owns_the_run(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
     data = tmp_path / JSON
     put(runs, "zoe.txt", slow_walk(author="Zoe"), day=900)
