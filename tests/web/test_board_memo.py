@@ -18,6 +18,7 @@ from ninja_game.runs.archive import verify_all
 from ninja_game.runs.chunks import Chunk
 from ninja_game.runs.workers import WorkerLostError
 from ninja_game.web.board import runs as board_runs
+from ninja_game.web.pages import memo
 from ninja_game.web.pages.memo import Memo
 from tests.support.forgeries import WALKING, replay
 from tests.support.samples import WALK_END
@@ -148,13 +149,13 @@ def test_what_comes_with_the_runs_is_not_remembered(
     """Memos, checkpoint logs and ledgers beside the runs, in the pages, or in the current folder judge nothing."""
     put(runs, "ann.txt", slow_walk(author="Ann"))
     board(runs, levels)
-    (memo,) = board_cache.glob("runs-*.json")
-    forged = memo.read_text("utf-8").replace(f", {3600 + 80 - WALK_END - 5}", ", 99999")
-    assert forged != memo.read_text("utf-8")
+    (known,) = board_cache.glob("runs-*.json")
+    forged = known.read_text("utf-8").replace(f", {3600 + 80 - WALK_END - 5}", ", 99999")
+    assert forged != known.read_text("utf-8")
     shutil.rmtree(board_cache)
     simulated.clear()
     for folder in (runs, runs / ".cache", runs / "board-cache", tmp_path / "site" / "board", tmp_path / "site"):
-        put(folder, memo.name, forged)
+        put(folder, known.name, forged)
     put(tmp_path, "site/board/.ninja-game-pages", "made by ninja-game\n")
     put(runs, "board.json", json.dumps({"version": 2, "runs": [], "rejected": []}))
     assert board(runs, levels, "--site", str(tmp_path / "site")).startswith("1 run by 1 player")
@@ -178,11 +179,20 @@ def test_a_cache_folder_where_runs_come_in_is_refused(
 @pytest.mark.parametrize("text", ["", "[]", "{", '"x"', "\0", "[" * 99_999])
 def test_a_broken_memo_is_an_empty_one(text: str, tmp_path: Path) -> None:
     path = put(tmp_path, "memo.json", text)
-    memo = Memo(path)
-    assert memo.recall("key") is None
-    memo.note("key", [1])
-    memo.save()
+    found = Memo(path)
+    assert found.recall("key") is None
+    found.note("key", [1])
+    found.save()
     assert Memo(path).recall("key") == [1]
+
+
+def test_all_code_of_the_program_counts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(memo, "__file__", str(put(tmp_path, "web/pages/memo.py", "")))
+    met = set()
+    for name in ("runs/verify.py", "formats/n14/demo.py", "web/pages/style.css", "__init__.py"):
+        put(tmp_path, name, "x = 1")
+        met.add(memo.program.__wrapped__())
+    assert len(met) == 4
 
 
 def test_other_rules_of_the_world_are_other_runs(

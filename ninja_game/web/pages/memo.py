@@ -8,12 +8,9 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from ninja_game import __version__
 from ninja_game.errors import DAMAGED
 from ninja_game.files.reading import read_bytes
 from ninja_game.files.writing import write_atomically
-from ninja_game.sim.memory.code_digest import code_digest
-from ninja_game.sim.memory.kernels import run_world
 
 MOST_BYTES, MOST_MEMOS = 2**30, 100
 """Of a file: that of a million runs has half of it. How many files stay in their folder: the newest."""
@@ -26,12 +23,10 @@ def digest_of(data: object) -> str:
 
 @cache
 def program() -> str:
-    """Digest of all code that decides what is remembered: of the world's rules, and of boards and pages."""
+    """Digest of what decides what is remembered: all code of the package, and what pages are made of."""
     here = Path(__file__).parent
-    files = sorted((*here.glob("*.*"), *here.with_name("board").glob("*.py")))
-    return digest_of(
-        [__version__, code_digest(run_world, ""), *(sha256(each.read_bytes()).hexdigest() for each in files)]
-    )
+    files = sorted({*here.parents[1].rglob("*.py"), *here.glob("*.*")})
+    return digest_of([sha256(each.read_bytes()).hexdigest() for each in files])
 
 
 class Memo:
