@@ -13,6 +13,7 @@ import zlib
 from dataclasses import replace
 from itertools import takewhile
 from pathlib import Path
+from typing import Any
 from unittest.mock import Mock
 
 import pytest
@@ -24,10 +25,11 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.made import Made
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.runs.run import record_replay, run_level
-from ninja_game.web.board.copies import ALIGNED, course_of, edit_distance, nearest
+from ninja_game.web.board import runs as board_runs
+from ninja_game.web.board.copies import ALIGNED, Course, course_of, edit_distance, nearest
 from ninja_game.web.board.pages import check_site
 from ninja_game.web.board.players import Players, folded
-from ninja_game.web.board.runs import judge
+from ninja_game.web.board.runs import _near_to_another, judge
 from ninja_game.web.pages.published import published_levels
 from tests.support.forgeries import WALKING, record, replay
 from tests.support.reference import require_reference
@@ -429,3 +431,30 @@ def test_few_of_many_runs_are_aligned(monkeypatch: pytest.MonkeyPatch) -> None:
     other = replace(course, presses=0, places=frozenset())
     assert nearest(course, [other] * 500) is None
     assert aligned.call_count == ALIGNED
+
+
+def test_runs_by_two_in_turn_take_no_longer(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each of them is nearer than all before it; and of many only the fastest are compared."""
+    compared = 0
+    places_shared = Course.places_shared
+
+    def counted(self: Course, other: Course) -> int:
+        nonlocal compared
+        compared += 1
+        return places_shared(self, other)
+
+    monkeypatch.setattr(Course, "places_shared", counted)
+    course = Course(b"", frozenset(range(9)), 0, frozenset(map(float, range(1000))))
+    turns: list[Any] = [
+        (
+            Mock(player="Bea" if number % 2 else "Ann", tick=number),
+            replace(course, places=frozenset(range(750 + number))),
+        )
+        for number in range(200)
+    ]
+    found = _near_to_another("Ann", course, turns)
+    assert found is None
+    assert compared <= len(turns)
+    assert (_near_to_another("Cid", course, turns) or turns[0])[0].tick == 199
+    monkeypatch.setattr(board_runs, "MOST_COMPARED", 9)
+    assert (_near_to_another("Cid", course, turns) or turns[0])[0].tick == 8

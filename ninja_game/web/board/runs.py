@@ -6,6 +6,7 @@ import re
 from collections import defaultdict, deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
+from heapq import nsmallest
 from itertools import pairwise
 from pathlib import Path
 from typing import NamedTuple
@@ -21,7 +22,7 @@ from ninja_game.runs.recording_reader import Unreadable
 from ninja_game.runs.run import run_level
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN
 from ninja_game.web.board.collect import RunFolder, Sent
-from ninja_game.web.board.copies import Course, course_of, nearest
+from ninja_game.web.board.copies import Course, course_of, near_ones
 from ninja_game.web.board.players import Players, player_named
 from ninja_game.web.pages.memo import Memo, digest_of, program
 from ninja_game.web.pages.published import PublishedLevels, shared_text
@@ -34,6 +35,9 @@ Dates = Callable[[Key, str], str]
 
 PLAYED, ASSISTED = "played", "assisted"
 """The two ladders; a run of which nobody says how it was made is on the first one."""
+
+MOST_COMPARED = 1000
+"""Earlier runs of a level that a new one is compared with: the fastest, which are worth a copy."""
 
 _LINE = re.compile(r"^(?=[0-9])")
 
@@ -309,13 +313,14 @@ def _course(run: Run) -> Course:
 
 
 def _near_to_another(player: str, course: Course, earlier: list[tuple[Run, Course]]) -> tuple[Run, str] | None:
-    """The earlier run by another player that a run is near to, and how; None where the player's own were before it."""
+    """The run by another player that a run is nearest to, and how, of those before the player's own first near one."""
+    fastest = sorted(nsmallest(MOST_COMPARED, range(len(earlier)), key=lambda each: earlier[each][0].tick))
+
+    def near(*, own: bool) -> list[tuple[int, str]]:
+        chosen = [each for each in fastest if each < until and (earlier[each][0].player == player) == own]
+        return [(chosen[index], words) for index, words in near_ones(course, [earlier[each][1] for each in chosen])]
+
     until = len(earlier)
-    while True:
-        others = [(index, its) for index, (run, its) in enumerate(earlier[:until]) if run.player != player]
-        closest = nearest(course, [its for _, its in others])
-        if closest is None:
-            return None
-        until = others[closest[0]][0]
-        if nearest(course, [its for run, its in earlier[:until] if run.player == player]) is None:
-            return earlier[until][0], closest[1]
+    for _ in range(2):  # inputs are aligned only where nothing else is near
+        until = min((index for index, _ in near(own=True)), default=until)
+    return next(((earlier[index][0], words) for index, words in near(own=False)), None)
