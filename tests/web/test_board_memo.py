@@ -22,7 +22,7 @@ from ninja_game.web.pages import memo
 from ninja_game.web.pages.memo import Memo
 from tests.support.forgeries import WALKING, replay
 from tests.support.samples import WALK_END
-from tests.web.test_board import levels, put, runs, slow_walk  # noqa: F401
+from tests.web.test_board import DIGEST, levels, put, runs, slow_walk  # noqa: F401
 
 
 def board(folder: Path, pack: Path, *words: str) -> str:
@@ -184,6 +184,28 @@ def test_a_broken_memo_is_an_empty_one(text: str, tmp_path: Path) -> None:
     found.note("key", [1])
     found.save()
     assert Memo(path).recall("key") == [1]
+
+
+BROKEN = [7, "x", None, [], [7], [[]], [[0, ""]], [[0, "odd", "why"]], [[0, "", "", "Ann", 5]], [[0, "refused", []]],
+          [[0, "odd", "why", "Ann", DIGEST]]]  # fmt: skip
+
+
+@pytest.mark.parametrize("broken", BROKEN)
+def test_a_broken_row_of_a_memo_is_none(
+    broken: Any, tmp_path: Path, levels: Path, runs: Path, board_cache: Path, simulated: list[str]  # noqa: F811
+) -> None:  # fmt: skip
+    site = tmp_path / "site"
+    put(runs, "ann.txt", replay(author="Ann"))
+    put(runs, "bea.txt", slow_walk(author="Bea"))
+    said = board(runs, levels, "--site", str(site))
+    other = put(tmp_path, "other.txt", "of somebody")
+    for path in board_cache.iterdir():
+        names = {"../other.txt": broken, "": broken, "\0": broken, "/": broken, "board/../../other.txt": broken}
+        path.write_text(json.dumps(dict.fromkeys(json.loads(path.read_text("utf-8")), broken) | names), "utf-8")
+    simulated.clear()
+    assert board(runs, levels, "--site", str(site)) == said
+    assert simulated == ["ann.txt", "bea.txt"]
+    assert other.exists()
 
 
 def test_all_code_of_the_program_counts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -5,11 +5,12 @@ from __future__ import annotations
 import re
 from collections import defaultdict, deque
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from heapq import nsmallest
 from itertools import pairwise
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple, get_type_hints
 
 from ninja_game.budget import RUN_BUDGET
 from ninja_game.errors import NinjaGameError
@@ -39,6 +40,9 @@ PLAYED, ASSISTED = "played", "assisted"
 MOST_COMPARED = 1000
 """Earlier runs of a level that a new one is compared with: the fastest, which are worth a copy."""
 
+KINDS = ("practice", "copy", "refused", "unreadable")
+"""Why a run does not count."""
+
 _LINE = re.compile(r"^(?=[0-9])")
 
 
@@ -63,6 +67,9 @@ class Judged(NamedTuple):
     made: str = ""
     assisted: bool | None = None
     co_authors: str = ""
+
+
+_TYPES = tuple(get_type_hints(Judged).values())
 
 
 @dataclass(frozen=True)
@@ -124,7 +131,7 @@ class Run:
 
 @dataclass(frozen=True)
 class Rejected:
-    """A run, or a file, that does not count. ``kind``: "practice", "copy", "refused" or "unreadable".
+    """A run, or a file, that does not count. ``kind``: one of KINDS.
 
     ``way``, ``added``: of a copy, as a run has them.
     """
@@ -178,21 +185,22 @@ def _judged(
 ) -> Iterator[tuple[str, str, list[Judged]]]:
     """Name, digest and recordings of each file, simulated where the memo does not know them."""
     context = digest_of([program(), RUN_BUDGET, sorted(shown.entries)])
-    files: deque[tuple[str, str, str, list[Sent]]] = deque()
+    files: deque[tuple[str, str, str, list[Sent], list[Judged]]] = deque()
 
     def chunks() -> Iterator[Chunk]:
         for file in folder.files():
             key = digest_of([context, file.digest])
-            sent = folder.recordings(file) if memo.recall(key) is None else []
-            files.append((file.name, file.digest, key, sent))
+            known = _known(memo.recall(key), shown)
+            sent = [] if known else folder.recordings(file)
+            files.append((file.name, file.digest, key, sent, known))
             yield from (each.chunk for each in sent)
 
     levels = [entry.named for entry in shown.entries.values()]
     found: list[Judged] = []
     certain = True
     for result in verify_all((), chunks=chunks(), levels=levels, strict=True, jobs=jobs):
-        yield from _remembered(files, memo)
-        name, digest, key, sent = files[0]
+        yield from _remembered(files)
+        name, digest, key, sent, _ = files[0]
         row = _row(sent[len(found)], result, folder)
         entry = shown.entries.get(row.level)
         if entry and not row.kind:
@@ -208,14 +216,29 @@ def _judged(
             files.popleft()
             yield name, digest, found
             found, certain = [], True
-    yield from _remembered(files, memo)
+    yield from _remembered(files)
 
 
-def _remembered(files: deque[tuple[str, str, str, list[Sent]]], memo: Memo) -> Iterator[tuple[str, str, list[Judged]]]:
+def _known(noted: Any, shown: PublishedLevels) -> list[Judged]:
+    """The recordings of a file as a memo has them; none where that is not what was noted there."""
+    with suppress(TypeError, ValueError):
+        rows = [Judged(*row) for row in noted]
+        for row in rows:
+            known = row.kind in KINDS if row.kind else row.level in shown.entries
+            if not known or not all(map(isinstance, row, _TYPES)):
+                return []
+            parse_made(row.made)
+        return rows
+    return []
+
+
+def _remembered(
+    files: deque[tuple[str, str, str, list[Sent], list[Judged]]],
+) -> Iterator[tuple[str, str, list[Judged]]]:
     """The files in front that the memo knows; they are taken away."""
     while files and not files[0][3]:
-        name, digest, key, _ = files.popleft()
-        yield name, digest, [Judged(*row) for row in memo.recall(key)]
+        name, digest, _, _, known = files.popleft()
+        yield name, digest, known
 
 
 def _run(name: str, digest: str, row: Judged, entry: Entry, folder: RunFolder, added: str = "") -> Run:
@@ -298,7 +321,7 @@ def _remarked(runs: list[Run], memo: Memo) -> list[Run]:
         # A remark depends on all earlier runs of the level, and on nothing else.
         key = digest_of([key, program(), run.entry.digest, run.digest, run.record, run.player])
         said = memo.recall(key)
-        if said is None:
+        if not isinstance(said, str):
             courses += [(each, _course(each)) for each in runs[len(courses) : number + 1]]
             near = _near_to_another(run.player, courses[number][1], courses[:number])
             said = f"{near[1]} the run by {near[0].player} in {near[0].file}" if near else ""
