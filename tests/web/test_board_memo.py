@@ -132,13 +132,16 @@ def test_a_page_that_somebody_changed_is_written_again(tmp_path: Path, levels: P
     assert tree(tmp_path / "site") == before
 
 
-def test_a_run_that_is_withdrawn_leaves_no_file(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+@pytest.mark.parametrize("words", [[], ["--again"]])
+def test_a_run_that_is_withdrawn_leaves_no_file(
+    words: list[str], tmp_path: Path, levels: Path, runs: Path  # noqa: F811
+) -> None:  # fmt: skip
     put(runs, "ann.txt", replay(author="Ann"))
     put(runs, "bea.txt", slow_walk(author="Bea"))
     other = put(tmp_path, "site/replays/0123456789abcdef.txt", "of the gallery")
     board(runs, levels, "--site", str(tmp_path / "site"))
     (runs / "bea.txt").unlink()
-    board(runs, levels, "--site", str(tmp_path / "site"))
+    board(runs, levels, "--site", str(tmp_path / "site"), *words)
     assert len(list((tmp_path / "site" / "replays").iterdir())) == 2
     assert other.exists()
 

@@ -32,22 +32,23 @@ def program() -> str:
 class Memo:
     """Plain values by keys; what is not asked for or noted again is forgotten. ``path``: None: nothing is kept.
 
-    A file that is missing, or no memo, is an empty one: all in it can be found out again. ``again``: as if it were.
+    A file that is missing, or no memo, is an empty one: all in it can be found out again. ``again``: as if it were,
+    but for what is forgotten.
     """
 
     def __init__(self, path: Path | None = None, *, again: bool = False) -> None:
-        self.path = path
+        self.path, self.again = path, again
         self._before: dict[str, Any] = {}
         self._now: dict[str, Any] = {}
         try:
-            found = json.loads(read_bytes(path, MOST_BYTES)) if path and not again else {}
+            found = json.loads(read_bytes(path, MOST_BYTES)) if path else {}
             self._before = found if isinstance(found, dict) else {}
         except (*DAMAGED, OSError):
             pass
 
     def recall(self, key: str) -> Any:
         """What was noted under a key, None for nothing."""
-        if key not in self._now and key in self._before:
+        if key not in self._now and key in self._before and not self.again:
             self._now[key] = self._before[key]
         return self._now.get(key)
 
