@@ -168,14 +168,16 @@ def test_what_comes_with_the_runs_is_not_remembered(
     )
 
 
-@pytest.mark.parametrize("place", ["runs", "runs/deep", "."])
-def test_a_cache_folder_where_runs_come_in_is_refused(
+@pytest.mark.parametrize("place", ["runs", "runs/deep", ".", "site", "site/board/deep"])
+def test_a_cache_folder_among_the_runs_or_pages_is_refused(
     place: str, tmp_path: Path, levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch  # noqa: F811
 ) -> None:  # fmt: skip
     put(runs, "ann.txt", replay(author="Ann"))
     folder = Path(place) if place == "." else tmp_path / place
     monkeypatch.setattr("ninja_game.cli.board_options.cache_folder", lambda: folder)
-    result = CliRunner().invoke(cli, ["board", str(runs), "--levels", str(levels)])
+    site = tmp_path / "site"
+    site.mkdir()
+    result = CliRunner().invoke(cli, ["board", str(runs), "--levels", str(levels), "--site", str(site)])
     assert (result.exit_code, "choose another one" in result.output) == (2, True), result.output
 
 
