@@ -16,7 +16,7 @@ from ninja_game.formats.numbers import format_number
 from ninja_game.formats.replay.headers import COUNT_LIMIT, Headers, Waypoint, read_level, read_waypoints
 from ninja_game.formats.replay.input_runs import Marker, is_marker_name, write_inputs
 from ninja_game.formats.replay.input_text import included_beside, read_inputs
-from ninja_game.formats.replay.made import UNKNOWN, Made, is_told, names_of_text
+from ninja_game.formats.replay.made import UNKNOWN, Made, is_told
 from ninja_game.sim.inputs import MAX_TICKS, Demo, fitted_inputs
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import BODIES, Body
@@ -161,7 +161,7 @@ def parse_replay(text: str, *, file: str = "", level: Level | None = None) -> Re
         made=headers.made(),
         markers=inputs.markers,
         demo_length=length,
-        co_authors=names_of_text(headers.text("co-authors")),
+        co_authors=headers.co_authors(),
     )
     problem = _contradiction(replay)
     if problem:
