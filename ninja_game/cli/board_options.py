@@ -26,7 +26,10 @@ def cache_folder() -> Path:
 
 
 def memo_of(kind: str, about: Path, folder: Path, *, again: bool) -> Memo:
-    """What is remembered of a folder. Raises FileError for a place where people may put files that are not yours."""
+    """What is remembered of a folder, ``about``: the runs in ``folder``, or the pages of them.
+
+    Raises FileError for a place in one of the two, where people may put files that are not yours.
+    """
     from hashlib import sha256
 
     from ninja_game.errors import FileError
@@ -35,8 +38,8 @@ def memo_of(kind: str, about: Path, folder: Path, *, again: bool) -> Memo:
 
     name = sha256(str(about.resolve()).encode("utf-8", "surrogateescape")).hexdigest()[:16]
     path = cache_folder() / f"{kind}-{name}.json"
-    if not path.is_absolute() or is_in(path, folder):
-        what = "your cache folder has a relative path, or lies in the folder of runs"
+    if not path.is_absolute() or is_in(path, folder) or is_in(path, about):
+        what = "your cache folder has a relative path, or lies in the folder of runs, or of the pages"
         raise FileError(what, str(path), hint="runs are judged by nothing that may come with them: choose another one")
     return Memo(path, again=again)
 

@@ -147,7 +147,7 @@ def board(
         if not (site / "index.html").exists():
             click.echo(f"{site} has no page with the game yet: ninja-game site {site}", err=True)
     if data:
-        write_atomically(data, board_text(judged), keep=[folder])
+        write_atomically(data, board_text(judged, before), keep=[folder])
     if not check:
         for each in judged.rejected:
             click.echo(f"{each.kind}: {plain(each.file)}: {plain(each.why)}")

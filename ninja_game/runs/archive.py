@@ -48,6 +48,11 @@ from ninja_game.runs.verify import with_demands
 from ninja_game.runs.workers import ClusterError, WorkerLostError, Workers, in_order, workers
 from ninja_game.sim.level import Level
 
+
+class Lost(Unreadable):
+    """A recording on which workers died: on another machine, or later, it may have a verdict."""
+
+
 JOB_WEIGHT = 64
 """Files or records a job."""
 
@@ -194,7 +199,7 @@ def _record_results(done: Done, log: CheckpointLog | None) -> Iterator[Result]:
     """The results of all jobs, noted in the checkpoint log as they come; what it has already is taken from it."""
     for job, found in done:
         if isinstance(found, WorkerLostError):
-            yield from (Unreadable(f"{chunk.file}: {found}") for chunk in job)
+            yield from (Lost(f"{chunk.file}: {found}") for chunk in job)
             continue
         for chunk, results in zip(job, found, strict=True):
             if log is not None and chunk.done:

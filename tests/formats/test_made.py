@@ -63,6 +63,12 @@ def test_what_a_text_cannot_hold_is_not_written() -> None:
             write_replay(replace(told, **lies))
 
 
+def test_too_many_co_authors_are_told() -> None:
+    text = replay(co_authors=("Bob",)).replace("Bob", ",".join(map(chr, range(0x4E00, 0x4E00 + 499))))
+    with pytest.raises(ReplayError, match=r"^3:13: 1,495 characters .* in 'co-authors'; .* expected at most 1,000"):
+        parse_replay(text)
+
+
 def test_older_texts_say_practice() -> None:
     old = replay().replace("outcome:", "practice: yes\noutcome:")
     assert parse_replay(old).made == Made(played=True, assists=("practice",))
@@ -148,3 +154,15 @@ def test_a_hostile_comment_takes_no_time_and_is_a_comment() -> None:
         "[made: edited 3 from a run by " + "A" * 10**6 + "]",
     ):
         assert without_made(comment) == (comment, UNKNOWN, ())
+
+
+LETTERS = ",".join(map(chr, range(0x4E00, 0x4E00 + 900)))
+
+
+@pytest.mark.parametrize(
+    "told",
+    [" from a run by Ann", "edited 3 from a run by Ann ", f"edited 3; co-authors: {'B' * 1500}",
+     f"edited 3 from a run by {'B' * 1500}", f"edited 3; co-authors: {LETTERS}"],
+)  # fmt: skip
+def test_what_a_text_cannot_hold_is_a_comment(told: str) -> None:
+    assert without_made(f"gold [made: {told}]") == (f"gold [made: {told}]", UNKNOWN, ())

@@ -84,7 +84,9 @@ def test_sources_by_name(words: str, count: int, first: str) -> None:
     assert level_source([words]).names == source.names
 
 
-@pytest.mark.parametrize("wrong", ["", "set", "train:5000000", "test:harder", "train:9-3", "train:-3"])
+@pytest.mark.parametrize(
+    "wrong", ["", "set", "train:5000000", "test:harder", "train:9-3", "train:-3", f"train:{'9' * 5000}"]
+)
 def test_other_names_are_told(wrong: str) -> None:
     with pytest.raises(ArgumentError, match="expected 'bench:train'"):
         level_source(f"bench:{wrong}")

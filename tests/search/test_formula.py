@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import warnings
 from itertools import product
 from pathlib import Path
 
@@ -127,6 +128,13 @@ def test_what_is_no_formula_is_named_with_its_place(text: str, column: int, mess
         parse_truth(text, NAMES, FACTS)
     assert message in str(caught.value)
     assert caught.value.column == column
+
+
+def test_python_warns_of_no_formula() -> None:
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        parse_truth("1<2and 1<2", NAMES, FACTS)
+    assert not said
 
 
 def test_comparisons_in_a_row_hold_together() -> None:

@@ -13,6 +13,7 @@ import zlib
 from dataclasses import replace
 from itertools import takewhile
 from pathlib import Path
+from typing import Any
 from unittest.mock import Mock
 
 import pytest
@@ -20,13 +21,16 @@ from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
 from ninja_game.files.user_folder import bundled_replays, data_folder
+from ninja_game.formats.lines import MOST_NAME
 from ninja_game.formats.load import load_replays
+from ninja_game.formats.replay.made import Made
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.runs.run import record_replay, run_level
-from ninja_game.web.board.copies import ALIGNED, course_of, edit_distance, nearest
+from ninja_game.web.board import runs as board_runs
+from ninja_game.web.board.copies import ALIGNED, Course, course_of, edit_distance, nearest
 from ninja_game.web.board.pages import check_site
 from ninja_game.web.board.players import Players, folded
-from ninja_game.web.board.runs import judge
+from ninja_game.web.board.runs import _near_to_another, judge
 from ninja_game.web.pages.published import published_levels
 from tests.support.forgeries import WALKING, record, replay
 from tests.support.reference import require_reference
@@ -127,6 +131,21 @@ def test_a_run_keeps_the_date_at_which_the_board_took_it_in(tmp_path: Path, leve
     assert str(rows(data)["bea.txt"]["added"]) > "2026-02"
 
 
+def test_a_bad_moment_loses_no_date(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+    data, date = tmp_path / JSON, "2026-01-31T12:00:00Z"
+    good = {"ann.txt": replay(author="Ann"), "bea.txt": record(WALKING + b"\2") + record(b"\0" * 9 + WALKING)}
+    bad = {"ann.txt": replay(author="Ann", gold=77), "bea.txt": "\0"}
+    for step in (good, bad, bad, good):
+        for name, text in step.items():
+            put(runs, name, text)
+        board(runs, levels, "--json", str(data))
+        if step is good:
+            found = json.loads(data.read_text("utf-8"))
+            dates = {(row["file"], row["record"]): row["added"] for row in found["runs"] + found["rejected"]}
+            backdated(data, date, *good)
+    assert dates == {("ann.txt", 0): date, ("bea.txt", 0): date, ("bea.txt", 1): date}
+
+
 def test_the_first_one_in_the_ledger_owns_the_run(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
     data = tmp_path / JSON
     put(runs, "zoe.txt", slow_walk(author="Zoe"), day=900)
@@ -205,6 +224,28 @@ def test_one_odd_file_does_not_stop_the_others(tmp_path: Path, levels: Path, run
     code, _ = board(runs, levels, "--site", str(tmp_path / "site"), "--json", str(tmp_path / JSON))
     assert code == 0
     assert {"ann.txt", "a\nb.txt"} <= set(rows(tmp_path / JSON))
+
+
+def test_a_name_of_letters_that_stand_for_many_is_cut(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+    put(runs, "ann.txt", replay(author="\ufdfa" * MOST_NAME))
+    code, text = board(runs, levels, "--site", str(tmp_path / "site"))
+    (shared,) = (tmp_path / "site" / "replays").iterdir()
+    (run,) = load_replays(shared)
+    assert (code, len(run.author)) == (0, MOST_NAME), text
+
+
+@pytest.mark.parametrize("odd", ["[made:  from a run by Ann]", "odd"])
+def test_a_run_that_cannot_be_written_stops_no_page(
+    odd: str, tmp_path: Path, levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch  # noqa: F811
+) -> None:  # fmt: skip
+    put(runs, "ann.txt", slow_walk(author="Ann"))
+    put(runs, "bea.txt", record().replace("#test#", f"#{odd}#"))
+    if odd == "odd":
+        unwritten = Made(edits=3, begun_by="B" * 1500)
+        monkeypatch.setattr("ninja_game.formats.recording.without_made", lambda comment: (comment, unwritten, ()))
+    code, text = board(runs, levels, "--site", str(tmp_path / "site"))
+    assert (code, "unreadable: bea.txt: not how a run is made" in text) == (0, odd == "odd"), text
+    assert (tmp_path / "site" / "board" / "index.html").exists()
 
 
 def test_a_record_without_a_level_counts_where_one_level_does(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
@@ -399,3 +440,30 @@ def test_few_of_many_runs_are_aligned(monkeypatch: pytest.MonkeyPatch) -> None:
     other = replace(course, presses=0, places=frozenset())
     assert nearest(course, [other] * 500) is None
     assert aligned.call_count == ALIGNED
+
+
+def test_runs_by_two_in_turn_take_no_longer(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each of them is nearer than all before it; and of many only the fastest are compared."""
+    compared = 0
+    places_shared = Course.places_shared
+
+    def counted(self: Course, other: Course) -> int:
+        nonlocal compared
+        compared += 1
+        return places_shared(self, other)
+
+    monkeypatch.setattr(Course, "places_shared", counted)
+    course = Course(b"", frozenset(range(9)), 0, frozenset(map(float, range(1000))))
+    turns: list[Any] = [
+        (
+            Mock(player="Bea" if number % 2 else "Ann", tick=number),
+            replace(course, places=frozenset(range(750 + number))),
+        )
+        for number in range(200)
+    ]
+    found = _near_to_another("Ann", course, turns)
+    assert found is None
+    assert compared <= len(turns)
+    assert (_near_to_another("Cid", course, turns) or turns[0])[0].tick == 199
+    monkeypatch.setattr(board_runs, "MOST_COMPARED", 9)
+    assert (_near_to_another("Cid", course, turns) or turns[0])[0].tick == 8

@@ -13,13 +13,16 @@ from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
 from ninja_game.files.tree import Tree
+from ninja_game.runs import archive
 from ninja_game.runs.archive import verify_all
 from ninja_game.runs.chunks import Chunk
+from ninja_game.runs.workers import WorkerLostError
 from ninja_game.web.board import runs as board_runs
+from ninja_game.web.pages import memo
 from ninja_game.web.pages.memo import Memo
 from tests.support.forgeries import WALKING, replay
 from tests.support.samples import WALK_END
-from tests.web.test_board import levels, put, runs, slow_walk  # noqa: F401
+from tests.web.test_board import DIGEST, levels, put, runs, slow_walk  # noqa: F401
 
 
 def board(folder: Path, pack: Path, *words: str) -> str:
@@ -85,6 +88,17 @@ def test_only_what_is_new_is_simulated_and_written(
     assert simulated == ["ann.txt", "bad.txt", "bea.txt"]
 
 
+def test_a_lost_worker_is_not_remembered(
+    levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch  # noqa: F811
+) -> None:  # fmt: skip
+    put(runs, "ann.txt", replay(author="Ann"))
+    with monkeypatch.context() as patch:
+        died = WorkerLostError("the worker died again and again")
+        patch.setattr(archive, "_verify", lambda asked, job: died)
+        assert "unreadable: ann.txt: the worker died again and again" in board(runs, levels)
+    assert board(runs, levels).startswith("1 run by 1 player")
+
+
 def tree(folder: Path) -> dict[str, bytes]:
     return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*.*") if path.is_file()}
 
@@ -118,13 +132,16 @@ def test_a_page_that_somebody_changed_is_written_again(tmp_path: Path, levels: P
     assert tree(tmp_path / "site") == before
 
 
-def test_a_run_that_is_withdrawn_leaves_no_file(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+@pytest.mark.parametrize("words", [[], ["--again"]])
+def test_a_run_that_is_withdrawn_leaves_no_file(
+    words: list[str], tmp_path: Path, levels: Path, runs: Path  # noqa: F811
+) -> None:  # fmt: skip
     put(runs, "ann.txt", replay(author="Ann"))
     put(runs, "bea.txt", slow_walk(author="Bea"))
     other = put(tmp_path, "site/replays/0123456789abcdef.txt", "of the gallery")
     board(runs, levels, "--site", str(tmp_path / "site"))
     (runs / "bea.txt").unlink()
-    board(runs, levels, "--site", str(tmp_path / "site"))
+    board(runs, levels, "--site", str(tmp_path / "site"), *words)
     assert len(list((tmp_path / "site" / "replays").iterdir())) == 2
     assert other.exists()
 
@@ -135,13 +152,13 @@ def test_what_comes_with_the_runs_is_not_remembered(
     """Memos, checkpoint logs and ledgers beside the runs, in the pages, or in the current folder judge nothing."""
     put(runs, "ann.txt", slow_walk(author="Ann"))
     board(runs, levels)
-    (memo,) = board_cache.glob("runs-*.json")
-    forged = memo.read_text("utf-8").replace(f", {3600 + 80 - WALK_END - 5}", ", 99999")
-    assert forged != memo.read_text("utf-8")
+    (known,) = board_cache.glob("runs-*.json")
+    forged = known.read_text("utf-8").replace(f", {3600 + 80 - WALK_END - 5}", ", 99999")
+    assert forged != known.read_text("utf-8")
     shutil.rmtree(board_cache)
     simulated.clear()
     for folder in (runs, runs / ".cache", runs / "board-cache", tmp_path / "site" / "board", tmp_path / "site"):
-        put(folder, memo.name, forged)
+        put(folder, known.name, forged)
     put(tmp_path, "site/board/.ninja-game-pages", "made by ninja-game\n")
     put(runs, "board.json", json.dumps({"version": 2, "runs": [], "rejected": []}))
     assert board(runs, levels, "--site", str(tmp_path / "site")).startswith("1 run by 1 player")
@@ -151,25 +168,58 @@ def test_what_comes_with_the_runs_is_not_remembered(
     )
 
 
-@pytest.mark.parametrize("place", ["runs", "runs/deep", "."])
-def test_a_cache_folder_where_runs_come_in_is_refused(
+@pytest.mark.parametrize("place", ["runs", "runs/deep", ".", "site", "site/board/deep"])
+def test_a_cache_folder_among_the_runs_or_pages_is_refused(
     place: str, tmp_path: Path, levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch  # noqa: F811
 ) -> None:  # fmt: skip
     put(runs, "ann.txt", replay(author="Ann"))
     folder = Path(place) if place == "." else tmp_path / place
     monkeypatch.setattr("ninja_game.cli.board_options.cache_folder", lambda: folder)
-    result = CliRunner().invoke(cli, ["board", str(runs), "--levels", str(levels)])
+    site = tmp_path / "site"
+    site.mkdir()
+    result = CliRunner().invoke(cli, ["board", str(runs), "--levels", str(levels), "--site", str(site)])
     assert (result.exit_code, "choose another one" in result.output) == (2, True), result.output
 
 
 @pytest.mark.parametrize("text", ["", "[]", "{", '"x"', "\0", "[" * 99_999])
 def test_a_broken_memo_is_an_empty_one(text: str, tmp_path: Path) -> None:
     path = put(tmp_path, "memo.json", text)
-    memo = Memo(path)
-    assert memo.recall("key") is None
-    memo.note("key", [1])
-    memo.save()
+    found = Memo(path)
+    assert found.recall("key") is None
+    found.note("key", [1])
+    found.save()
     assert Memo(path).recall("key") == [1]
+
+
+BROKEN = [7, "x", None, [], [7], [[]], [[0, ""]], [[0, "odd", "why"]], [[0, "", "", "Ann", 5]], [[0, "refused", []]],
+          [[0, "odd", "why", "Ann", DIGEST]]]  # fmt: skip
+
+
+@pytest.mark.parametrize("broken", BROKEN)
+def test_a_broken_row_of_a_memo_is_none(
+    broken: Any, tmp_path: Path, levels: Path, runs: Path, board_cache: Path, simulated: list[str]  # noqa: F811
+) -> None:  # fmt: skip
+    site = tmp_path / "site"
+    put(runs, "ann.txt", replay(author="Ann"))
+    put(runs, "bea.txt", slow_walk(author="Bea"))
+    said = board(runs, levels, "--site", str(site))
+    other = put(tmp_path, "other.txt", "of somebody")
+    for path in board_cache.iterdir():
+        names = {"../other.txt": broken, "": broken, "\0": broken, "/": broken, "board/../../other.txt": broken}
+        path.write_text(json.dumps(dict.fromkeys(json.loads(path.read_text("utf-8")), broken) | names), "utf-8")
+    simulated.clear()
+    assert board(runs, levels, "--site", str(site)) == said
+    assert simulated == ["ann.txt", "bea.txt"]
+    assert other.exists()
+
+
+def test_all_code_of_the_program_counts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(memo, "__file__", str(put(tmp_path, "web/pages/memo.py", "")))
+    met = set()
+    for name in ("runs/verify.py", "formats/n14/demo.py", "web/pages/style.css", "__init__.py"):
+        put(tmp_path, name, "x = 1")
+        met.add(memo.program.__wrapped__())
+    assert len(met) == 4
 
 
 def test_other_rules_of_the_world_are_other_runs(

@@ -13,7 +13,7 @@ from ninja_game.errors import ReplayError
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.lines import MOST_NAME, Line
 from ninja_game.formats.numbers import NAN, parse_number
-from ninja_game.formats.replay.made import Made, parse_made
+from ninja_game.formats.replay.made import Made, names_of_text, parse_made
 from ninja_game.sim.level import Level
 
 W = TypeVar("W", bound=str)
@@ -144,6 +144,14 @@ class Headers:
         if "practice" in self.lines and self.choice("practice", ("yes", "no")) == "yes" and not made.assists:
             return made._replace(played=True, assists=("practice",))
         return made
+
+    def co_authors(self) -> tuple[str, ...]:
+        """The names of who took part."""
+        names = names_of_text(self.text("co-authors"))
+        if (length := len(", ".join(names))) > MOST_NAME:
+            what = f"{length:,} characters of names, with ', ' between them, in 'co-authors'"
+            raise self.error("co-authors", what, f"at most {MOST_NAME:,}")
+        return names
 
     def digest(self, key: str) -> str:
         """64 hex digits; '' without the header."""

@@ -85,6 +85,19 @@ def names_of_text(text: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys(filter(None, (" ".join(name.split()) for name in text.split(",")))))
 
 
+def is_told(made: Made, co_authors: tuple[str, ...]) -> bool:
+    """Whether a replay text can hold how a run was made, and with whom.
+
+    >>> is_told(Made(edits=3), ("Bob",)), is_told(Made(edits=3, begun_by="Ann "), ())
+    (True, False)
+    """
+    told, names = str(made), ", ".join(co_authors)
+    with suppress(ValueError):
+        whole = max(len(told), len(names)) <= MOST_NAME
+        return whole and parse_made(told.strip()) == made and names_of_text(names) == co_authors
+    return False
+
+
 _MARK, _WITH = "[made: ", "; co-authors: "
 
 
@@ -110,5 +123,7 @@ def without_made(comment: str) -> tuple[str, Made, tuple[str, ...]]:
     if start >= 0 and comment.endswith("]") and len(_MARK) + 1 < len(comment) - start <= 2 * MOST_NAME:
         told, _, names = comment[start + len(_MARK) : -1].partition(_WITH)
         with suppress(ValueError):
-            return comment[:start].removesuffix(" "), parse_made(told), names_of_text(names)
+            made, co_authors = parse_made(told), names_of_text(names)
+            if is_told(made, co_authors):
+                return comment[:start].removesuffix(" "), made, co_authors
     return comment, UNKNOWN, ()

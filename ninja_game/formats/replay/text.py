@@ -5,19 +5,18 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any, Self
 
 from ninja_game.errors import ReplayError
 from ninja_game.formats.ascii.reader import write_ascii_level
-from ninja_game.formats.lines import MOST_NAME, Line, numbered_lines
+from ninja_game.formats.lines import Line, numbered_lines
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.numbers import format_number
 from ninja_game.formats.replay.headers import COUNT_LIMIT, Headers, Waypoint, read_level, read_waypoints
 from ninja_game.formats.replay.input_runs import Marker, is_marker_name, write_inputs
 from ninja_game.formats.replay.input_text import included_beside, read_inputs
-from ninja_game.formats.replay.made import UNKNOWN, Made, names_of_text, parse_made
+from ninja_game.formats.replay.made import UNKNOWN, Made, is_told
 from ninja_game.sim.inputs import MAX_TICKS, Demo, fitted_inputs
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import BODIES, Body
@@ -162,7 +161,7 @@ def parse_replay(text: str, *, file: str = "", level: Level | None = None) -> Re
         made=headers.made(),
         markers=inputs.markers,
         demo_length=length,
-        co_authors=names_of_text(headers.text("co-authors")),
+        co_authors=headers.co_authors(),
     )
     problem = _contradiction(replay)
     if problem:
@@ -197,7 +196,7 @@ def _contradiction(replay: Replay) -> tuple[str, ReplayError] | None:
             return key, ReplayError(f"an unknown {key}", found=repr(word), expected=" or ".join(words))
     if replay.unclaimed and (replay.gold or replay.digest or replay.waypoints):
         return "inputs", ReplayError("claims without an outcome", expected=" or ".join(OUTCOMES))
-    if not _is_told(replay):
+    if not is_told(replay.made, replay.co_authors):
         return "made", ReplayError("not how a run is made", found=f"{replay.made!s}, {replay.co_authors}"[:60])
     names = [marker.name for marker in replay.markers]
     if len(set(names)) < len(names) or not all(map(is_marker_name, names)):
@@ -220,15 +219,6 @@ def _contradiction(replay: Replay) -> tuple[str, ReplayError] | None:
         hint = "the level was changed after the recording"
         return "level-digest", ReplayError("the digest is not that of level-data", found=found, hint=hint)
     return None
-
-
-def _is_told(replay: Replay) -> bool:
-    """Whether a text can hold who made a replay, and how."""
-    made, names = str(replay.made), ", ".join(replay.co_authors)
-    with suppress(ValueError):
-        whole = max(len(made), len(names)) <= MOST_NAME
-        return whole and parse_made(made.strip()) == replay.made and names_of_text(names) == replay.co_authors
-    return False
 
 
 def write_replay(replay: Replay) -> str:

@@ -203,7 +203,7 @@ def bench_source(text: str) -> BenchSource:
     numbers = range(COUNTS.get(split, 0))
     if which in GRADES:
         numbers = numbers[list(GRADES).index(which) :: len(GRADES)]
-    elif first.isdecimal() and (last or first).isdecimal():
+    elif len(which) < 20 and first.isdecimal() and (last or first).isdecimal():
         numbers = numbers[int(first) : int(last or first) + 1]
     elif which:
         numbers = range(0)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import ast
 import re
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import reduce
@@ -94,7 +95,8 @@ def _parse(text: str, names: Mapping[str, int], facts: Sequence[str], *, truth: 
         raise FormulaError("a character that no formula has", "", 0, foreign.start() + 1, repr(foreign[0]), expected)
     start = len(text) - len(text.lstrip())
     try:
-        tree = ast.parse(re.sub(r"\s", " ", text.strip()), mode="eval").body
+        with warnings.catch_warnings(action="ignore"):  # of "1and", which Python will not read one day
+            tree = ast.parse(re.sub(r"\s", " ", text.strip()), mode="eval").body
     except SyntaxError as error:
         column = min(start + (error.offset or LONGEST), len(text) + 1)
         found = repr(text[column - 1 :][:30]) if column <= len(text) else "the end"

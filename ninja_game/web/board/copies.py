@@ -78,8 +78,8 @@ def course_of(inputs: bytes, run: RunResult) -> Course:
     return Course(keys, frozenset(strokes), int.from_bytes(presses, "little"), frozenset((x + 1e6 * y).tolist()))
 
 
-def nearest(course: Course, earlier: Sequence[Course]) -> tuple[int, str] | None:
-    """Which earlier course shares most of this one, and what in words; None where none shares enough."""
+def near_ones(course: Course, earlier: Sequence[Course]) -> list[tuple[int, str]]:
+    """Which earlier courses share enough of this one, and what in words; the nearest first."""
     found: list[tuple[float, int, str]] = []
     for index, other in enumerate(earlier):
         if shared := course.places_shared(other):
@@ -95,8 +95,12 @@ def nearest(course: Course, earlier: Sequence[Course]) -> tuple[int, str] | None
         if shared := course.inputs_shared(earlier[index]):
             ticks = len(course.keys)
             found.append((shared / ticks, -index, f"{shared} of its {ticks} ticks have the inputs of"))
-    _, index, words = max(found, default=(0.0, 1, ""))
-    return (-index, words) if words else None
+    return [(-index, words) for _, index, words in sorted(found, reverse=True)]
+
+
+def nearest(course: Course, earlier: Sequence[Course]) -> tuple[int, str] | None:
+    """The first of the near ones; None where no course is near."""
+    return next(iter(near_ones(course, earlier)), None)
 
 
 def edit_distance(ours: bytes, theirs: bytes) -> int:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 
 from ninja_game.files.shown_text import INVISIBLE
+from ninja_game.formats.lines import MOST_NAME
 
 UNNAMED = "unnamed"
 
@@ -25,12 +26,12 @@ _WRITTEN_TOGETHER = frozenset({"CJK", "HIRAGANA", "KATAKANA", "KATAKANA-HIRAGANA
 
 
 def player_named(author: str) -> str:
-    """An author's name in one line, as it was typed.
+    """An author's name in one line, as it was typed; no longer than a name may be: some letters stand for many.
 
     >>> player_named("  Ann "), player_named("")
     ('Ann', 'unnamed')
     """
-    return " ".join(unicodedata.normalize("NFKC", author).split()) or UNNAMED
+    return " ".join(unicodedata.normalize("NFKC", author).split())[:MOST_NAME].rstrip() or UNNAMED
 
 
 @lru_cache(4096)

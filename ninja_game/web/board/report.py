@@ -52,9 +52,20 @@ def _rejected_data(rejected: Rejected) -> dict[str, Any]:
     return {key: getattr(rejected, key) for key in _FIELDS["rejected"]}
 
 
-def board_text(judged: ValidatedRuns) -> str:
-    """A board as JSON, a run a line, so that a difference of two reads well."""
+def board_text(judged: ValidatedRuns, before: tuple[Rows, Rows] = ({}, {})) -> str:
+    """A board as JSON, a run a line, so that a difference of two reads well.
+
+    ``before``: its ledger; a run there whose file does not count or cannot be read now keeps its way and date.
+    """
     data = board_data(judged)
+    counted = {run.key for run in judged.runs}
+    rejected = {(row["file"], row["record"]): row for row in data["rejected"]}
+    for key, old in (before[1] | before[0]).items():
+        whole = rejected.get((key[0], 0), {})
+        row = rejected.get(key) or (whole if whole.get("kind") == "unreadable" else {})
+        if old["way"] and key not in counted and row and row["kind"] != "copy":
+            rejected[key] = row | {"record": key[1], "way": old["way"], "added": old["added"]}
+    data["rejected"] = [rejected[key] for key in sorted(rejected)]
     lines = {key: ",\n".join("  " + json.dumps(row) for row in data[key]) for key in ("runs", "rejected")}
     return f'{{"version": {VERSION}, "runs": [\n{lines["runs"]}\n], "rejected": [\n{lines["rejected"]}\n]}}\n'
 

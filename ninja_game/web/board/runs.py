@@ -5,25 +5,28 @@ from __future__ import annotations
 import re
 from collections import defaultdict, deque
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from heapq import nsmallest
 from itertools import pairwise
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple, get_type_hints
 
 from ninja_game.budget import RUN_BUDGET
+from ninja_game.errors import NinjaGameError
 from ninja_game.formats.replay.made import names_of_text, parse_made
 from ninja_game.formats.replay.text import Replay
 from ninja_game.player.catalogue import Entry
-from ninja_game.runs.archive import verify_all
+from ninja_game.runs.archive import Lost, verify_all
 from ninja_game.runs.chunks import Chunk, Result
 from ninja_game.runs.recording_reader import Unreadable
 from ninja_game.runs.run import run_level
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN
 from ninja_game.web.board.collect import RunFolder, Sent
-from ninja_game.web.board.copies import Course, course_of, nearest
+from ninja_game.web.board.copies import Course, course_of, near_ones
 from ninja_game.web.board.players import Players, player_named
 from ninja_game.web.pages.memo import Memo, digest_of, program
-from ninja_game.web.pages.published import PublishedLevels
+from ninja_game.web.pages.published import PublishedLevels, shared_text
 
 Key = tuple[str, int]
 """A run's file, as a path in the folder, and its record there."""
@@ -33,6 +36,12 @@ Dates = Callable[[Key, str], str]
 
 PLAYED, ASSISTED = "played", "assisted"
 """The two ladders; a run of which nobody says how it was made is on the first one."""
+
+MOST_COMPARED = 1000
+"""Earlier runs of a level that a new one is compared with: the fastest, which are worth a copy."""
+
+KINDS = ("practice", "copy", "refused", "unreadable")
+"""Why a run does not count."""
 
 _LINE = re.compile(r"^(?=[0-9])")
 
@@ -58,6 +67,9 @@ class Judged(NamedTuple):
     made: str = ""
     assisted: bool | None = None
     co_authors: str = ""
+
+
+_TYPES = tuple(get_type_hints(Judged).values())
 
 
 @dataclass(frozen=True)
@@ -119,7 +131,7 @@ class Run:
 
 @dataclass(frozen=True)
 class Rejected:
-    """A run, or a file, that does not count. ``kind``: "practice", "copy", "refused" or "unreadable".
+    """A run, or a file, that does not count. ``kind``: one of KINDS.
 
     ``way``, ``added``: of a copy, as a run has them.
     """
@@ -163,10 +175,7 @@ def judge(
                 rejected.append(Rejected(name, found.record, found.kind, found.why, player_named(found.author), title))
                 continue
             added = dates((name, found.record), found.way) if dates else ""
-            runs.append(
-                Run(name, found.record, found.author, entry, found.tick, found.gold, found.score, added, found.way,
-                    found.presses, found.jumps, *found[11:], digest, sent)
-            )  # fmt: skip
+            runs.append(_run(name, digest, found, entry, sent, added))
     counted, copies = _without_copies(_of_players(sorted(runs, key=_first)), memo)
     return ValidatedRuns(tuple(counted), tuple(sorted([*rejected, *copies], key=lambda each: (each.file, each.record))))
 
@@ -176,33 +185,67 @@ def _judged(
 ) -> Iterator[tuple[str, str, list[Judged]]]:
     """Name, digest and recordings of each file, simulated where the memo does not know them."""
     context = digest_of([program(), RUN_BUDGET, sorted(shown.entries)])
-    files: deque[tuple[str, str, str, list[Sent]]] = deque()
+    files: deque[tuple[str, str, str, list[Sent], list[Judged]]] = deque()
 
     def chunks() -> Iterator[Chunk]:
         for file in folder.files():
             key = digest_of([context, file.digest])
-            sent = folder.recordings(file) if memo.recall(key) is None else []
-            files.append((file.name, file.digest, key, sent))
+            known = _known(memo.recall(key), shown)
+            sent = [] if known else folder.recordings(file)
+            files.append((file.name, file.digest, key, sent, known))
             yield from (each.chunk for each in sent)
 
     levels = [entry.named for entry in shown.entries.values()]
     found: list[Judged] = []
+    certain = True
     for result in verify_all((), chunks=chunks(), levels=levels, strict=True, jobs=jobs):
-        yield from _remembered(files, memo)
-        name, digest, key, sent = files[0]
-        found.append(_row(sent[len(found)], result, folder))
+        yield from _remembered(files)
+        name, digest, key, sent, _ = files[0]
+        row = _row(sent[len(found)], result, folder)
+        entry = shown.entries.get(row.level)
+        if entry and not row.kind:
+            try:
+                shared_text(_run(name, digest, row, entry, folder).replay, entry.named.level)
+            except (NinjaGameError, ValueError) as error:
+                row = Judged(row.record, "unreadable", str(error))
+        found.append(row)
+        certain &= not isinstance(result, Lost)
         if len(found) == len(sent):
-            memo.note(key, found)
-            found = []
-            yield name, digest, memo.recall(files.popleft()[2])
-    yield from _remembered(files, memo)
+            if certain:
+                memo.note(key, found)
+            files.popleft()
+            yield name, digest, found
+            found, certain = [], True
+    yield from _remembered(files)
 
 
-def _remembered(files: deque[tuple[str, str, str, list[Sent]]], memo: Memo) -> Iterator[tuple[str, str, list[Judged]]]:
+def _known(noted: Any, shown: PublishedLevels) -> list[Judged]:
+    """The recordings of a file as a memo has them; none where that is not what was noted there."""
+    with suppress(TypeError, ValueError):
+        rows = [Judged(*row) for row in noted]
+        for row in rows:
+            known = row.kind in KINDS if row.kind else row.level in shown.entries
+            if not known or not all(map(isinstance, row, _TYPES)):
+                return []
+            parse_made(row.made)
+        return rows
+    return []
+
+
+def _remembered(
+    files: deque[tuple[str, str, str, list[Sent], list[Judged]]],
+) -> Iterator[tuple[str, str, list[Judged]]]:
     """The files in front that the memo knows; they are taken away."""
     while files and not files[0][3]:
-        name, digest, key, _ = files.popleft()
-        yield name, digest, [Judged(*row) for row in memo.recall(key)]
+        name, digest, _, _, known = files.popleft()
+        yield name, digest, known
+
+
+def _run(name: str, digest: str, row: Judged, entry: Entry, folder: RunFolder, added: str = "") -> Run:
+    return Run(
+        name, row.record, row.author, entry, row.tick, row.gold, row.score, added, row.way, row.presses, row.jumps,
+        *row[11:], digest, folder,
+    )  # fmt: skip
 
 
 def _first(run: Run) -> tuple[str, Key]:
@@ -278,7 +321,7 @@ def _remarked(runs: list[Run], memo: Memo) -> list[Run]:
         # A remark depends on all earlier runs of the level, and on nothing else.
         key = digest_of([key, program(), run.entry.digest, run.digest, run.record, run.player])
         said = memo.recall(key)
-        if said is None:
+        if not isinstance(said, str):
             courses += [(each, _course(each)) for each in runs[len(courses) : number + 1]]
             near = _near_to_another(run.player, courses[number][1], courses[:number])
             said = f"{near[1]} the run by {near[0].player} in {near[0].file}" if near else ""
@@ -293,13 +336,14 @@ def _course(run: Run) -> Course:
 
 
 def _near_to_another(player: str, course: Course, earlier: list[tuple[Run, Course]]) -> tuple[Run, str] | None:
-    """The earlier run by another player that a run is near to, and how; None where the player's own were before it."""
+    """The run by another player that a run is nearest to, and how, of those before the player's own first near one."""
+    fastest = sorted(nsmallest(MOST_COMPARED, range(len(earlier)), key=lambda each: earlier[each][0].tick))
+
+    def near(*, own: bool) -> list[tuple[int, str]]:
+        chosen = [each for each in fastest if each < until and (earlier[each][0].player == player) == own]
+        return [(chosen[index], words) for index, words in near_ones(course, [earlier[each][1] for each in chosen])]
+
     until = len(earlier)
-    while True:
-        others = [(index, its) for index, (run, its) in enumerate(earlier[:until]) if run.player != player]
-        closest = nearest(course, [its for _, its in others])
-        if closest is None:
-            return None
-        until = others[closest[0]][0]
-        if nearest(course, [its for run, its in earlier[:until] if run.player == player]) is None:
-            return earlier[until][0], closest[1]
+    for _ in range(2):  # inputs are aligned only where nothing else is near
+        until = min((index for index, _ in near(own=True)), default=until)
+    return next(((earlier[index][0], words) for index, words in near(own=False)), None)

@@ -12,7 +12,7 @@ import pygame
 
 from ninja_game.errors import FileError
 from ninja_game.files.shown_text import shown_text
-from ninja_game.files.tree import Tree
+from ninja_game.files.tree import Tree, leads_below
 from ninja_game.play.window import icon, png_of
 from ninja_game.ui.glyphs import CAP
 from ninja_game.ui.lettering import SPACING, WEIGHTS, glyph
@@ -151,7 +151,8 @@ class Pages:
     def finish(self) -> None:
         """Remove what this memo's earlier pages had and these have not, and keep the memo."""
         for name in self._memo.forgotten:
-            self._site.remove(name)
+            if leads_below(name) and name.startswith((f"{self.folder.name}/", f"{REPLAYS}/")):
+                self._site.remove(name)
         self._memo.save()
 
     def clear(self, below: str) -> None:

@@ -8,12 +8,9 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from ninja_game import __version__
 from ninja_game.errors import DAMAGED
 from ninja_game.files.reading import read_bytes
 from ninja_game.files.writing import write_atomically
-from ninja_game.sim.memory.code_digest import code_digest
-from ninja_game.sim.memory.kernels import run_world
 
 MOST_BYTES, MOST_MEMOS = 2**30, 100
 """Of a file: that of a million runs has half of it. How many files stay in their folder: the newest."""
@@ -26,33 +23,32 @@ def digest_of(data: object) -> str:
 
 @cache
 def program() -> str:
-    """Digest of all code that decides what is remembered: of the world's rules, and of boards and pages."""
+    """Digest of what decides what is remembered: all code of the package, and what pages are made of."""
     here = Path(__file__).parent
-    files = sorted((*here.glob("*.*"), *here.with_name("board").glob("*.py")))
-    return digest_of(
-        [__version__, code_digest(run_world, ""), *(sha256(each.read_bytes()).hexdigest() for each in files)]
-    )
+    files = sorted({*here.parents[1].rglob("*.py"), *here.glob("*.*")})
+    return digest_of([sha256(each.read_bytes()).hexdigest() for each in files])
 
 
 class Memo:
     """Plain values by keys; what is not asked for or noted again is forgotten. ``path``: None: nothing is kept.
 
-    A file that is missing, or no memo, is an empty one: all in it can be found out again. ``again``: as if it were.
+    A file that is missing, or no memo, is an empty one: all in it can be found out again. ``again``: as if it were,
+    but for what is forgotten.
     """
 
     def __init__(self, path: Path | None = None, *, again: bool = False) -> None:
-        self.path = path
+        self.path, self.again = path, again
         self._before: dict[str, Any] = {}
         self._now: dict[str, Any] = {}
         try:
-            found = json.loads(read_bytes(path, MOST_BYTES)) if path and not again else {}
+            found = json.loads(read_bytes(path, MOST_BYTES)) if path else {}
             self._before = found if isinstance(found, dict) else {}
         except (*DAMAGED, OSError):
             pass
 
     def recall(self, key: str) -> Any:
         """What was noted under a key, None for nothing."""
-        if key not in self._now and key in self._before:
+        if key not in self._now and key in self._before and not self.again:
             self._now[key] = self._before[key]
         return self._now.get(key)
 
