@@ -31,7 +31,7 @@ def idea(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_record_fills_in_what_comes_of_the_inputs(idea: Path) -> None:
     result = called("record", idea)
     assert result.exit_code == 0, result.output
-    assert result.stdout == f"idea.replay.txt: exit in tick {WALK_END} ({(WALK_END + 1) / 40:.3f} s), 1 gold\n"
+    assert result.stdout == f"idea.replay.txt: exit in tick {WALK_END} ({WALK_END / 40:.3f} s), 1 gold\n"
     (recording,) = load_replays("idea.replay.txt")
     assert verify_recording(recording).good
     assert recording.replay is not None

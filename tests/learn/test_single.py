@@ -47,6 +47,7 @@ def checked(env: NinjaEnv) -> None:
 
 
 @pytest.mark.parametrize("name", the_rest_is_slow([*ENVIRONMENTS], 1))
+@pytest.mark.filterwarnings("ignore:.*out of date:DeprecationWarning")
 def test_gymnasium_finds_nothing_wrong_with_any_id(name: str) -> None:
     checked(made(name))
 

@@ -54,6 +54,8 @@ class Player:
 
     def __init__(self, display: str, home: Path, root: Path, *words: str) -> None:
         self.home = home
+        if not (home / "settings.toml").exists():  # nothing moves without end
+            (home / "settings.toml").write_text("[look]\nreduced-motion = true\n", "utf-8")
         self.environment = os.environ | {
             "DISPLAY": display, "SDL_VIDEODRIVER": "x11", "SDL_AUDIODRIVER": "dummy", "NINJA_GAME_HOME": str(home),
             "PYTHONPATH": str(root),

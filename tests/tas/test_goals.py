@@ -12,7 +12,7 @@ from ninja_game.formats.load import load_replays
 from ninja_game.runs.compare import run_splits
 from ninja_game.search.formula.task import SpanTask, SpanWorlds
 from ninja_game.tas.files import open_run
-from ninja_game.tas.goals import PRESETS, SearchedSpan, collect, collect_too, reach_exit, same_end
+from ninja_game.tas.goals import PRESETS, SearchedSpan, collect, collect_too, reach_exit, same_end, whole_run
 from ninja_game.tas.session import Session
 from tests.support.own_pack import PACK
 
@@ -24,7 +24,9 @@ def session_of_a_run(tmp_path: Path) -> Session:
     return Session(open_run(RUN), tmp_path)
 
 
-@pytest.mark.parametrize("make", [make for *_, make in PRESETS if make not in (collect, collect_too, reach_exit)])
+@pytest.mark.parametrize(
+    "make", [make for *_, make in PRESETS if make not in (collect, collect_too, reach_exit, whole_run)]
+)
 @pytest.mark.parametrize("span", [(0, 40), (100, 150), (300, 333)])
 def test_the_run_itself_is_there_at_the_end_of_the_span(session: Session, make: object, span: tuple[int, int]) -> None:
     wanted = make(SearchedSpan(session, *span))  # type: ignore[operator]

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from ninja_game.batch.batch import Indices
+from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import Worlds
 from ninja_game.sim.memory.plain import PlainWorlds, load_plain
@@ -36,7 +37,10 @@ def new_levels(worlds: Worlds, places: Iterable[int]) -> list[NewLevel]:
         return [
             NewLevel(
                 tiles,
-                [NewObject(k, o.kind, o.x, o.y, o.partner) for k, o in enumerate(w.objects[: w.slots_used])],
+                [
+                    NewObject(k, o.kind, o.x, o.y, o.partner if o.kind == EXIT else 0)
+                    for k, o in enumerate(w.objects[: w.slots_used])
+                ],
                 (w.ninja.x, w.ninja.y),
             )
             for tiles, w in plain
