@@ -113,6 +113,14 @@ def point_at(x: float, y: float) -> int:
     return j * ACROSS + i
 
 
+def points_at(places: NDArray[np.float64]) -> NDArray[np.int64]:
+    """``point_at`` of many places, (count, 2), px; NaN is 0."""
+    limits = np.array([[ACROSS - 1], [DOWN - 1]])
+    i, j = (np.nan_to_num(places).T / SPACING + 0.5).clip(0, limits).astype(np.int64)
+    points: NDArray[np.int64] = j * ACROSS + i
+    return points
+
+
 def widened(field: Field, steps: int = 3) -> Field:
     """The field with values also for impassable points beside passable ones (the ninja may rest between points)."""
     grid = field.reshape(DOWN, ACROSS).copy()

@@ -7,12 +7,12 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ninja_game.backend.memories import open_worlds
 from ninja_game.batch.batch import Batch
 from ninja_game.search.formula.language import Values
-from ninja_game.search.heuristics import ACROSS, DOWN, FARTHEST, SPACING, Field, Heuristics
+from ninja_game.search.heuristics import FARTHEST, Field, Heuristics, points_at
+from ninja_game.search.switches import open_masks
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import Level
 
@@ -47,8 +47,8 @@ class Distances:
 
     def _margins(self, key: object, target: Target) -> Values:
         batch = self._batch
-        places, states = batch.positions, self._states()
-        points = _points(places)
+        places, states = batch.positions, open_masks(batch.objects, self._heuristics.slots)
+        points = points_at(places)
         margins = np.empty(batch.count)
         for state in np.unique(states).tolist():
             here = states == state
@@ -57,19 +57,3 @@ class Distances:
                 self._fields[key, state] = np.minimum(target(state, x, y), np.float32(FARTHEST))
             margins[here] = -1.0 - _SPEED * self._fields[key, state][points[here]]
         return margins
-
-    def _states(self) -> NDArray[np.int64]:
-        """What is open in each world, a bit a switch."""
-        states = np.zeros(self._batch.count, np.int64)
-        for bit, switch in enumerate(self._heuristics.switches):
-            record = self._batch.objects[:, switch.slot]
-            states |= (record["switched" if switch.door else "is_open"] != 0).astype(np.int64) << bit
-        return states
-
-
-def _points(places: NDArray[np.float64]) -> NDArray[np.int64]:
-    """``heuristics.point_at`` of many places; NaN is 0."""
-    limits = np.array([[ACROSS - 1], [DOWN - 1]])
-    i, j = (np.nan_to_num(places).T / SPACING + 0.5).clip(0, limits).astype(np.int64)
-    points: NDArray[np.int64] = j * ACROSS + i
-    return points
