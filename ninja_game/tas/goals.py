@@ -9,6 +9,7 @@ from math import ceil, floor
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
 from ninja_game.runs.compare import run_splits
@@ -16,6 +17,7 @@ from ninja_game.search.formula.task import LONGEST
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.tas.session import Session
+from ninja_game.tas.timeline import Timeline
 
 EXIT_TICKS = 5 * TICKS_PER_SECOND
 """In which the exit is looked for at least, from a run that does not reach it."""
@@ -59,11 +61,20 @@ class SearchedSpan:
         """The ninja at its end. Raises ArgumentError for a span that ends behind the run."""
         return self._ninja(self.last - 1)
 
-    def _ninja(self, tick: int) -> dict[str, float]:
+    def places(self, first: int) -> NDArray[np.float64]:
+        """Where the ninja is from tick ``first`` on to the span's end, (ticks, 2), px. Raises as ``end``."""
+        return self._known(self.last - 1).positions[first : self.last]
+
+    def _known(self, tick: int) -> Timeline:
+        """What is known of the run, up to a tick at least."""
         timeline = self.session.timeline
         timeline.ensure(tick)
         if tick >= timeline.simulated_until:
             raise ArgumentError(f"the span ends in tick {tick}, the run in tick {len(self.session.track) - 1}")
+        return timeline
+
+    def _ninja(self, tick: int) -> dict[str, float]:
+        timeline = self._known(tick)
         found = {name: float(timeline.column(name)[tick]) for name in ("x", "y", "prev_x", "prev_y", "state", "gold")}
         return {**found, "vx": found["x"] - found["prev_x"], "vy": found["y"] - found["prev_y"]}
 
@@ -127,13 +138,12 @@ def collect_too(span: SearchedSpan) -> SpanGoal:
 
 def _piece_left(span: SearchedSpan, first: int) -> int:
     """The id of the piece that is left at the end of the span and is nearest to the way there from a tick on."""
-    _ = span.end
+    x, y = span.places(first).T
     splits = run_splits(span.session.recording(), ("gold-taken",)).splits
     taken = {split.object_id for split in splits if split.tick < span.last}
     pieces = [each for each in span.session.timeline.objects if each[1] == GOLD and each[0] not in taken]
     if not pieces:
         raise ArgumentError("no gold is left at the end of the span")
-    x, y = span.session.timeline.positions[first : span.last].T
     return min(pieces, key=lambda each: float(np.hypot(each[2] - x, each[3] - y).min()))[0]
 
 
