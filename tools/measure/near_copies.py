@@ -22,7 +22,7 @@ from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.run import RunResult, run_level
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
-from ninja_game.web.board.copies import Course, course_of, nearest
+from ninja_game.web.board.copies import Course, course_of, near_ones
 from tests.support.reference import RunRow, positions, recordings
 
 COUNTS = (1, 2, 5, 10, 20, 50, 100, 200)
@@ -106,7 +106,7 @@ def noticed(recording: Recording, kind: str) -> Iterator[tuple[int, bool]]:
     run = run_level(recording.level, inputs)
     first = course_of(inputs[: run.ticks], run)
     for count, changed, result in edited(recording, kind):
-        yield count, result.places == run.places or nearest(course_of(changed, result), [first]) is not None
+        yield count, result.places == run.places or near_ones(course_of(changed, result), [first]) != []
 
 
 def main() -> None:
@@ -114,7 +114,7 @@ def main() -> None:
     parser.add_argument("--certificates", type=int, default=CERTIFICATES)
     arguments = parser.parse_args()
     pairs, equal = honest_pairs()
-    told = [found for one, other in pairs if (found := nearest(course_of_row(other), [course_of_row(one)]))]
+    told = [found for one, other in pairs for found in near_ones(course_of_row(other), [course_of_row(one)])]
     print(f"honest pairs: {len(told)} of {len(pairs)} remarked; {equal} more pairs are equal in every position")
     print("| changes |", " | ".join(map(str, COUNTS)), "|")
     chosen = every_nth([path for path in bundled_replays() if ".exit." in path.name], arguments.certificates)

@@ -98,11 +98,6 @@ def near_ones(course: Course, earlier: Sequence[Course]) -> list[tuple[int, str]
     return [(-index, words) for _, index, words in sorted(found, reverse=True)]
 
 
-def nearest(course: Course, earlier: Sequence[Course]) -> tuple[int, str] | None:
-    """The first of the near ones; None where no course is near."""
-    return next(iter(near_ones(course, earlier)), None)
-
-
 def edit_distance(ours: bytes, theirs: bytes) -> int:
     """How many ticks must be changed, added or left out to make one from the other.
 

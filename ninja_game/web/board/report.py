@@ -14,12 +14,10 @@ from ninja_game.files.reading import read_utf8
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.web.board.ranking import Ranking
-from ninja_game.web.board.runs import PLAYED, Dates, Key, Rejected, Run, ValidatedRuns
+from ninja_game.web.board.runs import KINDS, PLAYED, Dates, Key, Rejected, Run, ValidatedRuns
 
 VERSION = 2
 DATE = "%Y-%m-%dT%H:%M:%SZ"
-
-IN_WORDS = {"practice": "of practice", "copy": "copied", "refused": "refused", "unreadable": "unreadable"}
 
 Rows = dict[Key, dict[str, Any]]
 
@@ -171,5 +169,5 @@ def summary(judged: ValidatedRuns) -> str:
     counts = ("run", judged.runs), ("player", players), ("level", levels)
     runs, by, on = (counted(len(each), name, f"{name}s") for name, each in counts)
     kinds = Counter(each.kind for each in judged.rejected)
-    rejected = ", ".join(f"{kinds[kind]} {IN_WORDS[kind]}" for kind in sorted(kinds))
+    rejected = ", ".join(f"{kinds[kind]} {KINDS[kind]}" for kind in sorted(kinds))
     return f"{runs} by {by} on {on}; rejected: {rejected or 'none'}"

@@ -40,8 +40,8 @@ PLAYED, ASSISTED = "played", "assisted"
 MOST_COMPARED = 1000
 """Earlier runs of a level that a new one is compared with: the fastest, which are worth a copy."""
 
-KINDS = ("practice", "copy", "refused", "unreadable")
-"""Why a run does not count."""
+KINDS = {"practice": "of practice", "copy": "copied", "refused": "refused", "unreadable": "unreadable"}
+"""Why a run does not count, and that in words."""
 
 _LINE = re.compile(r"^(?=[0-9])")
 
