@@ -72,6 +72,8 @@ class Layout:
         for number, each in enumerate(self.texts):
             if each.cut or not window.contains(each.ink):
                 yield f"{each.text!r} is cut"
+            if each.text.endswith("...") and "WWW" not in each.text:
+                yield f"{each.text!r} is shortened, and is no name"
             box = min(
                 (box for box in self.boxes if box.collidepoint(each.ink.center)), key=lambda box: box.w * box.h,
                 default=window,

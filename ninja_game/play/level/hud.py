@@ -9,19 +9,17 @@ from functools import lru_cache
 import pygame
 
 from ninja_game.files.shown_text import shown_text
-from ninja_game.formats.pack.pars import Pars
-from ninja_game.formats.run_time import seconds_text
+from ninja_game.formats.run_time import rounded_text, seconds_text
 from ninja_game.formats.sayings import named_keys, things_named
 from ninja_game.play.level.play import DEATH_PAUSE, LevelPlay, Phase
 from ninja_game.play.level.sayings import FALL_HELP, WHY
-from ninja_game.play.menus.thumbnails import PAR_WIDE, draw_pars
 from ninja_game.player.marks import Mark, next_par
 from ninja_game.player.statistics import SELF
 from ninja_game.sim.collision.tiles import FULL, SHAPE
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.level import ROWS
-from ninja_game.sim.rules import CELL, GOLD_BONUS, LIFETIME
+from ninja_game.sim.rules import CELL, LIFETIME
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.theme import Palette, Theme, mixed, wrapped
 from ninja_game.ui.widgets import draw_medal
@@ -64,8 +62,8 @@ class HudView:
     ``lifetime``: ticks, for the time bar; ``label``: a word in its place. ``foot``: texts at the left and the right of
     the border below. ``keys``: those of the present tick, ``frame_ms``: of the last picture; None: not shown.
     ``said``: a text of the level, and the tiles of which it covers those that are full, () for the border below.
-    ``named``: what it names, and where that is, px. ``message``: title and lines of a panel, and its top; ``pars``: the
-    medals under its title, and the tick of the pass; ``stamp``: how far the best of them has come down, 0…1.
+    ``named``: what it names, and where that is, px. ``message``: title and lines of a panel, and its top; ``medal``:
+    that of the pass, or "", and ``stamp``: how far it has come down, 0…1.
     """
 
     lifetime: float
@@ -76,7 +74,7 @@ class HudView:
     said: tuple[str, tuple[int, ...]] | None = None
     named: Sequence[tuple[str, float, float]] = ()
     message: tuple[str, Sequence[str], float] | None = None
-    pars: tuple[Pars, int] | None = None
+    medal: str = ""
     stamp: float = 1.0
 
 
@@ -98,7 +96,7 @@ class Hud:
             written.append(self.said(surface, *view.said))
             written += [self.pointer(surface, *named) for named in view.named]
         if view.message is not None:
-            written.append(self.message(surface, *view.message, pars=view.pars, stamp=view.stamp))
+            written.append(self.message(surface, *view.message, medal=view.medal, stamp=view.stamp))
         return written
 
     def time_bar(self, surface: pygame.Surface, lifetime: float) -> pygame.Rect:
@@ -153,30 +151,27 @@ class Hud:
         lines: Sequence[str],
         y: float,
         *,
-        pars: tuple[Pars, int] | None = None,
+        medal: str = "",
         stamp: float = 1.0,
     ) -> pygame.Rect:
-        """A panel: a title, the medals or none, and lines under it, from ``y`` on."""
+        """A panel: a title, a medal left of it or none, and lines under them, from ``y`` on."""
         theme = self.theme
-        medal = pars[0].medal(pars[1]) if pars else ""
-        row, below, beside = (4 * PAR_WIDE - 12.0, 34, PRIZE + 14) if pars else (0.0, 0, 0)
-        heads = theme.width(title, TITLE, bold=True) + beside, row + beside
-        w = max(220.0, *heads, *(theme.width(line, LINE) for line in lines)) + 44
+        below, beside = (26, PRIZE + 14) if medal else (0, 0)
+        head = theme.width(title, TITLE, bold=True)
+        w = max(220.0, head + beside, *(theme.width(line, LINE) for line in lines)) + 44
         h = 48.0 + 18 * len(lines) + below
         y = min(y, LOWEST - h)
         rect = theme.panel(surface, (WIDTH - w) / 2, y, w, h, 4)
+        if medal and stamp > STAMP_SEEN:
+            # Before the words, so that it covers none of them while it comes down.
+            size = PRIZE * (1 + 1.5 * (1 - stamp) ** 2)
+            draw_medal(surface, theme, medal, (WIDTH - head - 14) / 2, y + 9 + PRIZE / 2, size)
+            rect = rect.inflate(theme.canvas.px(PRIZE), theme.canvas.px(PRIZE))
         middle = (WIDTH + beside) / 2
-        theme.text(surface, title, middle, y + 9, size=TITLE, align="centre", bold=True)
+        theme.text(surface, title, middle, y + 9 + below / 2, size=TITLE, align="centre", bold=True)
         for k, line in enumerate(lines):
             colour = theme.palette.text if k < len(lines) - 1 else theme.palette.faint
             theme.text(surface, line, WIDTH / 2, y + 41 + below + 18 * k, size=LINE, colour=colour, align="centre")
-        if pars:
-            left = middle - row / 2
-            draw_pars(surface, theme, *pars, left, y + 44)
-        if medal and stamp > STAMP_SEEN:
-            size = PRIZE * (1 + 1.5 * (1 - stamp) ** 2)
-            draw_medal(surface, theme, medal, left - beside / 2 - 4, y + 12 + PRIZE / 2, size)
-            rect = rect.inflate(theme.canvas.px(PRIZE), theme.canvas.px(PRIZE))
         return rect
 
     def pointer(self, surface: pygame.Surface, name: str, x: float, y: float) -> pygame.Rect:
@@ -287,7 +282,8 @@ def hud_view(play: LevelPlay) -> HudView:
         keys = f"{key('confirm')}: go on    {key('retry')}: retry    {key('replay')}: replay"
         if not context.leads_on:
             keys = f"{key('confirm')}: play it again    {key('replay')}: replay    {key('back')}: leave"
-        message = f"Passed in {seconds_text(attempt.ended_tick)} s", [*_reached(play), keys], y
+        time = f"{rounded_text(attempt.ended_tick)} s"
+        message = f"{play.medal.capitalize() or 'Passed'}    {time}", [*_reached(play), keys], y
     hint = _hint(play, key)
     name = shown_text(context.title)
     title = f"{name} ({play.aim})" if play.phase is Phase.READY and play.aim else name
@@ -303,24 +299,18 @@ def hud_view(play: LevelPlay) -> HudView:
         said=said,
         message=message,
         named=_named(play, text),
-        pars=(context.pars, attempt.ended_tick) if context.pars and play.medal else None,
+        medal=play.medal,
         stamp=play.stamp,
     )
 
 
 def _reached(play: LevelPlay) -> list[str]:
-    """By how much a passed run missed the next medal; what the level was worth, the clock, what that has brought."""
+    """What the next medal needs; the gold of a passed run and what its clock shows; what that has brought."""
     attempt, pars = play.attempt, play.context.pars
-    tick, won = attempt.ended_tick, attempt.gold * GOLD_BONUS
+    following = [next_par(pars, Mark(attempt.ended_tick, 0)) or "The best medal"] if pars and play.medal else []
     gold = f"{attempt.gold} of {play.all_gold} gold"
-    left, score = seconds_text(LIFETIME - tick), seconds_text(attempt.score)
-    lines = [f"Score of this level: {left} s left + {seconds_text(won)} s for {gold} = {score} s"]
-    if pars and play.medal:
-        following = next_par(pars, Mark(tick, 0)) or "the best medal of all"
-        lines.insert(0, following[0].upper() + following[1:])
-    if carries := play.context.carries_on:
-        lines.append(f"The clock {carries}: {seconds_text(attempt.lifetime)} s")
-    return [*lines, *filter(None, ["    ".join(play.notices)])]
+    clock = "" if play.context.practice_mode else f"    {rounded_text(attempt.lifetime)} s left"
+    return [*following, gold + clock, *filter(None, ["    ".join(play.notices)])]
 
 
 def _named(play: LevelPlay, text: str) -> list[tuple[str, float, float]]:
