@@ -85,7 +85,7 @@ class LevelContext:
         return self.entry.pars if self.body == "circle" else None
 
     def aim(self) -> str:
-        """The next medal of the level and what it needs, in words; "" before the first pass, after the last, in practice."""
+        """What the level's next medal needs, in words; "" before the first pass, after the last, in practice."""
         mark = self.data.marks.of(self.entry.digest)
         return "" if self.pars is None or self.practice_mode or mark is None else next_par(self.pars, mark)
 

@@ -191,6 +191,10 @@ def test_levels_of_a_locked_episode_are_locked_everywhere(driver: MenuDriver) ->
     browser = driver.open("Levels")
     assert isinstance(browser, Browser)
     place = next(k for k, each in enumerate(browser.shown) if each.episode == "01-0")
+    browser.list._select(place)
+    assert not browser.play_it.enabled
+    assert not browser.practice.enabled
+    assert browser.practice.hint == "Locked: pass episode 1 first"
     browser.play(place)
     assert browser.message == "Locked: pass episode 1 first"
     assert driver.top() is browser
