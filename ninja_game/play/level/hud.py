@@ -17,8 +17,8 @@ from ninja_game.player.marks import Mark, next_par
 from ninja_game.player.statistics import SELF
 from ninja_game.sim.collision.tiles import FULL, SHAPE
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
-from ninja_game.sim.kinds import EXIT, SWITCH
-from ninja_game.sim.level import ROWS
+from ninja_game.sim.kinds import EXIT, GOLD, SWITCH
+from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL, LIFETIME
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.theme import Palette, Theme, mixed, wrapped
@@ -55,13 +55,21 @@ def trough(palette: Palette) -> pygame.Color:
     return mixed(palette.tile, palette.outline, 0.8)
 
 
+KeyName = Callable[[str], str]
+"""Gives what to press for an action."""
+
+Things = tuple[tuple[float, float], ...]
+"""Where things are, px."""
+
+
 @dataclass(frozen=True)
 class HudView:
     """What is written over a level now.
 
     ``lifetime``: ticks, for the time bar; ``label``: a word in its place. ``foot``: texts at the left and the right of
     the border below. ``keys``: those of the present tick, ``frame_ms``: of the last picture; None: not shown.
-    ``said``: a text of the level, and the tiles of which it covers those that are full, () for the border below.
+    ``said``: a text of the level, the tiles of which it covers those that are full, () for the border below, and the
+    places of the things that it must not cover.
     ``named``: what it names, and where that is, px. ``message``: title and lines of a panel, and its top; ``medal``:
     that of the pass, or "", and ``stamp``: how far it has come down, 0…1.
     """
@@ -71,7 +79,7 @@ class HudView:
     foot: tuple[str, str]
     keys: int | None = None
     frame_ms: float | None = None
-    said: tuple[str, tuple[int, ...]] | None = None
+    said: tuple[str, tuple[int, ...], Things] | None = None
     named: Sequence[tuple[str, float, float]] = ()
     message: tuple[str, Sequence[str], float] | None = None
     medal: str = ""
@@ -188,7 +196,7 @@ class Hud:
         theme.text(surface, name, middle, top + 3, size=POINTER, colour=palette.panel, align="centre", bold=True)
         return box.inflate(theme.canvas.px(4), theme.canvas.px(18))
 
-    def said(self, surface: pygame.Surface, text: str, tiles: tuple[int, ...] = ()) -> pygame.Rect:
+    def said(self, surface: pygame.Surface, text: str, tiles: tuple[int, ...] = (), things: Things = ()) -> pygame.Rect:
         """A text of the level in a panel over what is solid; without tiles in the border below, beside the gold."""
         theme = self.theme
         in_border = not tiles
@@ -197,7 +205,7 @@ class Hud:
         margin, high = (3, 17) if in_border else (10, 20)
         w = max(theme.width(line, size) for line in lines) + 28
         h = high * len(lines) + 2 * margin - 1.0
-        left, y = ((WIDTH - w) / 2, IN_BORDER) if in_border else solid_place(tiles, w, h)
+        left, y = ((WIDTH - w) / 2, IN_BORDER) if in_border else solid_place(tiles, w, h, things)
         rect = theme.panel(surface, left, y, w, h, 4)
         for k, line in enumerate(lines):
             top = y + margin + high * k + (high - size) / 2
@@ -219,22 +227,34 @@ class Hud:
 
 
 @lru_cache(maxsize=4)
-def solid_place(tiles: tuple[int, ...], w: float, h: float) -> tuple[float, float]:
-    """Upper left corner of a panel of that size, px, where it covers the fewest tiles that are not full.
+def solid_place(tiles: tuple[int, ...], w: float, h: float, things: Things = ()) -> tuple[float, float]:
+    """Upper left corner of a panel of that size, px, where it covers none of the things and the least of any way.
 
-    Of equal places it is the one nearest to the middle of a border.
+    What is full is no way, open space far from all that is full hardly one. Of equal places it is the one nearest to
+    the middle of a border.
     """
+    full = [SHAPE[tile] == FULL for tile in tiles]
+
+    def way(column: int, row: int) -> int:
+        around = [full[a * ROWS + b] for a in range(column - 1, column + 2) for b in range(row - 1, row + 2)
+                  if 0 <= a < COLUMNS and 0 <= b < ROWS]  # fmt: skip
+        return 0 if full[column * ROWS + row] else 4 if any(around) or len(around) < 9 else 1
 
     def cost(place: tuple[float, float]) -> tuple[int, float]:
         x, y = place
         columns, rows = (range(int(a // CELL) - 1, int((a + b - 1) // CELL)) for a, b in ((x, w), (y, h)))
-        covered = [tiles[column * ROWS + row] for column in columns for row in rows if row < ROWS]
-        return sum(SHAPE[tile] != FULL for tile in covered), abs(x + w / 2 - WIDTH / 2) + min(y, HEIGHT - y - h)
+        covered = sum(ways[column * ROWS + row] for column in columns for row in rows if row < ROWS)
+        hidden = sum(x - NEAR < a < x + w + NEAR and y - NEAR < b < y + h + NEAR for a, b in things)
+        return covered + 100 * hidden, abs(x + w / 2 - WIDTH / 2) + min(y, HEIGHT - y - h)
 
+    ways = [way(*divmod(place, ROWS)) for place in range(COLUMNS * ROWS)]
     edge = CELL + 4
     lefts = [edge + k * (WIDTH - 2 * edge - w) / 8 for k in range(9)]
     return min(((x, y) for x in lefts for y in range(int(edge), int(LOWEST - h), 6)), key=cost)
 
+
+NEAR = 16.0
+"""px that a panel keeps from the middle of a thing."""
 
 ABOVE, BELOW = 34.0, 474.0
 """Where the panel of a passed level begins: near the upper or the lower border."""
@@ -259,9 +279,6 @@ _TOOLS_NAMED = 600
 
 _THINGS = {"switch": SWITCH, "exit": EXIT}
 
-KeyName = Callable[[str], str]
-"""Gives what to press for an action."""
-
 
 def hud_view(play: LevelPlay) -> HudView:
     """What is written over a level now."""
@@ -273,7 +290,7 @@ def hud_view(play: LevelPlay) -> HudView:
     y = ABOVE if attempt.simulation.world.ninja.y > HEIGHT / 2 else BELOW
     text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.sayings.text
     still = play.phase is Phase.READY
-    said = (named_keys(text, key), context.level.tiles if still else ()) if text else None
+    said = (named_keys(text, key), context.level.tiles if still else (), _things(play)) if text else None
     if play.phase is Phase.DEAD:
         # The line of keys keeps its place until it comes.
         cause, _, why = cause_of_death(play).partition(". ")
@@ -302,6 +319,12 @@ def hud_view(play: LevelPlay) -> HudView:
         medal=play.medal,
         stamp=play.stamp,
     )
+
+
+def _things(play: LevelPlay) -> Things:
+    """Where what a player looks for at the start is: the ninja and all that is no gold."""
+    world = play.attempt.simulation.world
+    return ((world.ninja.x, world.ninja.y), *((o.x, o.y) for o in world.objects[1:] if o.kind != GOLD))
 
 
 def _reached(play: LevelPlay) -> list[str]:
