@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from ninja_game.formats.pack.pars import MEDALS, Pars
-from ninja_game.formats.run_time import seconds_text
+from ninja_game.formats.run_time import rounded_text
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.store import Store
 
@@ -65,14 +65,11 @@ def opens_author(entry: Entry, mark: Mark | None) -> bool:
 
 
 def next_par(pars: Pars, mark: Mark | None) -> str:
-    """The medal after the one that a mark brings, its par, and by how much it was missed; "" after the best."""
+    """The medal after the one that a mark brings, and how much faster a run must be for it; "" after the best."""
     if mark is None:
-        return f"{MEDALS[-1]} medal: pass it"
+        return f"Pass it for {MEDALS[-1]}"
     medal = pars.next_medal(mark.fastest)
-    if not medal:
-        return ""
-    par = pars.par(medal)
-    return f"{medal} medal: {seconds_text(par)} s, missed by {seconds_text(mark.fastest - par)} s"
+    return f"{rounded_text(mark.fastest - pars.par(medal))} s faster for {medal}" if medal else ""
 
 
 def has_all_gold(entry: Entry, mark: Mark | None) -> bool:

@@ -71,11 +71,6 @@ class LevelContext:
         return True
 
     @property
-    def carries_on(self) -> str:
-        """What the clock does after a pass, in words; "" where it ends with the level."""
-        return ""
-
-    @property
     def title(self) -> str:
         """How the level is announced."""
         return self.entry.title
@@ -90,7 +85,7 @@ class LevelContext:
         return self.entry.pars if self.body == "circle" else None
 
     def aim(self) -> str:
-        """The next medal of the level and its par, in words; "" before the first pass, after the last, in practice."""
+        """What the level's next medal needs, in words; "" before the first pass, after the last, in practice."""
         mark = self.data.marks.of(self.entry.digest)
         return "" if self.pars is None or self.practice_mode or mark is None else next_par(self.pars, mark)
 
@@ -281,13 +276,6 @@ class EpisodeRun(LevelContext):
     @property
     def title(self) -> str:
         return self.episode.title(self.position)
-
-    @property
-    def carries_on(self) -> str:
-        """It goes on until the episode ends."""
-        if self.practice_mode:
-            return ""
-        return "at the end is the score of the episode" if self.is_last else "goes on into the next level"
 
     @property
     def is_last(self) -> bool:

@@ -19,11 +19,12 @@ class ListView(Widget):
     """Cells of one size in ``columns`` columns, top to bottom; one is selected. One column: a list.
 
     ``choose`` is called with the number of a cell that is confirmed or clicked, ``selected`` when the selection moves.
+    ``opens``: to choose is to leave the screen, so the first click selects, a second one on the same cell chooses.
     """
 
     def __init__(
         self, area: Area, cell_height: float, draw_row: DrawRow, choose: Callable[[int], object], *,
-        selected: Callable[[int], object] = lambda _: None, empty: str = "", hint: str = "",
+        selected: Callable[[int], object] = lambda _: None, empty: str = "", hint: str = "", opens: bool = False,
     ) -> None:  # fmt: skip
         super().__init__(area, hint=hint)
         self.cell_height = cell_height
@@ -32,6 +33,8 @@ class ListView(Widget):
         self.choose = choose
         self.selected = selected
         self.empty = empty
+        self.opens = opens
+        self._clicked = -1
         self.count = 0
         self.index = 0
         self.first = 0
@@ -52,6 +55,7 @@ class ListView(Widget):
 
     def _select(self, index: int) -> None:
         self.index = min(max(0, index), max(0, self.count - 1))
+        self._clicked = -1
         line = self.index // self.columns
         self.first = max(min(self.first, line), line - self.visible_lines + 1, 0)
         if self.count:
@@ -104,14 +108,17 @@ class ListView(Widget):
             return self.drag(x, y)
         index = self._index_at(x, y)
         if index is not None:
+            again = index == self._clicked or not self.opens
             self._select(index)
-            self.choose(index)
+            self._clicked = index
+            if again:
+                self.choose(index)
         return index is not None
 
     def hover(self, x: float, y: float) -> bool:
-        """The mouse is over it: select what is there; whether that changed anything."""
+        """The mouse is over it: select what is there, unless that takes a click; whether that changed anything."""
         index = self._index_at(x, y)
-        if index is None or index == self.index:
+        if index is None or index == self.index or self.opens:
             return False
         self.index = index
         self.selected(index)

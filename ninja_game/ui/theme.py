@@ -283,7 +283,7 @@ SAFE_DARK = _palette(
 MORNING = _palette(
     "morning", scenery="hills", background="#fae3d2", sky="#c9d3f2", far="#e3d3dd", near="#cdbfd6", tile="#46557f",
     text="#1c1730", faint="#5b5472", on_tile="#f6eef2", panel="#fbeee4", panel_edge="#a497b4", ninja="#1b1730",
-    accent="#a8324a", band="#a8324a", bar_full="#c0d4ff", dark="#4f4868", middle="#6a6289", light="#857da8",
+    accent="#a8324a", band="#d8204c", bar_full="#c0d4ff", dark="#4f4868", middle="#6a6289", light="#857da8",
     gold="#c48a00", exit="#6a3ca4", exit_light="#fff6e0", electric="#0058a8", dust="#a596a8", smoke="#8a8296",
 )  # fmt: skip
 

@@ -8,8 +8,9 @@ import pytest
 from ninja_game.play.level.hud import trough
 from ninja_game.player.settings import BY_COLUMN, DEFAULT_PALETTE, Settings
 from ninja_game.ui.scenery import SCENERIES
-from ninja_game.ui.theme import MOODS, PALETTES, ROLES, Palette, palette_named
+from ninja_game.ui.theme import MOODS, NINJA_COLOURS, PALETTES, ROLES, Palette, palette_named
 from ninja_game.view.effects import particles
+from ninja_game.view.ninja.figure import edge_of
 from ninja_game.view.sprites import moving_sprites as moving, static_sprites as static
 from ninja_game.view.sprites.drawing import Drawing, SpriteBook, SpriteKey
 
@@ -61,6 +62,9 @@ def test_text_and_ninja_stand_out(palette: Palette) -> None:
     assert contrast(palette.on_tile, palette.tile) >= 3.2
     assert contrast(palette.ninja, palette.background) >= 7
     assert contrast(palette.tile, palette.background) >= 1.7
+    for colour in (palette.ninja, *filter(None, map(pygame.Color, NINJA_COLOURS[1:]))):
+        # Whatever lies behind: one of the two is far from it.
+        assert contrast(edge_of(colour), colour) >= 3
     for role in ("accent", "good", "bad", "mine", "weapon", "laser"):
         assert contrast(getattr(palette, role), palette.background) >= 2, role
 

@@ -18,6 +18,9 @@ from ninja_game.ui.lettering import Lettering
 from ninja_game.ui.theme import Theme
 from ninja_game.ui.widgets import Widget
 
+LONG_NAME = 8 * "W"
+"""In what has no length of its own, names and paths, and may be shortened."""
+
 SMALLEST_BOX = (60.0, 14.0)
 """Logical px from which on a filled rectangle is a panel that its texts must not leave."""
 
@@ -39,6 +42,7 @@ class Layout:
     texts: list[Written] = field(default_factory=list)
     boxes: list[pygame.Rect] = field(default_factory=list)
     owners: list[Widget] = field(default_factory=list)
+    shortened: set[str] = field(default_factory=set)
 
     def write(self, text: str, rect: pygame.Rect, surface: pygame.Surface) -> None:
         """Note a text; of its line only what letters cover counts."""
@@ -72,6 +76,8 @@ class Layout:
         for number, each in enumerate(self.texts):
             if each.cut or not window.contains(each.ink):
                 yield f"{each.text!r} is cut"
+            if each.text in self.shortened:
+                yield f"{each.text!r} is shortened, and is no name"
             box = min(
                 (box for box in self.boxes if box.collidepoint(each.ink.center)), key=lambda box: box.w * box.h,
                 default=window,
@@ -97,7 +103,7 @@ def _name(widget: Widget) -> str:
 def noted() -> Iterator[list[Layout]]:
     """While it lasts what is drawn is noted in the last layout of the list."""
     layouts = [Layout()]
-    draw_text, fill, window = Lettering.draw, Canvas.fill_rect, Theme.window
+    draw_text, fill, window, fit = Lettering.draw, Canvas.fill_rect, Theme.window, Theme._fit
 
     def draw(self: Lettering, surface: pygame.Surface | None, text: str, *args: Any, **options: Any) -> pygame.Rect:
         rect = draw_text(self, surface, text, *args, **options)
@@ -111,6 +117,12 @@ def noted() -> Iterator[list[Layout]]:
             layouts[-1].cover(rect, everything=False)
         return rect
 
+    def fitted(self: Theme, text: str, *args: Any, **options: Any) -> str:
+        drawn = fit(self, text, *args, **options)
+        if drawn != text and LONG_NAME not in text and "/" not in text:
+            layouts[-1].shortened.add(drawn)
+        return drawn
+
     def draw_window(self: Theme, surface: pygame.Surface, *place: float) -> pygame.Rect:
         rect = window(self, surface, *place)
         layouts[-1].cover(rect, everything=True)
@@ -120,6 +132,7 @@ def noted() -> Iterator[list[Layout]]:
         stack.enter_context(patch.object(Lettering, "draw", draw))
         stack.enter_context(patch.object(Canvas, "fill_rect", fill_rect))
         stack.enter_context(patch.object(Theme, "window", draw_window))
+        stack.enter_context(patch.object(Theme, "_fit", fitted))
         for kind in _kinds(Widget):
             if "draw" in vars(kind):
                 stack.enter_context(patch.object(kind, "draw", _owned(kind.draw, layouts)))

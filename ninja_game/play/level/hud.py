@@ -9,19 +9,17 @@ from functools import lru_cache
 import pygame
 
 from ninja_game.files.shown_text import shown_text
-from ninja_game.formats.pack.pars import Pars
-from ninja_game.formats.run_time import seconds_text
+from ninja_game.formats.run_time import rounded_text, seconds_text
 from ninja_game.formats.sayings import named_keys, things_named
 from ninja_game.play.level.play import DEATH_PAUSE, LevelPlay, Phase
 from ninja_game.play.level.sayings import FALL_HELP, WHY
-from ninja_game.play.menus.thumbnails import PAR_WIDE, draw_pars
 from ninja_game.player.marks import Mark, next_par
 from ninja_game.player.statistics import SELF
 from ninja_game.sim.collision.tiles import FULL, SHAPE
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
-from ninja_game.sim.kinds import EXIT, SWITCH
-from ninja_game.sim.level import ROWS
-from ninja_game.sim.rules import CELL, GOLD_BONUS, LIFETIME
+from ninja_game.sim.kinds import EXIT, GOLD, SWITCH
+from ninja_game.sim.level import COLUMNS, ROWS
+from ninja_game.sim.rules import CELL, LIFETIME
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.theme import Palette, Theme, mixed, wrapped
 from ninja_game.ui.widgets import draw_medal
@@ -57,15 +55,23 @@ def trough(palette: Palette) -> pygame.Color:
     return mixed(palette.tile, palette.outline, 0.8)
 
 
+KeyName = Callable[[str], str]
+"""Gives what to press for an action."""
+
+Things = tuple[tuple[float, float], ...]
+"""Where things are, px."""
+
+
 @dataclass(frozen=True)
 class HudView:
     """What is written over a level now.
 
     ``lifetime``: ticks, for the time bar; ``label``: a word in its place. ``foot``: texts at the left and the right of
     the border below. ``keys``: those of the present tick, ``frame_ms``: of the last picture; None: not shown.
-    ``said``: a text of the level, and the tiles of which it covers those that are full, () for the border below.
-    ``named``: what it names, and where that is, px. ``message``: title and lines of a panel, and its top; ``pars``: the
-    medals under its title, and the tick of the pass; ``stamp``: how far the best of them has come down, 0…1.
+    ``said``: a text of the level, the tiles of which it covers those that are full, () for the border below, and the
+    places of the things that it must not cover.
+    ``named``: what it names, and where that is, px. ``message``: title and lines of a panel, and its top; ``medal``:
+    that of the pass, or "", and ``stamp``: how far it has come down, 0…1.
     """
 
     lifetime: float
@@ -73,10 +79,10 @@ class HudView:
     foot: tuple[str, str]
     keys: int | None = None
     frame_ms: float | None = None
-    said: tuple[str, tuple[int, ...]] | None = None
+    said: tuple[str, tuple[int, ...], Things] | None = None
     named: Sequence[tuple[str, float, float]] = ()
     message: tuple[str, Sequence[str], float] | None = None
-    pars: tuple[Pars, int] | None = None
+    medal: str = ""
     stamp: float = 1.0
 
 
@@ -98,7 +104,7 @@ class Hud:
             written.append(self.said(surface, *view.said))
             written += [self.pointer(surface, *named) for named in view.named]
         if view.message is not None:
-            written.append(self.message(surface, *view.message, pars=view.pars, stamp=view.stamp))
+            written.append(self.message(surface, *view.message, medal=view.medal, stamp=view.stamp))
         return written
 
     def time_bar(self, surface: pygame.Surface, lifetime: float) -> pygame.Rect:
@@ -153,30 +159,27 @@ class Hud:
         lines: Sequence[str],
         y: float,
         *,
-        pars: tuple[Pars, int] | None = None,
+        medal: str = "",
         stamp: float = 1.0,
     ) -> pygame.Rect:
-        """A panel: a title, the medals or none, and lines under it, from ``y`` on."""
+        """A panel: a title, a medal left of it or none, and lines under them, from ``y`` on."""
         theme = self.theme
-        medal = pars[0].medal(pars[1]) if pars else ""
-        row, below, beside = (4 * PAR_WIDE - 12.0, 34, PRIZE + 14) if pars else (0.0, 0, 0)
-        heads = theme.width(title, TITLE, bold=True) + beside, row + beside
-        w = max(220.0, *heads, *(theme.width(line, LINE) for line in lines)) + 44
+        below, beside = (26, PRIZE + 14) if medal else (0, 0)
+        head = theme.width(title, TITLE, bold=True)
+        w = max(220.0, head + beside, *(theme.width(line, LINE) for line in lines)) + 44
         h = 48.0 + 18 * len(lines) + below
         y = min(y, LOWEST - h)
         rect = theme.panel(surface, (WIDTH - w) / 2, y, w, h, 4)
+        if medal and stamp > STAMP_SEEN:
+            # Before the words, so that it covers none of them while it comes down.
+            size = PRIZE * (1 + 1.5 * (1 - stamp) ** 2)
+            draw_medal(surface, theme, medal, (WIDTH - head - 14) / 2, y + 9 + PRIZE / 2, size)
+            rect = rect.inflate(theme.canvas.px(PRIZE), theme.canvas.px(PRIZE))
         middle = (WIDTH + beside) / 2
-        theme.text(surface, title, middle, y + 9, size=TITLE, align="centre", bold=True)
+        theme.text(surface, title, middle, y + 9 + below / 2, size=TITLE, align="centre", bold=True)
         for k, line in enumerate(lines):
             colour = theme.palette.text if k < len(lines) - 1 else theme.palette.faint
             theme.text(surface, line, WIDTH / 2, y + 41 + below + 18 * k, size=LINE, colour=colour, align="centre")
-        if pars:
-            left = middle - row / 2
-            draw_pars(surface, theme, *pars, left, y + 44)
-        if medal and stamp > STAMP_SEEN:
-            size = PRIZE * (1 + 1.5 * (1 - stamp) ** 2)
-            draw_medal(surface, theme, medal, left - beside / 2 - 4, y + 12 + PRIZE / 2, size)
-            rect = rect.inflate(theme.canvas.px(PRIZE), theme.canvas.px(PRIZE))
         return rect
 
     def pointer(self, surface: pygame.Surface, name: str, x: float, y: float) -> pygame.Rect:
@@ -193,7 +196,7 @@ class Hud:
         theme.text(surface, name, middle, top + 3, size=POINTER, colour=palette.panel, align="centre", bold=True)
         return box.inflate(theme.canvas.px(4), theme.canvas.px(18))
 
-    def said(self, surface: pygame.Surface, text: str, tiles: tuple[int, ...] = ()) -> pygame.Rect:
+    def said(self, surface: pygame.Surface, text: str, tiles: tuple[int, ...] = (), things: Things = ()) -> pygame.Rect:
         """A text of the level in a panel over what is solid; without tiles in the border below, beside the gold."""
         theme = self.theme
         in_border = not tiles
@@ -202,7 +205,7 @@ class Hud:
         margin, high = (3, 17) if in_border else (10, 20)
         w = max(theme.width(line, size) for line in lines) + 28
         h = high * len(lines) + 2 * margin - 1.0
-        left, y = ((WIDTH - w) / 2, IN_BORDER) if in_border else solid_place(tiles, w, h)
+        left, y = ((WIDTH - w) / 2, IN_BORDER) if in_border else solid_place(tiles, w, h, things)
         rect = theme.panel(surface, left, y, w, h, 4)
         for k, line in enumerate(lines):
             top = y + margin + high * k + (high - size) / 2
@@ -224,22 +227,34 @@ class Hud:
 
 
 @lru_cache(maxsize=4)
-def solid_place(tiles: tuple[int, ...], w: float, h: float) -> tuple[float, float]:
-    """Upper left corner of a panel of that size, px, where it covers the fewest tiles that are not full.
+def solid_place(tiles: tuple[int, ...], w: float, h: float, things: Things = ()) -> tuple[float, float]:
+    """Upper left corner of a panel of that size, px, where it covers none of the things and the least of any way.
 
-    Of equal places it is the one nearest to the middle of a border.
+    What is full is no way, open space far from all that is full hardly one. Of equal places it is the one nearest to
+    the middle of a border.
     """
+    full = [SHAPE[tile] == FULL for tile in tiles]
+
+    def way(column: int, row: int) -> int:
+        around = [full[a * ROWS + b] for a in range(column - 1, column + 2) for b in range(row - 1, row + 2)
+                  if 0 <= a < COLUMNS and 0 <= b < ROWS]  # fmt: skip
+        return 0 if full[column * ROWS + row] else 4 if any(around) or len(around) < 9 else 1
 
     def cost(place: tuple[float, float]) -> tuple[int, float]:
         x, y = place
         columns, rows = (range(int(a // CELL) - 1, int((a + b - 1) // CELL)) for a, b in ((x, w), (y, h)))
-        covered = [tiles[column * ROWS + row] for column in columns for row in rows if row < ROWS]
-        return sum(SHAPE[tile] != FULL for tile in covered), abs(x + w / 2 - WIDTH / 2) + min(y, HEIGHT - y - h)
+        covered = sum(ways[column * ROWS + row] for column in columns for row in rows if row < ROWS)
+        hidden = sum(x - NEAR < a < x + w + NEAR and y - NEAR < b < y + h + NEAR for a, b in things)
+        return covered + 100 * hidden, abs(x + w / 2 - WIDTH / 2) + min(y, HEIGHT - y - h)
 
+    ways = [way(*divmod(place, ROWS)) for place in range(COLUMNS * ROWS)]
     edge = CELL + 4
     lefts = [edge + k * (WIDTH - 2 * edge - w) / 8 for k in range(9)]
     return min(((x, y) for x in lefts for y in range(int(edge), int(LOWEST - h), 6)), key=cost)
 
+
+NEAR = 16.0
+"""px that a panel keeps from the middle of a thing."""
 
 ABOVE, BELOW = 34.0, 474.0
 """Where the panel of a passed level begins: near the upper or the lower border."""
@@ -264,9 +279,6 @@ _TOOLS_NAMED = 600
 
 _THINGS = {"switch": SWITCH, "exit": EXIT}
 
-KeyName = Callable[[str], str]
-"""Gives what to press for an action."""
-
 
 def hud_view(play: LevelPlay) -> HudView:
     """What is written over a level now."""
@@ -278,7 +290,7 @@ def hud_view(play: LevelPlay) -> HudView:
     y = ABOVE if attempt.simulation.world.ninja.y > HEIGHT / 2 else BELOW
     text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.sayings.text
     still = play.phase is Phase.READY
-    said = (named_keys(text, key), context.level.tiles if still else ()) if text else None
+    said = (named_keys(text, key), context.level.tiles if still else (), _things(play)) if text else None
     if play.phase is Phase.DEAD:
         # The line of keys keeps its place until it comes.
         cause, _, why = cause_of_death(play).partition(". ")
@@ -287,7 +299,8 @@ def hud_view(play: LevelPlay) -> HudView:
         keys = f"{key('confirm')}: go on    {key('retry')}: retry    {key('replay')}: replay"
         if not context.leads_on:
             keys = f"{key('confirm')}: play it again    {key('replay')}: replay    {key('back')}: leave"
-        message = f"Passed in {seconds_text(attempt.ended_tick)} s", [*_reached(play), keys], y
+        time = f"{rounded_text(attempt.ended_tick)} s"
+        message = f"{play.medal.capitalize() or 'Passed'}    {time}", [*_reached(play), keys], y
     hint = _hint(play, key)
     name = shown_text(context.title)
     title = f"{name} ({play.aim})" if play.phase is Phase.READY and play.aim else name
@@ -303,24 +316,24 @@ def hud_view(play: LevelPlay) -> HudView:
         said=said,
         message=message,
         named=_named(play, text),
-        pars=(context.pars, attempt.ended_tick) if context.pars and play.medal else None,
+        medal=play.medal,
         stamp=play.stamp,
     )
 
 
+def _things(play: LevelPlay) -> Things:
+    """Where what a player looks for at the start is: the ninja and all that is no gold."""
+    world = play.attempt.simulation.world
+    return ((world.ninja.x, world.ninja.y), *((o.x, o.y) for o in world.objects[1:] if o.kind != GOLD))
+
+
 def _reached(play: LevelPlay) -> list[str]:
-    """By how much a passed run missed the next medal; what the level was worth, the clock, what that has brought."""
+    """What the next medal needs; the gold of a passed run and what its clock shows; what that has brought."""
     attempt, pars = play.attempt, play.context.pars
-    tick, won = attempt.ended_tick, attempt.gold * GOLD_BONUS
+    following = [next_par(pars, Mark(attempt.ended_tick, 0)) or "The best medal"] if pars and play.medal else []
     gold = f"{attempt.gold} of {play.all_gold} gold"
-    left, score = seconds_text(LIFETIME - tick), seconds_text(attempt.score)
-    lines = [f"Score of this level: {left} s left + {seconds_text(won)} s for {gold} = {score} s"]
-    if pars and play.medal:
-        following = next_par(pars, Mark(tick, 0)) or "the best medal of all"
-        lines.insert(0, following[0].upper() + following[1:])
-    if carries := play.context.carries_on:
-        lines.append(f"The clock {carries}: {seconds_text(attempt.lifetime)} s")
-    return [*lines, *filter(None, ["    ".join(play.notices)])]
+    clock = "" if play.context.practice_mode else f"    {rounded_text(attempt.lifetime)} s left"
+    return [*following, gold + clock, *filter(None, ["    ".join(play.notices)])]
 
 
 def _named(play: LevelPlay, text: str) -> list[tuple[str, float, float]]:

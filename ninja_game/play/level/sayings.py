@@ -20,8 +20,8 @@ STILL = 0.05
 """px in a tick that are no motion."""
 
 AGAIN = "{retry} tries again from the start"
-STILL_TICKS, LONG_TICKS, AWAY = 120, 1200, 2 * CELL
-"""It is said to who lies still for so long, or plays for so long without a pass, so many px from the start."""
+STILL_TICKS, AWAY = 240, 2 * CELL
+"""It is said to who stands or lies still for so many ticks, so many px from the start."""
 
 _WHEN = {EXIT_OPENED: "switch", GOLD_TAKEN: "gold"}
 
@@ -90,13 +90,13 @@ class Sayings:
         return self.text != before
 
     def _is_stuck(self, world: World) -> bool:
-        """Whether the ninja lies still, or has been on its way for long."""
+        """Whether the ninja has been still for long, away from its start."""
         ninja = world.ninja
         self._still = 0 if hypot(ninja.x - ninja.prev_x, ninja.y - ninja.prev_y) > STILL else self._still + 1
         if world.tick == 1:
             self._began = ninja.x, ninja.y
         away = hypot(ninja.x - self._began[0], ninja.y - self._began[1]) > AWAY
-        return away and (self._still >= STILL_TICKS or world.tick >= LONG_TICKS)
+        return away and self._still >= STILL_TICKS
 
 
 def _is_near(world: World, saying: Saying) -> bool:

@@ -63,8 +63,12 @@ class Browser(ThumbnailScreen):
         self.marks: dict[str, Mark] = {}
         self.list = ListView(
             (44, 112, 376, 8 * ROW), ROW, self._draw_row, self.play, empty="No level has these words",
-            hint="Enter plays; right leads to the buttons, up to the search", selected=self._select,
+            hint="Enter: play. Right: buttons. Up: search", selected=self._select, opens=True,
         )  # fmt: skip
+        self.play_it = Button((SIDE, 470, 154, 32), "Play", lambda: self.play(self.list.index))
+        self.practice = Button(
+            (SIDE + 166, 470, 154, 32), "Practise", lambda: self.play(self.list.index, practice=True)
+        )
         self.watch_best = Button((SIDE, 510, 98, 32), "Watch best", self._watch)
         self.watch_author = Button((SIDE + 104, 510, 98, 32), "Author's run", self._watch_author)
         self.entry_field = TextEntry((44, 66, 236, 32), "Search name or author", "", self._search)
@@ -87,17 +91,10 @@ class Browser(ThumbnailScreen):
 
     def build(self) -> Sequence[Widget]:
         """The list first, then what can be done with the selected level."""
-        play = Button((SIDE, 470, 154, 32), "Play", lambda: self.play(self.list.index))
-        practice = Button(
-            (SIDE + 166, 470, 154, 32),
-            "Practise",
-            lambda: self.play(self.list.index, practice=True),
-            hint=PRACTICE_HINT,
-        )
         change = Button((SIDE + 208, 510, 46, 32), "Edit", self._change, hint="Open it in the editor")
         link = Button((SIDE + 260, 510, 60, 32), "Link", self._copy_link, hint="Copy a link that plays this level")
         watch = self.watch_best, self.watch_author
-        return [*self.choosers(), play, practice, *watch, *([change] * bool(self._edit)), link]
+        return [*self.choosers(), self.play_it, self.practice, *watch, *([change] * bool(self._edit)), link]
 
     def handle(self, event: InputEvent) -> None:
         """A file dropped on the window is copied into the player's folder; coming back to the window looks again."""
@@ -158,8 +155,11 @@ class Browser(ThumbnailScreen):
         return self.shown[self.list.index] if self.list.index < len(self.shown) else None
 
     def _select(self, _index: int) -> None:
-        """Only what has been passed can be watched."""
+        """Only what is open can be played, only what has been passed be watched; a button that is off says why."""
         selected = self.selected
+        lock = self.player.lock_of(selected) if selected else "No level"
+        self.play_it.enabled = self.practice.enabled = not lock
+        self.play_it.hint, self.practice.hint = lock, lock or PRACTICE_HINT
         self.watch_best.enabled = selected is not None and selected.digest in self.bests
         opened = selected is not None and opens_author(selected, self.marks.get(selected.digest))
         self.watch_author.enabled = opened

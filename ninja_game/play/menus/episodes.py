@@ -22,7 +22,7 @@ from ninja_game.player.progress import CHEATED, LOCKED
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import BAR, ListView
 from ninja_game.ui.theme import Area, Theme
-from ninja_game.ui.widgets import MEDALS, Choice, Widget, draw_all_gold, draw_medal
+from ninja_game.ui.widgets import MEDALS, Button, Choice, Widget, draw_all_gold, draw_medal
 
 LEFT, TOP, WIDE, MOST_HIGH = 44, 116, 318, 286
 """Where the grid lies: it is as large as the episodes that there are, cells up to LARGEST px."""
@@ -119,9 +119,11 @@ class EpisodeGrid(ThumbnailScreen):
         self.pack = self.player.catalogue.ours
         self.marks: dict[str, Mark] = {}
         self.problem = ""
-        self.grid = Cells((LEFT, TOP, WIDE, MOST_HIGH), 1, self._draw_cell, self._play, selected=self._selected)
-        self.rows = ListView((SIDE, 132, 364, ROW * 5), ROW, self._draw_row, self._trial)
-        self.rows.hint = "Enter: time trial, this level alone on a full clock"
+        self.grid = Cells((LEFT, TOP, WIDE, MOST_HIGH), 1, self._draw_cell, self._play, opens=True)
+        self.grid.selected = self._selected
+        self.play = Button((SIDE + 274, 64, 90, 30), "Play", lambda: self._play(self.grid.index))
+        self.rows = ListView((SIDE, 132, 364, ROW * 5), ROW, self._draw_row, self._trial, opens=True)
+        self.rows.hint = "Enter or a second click: play this level alone, on a full clock"
         self._look_for_packs(pack)
         self.grid.arrange(self.pack.episodes)
 
@@ -147,7 +149,8 @@ class EpisodeGrid(ThumbnailScreen):
         self.rows.index = 0
         self.rows.fill(self.episode.levels if self.episode and self._state(self.number) != LOCKED else ())
         self.rows.focusable = bool(self.rows.count)
-        self.grid.hint = self._hint()
+        self.play.hint = self.grid.hint = self._hint()
+        self.play.enabled = bool(self.rows.count)
 
     def _state(self, number: int) -> str:
         return self.player.episode_state(self.pack.episodes[number])
@@ -183,13 +186,13 @@ class EpisodeGrid(ThumbnailScreen):
             hint=PRACTICE_HINT,
         )  # fmt: skip
         if len(self.packs) < 2:
-            return [self.grid, self.practice, self.rows]
+            return [self.grid, self.play, self.practice, self.rows]
         names = [("The game's own" if not pack.key else pack.name, pack.key) for pack in self.packs]
         choice = Choice(
             (LEFT, 62, WIDE, 26), "", names, lambda: self.pack.key, self._set_pack,
             hint="Level pack; put packs into the folder levels of your player folder",
         )  # fmt: skip
-        return [self.grid, choice, self.practice, self.rows]
+        return [self.grid, self.play, choice, self.practice, self.rows]
 
     def _set_practice(self, value: object) -> None:
         self.app.change_settings(practice=value)
@@ -256,7 +259,7 @@ class EpisodeGrid(ThumbnailScreen):
             theme.text(surface, "No episodes", SIDE, 66, size=16, colour=palette.faint, bold=True)
             return
         head = f"Episode {episode.code}: {episode.name}"
-        theme.text(surface, head, SIDE, 66, size=16, bold=True, width=364)
+        theme.text(surface, head, SIDE, 66, size=16, bold=True, width=264)
         best = self.player.records.episode_best(episode.key)
         text = (
             f"Your best: {seconds_text(best.score)} s left" if best else f"{len(episode.levels)} levels, not passed yet"

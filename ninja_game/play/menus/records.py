@@ -38,7 +38,7 @@ class RecordsScreen(MenuScreen):
     def __init__(self, app: App) -> None:
         super().__init__(app)
         self.rows: list[RecordRow] = []
-        self.list = ListView((44, 92, 468, 15 * ROW), ROW, self._draw_row, self._watch, selected=self._say)
+        self.list = ListView((44, 92, 468, 15 * ROW), ROW, self._draw_row, self._watch, selected=self._say, opens=True)
         self.list.empty = "No records yet: pass a level"
 
     def build(self) -> Sequence[Widget]:

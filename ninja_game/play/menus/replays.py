@@ -77,7 +77,7 @@ class ReplaysScreen(MenuScreen):
         self.whose = "all"
         self.filter = Choice((346, 62, 180, 28), "", WHOSE, lambda: self.whose, self._show)
         self.field = TextEntry((44, 62, 290, 28), "Search level or player", "", self._search)
-        self.list = ListView((44, 120, 712, 12 * ROW), ROW, self._draw_row, self._choose)
+        self.list = ListView((44, 120, 712, 12 * ROW), ROW, self._draw_row, self._choose, opens=True)
         self.list.empty = NONE_YET
         self.list.hint = self.hint
         self.message = ""

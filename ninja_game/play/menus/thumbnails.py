@@ -116,11 +116,7 @@ def draw_pars(surface: pygame.Surface, theme: Theme, pars: Pars | None, tick: in
         reached = tick is not None and (par is None or tick <= par)
         draw_medal(surface, theme, medal, x + 8, y + 8, 16, reached=reached)
         theme.text(surface, "pass it" if par is None else f"{seconds_text(par)} s", x + 20, y + 3.5, size=9.5)
-        x += PAR_WIDE
-
-
-PAR_WIDE = 80
-"""From one medal of a row to the next, px."""
+        x += 80
 
 
 def where_from(entry: Entry) -> str:

@@ -205,6 +205,14 @@ THIGH, SHIN = 5.0, 5.2
 UPPER_ARM, FOREARM = 4.0, 4.2
 HEAD = 2.5
 REACH = 17.0
+EDGE = 1.0
+"""Width of the light or dark edge around the figure, px."""
+
+
+def edge_of(colour: pygame.Color) -> pygame.Color:
+    """The edge around a figure of a colour: light around a dark one, dark around a light one."""
+    bright = 0.2126 * colour.r + 0.7152 * colour.g + 0.0722 * colour.b
+    return pygame.Color("#fffdf6" if bright < 110 else "#0c0a12")
 
 
 def bend(a: Point, b: Point, first: float, second: float, side: float) -> Point:
@@ -267,12 +275,12 @@ def paint_tails(s: Sketch, colour: pygame.Color, pose: Pose, facing: int, veloci
     left, right = band_ends(pose.head, pose.shoulder)
     knot = left if facing > 0 else right
     for k, drop in ((1.0, 0.2), (0.75, 1.6)):
-        fx = -facing * 2.6 - velocity[0] * 0.75
+        fx = -facing * 4.0 - velocity[0] * 0.75
         fy = drop + 0.9 - velocity[1] * 0.6
         length = (fx * fx + fy * fy) ** 0.5
-        scale = k * min(1.0, 6.0 / length)
+        scale = k * min(1.0, 8.0 / length)
         middle = knot[0] + fx * scale * 0.5, knot[1] + fy * scale * 0.5 - 0.6
-        s.path(colour, [knot, middle, (knot[0] + fx * scale, knot[1] + fy * scale)], 0.9)
+        s.path(colour, [knot, middle, (knot[0] + fx * scale, knot[1] + fy * scale)], 1.4)
 
 
 def ninja_sprite(
@@ -289,10 +297,14 @@ def ninja_sprite(
 def paint_figure(
     s: Sketch, palette: Palette, shown: Pose, facing: int, velocity: Point, *, colour: pygame.Color, banded: bool = True
 ) -> None:
-    """Draw the figure into a sketch, ``REACH`` px to all sides."""
-    far = mixed(colour, palette.background, 0.22)
+    """Draw the figure into a sketch, ``REACH`` px to all sides, within an edge that stands out from it."""
+    far = mixed(colour, palette.background, 0.12)
+    edge = edge_of(colour)
+    s.grown = EDGE
+    paint_limbs(s, edge, edge, shown, facing)
+    s.grown = 0.0
     if banded:
         paint_tails(s, palette.band, shown, facing, velocity)
     paint_limbs(s, colour, far, shown, facing)
     if banded:
-        s.stroke(palette.band, *band_ends(shown.head, shown.shoulder), 1.1)
+        s.stroke(palette.band, *band_ends(shown.head, shown.shoulder), 1.5)

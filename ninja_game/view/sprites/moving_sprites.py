@@ -18,12 +18,12 @@ from ninja_game.view.sprites.static_sprites import crosshair
 
 @drawing(11)
 def bounce_block(s: Sketch, p: Palette, awake: int) -> None:
-    """A plain springy square."""
-    s.framed_box(mixed(p.light, p.bright, 0.55), p.outline, -9.6, -9.6, 19.2, 19.2, 0.9)
-    inner = mixed(p.light, p.bright, 0.15 + 0.3 * awake)
-    s.framed_box(inner, p.middle, -6.6, -6.6, 13.2, 13.2, 0.8)
+    """A springy square: green, as all that springs."""
+    s.framed_box(p.good, p.outline, -9.6, -9.6, 19.2, 19.2, 0.9)
+    inner = mixed(p.light, p.bright, 0.3 + 0.3 * awake)
+    s.framed_box(inner, p.outline, -6.2, -6.2, 12.4, 12.4, 0.8)
     for side in (-1, 1):
-        s.path(p.dark, [(-3, side * 3.4), (-1.5, side * 1.4), (0, side * 3.4), (1.5, side * 1.4), (3, side * 3.4)], 0.7)
+        s.path(p.good, [(-4, side * 4), (-2, side * 1.6), (0, side * 4), (2, side * 1.6), (4, side * 4)], 1.1)
 
 
 @drawing(12)

@@ -35,7 +35,8 @@ class Sketch:
     """A sheet for one drawing about the point (0, 0).
 
     ``extent``: how far it reaches left, up, right and down, logical px (the first two usually negative). ``turn``:
-    degrees clockwise by which everything is turned; ``fine``: how many times larger the shapes are drawn.
+    degrees clockwise by which everything is turned; ``fine``: how many times larger the shapes are drawn. ``grown``: by
+    how much strokes and discs are wider to all sides, px.
     """
 
     def __init__(
@@ -45,6 +46,7 @@ class Sketch:
         self._ax, self._ay = ceil(-left * scale) + 1, ceil(-top * scale) + 1
         self._size = floor(right * scale) + 2 + self._ax, floor(bottom * scale) + 2 + self._ay
         self._fine_by = fine
+        self.grown = 0.0
         self._zoom = scale * fine
         self._fine = pygame.Surface((self._size[0] * fine, self._size[1] * fine), pygame.SRCALPHA)
         self._cos, self._sin = cos(radians(turn)), sin(radians(turn))
@@ -68,7 +70,7 @@ class Sketch:
         self.box(fill, x + width, y + width, w - 2 * width, h - 2 * width)
 
     def disc(self, colour: Colour, x: float, y: float, radius: float) -> None:
-        pygame.draw.circle(self._fine, colour, self._at(x, y), radius * self._zoom)
+        pygame.draw.circle(self._fine, colour, self._at(x, y), (radius + self.grown) * self._zoom)
 
     def ring(self, colour: Colour, x: float, y: float, radius: float, width: float) -> None:
         """A circle's line, ``width`` wide inwards."""
@@ -81,7 +83,7 @@ class Sketch:
         length = (dx * dx + dy * dy) ** 0.5
         if length > 0:
             nx, ny = -dy / length / 2, dx / length / 2
-            sides = ((a, width), (b, end_width))
+            sides = ((a, width + 2 * self.grown), (b, end_width + 2 * self.grown))
             left = [(p[0] + nx * w, p[1] + ny * w) for p, w in sides]
             right = [(p[0] - nx * w, p[1] - ny * w) for p, w in sides]
             self.polygon(colour, [*left, *reversed(right)])

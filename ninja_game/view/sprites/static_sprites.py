@@ -109,24 +109,26 @@ def door_switch(s: Sketch, p: Palette, mechanism: int, used: int) -> None:
 
 @drawing(-9.5, -12, 9.5, 3)
 def launch_pad(s: Sketch, p: Palette, step: int) -> None:
-    """A spring plate lying on the surface at its point; ``step`` 8: just sprung, 0: settled."""
-    top = -4.6 - 4.5 * step / 8
-    flash = mixed(p.light, p.bright, step / 8)
+    """A spring plate lying on the surface at its point; ``step`` 8: just sprung, 0: settled. What springs is green."""
+    top = -5.8 - 4.5 * step / 8
+    flash = mixed(p.good, p.bright, 0.7 * step / 8)
     s.polygon(p.dark, [(-5.5, 0), (5.5, 0), (4, top + 2.4), (-4, top + 2.4)])
     s.stroke(p.outline, (-3.6, -0.4), (3.6, top + 3), 0.7)
     s.stroke(p.outline, (3.6, -0.4), (-3.6, top + 3), 0.7)
-    s.framed_box(flash, p.outline, -7.6, top, 15.2, 3, 0.7)
+    s.framed_box(flash, p.outline, -8.4, top, 16.8, 4, 0.7)
     chevron = [(-2.6, 0.7), (0, -0.7), (2.6, 0.7), (2.6, 1.6), (0, 0.2), (-2.6, 1.6)]
-    s.polygon(p.good, [(x, y + top + 1.2) for x, y in chevron])
+    s.polygon(p.spark, [(x, y + top + 1.6) for x, y in chevron])
     s.box(p.outline, -7.6, -0.7, 15.2, 0.9)
 
 
 @drawing(13)
 def one_way(s: Sketch, p: Palette) -> None:
-    """A bar on the side that carries, here the upper one, with teeth that show the way through."""
-    s.framed_box(p.light, p.outline, -12, -12, 24, 3.4, 0.7)
+    """A blue bar on the side that carries, here the upper one, with arrows that show the way through."""
+    s.framed_box(p.switch, p.outline, -12, -12, 24, 4.4, 0.7)
+    s.box(mixed(p.switch, p.spark, 0.6), -11, -11.2, 22, 1.1)
     for x in (-8, 0, 8):
-        s.polygon(p.dark, [(x - 3, -6.2), (x, -8.8), (x + 3, -6.2), (x + 1.8, -6.2), (x, -7.6), (x - 1.8, -6.2)])
+        s.polygon(p.outline, [(x - 3.6, -3.4), (x, -7.6), (x + 3.6, -3.4)])
+        s.polygon(p.switch, [(x - 2, -4.1), (x, -6.5), (x + 2, -4.1)])
 
 
 @drawing(7)

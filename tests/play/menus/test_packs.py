@@ -52,7 +52,7 @@ def test_pack_in_the_folder_can_be_chosen_and_played(driver: MenuDriver) -> None
     assert "'Left'" in shown(driver)
     driver.press("down", "return")
     level = driver.shown(LevelScreen)
-    assert "bronze medal: pass it" not in shown(driver), "medals are for who has passed it once"
+    assert "Pass it for bronze" not in shown(driver), "medals are for who has passed it once"
     level.begin()
     level.retry()
     level.begin()
@@ -126,8 +126,8 @@ def test_browser_sorts_by_difficulty(driver: MenuDriver) -> None:
 def test_card_says_the_time_and_the_next_par(driver: MenuDriver) -> None:
     entry = driver.player.catalogue.episodes[0].levels[0]
     assert entry.pars is not None
-    assert time_and_par(entry, None) == "bronze medal: pass it"
-    assert time_and_par(entry, Mark(200, 0)) == "5.000 s    gold medal: 4.900 s, missed by 0.100 s"
+    assert time_and_par(entry, None) == "Pass it for bronze"
+    assert time_and_par(entry, Mark(200, 0)) == "5.000 s    0.1 s faster for gold"
     assert time_and_par(entry, Mark(156, 0)) == "3.900 s"
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pygame
 import pytest
 
-from ninja_game.formats.run_time import seconds_text
+from ninja_game.formats.run_time import rounded_text
 from ninja_game.play.level.hud import hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, STAMP_TICKS, TRIES_FROM, TRIES_TICKS, Phase
 from ninja_game.play.level.screen import LevelScreen
@@ -69,25 +69,18 @@ def test_medal_comes_down_and_is_heard_when_it_lands(driver: MenuDriver, heard: 
     assert next(ticks for ticks, _, sounds in stamps if sounds) == STAMP_TICKS
     assert all((stamp == 1.0) == (ticks >= STAMP_TICKS) for ticks, stamp, _ in stamps)
     assert heard.count("medal") == 1
-    pars, tick = hud_view(level.play).pars or (None, 0)
-    assert pars
-    assert pars.medal(tick) == "author"
+    assert hud_view(level.play).medal == "author"
 
 
-def test_card_tells_the_score_of_the_level_and_what_the_clock_does(driver: MenuDriver) -> None:
+def test_card_says_one_thing_large_one_next_and_the_rest_short(driver: MenuDriver) -> None:
     level = passed_level(driver)
-    for start, position, words in (
-        (3600, 0, "goes on into the next level"),
-        (4000, 4, "at the end is the score of the"),
-    ):
-        level.attempt.lifetime = level.attempt.score + start - 3600
-        level.context.position = position  # type: ignore[attr-defined]
-        _, lines, _ = hud_view(level.play).message or ("", [], 0)
-        (score,) = [line for line in lines if line.startswith("Score of this level: ")]
-        assert score.endswith(f" = {seconds_text(level.attempt.score)} s")
-        (clock,) = [line for line in lines if line.startswith("The clock ")]
-        assert words in clock
-        assert clock.endswith(f": {seconds_text(level.attempt.lifetime)} s")
+    assert level.context.pars
+    level.attempt.ended_tick = level.context.pars.par("gold") + 1
+    level.attempt.lifetime = 3333
+    title, (following, clock, *_), _ = hud_view(level.play).message or ("", [""], 0)
+    assert title == f"Silver    {rounded_text(level.attempt.ended_tick)} s"
+    assert following == "0.1 s faster for gold"
+    assert clock.endswith(" gold    83.4 s left")
 
 
 def test_failed_tries_run_together_for_two_seconds(driver: MenuDriver) -> None:
