@@ -152,10 +152,10 @@ class LevelPlay:
 
     @property
     def may_watch(self) -> bool:
-        """Whether the attempt can be watched: passed, or dead for a while and not by the player's own hand."""
+        """Whether the attempt can be watched: passed, or dead for a while."""
         if self.phase is Phase.PASSED:
             return not self.attempt.spared
-        return self.phase is Phase.DEAD and self.after_end > DEATH_PAUSE and not self.attempt.own_hand
+        return self.phase is Phase.DEAD and self.after_end > DEATH_PAUSE
 
     # --- practice ---
 

@@ -14,7 +14,7 @@ from ninja_game.play.menus.panels import CANCEL, Menu, Row
 from ninja_game.player.progress import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
 from ninja_game.player.settings import BY_COLUMN, GHOSTS
 from ninja_game.ui.canvas import WIDTH
-from ninja_game.ui.input.bindings import ACTIONS, InputEvent
+from ninja_game.ui.input.bindings import ACTIONS, MENU_KEYS, MENU_PAD, InputEvent, bindable
 from ninja_game.ui.input.gamepad import pad_label
 from ninja_game.ui.input.keys import key_label
 from ninja_game.ui.list_view import ListView
@@ -168,6 +168,9 @@ class BindingTable(ListView):
 
         To leave it comes first, so that a hasty key does no harm.
         """
+        if not bindable(action, name, MENU_KEYS if self.device == "keys" else MENU_PAD):
+            self.screen.app.notify(f"{input_label(self.device, name)} works the menus: choose another one")
+            return
         others = [other for other in ACTIONS if name in self.inputs(other) and clash(action, other)]
         share = partial(self.put, action, slot, name)
 
