@@ -365,7 +365,7 @@ def _after_death(play: LevelPlay, key: KeyName) -> str:
     if play.after_end <= DEATH_PAUSE:
         return ""
     again = f"{key('confirm')} or {key('jump')}: try again"
-    return f"{again}    {key('replay')}: watch it" if play.may_watch else again
+    return f"{again}    {key('replay')}: watch it" + f"    {key('skip')}: stuck?" * play.is_stuck
 
 
 def _ready_hint(key: KeyName, *, practice_mode: bool, show_tutorial: bool) -> str:

@@ -35,6 +35,9 @@ TRIES_FROM, TRIES_TICKS, MOST_TRIES = 40, 80, 24
 SLOW_TICK_MS = 100
 """A tick in slow motion: a quarter of the speed."""
 
+STUCK_AFTER = 8
+"""Failed tries of a level after which help is offered."""
+
 SHORTEST_TRY = 20
 """Ticks of a try that is worth being seen again."""
 
@@ -156,6 +159,11 @@ class LevelPlay:
         if self.phase is Phase.PASSED:
             return not self.attempt.spared
         return self.phase is Phase.DEAD and self.after_end > DEATH_PAUSE
+
+    @property
+    def is_stuck(self) -> bool:
+        """Whether so many tries have failed that help is offered."""
+        return not self.context.practice_mode and len(self.tries) + (self.phase is Phase.DEAD) >= STUCK_AFTER
 
     # --- practice ---
 
