@@ -8,9 +8,10 @@ from functools import partial
 import pygame
 
 from ninja_game.files.user_folder import LEVELS
+from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.play.app import App, Screen
-from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import CANCEL, Menu, Row
+from ninja_game.play.menus.thumbnails import ThumbnailScreen
 from ninja_game.player.progress import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
 from ninja_game.player.settings import BY_COLUMN, GHOSTS
 from ninja_game.ui.canvas import WIDTH
@@ -221,10 +222,11 @@ LEFT, TOP, STEP, HEIGHT_OF_ROW = 216, 72, 42, 32
 WIDTH_OF_ROW = WIDTH - 36 - LEFT - 12
 
 
-class SettingsScreen(MenuScreen):
+class SettingsScreen(ThumbnailScreen):
     """Pages at the left, the widgets of the chosen one at the right."""
 
     title = "Settings"
+    music = ""
 
     def __init__(self, app: App) -> None:
         super().__init__(app)
@@ -354,6 +356,12 @@ class SettingsScreen(MenuScreen):
         super().draw_frame(surface)
         canvas, palette = self.app.canvas, self.app.theme.palette
         canvas.fill_rect(surface, palette.panel_edge, 204, 64, 1, 490)
+        if self.page == "Picture":
+            # What the palette does: the first level of each column in it.
+            episodes = self.player.catalogue.episodes
+            firsts = [episodes[each].levels[0] for each in sorted(episodes) if each % EPISODES_PER_COLUMN == 0]
+            for place, entry in enumerate(firsts[:5]):
+                self.thumbnails.draw(surface, entry, LEFT + 106 * place, TOP + STEP * 8 + 20, 100)
 
     def _draw_tab(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         x, y, w, h = area

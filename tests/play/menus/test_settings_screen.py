@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import pygame
 import pytest
 
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.panels import Menu
-from ninja_game.play.menus.settings import LIST, PAGES, ROW, SLOTS, Capture, SettingsScreen, clash
+from ninja_game.play.menus.settings import LEFT, LIST, PAGES, ROW, SLOTS, STEP, TOP, Capture, SettingsScreen, clash
 from ninja_game.ui.input.bindings import ACTIONS, MENU_KEYS, MENU_PAD, bindable
+from ninja_game.ui.theme import PALETTES
 from ninja_game.ui.widgets import Slider
 from tests.support.menu_driver import MenuDriver
 
@@ -118,3 +120,16 @@ def test_a_key_of_the_menus_cannot_hide_the_game(driver: MenuDriver) -> None:
     table.taken("boss", 0, "space")
     assert "Space works the menus" in driver.app.notice
     assert "space" not in table.inputs("boss")
+
+
+def test_a_palette_is_seen_in_a_level_beside_its_setting(driver: MenuDriver) -> None:
+    screen = driver.open("Settings")
+    assert isinstance(screen, SettingsScreen)
+
+    def sample() -> pygame.Color:
+        driver.frames(8)
+        return driver.app.surface.get_at(driver.app.canvas.point(LEFT + 2, TOP + 8 * STEP + 22))
+
+    before = sample()
+    driver.app.change_settings(palette="dusk")
+    assert sample() == PALETTES["dusk"].tile != before
