@@ -322,7 +322,7 @@ def hud_view(play: LevelPlay) -> HudView:
 
 
 def _things(play: LevelPlay) -> Things:
-    """Where what a player looks for at the start is: the ninja and all that is no gold."""
+    """Where what a player looks for at the start is: the ninja and all but gold."""
     world = play.attempt.simulation.world
     return ((world.ninja.x, world.ninja.y), *((o.x, o.y) for o in world.objects[1:] if o.kind != GOLD))
 

@@ -163,7 +163,7 @@ def test_first_death_of_each_kind_says_why(driver: MenuDriver) -> None:
     assert texts == ["Killed by a mine. Mines never move: keep a body's width away.", "Killed by a mine."]
 
 
-def test_who_is_still_for_long_is_told_once_how_to_try_again_and_nobody_who_moves(driver: MenuDriver) -> None:
+def test_who_is_still_for_long_reads_once_how_to_try_again_and_nobody_who_moves(driver: MenuDriver) -> None:
     driver.press("return")
     level = driver.shown(LevelScreen)
     for keys, told in (([0] * (STILL_TICKS + 480), True), ([2, 2, 1, 1] * 400, False)):
