@@ -216,8 +216,8 @@ SWITCH = [("off", False), ("on", True)]
 RACED = [("your best", "best"), ("next medal", "next"), *((medal, medal) for medal in GHOSTS[2:])]
 RATES = [("match display", 0), ("30", 30), ("60", 60), ("120", 120), ("144", 144), ("240", 240)]
 COLOUR_NAMES = ("default", "pink", "olive", "teal", "mauve", "maroon", "white", "gold", "slate", "silver")
-PRACTICE_HINT = "No clock; quick save, rewind, slow motion; no records"
-ASSISTED_HINT = "such runs are marked as assisted: no records"
+PRACTICE_HINT = "No clock; save, rewind, slow motion; no records"
+ASSISTED_HINT = "no records"
 LEFT, TOP, STEP, HEIGHT_OF_ROW = 216, 72, 42, 32
 WIDTH_OF_ROW = WIDTH - 36 - LEFT - 12
 
@@ -233,7 +233,7 @@ class SettingsScreen(ThumbnailScreen):
         self.page = PAGES[0]
         self.tables: dict[str, BindingTable] = {}
         self.tabs = ListView((40, TOP - 4, 158, 40 * len(PAGES)), 40, self._draw_tab, self._go_in, selected=self._show)
-        self.tabs.hint = "Up and down: choose a page. Right: go to it. Esc: leave the settings"
+        self.tabs.hint = "Up and down: choose a page. Right: open it"
         self.tabs.fill(PAGES)
 
     def build(self) -> Sequence[Widget]:
@@ -298,10 +298,10 @@ class SettingsScreen(ThumbnailScreen):
         colours = list(zip(COLOUR_NAMES, NINJA_COLOURS, strict=True))[:count]
         more = "Complete columns of episodes for more" if count < len(NINJA_COLOURS) else ""
         return [
-            self._choice(0, "Palette", "palette", palettes, "In contrast and safe all that kills has spikes too"),
+            self._choice(0, "Palette", "palette", palettes, "In contrast and safe what kills has spikes too"),
             self._choice(1, "Ninja colour", "ninja_colour", colours, more),
             self._choice(2, "Full screen", "fullscreen", SWITCH, "F11 at any time"),
-            self._choice(3, "Smooth motion", "smooth", SWITCH, "Draw between the 40 ticks of a second"),
+            self._choice(3, "Smooth motion", "smooth", SWITCH, "More than 40 pictures a second"),
             self._choice(4, "Frame rate", "frame_limit", RATES),
             self._choice(5, "Ghost", "ghost", RACED, f"{self.app.controls.name('ghost')} shows or hides it in play"),
             self._choice(6, "Show keys in play", "show_keys", SWITCH),
@@ -310,11 +310,11 @@ class SettingsScreen(ThumbnailScreen):
 
     def _sound(self) -> list[Widget]:
         return [
-            self._slider(0, "Volume", "volume", (0, 99, 3), "0 is silence"),
+            self._slider(0, "Volume", "volume", (0, 99, 3), "0: no sound"),
             self._slider(
-                1, "Ambient loops", "loop_volume", (0, 99, 3), "Skids, slides, rockets, lasers: a share of it"
+                1, "Long sounds", "loop_volume", (0, 99, 3), "Slides, rockets, lasers"
             ),
-            self._slider(2, "Music", "music_volume", (0, 99, 3), "Share of the volume; 0 is none"),
+            self._slider(2, "Music", "music_volume", (0, 99, 3), "0: no music"),
             self._choice(3, "Music in practice", "music_in_practice", SWITCH),
         ]
 
@@ -324,13 +324,13 @@ class SettingsScreen(ThumbnailScreen):
             Label((LEFT, TOP + STEP + 10, 212, 14), "Your name, in replays:"),
             TextEntry((LEFT + 220, TOP + STEP, WIDTH_OF_ROW - 220, HEIGHT_OF_ROW), "unnamed",
                       self.player.settings.name, lambda text: self.change(name=text)),
-            self._choice(2, "Texts of levels", "level_texts", SWITCH, "Levels that you have not passed say how"),
+            self._choice(2, "Hints in levels", "level_texts", SWITCH, "Until you have passed them"),
         ]  # fmt: skip
         if overclock_unlocked(self.player.columns_complete, self.player.columns_present):
             widgets.append(
                 Slider(self._area(3), "Overclock, ms", (0, FASTEST_TICK_GAIN, 1), lambda: self.app.overclock,
                        lambda value: setattr(self.app, "overclock", round(value)),
-                       hint="Shorter ticks, until the game ends; scores count as usual")
+                       hint="A faster game, until you quit")
             )  # fmt: skip
         text = f"Your levels: {self.player.folder / LEVELS}"
         return [*widgets, Label((LEFT, TOP + STEP * 10 + 16, WIDTH_OF_ROW, 13), text, size=9.5, faint=True)]
@@ -338,9 +338,9 @@ class SettingsScreen(ThumbnailScreen):
     def _accessibility(self) -> list[Widget]:
         return [
             self._choice(0, "Text size", "text_size", list(TEXT_SIZES.items())),
-            self._slider(1, "Game speed", "game_speed", (50, 100, 5), f"Time goes slower; {ASSISTED_HINT}"),
+            self._slider(1, "Game speed", "game_speed", (50, 100, 5), f"Slower is easier; {ASSISTED_HINT}"),
             self._choice(2, "Invincible", "invincible", SWITCH,
-                         f"Only crushing, the clock and giving up end a run; {ASSISTED_HINT}"),
+                         f"Only being crushed or out of time ends a run; {ASSISTED_HINT}"),
             self._choice(3, "Running keys", "tap_to_run", [("hold", False), ("tap", True)],
                          "Tap: a press runs on until the next press"),
             self._choice(4, "Marks for warning sounds", "sound_cues", SWITCH, "Rocket, laser, chase and turret"),
