@@ -77,7 +77,7 @@ class LevelView:
         self.ninja_animation = NinjaAnimation(simulation.world, self._rng)
         self.ragdoll: Ragdoll | None = None
         self._shake = 0.0
-        self._won = 0
+        self._won = self._door = 0
         self._covered: list[pygame.Rect] = []
         self._look: tuple[object, ...] = ()
         self._layout()
@@ -138,14 +138,11 @@ class LevelView:
         """The ninja dances before its exit, steps into it, and the exit closes: in the picture alone."""
         won = world.ninja.state == CELEBRATING and not self.context.settings.reduced_motion
         self._won = self._won + 1 if won else 0
+        if self._won == 1:
+            n, exits = world.ninja, (k for k, o in enumerate(world.objects) if o.kind == EXIT and o.is_open)
+            self._door = min(exits, key=lambda k: hypot(world.objects[k].x - n.x, world.objects[k].y - n.y))
         if self._won == DANCE_TICKS + ENTER_TICKS:
-            self.object_animation.close(self._exit(world))
-
-    @staticmethod
-    def _exit(world: World) -> int:
-        """The slot of the open exit that is nearest to the ninja."""
-        n, exits = world.ninja, (k for k, o in enumerate(world.objects) if o.kind == EXIT and o.is_open)
-        return min(exits, key=lambda k: hypot(world.objects[k].x - n.x, world.objects[k].y - n.y))
+            self.object_animation.close(self._door)
 
     def _follow_death(self, world: World) -> None:
         """Become a corpse, or go on as one; a revived ninja (objects.md §3) gets up."""
@@ -261,8 +258,8 @@ class LevelView:
         else:
             (x, y), alpha = self.object_animation.ninja_place(fraction), 1.0
             if self._won:
-                ticks, world = self._won + fraction - 1, self.simulation.world
-                door, share = world.objects[self._exit(world)], min(1.0, ticks / ENTER_TICKS)
+                ticks, door = self._won + fraction - 1, self.simulation.world.objects[self._door]
+                share = min(1.0, ticks / ENTER_TICKS)
                 x, y = x + (door.x - x) * share, y + (door.y + DOOR_STEP - y) * share
                 alpha = 1 - max(0.0, min(1.0, (ticks - DANCE_TICKS) / ENTER_TICKS))
             if alpha > 0:

@@ -222,11 +222,7 @@ class EpisodeGrid(ThumbnailScreen):
             return
         rows: list[Row] = [
             (f"Go on with level {left.position + 1}", lambda: self.app.push(LevelScreen(self.app, left)), ""),
-            (
-                "Begin again",
-                lambda: self.app.push(LevelScreen(self.app, afresh)),
-                "From the first level",
-            ),
+            ("Begin again", lambda: self.app.push(LevelScreen(self.app, afresh)), "From the first level"),
             CANCEL,
         ]
         self.app.push(Menu(self.app, self.episode.name, rows))

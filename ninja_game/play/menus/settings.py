@@ -311,9 +311,7 @@ class SettingsScreen(ThumbnailScreen):
     def _sound(self) -> list[Widget]:
         return [
             self._slider(0, "Volume", "volume", (0, 99, 3), "0: no sound"),
-            self._slider(
-                1, "Long sounds", "loop_volume", (0, 99, 3), "Slides, rockets, lasers"
-            ),
+            self._slider(1, "Long sounds", "loop_volume", (0, 99, 3), "Slides, rockets, lasers"),
             self._slider(2, "Music", "music_volume", (0, 99, 3), "0: no music"),
             self._choice(3, "Music in practice", "music_in_practice", SWITCH),
         ]
