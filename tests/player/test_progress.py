@@ -127,7 +127,7 @@ def test_cheated_episode_gives_no_bests(tmp_path: Path) -> None:
 def test_only_a_better_level_score_replaces_the_best(tmp_path: Path) -> None:
     data = player_data(tmp_path)
     run = LevelRun(data, entry(short_level()))
-    assert "First time" in run.passed(played(short_level(), wait=5))[0]
+    assert "First pass" in run.passed(played(short_level(), wait=5))[0]
     assert run.passed(played(short_level(), wait=5)) == []
     assert run.passed(played(short_level(), wait=9)) == []
     assert "best" in run.passed(played(short_level()))[0]

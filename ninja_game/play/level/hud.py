@@ -328,12 +328,11 @@ def _things(play: LevelPlay) -> Things:
 
 
 def _reached(play: LevelPlay) -> list[str]:
-    """What the next medal needs; the gold of a passed run and what its clock shows; what that has brought."""
+    """What the next medal needs; the gold of a passed run, and what that has brought."""
     attempt, pars = play.attempt, play.context.pars
     following = [next_par(pars, Mark(attempt.ended_tick, 0)) or "The best medal"] if pars and play.medal else []
     gold = f"{attempt.gold} of {play.all_gold} gold"
-    clock = "" if play.context.practice_mode else f"    {rounded_text(attempt.lifetime)} s left"
-    return [*following, gold + clock, *filter(None, ["    ".join(play.notices)])]
+    return [*following, "    ".join([gold, *play.notices])]
 
 
 def _named(play: LevelPlay, text: str) -> list[tuple[str, float, float]]:

@@ -176,7 +176,7 @@ def test_who_is_still_for_long_reads_once_how_to_try_again_and_nobody_who_moves(
             for _ in range(50 + len(keys)):
                 driver.frames(1)
                 heard.append(said(level))
-        assert ("R tries again from the start" in heard[: 50 + len(keys)]) is told
+        assert ("R tries again from the start" in heard[: 50 + len(keys)]) == told
         assert "R tries again from the start" not in heard[50 + len(keys) :]
         assert heard[START_TICKS] != heard[0], "the text of the start is gone"
 
