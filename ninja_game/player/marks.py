@@ -64,10 +64,8 @@ def opens_author(entry: Entry, mark: Mark | None) -> bool:
     return medal_of(entry, mark) in {"gold", "author"}
 
 
-def next_par(pars: Pars, mark: Mark | None) -> str:
+def next_par(pars: Pars, mark: Mark) -> str:
     """The medal after the one that a mark brings, and how much faster a run must be for it; "" after the best."""
-    if mark is None:
-        return f"Pass it for {MEDALS[-1]}"
     medal = pars.next_medal(mark.fastest)
     return f"{rounded_text(mark.fastest - pars.par(medal))} s faster for {medal}" if medal else ""
 

@@ -90,7 +90,7 @@ class PlayerData:
         before = self.catalogue.preceding(episode)
         if before is None or self.episode_state(episode) != LOCKED:
             return ""
-        return f"Locked: pass episode {before.code} first"
+        return f"Opens after episode {before.code}"
 
     @cached_property
     def marks(self) -> Marks:

@@ -26,7 +26,7 @@ from ninja_game.player.catalogue import Entry, Episode
 from ninja_game.player.going_on import keep_place, kept_place
 from ninja_game.player.marks import next_par
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.progress import LOCKED, UNLOCKED, Progress, new_unlocks
+from ninja_game.player.progress import LOCKED, UNLOCKED, Place, Progress, new_unlocks
 from ninja_game.player.saving import EPISODE_BEST, count_of, replay_of, save_best, told
 from ninja_game.player.store import Work
 from ninja_game.sim.level import Level
@@ -239,7 +239,8 @@ class EpisodeRun(LevelContext):
     """An episode from its first level on. ``position``: of the present one, from 0.
 
     ``legitimate``: neither practice nor a "cheated" episode; else nothing is a best and only "reached" moves on.
-    ``replays``: of the levels passed so far, where it is legitimate.
+    ``replays``: of the levels passed so far, where it is legitimate. ``whole``: no level was left out or
+    passed with assistance, so that the score of the episode counts.
     """
 
     def __init__(self, data: PlayerData, episode: Episode, *, practice_mode: bool = False) -> None:
@@ -248,6 +249,7 @@ class EpisodeRun(LevelContext):
         self.position = 0
         self.legitimate = not practice_mode and data.episode_state(episode) == UNLOCKED
         self.score = 0
+        self.whole = True
         self.replays: list[Replay] = []
         self._passed: Attempt | None = None
 
@@ -258,6 +260,12 @@ class EpisodeRun(LevelContext):
         self.entry = self.episode.levels[self.position]
         self.lifetime = LIFETIME + sum(GOLD_BONUS * run.gold - run.final_tick for run in replays)
         self.score = self.lifetime
+
+    def go_behind(self, beaten: Place) -> None:
+        """Stand where a run in which levels were left out came to, if that is in this episode."""
+        if beaten[0] == self.episode.number and 0 < beaten[1] < len(self.episode.levels) and not self.practice_mode:
+            self.whole, self.position = False, beaten[1]
+            self.entry = self.episode.levels[self.position]
 
     @property
     def _progress(self) -> Progress:
@@ -282,21 +290,27 @@ class EpisodeRun(LevelContext):
         return self.position == len(self.episode.levels) - 1
 
     def passed(self, attempt: Attempt) -> list[str]:
-        """Save what a passed attempt is worth, for its level and for the episode; notices about it."""
-        self.legitimate = self.legitimate and not attempt.assisted
+        """Save what a passed attempt is worth, for its level and for the episode; notices about it.
+
+        An assisted one is worth no record, but it opens what follows.
+        """
+        counts = self.legitimate and not attempt.assisted
+        self.whole = self.whole and counts
         self.score = attempt.lifetime
         self._passed = attempt
-        if self.legitimate:
+        if counts:
             self.replays = [*self.replays[: self.position], replay_of(self.data, self.entry, attempt)]
         count = count_of(self.data, self.entry, attempt, passed=True)
-        replays = tuple(self.replays) if self.legitimate else ()
+        replays = tuple(self.replays) if counts else ()
         # All of it as it is now: the work may be done later, when the run has gone on.
-        work = partial(self._save, count, self.position, self.score, replays, legitimate=self.legitimate)
+        work = partial(
+            self._save, count, self.position, self.score, replays, legitimate=self.legitimate, whole=self.whole
+        )
         self.notices = told(self.data, work)
         return self.notices
 
     def _save(
-        self, count: Work, position: int, score: int, replays: Sequence[Replay], *, legitimate: bool
+        self, count: Work, position: int, score: int, replays: Sequence[Replay], *, legitimate: bool, whole: bool
     ) -> list[str]:
         count()
         levels = len(self.episode.levels)
@@ -304,9 +318,9 @@ class EpisodeRun(LevelContext):
         if not replays:
             return []
         notices = save_best(self.data, self.episode.levels[position], replays[-1])
-        keep_place(self.data.store, self.episode.key, replays if position < levels - 1 else ())
+        keep_place(self.data.store, self.episode.key, replays if whole and position < levels - 1 else ())
         if position == levels - 1:
-            if self.data.records.episode_passed(self.episode.key, score, replays):
+            if whole and self.data.records.episode_passed(self.episode.key, score, replays):
                 notices.append(EPISODE_BEST.format(seconds_text(score)))
             if not self.episode.pack:
                 notices += new_unlocks(self.data.store, self.data.columns_complete, self.data.columns_present)
@@ -318,7 +332,7 @@ class EpisodeRun(LevelContext):
         return False
 
     def advance(self) -> Navigation:
-        """To the next level with the lifetime at the exit; in practice also without passing this one."""
+        """To the next level with the lifetime at the exit; or without passing this one, with that at its start."""
         if self._passed is None:
             self._leave_out()
         else:
@@ -336,11 +350,12 @@ class EpisodeRun(LevelContext):
         return Navigation.EPISODE_END if self._passed is not None and self.is_last else Navigation.BACK
 
     def _leave_out(self) -> None:
-        """Count the present level as reached, no more."""
-        position = self.position
+        """Open what follows the present level; nothing of the episode counts as a best any more."""
+        self.whole = False
+        position, legitimate = self.position, self.legitimate
 
         def work() -> list[str]:
-            self._level_passed(position, legitimate=False)
+            self._level_passed(position, legitimate=legitimate)
             return []
 
         self.notices = told(self.data, work)
@@ -357,7 +372,11 @@ def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodeRun | N
     ahead = [each for each in episodes if not data.progress.is_beaten(each.number)]
     opened = [each for each in ahead if data.episode_state(each) != LOCKED]
     chosen = next(iter(opened or ahead or episodes), None)
-    return EpisodeRun(data, chosen, practice_mode=practice_mode) if chosen else None
+    if chosen is None:
+        return None
+    run = EpisodeRun(data, chosen, practice_mode=practice_mode)
+    run.go_behind(data.progress.columns[chosen.column].beaten)
+    return run
 
 
 def left_half_way(data: PlayerData) -> EpisodeRun | None:

@@ -6,20 +6,15 @@ A disk that is full or locked never ends the game: then the notice says so, and 
 from __future__ import annotations
 
 from ninja_game.formats.replay.text import Replay
-from ninja_game.formats.run_time import seconds_text
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.marks import has_all_gold, medal_of
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.records import level_score
 from ninja_game.player.store import Work
 
 SAVED = ": saved"
-NEW_BEST = "Personal best {} s" + SAVED
-FIRST_PASS = "First time through, {} s left" + SAVED
-NEW_MEDAL = "{} medal" + SAVED
-NEW_ALL_GOLD = "All gold" + SAVED
-EPISODE_BEST = "Episode best {} s" + SAVED
+NEW_BEST, FIRST_PASS, NEW_MEDAL, NEW_ALL_GOLD = "New best", "First pass", "New medal", "All gold"
+EPISODE_BEST = "Episode best {} s"
 REPLAY_KEPT = "Replay" + SAVED
 NOT_SAVED = "Not saved yet: {}"
 
@@ -61,8 +56,7 @@ def save_best(data: PlayerData, entry: Entry, replay: Replay) -> list[str]:
     first = data.records.level_best(replay.level_digest, replay.body) is None
     notices = _marked(data, entry, replay)
     if data.records.level_passed(replay):
-        score = seconds_text(level_score(replay.gold, replay.final_tick))
-        notices.insert(0, (FIRST_PASS if first else NEW_BEST).format(score))
+        notices.insert(0, FIRST_PASS if first else NEW_BEST)
     return notices
 
 
@@ -74,7 +68,7 @@ def _marked(data: PlayerData, entry: Entry, replay: Replay) -> list[str]:
     if body != "circle":
         return []
     medal = medal_of(entry, now)
-    notices = [NEW_MEDAL.format(medal.capitalize())] if medal and medal != medal_of(entry, before) else []
+    notices = [NEW_MEDAL] * bool(medal and medal != medal_of(entry, before))
     return notices + [NEW_ALL_GOLD] * (has_all_gold(entry, now) and not has_all_gold(entry, before))
 
 

@@ -11,8 +11,9 @@ import pygame
 
 from ninja_game.player.settings import Settings
 from ninja_game.sim.events import DIED, MINE_EXPLODED, ROCKET_EXPLODED
+from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.memory.schema import World
-from ninja_game.sim.states import DEAD
+from ninja_game.sim.states import CELEBRATING, DEAD
 from ninja_game.simulation import Simulation
 from ninja_game.ui.audio.player import AudioOutput
 from ninja_game.ui.canvas import Canvas, Point
@@ -33,6 +34,9 @@ if TYPE_CHECKING:
 
 SHAKE, SHAKE_KEPT, SHAKE_REACH = 9.0, 0.78, 200.0
 """Of an explosion at the ninja: px, the share that is left a tick later, px from which on it is not felt."""
+
+DANCE_TICKS, ENTER_TICKS, DOOR_STEP = 36, 10, 2.0
+"""How long the ninja dances before its exit, and steps to it and through it; px that it stands below the middle."""
 
 
 class DrawnGhost(Protocol):
@@ -73,6 +77,7 @@ class LevelView:
         self.ninja_animation = NinjaAnimation(simulation.world, self._rng)
         self.ragdoll: Ragdoll | None = None
         self._shake = 0.0
+        self._won = self._door = 0
         self._covered: list[pygame.Rect] = []
         self._look: tuple[object, ...] = ()
         self._layout()
@@ -86,6 +91,7 @@ class LevelView:
         self.object_animation.on_tick(world)
         self.on_death()
         self._follow_blasts(world)
+        self._follow_win(world)
         for ghost in self.ghosts:
             ghost.on_tick()
 
@@ -106,6 +112,7 @@ class LevelView:
         self.effects.reset()
         self.ragdoll = None
         self._shake = 0.0
+        self._won = 0
         self._mended += self._backdrop.reset(world, self.object_animation)
         for ghost in self.ghosts:
             ghost.on_seek(world.tick)
@@ -126,6 +133,16 @@ class LevelView:
             if event.kind in (MINE_EXPLODED, ROCKET_EXPLODED) and not options.reduced_motion:
                 far = hypot(event.x - world.ninja.x, event.y - world.ninja.y)
                 self._shake = max(self._shake, SHAKE * options.shake / 100 * max(0.0, 1 - far / SHAKE_REACH))
+
+    def _follow_win(self, world: World) -> None:
+        """The ninja dances before its exit, steps into it, and the exit closes: in the picture alone."""
+        won = world.ninja.state == CELEBRATING and not self.context.settings.reduced_motion
+        self._won = self._won + 1 if won else 0
+        if self._won == 1:
+            n, exits = world.ninja, (k for k, o in enumerate(world.objects) if o.kind == EXIT and o.is_open)
+            self._door = min(exits, key=lambda k: hypot(world.objects[k].x - n.x, world.objects[k].y - n.y))
+        if self._won == DANCE_TICKS + ENTER_TICKS:
+            self.object_animation.close(self._door)
 
     def _follow_death(self, world: World) -> None:
         """Become a corpse, or go on as one; a revived ninja (objects.md §3) gets up."""
@@ -239,8 +256,14 @@ class LevelView:
         if self.ragdoll is not None:
             draw_ragdoll(self.target, self.ragdoll, fraction, self.colour)
         else:
-            at = self.object_animation.ninja_place(fraction)
-            draw_ninja(self.target, self.ninja_animation, at, fraction, self.colour)
+            (x, y), alpha = self.object_animation.ninja_place(fraction), 1.0
+            if self._won:
+                ticks, door = self._won + fraction - 1, self.simulation.world.objects[self._door]
+                share = min(1.0, ticks / ENTER_TICKS)
+                x, y = x + (door.x - x) * share, y + (door.y + DOOR_STEP - y) * share
+                alpha = 1 - max(0.0, min(1.0, (ticks - DANCE_TICKS) / ENTER_TICKS))
+            if alpha > 0:
+                draw_ninja(self.target, self.ninja_animation, (x, y), fraction, self.colour, alpha)
 
     def draw_ninja_over(self, surface: pygame.Surface, fraction: float) -> None:
         """Draw the ninja once more, on a copy of the picture over which something else was drawn."""

@@ -123,14 +123,14 @@ def test_death_goes_on_as_a_corpse_then_offers_retry_and_replay(
     assert screen.attempt.outcome == "running"
 
 
-def test_giving_up_has_no_replay(app: App, recording: Recording) -> None:
+def test_a_run_that_was_given_up_is_watched_as_far_as_it_went(app: App, recording: Recording) -> None:
     screen = open_level(app, recording)
     tap(app, "confirm", pictures=3)
     press("suicide")
     frames(app, DEATH_PAUSE + 3)
+    assert "watch it" in (hud_view(screen.play).message or ("", [""], 0))[1][-1]
     tap(app, "replay")
-    assert app.top is screen
-    assert screen.phase is Phase.DEAD
+    assert isinstance(app.top, ReplayScreen)
 
 
 def test_practice_goes_back_to_a_saved_moment_exactly(

@@ -35,7 +35,7 @@ CONTROLS: Area = (552, 452, 200, 26)
 class LabScreen(MenuScreen):
     """Ten figures about how the world works. ``name``: the one to begin with."""
 
-    title = "How it works"
+    title = "Physics"
     offers_back = False
 
     def __init__(self, app: App, name: str = "") -> None:

@@ -322,18 +322,17 @@ def hud_view(play: LevelPlay) -> HudView:
 
 
 def _things(play: LevelPlay) -> Things:
-    """Where what a player looks for at the start is: the ninja and all that is no gold."""
+    """Where what a player looks for at the start is: the ninja and all but gold."""
     world = play.attempt.simulation.world
     return ((world.ninja.x, world.ninja.y), *((o.x, o.y) for o in world.objects[1:] if o.kind != GOLD))
 
 
 def _reached(play: LevelPlay) -> list[str]:
-    """What the next medal needs; the gold of a passed run and what its clock shows; what that has brought."""
+    """What the next medal needs; the gold of a passed run, and what that has brought."""
     attempt, pars = play.attempt, play.context.pars
     following = [next_par(pars, Mark(attempt.ended_tick, 0)) or "The best medal"] if pars and play.medal else []
     gold = f"{attempt.gold} of {play.all_gold} gold"
-    clock = "" if play.context.practice_mode else f"    {rounded_text(attempt.lifetime)} s left"
-    return [*following, gold + clock, *filter(None, ["    ".join(play.notices)])]
+    return [*following, "    ".join([gold, *play.notices])]
 
 
 def _named(play: LevelPlay, text: str) -> list[tuple[str, float, float]]:
@@ -365,7 +364,7 @@ def _after_death(play: LevelPlay, key: KeyName) -> str:
     if play.after_end <= DEATH_PAUSE:
         return ""
     again = f"{key('confirm')} or {key('jump')}: try again"
-    return f"{again}    {key('replay')}: watch it" if play.may_watch else again
+    return f"{again}    {key('replay')}: watch it" + f"    {key('skip')}: stuck?" * play.is_stuck
 
 
 def _ready_hint(key: KeyName, *, practice_mode: bool, show_tutorial: bool) -> str:

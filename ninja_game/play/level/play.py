@@ -35,6 +35,9 @@ TRIES_FROM, TRIES_TICKS, MOST_TRIES = 40, 80, 24
 SLOW_TICK_MS = 100
 """A tick in slow motion: a quarter of the speed."""
 
+STUCK_AFTER = 8
+"""Failed tries of a level after which help is offered."""
+
 SHORTEST_TRY = 20
 """Ticks of a try that is worth being seen again."""
 
@@ -152,10 +155,15 @@ class LevelPlay:
 
     @property
     def may_watch(self) -> bool:
-        """Whether the attempt can be watched: passed, or dead for a while and not by the player's own hand."""
+        """Whether the attempt can be watched: passed, or dead for a while."""
         if self.phase is Phase.PASSED:
             return not self.attempt.spared
-        return self.phase is Phase.DEAD and self.after_end > DEATH_PAUSE and not self.attempt.own_hand
+        return self.phase is Phase.DEAD and self.after_end > DEATH_PAUSE
+
+    @property
+    def is_stuck(self) -> bool:
+        """Whether so many tries have failed that help is offered."""
+        return not self.context.practice_mode and len(self.tries) + (self.phase is Phase.DEAD) >= STUCK_AFTER
 
     # --- practice ---
 

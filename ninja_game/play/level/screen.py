@@ -15,8 +15,9 @@ from ninja_game.play.clipboard import copy_level_link, copy_link
 from ninja_game.play.level.hud import Hud, hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, LevelPlay, Phase
 from ninja_game.play.menus.help import HelpScreen
-from ninja_game.play.menus.panels import Panel
+from ninja_game.play.menus.panels import Menu, Panel, Row
 from ninja_game.play.menus.passed import EpisodePassed
+from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.attempt import Attempt
@@ -27,6 +28,9 @@ from ninja_game.sim.inputs import JUMP_HELD
 from ninja_game.ui.audio.music import BY_COLUMN, SILENCE
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.view.overlays import Overlays
+
+SLOWER = 70
+"""Game speed that is offered to who is stuck, %."""
 
 
 class LevelScreen(Screen):
@@ -126,10 +130,28 @@ class LevelScreen(Screen):
             self._leave_to(where)
 
     def skip(self) -> None:
-        """In practice a level may be left out."""
+        """In practice a level may be left out; else there is help after many failed tries."""
         if self.context.practice_mode:
             self.go_on()
             self.app.notify("    ".join(self.context.notices))
+        elif self.play.is_stuck:
+            self.ask_for_help()
+
+    def ask_for_help(self) -> None:
+        """What to do about a level that is too hard: nobody has to stay in it."""
+        context, app = self.context, self.app
+        run = context.data.catalogue.author_run(context.entry)
+        rows: list[Row] = [("Try again", self.retry, "")]
+        if run is not None:
+            rows.append(("Watch how", lambda: watch(app, [run]), "The run of the level's author"))
+        rows.append(("Slow down", self._slow_down, f"Game speed {SLOWER} %: no record; Settings change it"))
+        if context.leads_on:
+            rows.append(("Next level", self.go_on, "Skip this one; you can come back to it"))
+        app.push(Menu(app, "Stuck?", rows))
+
+    def _slow_down(self) -> None:
+        self.app.change_settings(game_speed=SLOWER)
+        self.retry()
 
     def quit(self) -> None:
         self.context.gave_up(self.attempt)
@@ -289,14 +311,20 @@ class PausePanel(Panel):
         self.playing = playing
 
     def rows(self) -> list[tuple[str, Callable[[], object], str]]:
+        stuck = ("Stuck?", lambda: self._leave(self._ask), "Ways past a level that is too hard")
         return [
             ("Resume", self.back, ""),
+            *([stuck] if self.playing.play.is_stuck else []),
             ("Retry", lambda: self._leave(self.playing.retry), ""),
             ("Copy a link", self._copy_link, "Whoever opens the link plays this level"),
             ("Settings", lambda: self.app.push(SettingsScreen(self.app)), ""),
             ("Help", lambda: self.app.push(HelpScreen(self.app)), ""),
             ("Leave the level", lambda: self._leave(self.playing.quit), ""),
         ]
+
+    def _ask(self) -> None:
+        self.playing.resume()
+        self.playing.ask_for_help()
 
     def _copy_link(self) -> None:
         entry = self.playing.context.entry

@@ -44,7 +44,7 @@ class _Maker:
             return
         require_desktop()
         choose_memory("compiled")
-        self.progress = "starting; the first time it compiles, which takes a minute or two"
+        self.progress = "the first time takes a minute or two"
         if not daily.make_daily(levels, day, report=self._report, stop=self.stop):
             self.problem = "No level could be made for this day."
 
@@ -131,15 +131,24 @@ class DailyScreen(ThumbnailScreen):
         theme, palette, entry = self.app.theme, self.app.theme.palette, self.entry
         theme.text(surface, f"{self.day:%A}, {self.day.isoformat()}", SIDE, TOP, size=12, colour=palette.faint)
         if entry is None:
-            self.app.canvas.frame_rect(surface, palette.panel_edge, LEFT, TOP, WIDE, WIDE * 25 / 33, 1)
-            if self._maker:
-                theme.text(surface, "Making the level of the day", LEFT + 20, TOP + 150, size=14)
-                theme.text(surface, self._maker.progress, LEFT + 20, TOP + 178, size=11, colour=palette.faint)
+            # As a level of nothing but wall.
+            self.app.canvas.fill_rect(surface, palette.tile, LEFT, TOP, WIDE, WIDE * 25 / 33, 4)
+            words = ((150, 16, "Building today's level"), (182, 11, self._maker.progress)) if self._maker else ()
+            middle, ink = LEFT + WIDE / 2, palette.on_tile
+            for down, size, text in words:
+                theme.text(surface, text, middle, TOP + down, size=size, colour=ink, align="centre", width=WIDE - 40)
         else:
             self._draw_entry(surface, entry)
         if self.message:
             for number, line in enumerate(wrapped(theme, self.message, WIDE - 40, 11)):
-                theme.text(surface, line, LEFT + 20, TOP + 150 + 18 * number, size=11, colour=palette.bad)
+                theme.text(
+                    surface,
+                    line,
+                    LEFT + 20,
+                    TOP + 150 + 18 * number,
+                    size=11,
+                    colour=palette.bad if entry else palette.on_tile,
+                )
 
     def _draw_entry(self, surface: pygame.Surface, entry: Entry) -> None:
         theme = self.app.theme

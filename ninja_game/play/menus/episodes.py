@@ -31,7 +31,7 @@ LARGEST = 62
 NAMED = 48
 """px from which on a cell is wide enough for its column's name."""
 
-LOOKS = (("beaten", "beaten"), ("open", "open"), ("cheated", "reached in practice"), ("locked", "locked"))
+LOOKS = (("beaten", "passed"), ("open", "open"), ("cheated", "reached in practice"), ("locked", "locked"))
 
 
 class Cells(ListView):
@@ -123,7 +123,7 @@ class EpisodeGrid(ThumbnailScreen):
         self.grid.selected = self._selected
         self.play = Button((SIDE + 274, 64, 90, 30), "Play", lambda: self._play(self.grid.index))
         self.rows = ListView((SIDE, 132, 364, ROW * 5), ROW, self._draw_row, self._trial, opens=True)
-        self.rows.hint = "Enter or a second click: play this level alone, on a full clock"
+        self.rows.hint = "Enter or a second click: play this level alone"
         self._look_for_packs(pack)
         self.grid.arrange(self.pack.episodes)
 
@@ -222,11 +222,7 @@ class EpisodeGrid(ThumbnailScreen):
             return
         rows: list[Row] = [
             (f"Go on with level {left.position + 1}", lambda: self.app.push(LevelScreen(self.app, left)), ""),
-            (
-                "Begin again",
-                lambda: self.app.push(LevelScreen(self.app, afresh)),
-                "From the first level, on a full clock",
-            ),
+            ("Begin again", lambda: self.app.push(LevelScreen(self.app, afresh)), "From the first level"),
             CANCEL,
         ]
         self.app.push(Menu(self.app, self.episode.name, rows))

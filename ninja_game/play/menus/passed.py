@@ -69,7 +69,7 @@ class EpisodePassed(ThumbnailScreen):
             all_gold_and_medal(surface, theme, entry, mark, x + PICTURE - 11, 135)
         score = f"{seconds_text(self.run.score)} s"
         theme.text(surface, score, WIDTH / 2, 290, size=44, align="centre", bold=True, height=60)
-        what = "practice" if self.run.practice_mode else "left on the clock: the score of the episode"
+        what = "left on the clock: your score" if self.run.whole else "practice, or help was used: no record"
         theme.text(surface, what, WIDTH / 2, 340, size=11, colour=palette.faint, align="centre")
         for line, notice in enumerate(self.run.notices[-4:]):
             y = 364 + 17 * line

@@ -84,15 +84,16 @@ class RecordsScreen(MenuScreen):
         theme, palette = self.app.theme, self.app.theme.palette
         theme.text(surface, "Your best", 44, 68, size=14, bold=True)
         theme.text(surface, "What killed you", SIDE, 68, size=14, bold=True)
-        deaths = self.player.statistics.deaths()
-        most = max([*deaths.values(), 1])
+        deaths = {killer: times for killer, times in self.player.statistics.deaths().items() if times}
+        most = max(deaths.values(), default=1)
+        if not deaths:
+            theme.text(surface, "Nothing yet", SIDE, 98, size=11, colour=palette.faint)
         for place, (killer, times) in enumerate(deaths.items()):
             y = 98 + 27 * place
             theme.text(surface, _NAMES.get(killer, killer), SIDE, y, size=11)
             theme.text(surface, str(times), SIDE + SIDE_WIDTH, y, size=11, align="right")
             theme.canvas.fill_rect(surface, palette.panel, SIDE, y + 15, SIDE_WIDTH, 4, 2)
-            if times:
-                theme.canvas.fill_rect(surface, palette.bad, SIDE, y + 15, max(4, SIDE_WIDTH * times / most), 4, 2)
+            theme.canvas.fill_rect(surface, palette.bad, SIDE, y + 15, max(4, SIDE_WIDTH * times / most), 4, 2)
         played = self.player.statistics.played()
         minutes = played.ticks * TICK_MS // 60_000
         lines = (

@@ -8,13 +8,14 @@ from functools import partial
 import pygame
 
 from ninja_game.files.user_folder import LEVELS
+from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.play.app import App, Screen
-from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import CANCEL, Menu, Row
+from ninja_game.play.menus.thumbnails import ThumbnailScreen
 from ninja_game.player.progress import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
 from ninja_game.player.settings import BY_COLUMN, GHOSTS
 from ninja_game.ui.canvas import WIDTH
-from ninja_game.ui.input.bindings import ACTIONS, InputEvent
+from ninja_game.ui.input.bindings import ACTIONS, MENU_KEYS, MENU_PAD, InputEvent, bindable
 from ninja_game.ui.input.gamepad import pad_label
 from ninja_game.ui.input.keys import key_label
 from ninja_game.ui.list_view import ListView
@@ -168,6 +169,9 @@ class BindingTable(ListView):
 
         To leave it comes first, so that a hasty key does no harm.
         """
+        if not bindable(action, name, MENU_KEYS if self.device == "keys" else MENU_PAD):
+            self.screen.app.notify(f"{input_label(self.device, name)} works the menus: choose another one")
+            return
         others = [other for other in ACTIONS if name in self.inputs(other) and clash(action, other)]
         share = partial(self.put, action, slot, name)
 
@@ -212,23 +216,24 @@ SWITCH = [("off", False), ("on", True)]
 RACED = [("your best", "best"), ("next medal", "next"), *((medal, medal) for medal in GHOSTS[2:])]
 RATES = [("match display", 0), ("30", 30), ("60", 60), ("120", 120), ("144", 144), ("240", 240)]
 COLOUR_NAMES = ("default", "pink", "olive", "teal", "mauve", "maroon", "white", "gold", "slate", "silver")
-PRACTICE_HINT = "No clock; quick save, rewind, slow motion; no records"
-ASSISTED_HINT = "such runs are marked as assisted: no records"
+PRACTICE_HINT = "No clock; save, rewind, slow motion; no records"
+ASSISTED_HINT = "no records"
 LEFT, TOP, STEP, HEIGHT_OF_ROW = 216, 72, 42, 32
 WIDTH_OF_ROW = WIDTH - 36 - LEFT - 12
 
 
-class SettingsScreen(MenuScreen):
+class SettingsScreen(ThumbnailScreen):
     """Pages at the left, the widgets of the chosen one at the right."""
 
     title = "Settings"
+    music = ""
 
     def __init__(self, app: App) -> None:
         super().__init__(app)
         self.page = PAGES[0]
         self.tables: dict[str, BindingTable] = {}
         self.tabs = ListView((40, TOP - 4, 158, 40 * len(PAGES)), 40, self._draw_tab, self._go_in, selected=self._show)
-        self.tabs.hint = "Up and down: choose a page. Right: go to it. Esc: leave the settings"
+        self.tabs.hint = "Up and down: choose a page. Right: open it"
         self.tabs.fill(PAGES)
 
     def build(self) -> Sequence[Widget]:
@@ -293,10 +298,10 @@ class SettingsScreen(MenuScreen):
         colours = list(zip(COLOUR_NAMES, NINJA_COLOURS, strict=True))[:count]
         more = "Complete columns of episodes for more" if count < len(NINJA_COLOURS) else ""
         return [
-            self._choice(0, "Palette", "palette", palettes, "In contrast and safe all that kills has spikes too"),
+            self._choice(0, "Palette", "palette", palettes, "In contrast and safe what kills has spikes too"),
             self._choice(1, "Ninja colour", "ninja_colour", colours, more),
             self._choice(2, "Full screen", "fullscreen", SWITCH, "F11 at any time"),
-            self._choice(3, "Smooth motion", "smooth", SWITCH, "Draw between the 40 ticks of a second"),
+            self._choice(3, "Smooth motion", "smooth", SWITCH, "More than 40 pictures a second"),
             self._choice(4, "Frame rate", "frame_limit", RATES),
             self._choice(5, "Ghost", "ghost", RACED, f"{self.app.controls.name('ghost')} shows or hides it in play"),
             self._choice(6, "Show keys in play", "show_keys", SWITCH),
@@ -305,11 +310,9 @@ class SettingsScreen(MenuScreen):
 
     def _sound(self) -> list[Widget]:
         return [
-            self._slider(0, "Volume", "volume", (0, 99, 3), "0 is silence"),
-            self._slider(
-                1, "Ambient loops", "loop_volume", (0, 99, 3), "Skids, slides, rockets, lasers: a share of it"
-            ),
-            self._slider(2, "Music", "music_volume", (0, 99, 3), "Share of the volume; 0 is none"),
+            self._slider(0, "Volume", "volume", (0, 99, 3), "0: no sound"),
+            self._slider(1, "Long sounds", "loop_volume", (0, 99, 3), "Slides, rockets, lasers"),
+            self._slider(2, "Music", "music_volume", (0, 99, 3), "0: no music"),
             self._choice(3, "Music in practice", "music_in_practice", SWITCH),
         ]
 
@@ -319,13 +322,13 @@ class SettingsScreen(MenuScreen):
             Label((LEFT, TOP + STEP + 10, 212, 14), "Your name, in replays:"),
             TextEntry((LEFT + 220, TOP + STEP, WIDTH_OF_ROW - 220, HEIGHT_OF_ROW), "unnamed",
                       self.player.settings.name, lambda text: self.change(name=text)),
-            self._choice(2, "Texts of levels", "level_texts", SWITCH, "Levels that you have not passed say how"),
+            self._choice(2, "Hints in levels", "level_texts", SWITCH, "Until you have passed them"),
         ]  # fmt: skip
         if overclock_unlocked(self.player.columns_complete, self.player.columns_present):
             widgets.append(
                 Slider(self._area(3), "Overclock, ms", (0, FASTEST_TICK_GAIN, 1), lambda: self.app.overclock,
                        lambda value: setattr(self.app, "overclock", round(value)),
-                       hint="Shorter ticks, until the game ends; scores count as usual")
+                       hint="A faster game, until you quit")
             )  # fmt: skip
         text = f"Your levels: {self.player.folder / LEVELS}"
         return [*widgets, Label((LEFT, TOP + STEP * 10 + 16, WIDTH_OF_ROW, 13), text, size=9.5, faint=True)]
@@ -333,9 +336,9 @@ class SettingsScreen(MenuScreen):
     def _accessibility(self) -> list[Widget]:
         return [
             self._choice(0, "Text size", "text_size", list(TEXT_SIZES.items())),
-            self._slider(1, "Game speed", "game_speed", (50, 100, 5), f"Time goes slower; {ASSISTED_HINT}"),
+            self._slider(1, "Game speed", "game_speed", (50, 100, 5), f"Slower is easier; {ASSISTED_HINT}"),
             self._choice(2, "Invincible", "invincible", SWITCH,
-                         f"Only crushing, the clock and giving up end a run; {ASSISTED_HINT}"),
+                         f"Only being crushed or out of time ends a run; {ASSISTED_HINT}"),
             self._choice(3, "Running keys", "tap_to_run", [("hold", False), ("tap", True)],
                          "Tap: a press runs on until the next press"),
             self._choice(4, "Marks for warning sounds", "sound_cues", SWITCH, "Rocket, laser, chase and turret"),
@@ -351,6 +354,12 @@ class SettingsScreen(MenuScreen):
         super().draw_frame(surface)
         canvas, palette = self.app.canvas, self.app.theme.palette
         canvas.fill_rect(surface, palette.panel_edge, 204, 64, 1, 490)
+        if self.page == "Picture":
+            # What the palette does: the first level of each column in it.
+            episodes = self.player.catalogue.episodes
+            firsts = [episodes[each].levels[0] for each in sorted(episodes) if each % EPISODES_PER_COLUMN == 0]
+            for place, entry in enumerate(firsts[:5]):
+                self.thumbnails.draw(surface, entry, LEFT + 106 * place, TOP + STEP * 8 + 20, 100)
 
     def _draw_tab(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         x, y, w, h = area

@@ -101,10 +101,11 @@ def tries_text(played: Played) -> str:
 
 
 def time_and_par(entry: Entry, mark: Mark | None) -> str:
-    """The player's fastest time in a level and the next medal's, in words; "" where there is neither."""
-    time = f"{seconds_text(mark.fastest)} s" if mark else ""
-    par = next_par(entry.pars, mark) if entry.pars else ""
-    return "    ".join(filter(None, (time, par)))
+    """The player's fastest time in a level and what the next medal needs, in words; "" before the first pass."""
+    if mark is None:
+        return ""
+    following = next_par(entry.pars, mark) if entry.pars else ""
+    return "    ".join(filter(None, (f"{seconds_text(mark.fastest)} s", following)))
 
 
 def draw_pars(surface: pygame.Surface, theme: Theme, pars: Pars | None, tick: int | None, x: float, y: float) -> None:

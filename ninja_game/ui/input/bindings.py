@@ -45,9 +45,12 @@ class Bindings:
         self.keys = {}
         for action, default in ACTIONS.items():
             wanted = tuple(keys.get(action, default.keys))
-            known = tuple(filter(scancode_named, wanted))
+            known = tuple(name for name in wanted if scancode_named(name) and bindable(action, name, MENU_KEYS))
             self.keys[action] = known if known or not wanted else tuple(default.keys)
-        self.pad = {action: tuple(pad.get(action, default.pad)) for action, default in ACTIONS.items()}
+        self.pad = {
+            action: tuple(name for name in pad.get(action, default.pad) if bindable(action, name, MENU_PAD))
+            for action, default in ACTIONS.items()
+        }
         self._by_key: dict[int, list[str]] = {}
         self._by_pad: dict[str, list[str]] = {}
         for action, names in self.keys.items():
@@ -158,7 +161,7 @@ ACTIONS: dict[str, Action] = {
     "suicide": Action("Give up", ("k",), ("back", "button-6")),
     "replay": Action("Watch the replay", ("v",), ("y", "button-3")),
     "quit": Action("Leave to the menu", ("q",)),
-    "skip": Action("Skip the level (practice)", ("n",)),
+    "skip": Action("Skip, or help when stuck", ("n",)),
     "boss": Action("Hide the game", ("tab",)),
     "ghost": Action("Ghost on or off", ("g",), ("rightshoulder",)),
     "quick_save": Action("Quick save (practice)", ("f5",), ("leftstick",)),
@@ -201,6 +204,19 @@ MENU_PAD: dict[str, str] = {
     "hat-left": "left", "hat-right": "right", "hat-up": "up", "hat-down": "down", "axis-0-": "left",
     "axis-0+": "right", "axis-1-": "up", "axis-1+": "down", "button-0": "confirm", "button-1": "back",
 }  # fmt: skip
+
+
+ANYWHERE = frozenset({"boss", "screenshot", "fullscreen"})
+"""Actions of every screen, menus too."""
+
+
+def bindable(action: str, name: str, in_menus: Mapping[str, str]) -> bool:
+    """Whether an input may mean an action: what works menus must not hide the game as well.
+
+    >>> [bindable("boss", name, MENU_KEYS) for name in ("return", "b")], bindable("boss", "b", MENU_PAD)
+    ([False, True], False)
+    """
+    return action not in ANYWHERE or name not in in_menus
 
 
 @dataclass(frozen=True)

@@ -150,7 +150,9 @@ class NinjaAnimation:
         )  # fmt: skip
 
 
-def draw_ninja(target: DrawTarget, animation: NinjaAnimation, at: Point, fraction: float, colour: pygame.Color) -> None:
+def draw_ninja(
+    target: DrawTarget, animation: NinjaAnimation, at: Point, fraction: float, colour: pygame.Color, alpha: float = 1.0
+) -> None:
     """The living ninja about a point."""
     if not is_near(*at):
         return
@@ -158,7 +160,7 @@ def draw_ninja(target: DrawTarget, animation: NinjaAnimation, at: Point, fractio
     offset = px - round(px), py - round(py)
     sprite = ninja_sprite(
         target.canvas.scale, target.palette, animation.pose(fraction), animation.facing, animation.velocity,
-        colour=colour, offset=offset,
+        colour=colour, offset=offset, alpha=alpha,
     )  # fmt: skip
     target.picture(sprite, *at)
 

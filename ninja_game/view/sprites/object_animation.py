@@ -41,7 +41,7 @@ def drawn_place(o: Object) -> Place:
 
 
 class ObjectAnimation:
-    """The memory of one view. ``tick`` counts the ticks that were seen."""
+    """The memory of one view. ``tick``: ticks seen; ``closing``: the slot of an exit that closes, or 0."""
 
     def __init__(self, world: World) -> None:
         self.reset(world)
@@ -56,6 +56,7 @@ class ObjectAnimation:
         self.states = {slot: state_of(world, world.objects[slot]) for slot in self.static_slots}
         self.since = dict.fromkeys(self.static_slots, LONG_AGO)
         self.changed: set[int] = set()
+        self.closing = 0
         self.now = {slot: drawn_place(world.objects[slot]) for slot in self.moving_slots}
         self.before = dict(self.now)
         self.eyes = {
@@ -91,6 +92,11 @@ class ObjectAnimation:
                 self.changed.add(event.slot)
         self.ninja_before = self.ninja_now
         self.ninja_now = world.ninja.x, world.ninja.y
+
+    def close(self, slot: int) -> None:
+        """Let an exit that is open be seen to close."""
+        self.closing, self.since[slot] = slot, self.tick
+        self.changed.add(slot)
 
     def _follow_rocket(self, slot: int, o: Object) -> None:
         """The last places of a rocket, newest last; they fade when it is gone."""

@@ -214,7 +214,7 @@ def static_sprites_of(world: World, slot: int, animation: ObjectAnimation, fract
         return [] if o.exploded else [(mine(), o.x, o.y)]
     if kind == kinds.EXIT:
         step = animation.step(slot, fraction, _EXIT_FRAMES) if o.is_open else 0
-        return [(exit_door(step), o.x, o.y)]
+        return [(exit_door(8 - step if slot == animation.closing else step), o.x, o.y)]
     if kind == kinds.SWITCH:
         return [(exit_switch(world.objects[o.partner].is_open), o.x, o.y)]
     if kind == kinds.DOOR:

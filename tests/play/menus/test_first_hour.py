@@ -9,13 +9,14 @@ import pytest
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.sayings import read_sayings
 from ninja_game.play.level.hud import cause_of_death, hud_view, solid_place
-from ninja_game.play.level.play import Phase
+from ninja_game.play.level.play import DEATH_PAUSE, STUCK_AFTER, Phase
 from ninja_game.play.level.sayings import FALL_HELP, SHOWN_TICKS, START_TICKS, STILL_TICKS, Sayings
 from ninja_game.play.level.screen import LevelScreen, play_level
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.menus.panels import Menu
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.player.playthrough import LevelRun
+from ninja_game.player.playthrough import EpisodeRun, LevelRun
 from ninja_game.player.statistics import SELF
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.simulation import Simulation
@@ -162,7 +163,7 @@ def test_first_death_of_each_kind_says_why(driver: MenuDriver) -> None:
     assert texts == ["Killed by a mine. Mines never move: keep a body's width away.", "Killed by a mine."]
 
 
-def test_who_is_still_for_long_is_told_once_how_to_try_again_and_nobody_who_moves(driver: MenuDriver) -> None:
+def test_who_is_still_for_long_reads_once_how_to_try_again_and_nobody_who_moves(driver: MenuDriver) -> None:
     driver.press("return")
     level = driver.shown(LevelScreen)
     for keys, told in (([0] * (STILL_TICKS + 480), True), ([2, 2, 1, 1] * 400, False)):
@@ -175,7 +176,7 @@ def test_who_is_still_for_long_is_told_once_how_to_try_again_and_nobody_who_move
             for _ in range(50 + len(keys)):
                 driver.frames(1)
                 heard.append(said(level))
-        assert ("R tries again from the start" in heard[: 50 + len(keys)]) is told
+        assert ("R tries again from the start" in heard[: 50 + len(keys)]) == told
         assert "R tries again from the start" not in heard[50 + len(keys) :]
         assert heard[START_TICKS] != heard[0], "the text of the start is gone"
 
@@ -197,9 +198,9 @@ def test_levels_of_a_locked_episode_are_locked_everywhere(driver: MenuDriver) ->
     browser.list._select(place)
     assert not browser.play_it.enabled
     assert not browser.practice.enabled
-    assert browser.practice.hint == "Locked: pass episode 1 first"
+    assert browser.practice.hint == "Opens after episode 1"
     browser.play(place)
-    assert browser.message == "Locked: pass episode 1 first"
+    assert browser.message == "Opens after episode 1"
     assert driver.top() is browser
     for level in range(5):
         driver.player.progress.level_passed((0, level), legitimate=True)
@@ -270,3 +271,50 @@ def test_level_without_its_certificate_races_the_best_run(driver: MenuDriver) ->
     driver.app.change_settings(ghost="gold")
     own = replace(entry(short_level()), source="yours")
     assert LevelRun(driver.player, own).ghosts() == []
+
+
+def stuck_level(driver: MenuDriver) -> LevelScreen:
+    """The first level, after so many deaths that help is offered."""
+    driver.press("return")
+    level = driver.shown(LevelScreen)
+    for number in range(STUCK_AFTER):
+        if number:
+            level.retry()
+        level.begin()
+        driver.keys.script = [0] * 30
+        driver.frames(30)
+        assert not level.play.is_stuck
+        level.give_up()
+    driver.frames(DEATH_PAUSE + 3)
+    return level
+
+
+def test_nobody_is_stopped_by_one_level(driver: MenuDriver) -> None:
+    level = stuck_level(driver)
+    message = hud_view(level.play).message
+    assert message
+    assert message[1][-1].endswith("N: stuck?")
+    driver.press("n")
+    assert [getattr(each, "text", "") for each in driver.shown(Menu).widgets] == [
+        "Try again", "Watch how", "Slow down", "Next level",
+    ]  # fmt: skip
+    driver.choose("Next level")
+    run = level.context
+    assert isinstance(run, EpisodeRun)
+    assert driver.top() is level
+    assert run.position == 1
+    assert not run.whole
+    driver.press("q")
+    driver.press("return")
+    assert driver.shown(LevelScreen).context.title.endswith("Mind the Gap"), "play goes on behind it"
+
+
+def test_slower_play_opens_what_follows_without_a_record(driver: MenuDriver) -> None:
+    level = stuck_level(driver)
+    driver.press("n")
+    driver.choose("Slow down")
+    assert driver.player.settings.game_speed == 70
+    level.attempt.assists.add("slow motion")
+    level.context.passed(level.attempt)
+    assert driver.player.progress.columns[0].beaten == (0, 1)
+    assert driver.player.marks.of(level.context.entry.digest) is None

@@ -6,6 +6,8 @@ from dataclasses import replace
 from pathlib import Path
 from time import process_time
 
+import pytest
+
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
@@ -14,6 +16,7 @@ from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.help import room_level
 from ninja_game.play.menus.replays import FIRST_SECONDS, ReplaysScreen, _row_of_recording
 from ninja_game.player.player_data import PlayerData
+from tests.support.layout import noted
 from tests.support.menu_driver import MenuDriver
 
 MANY = 10_000
@@ -95,3 +98,23 @@ def test_rows_say_exit_or_gold_and_authors_have_one_name(driver: MenuDriver) -> 
     assert _row_of_recording(Recording(level, full), "").what == "all gold, 93.775 s left"
     theirs = replace(full, author="ninja-game check")
     assert _row_of_recording(Recording(level, theirs), "").who == "ninja-game"
+
+
+def test_the_same_run_of_an_author_stands_once(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> None:
+    files = [bundled_replays()[0]] * 2
+    monkeypatch.setattr(ReplaysScreen, "bundled", lambda _: files)
+    screen = driver.open("Replays")
+    assert isinstance(screen, ReplaysScreen)
+    driver.frames(5)
+    assert len(screen.rows) == 1
+
+
+def test_only_who_has_killed_is_named(driver: MenuDriver) -> None:
+    for killer, seen in (("", "Nothing yet"), ("mine", "mine")):
+        if killer:
+            driver.player.statistics.attempt_ended("x", killer=killer, passed=False, ticks=1, gold=0)
+        with noted() as layouts:
+            driver.open("Records")
+        texts = {each.text for each in layouts[-1].texts}
+        assert texts & {"mine", "thwump", "Nothing yet"} == {seen}
+        driver.press("escape")

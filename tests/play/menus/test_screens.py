@@ -37,7 +37,7 @@ ENTRIES = {
     "Records": RecordsScreen,
     "Replays": ReplaysScreen,
     "Editor": EditorScreen,
-    "How it works": LabScreen,
+    "Physics": LabScreen,
     "Settings": SettingsScreen,
     "Help": HelpScreen,
 }

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import pygame
 import pytest
 
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.panels import Menu
-from ninja_game.play.menus.settings import LIST, PAGES, ROW, SLOTS, Capture, SettingsScreen, clash
-from ninja_game.ui.input.bindings import ACTIONS
+from ninja_game.play.menus.settings import LEFT, LIST, PAGES, ROW, SLOTS, STEP, TOP, Capture, SettingsScreen, clash
+from ninja_game.ui.input.bindings import ACTIONS, MENU_KEYS, MENU_PAD, bindable
+from ninja_game.ui.theme import PALETTES
 from ninja_game.ui.widgets import Slider
 from tests.support.menu_driver import MenuDriver
 
@@ -102,6 +104,32 @@ def test_defaults_do_not_clash_and_every_input_has_a_place() -> None:
         for other, its in ACTIONS.items():
             if set(action.keys) & set(its.keys) or set(action.pad) & set(its.pad):
                 assert not clash(name, other)
+        assert all(bindable(name, each, MENU_KEYS) for each in action.keys)
+        assert all(bindable(name, each, MENU_PAD) for each in action.pad)
     assert clash("left", "retry")
     assert clash("boss", "faster")
     assert not clash("faster", "quick_save")
+
+
+def test_a_key_of_the_menus_cannot_hide_the_game(driver: MenuDriver) -> None:
+    driver.app.change_settings(keys={"boss": ("return", "b")})
+    assert driver.app.controls.keys["boss"] == ("b",)
+    driver.open("Settings")
+    driver.settings_page("Keyboard")
+    table = driver.shown(SettingsScreen).tables["keys"]
+    table.taken("boss", 0, "space")
+    assert "Space works the menus" in driver.app.notice
+    assert "space" not in table.inputs("boss")
+
+
+def test_a_palette_is_seen_in_a_level_beside_its_setting(driver: MenuDriver) -> None:
+    screen = driver.open("Settings")
+    assert isinstance(screen, SettingsScreen)
+
+    def sample() -> pygame.Color:
+        driver.frames(8)
+        return driver.app.surface.get_at(driver.app.canvas.point(LEFT + 2, TOP + 8 * STEP + 22))
+
+    before = sample()
+    driver.app.change_settings(palette="dusk")
+    assert sample() == PALETTES["dusk"].tile != before

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from unittest.mock import patch
+
 import pygame
 import pytest
 
@@ -12,6 +14,8 @@ from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.wipe import WIPE_MS
 from ninja_game.player.playthrough import LevelRun
 from ninja_game.sim.events import LANDED, MINE_EXPLODED
+from ninja_game.sim.kinds import EXIT
+from ninja_game.view.level_view import DANCE_TICKS, DOOR_STEP, ENTER_TICKS
 from tests.support.menu_driver import FRAME_MS, MenuDriver
 from tests.support.players import deadly_level, entry
 
@@ -76,11 +80,10 @@ def test_card_says_one_thing_large_one_next_and_the_rest_short(driver: MenuDrive
     level = passed_level(driver)
     assert level.context.pars
     level.attempt.ended_tick = level.context.pars.par("gold") + 1
-    level.attempt.lifetime = 3333
-    title, (following, clock, *_), _ = hud_view(level.play).message or ("", [""], 0)
+    title, (following, rest, _), _ = hud_view(level.play).message or ("", [""], 0)
     assert title == f"Silver    {rounded_text(level.attempt.ended_tick)} s"
     assert following == "0.1 s faster for gold"
-    assert clock.endswith(" gold    83.4 s left")
+    assert rest == "1 of 5 gold    First pass    New medal"
 
 
 def test_failed_tries_run_together_for_two_seconds(driver: MenuDriver) -> None:
@@ -181,3 +184,23 @@ def until(driver: MenuDriver, level: LevelScreen, kind: int) -> None:
         if kind in {event.kind for event in world.events[: world.event_count]}:
             return
     raise AssertionError("the event does not come")
+
+
+@pytest.mark.parametrize("reduced", [False, True])
+def test_ninja_steps_into_its_exit_which_closes(driver: MenuDriver, reduced: bool) -> None:
+    driver.app.change_settings(reduced_motion=reduced)
+    level = passed_level(driver)
+    world, view = level.attempt.simulation.world, level.play.view
+    places: list[tuple[float, float]] = []
+    with patch("ninja_game.view.level_view.draw_ninja", lambda _target, _animation, at, *_: places.append(at)):
+        driver.frames(DANCE_TICKS)
+        seen = len(places)
+        driver.frames(3 * ENTER_TICKS)
+        before = len(places)
+        driver.frames(5)
+    (slot,) = (k for k, each in enumerate(world.objects) if each.kind == EXIT and each.is_open)
+    assert seen > DANCE_TICKS / 2
+    assert (len(places) == before) is not reduced, "it is behind the door"
+    assert view.object_animation.closing == (0 if reduced else slot)
+    if not reduced:
+        assert places[seen - 1] == (world.objects[slot].x, world.objects[slot].y + DOOR_STEP)
