@@ -38,6 +38,8 @@ def advance_worlds(
     rewards: Any,
     facts: Any,
     changed: Any,
+    terminated: Any,
+    truncated: Any,
 ) -> int:
     """Run worlds ``which[first:last]``, each with its ``keys`` for ``frame_skip`` ticks; the number of ticks run.
 
@@ -46,6 +48,7 @@ def advance_worlds(
     before; while it waits, none. ``weights`` (PAID_EXIT to PAID_TICK): what each is worth;
     ``rewards`` (worlds) receives the sum. ``facts`` (worlds x OUTCOME to RANDOM): EVENTS are those of all ticks, as
     bits. ``changed`` (worlds): whether one of CHANGES happened; also set where the list of events was full.
+    ``terminated``, ``truncated`` (worlds): what ENDED tells.
     """
     total = 0
     for k in range(first, last):
@@ -85,6 +88,8 @@ def advance_worlds(
         facts[index, GOLD] = w.gold
         facts[index, EVENTS] = seen
         facts[index, ENDED] = TERMINATED if w.outcome else TRUNCATED if w.tick >= time_limit else 0
+        terminated[index] = w.outcome != 0
+        truncated[index] = w.outcome == 0 and w.tick >= time_limit
         changed[index] = crowded or (seen & CHANGES) != 0
         total += ticks
     return total
