@@ -24,23 +24,10 @@ CHANGES = (1 << GOLD_TAKEN) | (1 << MINE_EXPLODED) | (1 << EXIT_OPENED)
 
 @entry_point
 def advance_worlds(
-    maps: Any,
-    level_of: Any,
-    worlds: Any,
-    which: Any,
-    first: int,
-    last: int,
-    keys: Any,
-    frame_skip: int,
-    time_limit: int,
-    repeat: int,
-    weights: Any,
-    rewards: Any,
-    facts: Any,
-    changed: Any,
-    terminated: Any,
-    truncated: Any,
-) -> int:
+    maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, keys: Any,
+    frame_skip: int, time_limit: int, repeat: int, weights: Any,
+    rewards: Any, facts: Any, changed: Any, terminated: Any, truncated: Any,
+) -> int:  # fmt: skip
     """Run worlds ``which[first:last]``, each with its ``keys`` for ``frame_skip`` ticks; the number of ticks run.
 
     A world stops at its first exit contact or death, and at ``time_limit`` ticks. Jump is pressed, as at a keyboard,

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -105,8 +106,9 @@ def test_a_training_that_is_stopped_leaves_what_it_has_learned(tmp_path: Path) -
 
 
 def test_compiling_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(ppo, "before_compiling", [])
-    monkeypatch.setattr(ppo, "train", lambda *_, **__: [tell() for tell in ppo.before_compiling])
+    told: list[Callable[[], None]] = []
+    monkeypatch.setattr(ppo, "before_compiling", told)
+    monkeypatch.setattr(ppo, "train", lambda *_, **__: [tell() for tell in told])
     result = CliRunner().invoke(main, ["-o", str(tmp_path / "agent.npz")])
     assert "it takes a minute or two" in result.stderr, result.output
 
