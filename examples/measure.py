@@ -23,8 +23,7 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.load import load_replays
-from ninja_game.learn.actions import DISCRETE_KEYS
-from ninja_game.learn.evaluation import Planner, Policy
+from ninja_game.learn.evaluation import Planner, Policy, chosen, played
 from ninja_game.learn.levels import level_source
 from ninja_game.learn.levels.bench import GRADES, bench_level
 from ninja_game.learn.protocol import EVALUATION_SEED, PROTOCOL
@@ -48,14 +47,8 @@ def measure(agent: Policy, levels: str, *, episodes: int = 1, seed: int = EVALUA
     settings.pop("actions", None)
     worlds = EnvWorlds(source, count, **settings)
     worlds.reset(seeds=range(seed, seed + count), levels=np.arange(count) % len(source.levels))
-    agent.reset(count, seed)
-    found = np.zeros((2, count), np.int64)
-    running = np.ones(count, np.bool_)
-    while running.any():
-        worlds.step(DISCRETE_KEYS[agent.act(worlds.observations)])
-        found[:, running] = np.stack([worlds.outcomes, worlds.ticks])[:, running]
-        running &= ~(worlds.terminated | worlds.truncated)
-    outcomes, ticks = found.reshape(2, episodes, -1)
+    ends = played(worlds, chosen(agent, worlds, seed))
+    outcomes, ticks = (numbers.reshape(episodes, -1) for numbers in (ends.outcomes, ends.ticks))
     return {"passed": outcomes == OUTCOME_EXIT, "dead": outcomes == OUTCOME_DEAD, "ticks": ticks}
 
 

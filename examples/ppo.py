@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 
 from examples.agents import Floats, PolicyAgent, normalised
 from examples.measure import BENCH, measure
+from ninja_game.backend.kernel_cache import before_compiling
 from ninja_game.errors import MissingExtraError, NinjaGameError
 from ninja_game.learn.actions import ACTION_NAMES
 from ninja_game.learn.observations.objects import OBSERVED_KINDS, NearObjects
@@ -302,6 +303,8 @@ def main(level: str, watch: str, steps: int, seed: int, output: Path) -> None:
         others = f", {seen:.1%} of {watch}" if watch else ""
         click.echo(f"{done / 1e6:.1f}M steps, {seconds:.0f} s: {passed:.1%} of the episodes passed{others}", err=True)
 
+    said = "compiling the worlds for this machine, the first time only; it takes a minute or two"
+    before_compiling.append(lambda: click.echo(said, err=True))
     try:
         train(level, steps, seed, watch=watch, report=report)
     except KeyboardInterrupt:

@@ -12,7 +12,7 @@ import json
 from collections.abc import Iterator
 from dataclasses import asdict, astuple, dataclass, fields
 from math import isnan
-from typing import Any, Protocol, TypeAlias, runtime_checkable
+from typing import Any, NamedTuple, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -156,8 +156,8 @@ def evaluate(
             worlds = EnvWorlds(level, episodes, repeat=repeat, longest_wait=longest_wait, **settings)
             first = first_seed(level, seed)
             worlds.reset(seeds=range(first, first + episodes))
-            actions = _chosen(agent, worlds, seed)
-        results.append(_played(level_name, worlds, actions))
+            actions = chosen(agent, worlds, seed)
+        results.append(_result(level_name, played(worlds, actions)))
     return Evaluation(name, source.digest, seed, repeat, longest_wait, time_limit, results)
 
 
@@ -166,28 +166,42 @@ def first_seed(level: Level, seed: int = EVALUATION_SEED) -> int:
     return seed + int(level_digest(level)[:12], 16)
 
 
-def _chosen(agent: Policy, worlds: EnvWorlds, seed: int) -> Actions:
+def chosen(agent: Policy, worlds: EnvWorlds, seed: int) -> Actions:
     """What a policy does, step by step."""
     agent.reset(worlds.count, seed)
     while True:
         yield agent.act(worlds.observations)
 
 
-def _played(name: str, worlds: EnvWorlds, actions: Actions) -> LevelResult:
+class Ends(NamedTuple):
+    """How the episode of each world has ended, (n,): outcome, 0 for one that was late, ticks, gold, reward."""
+
+    outcomes: NDArray[np.int64]
+    ticks: NDArray[np.int64]
+    gold: NDArray[np.int64]
+    rewards: NDArray[np.float64]
+
+
+def played(worlds: EnvWorlds, actions: Actions) -> Ends:
     """One episode in every world; where the actions come to an end, what runs still is late."""
     outcomes, ticks, gold = np.zeros((3, worlds.count), np.int64)
-    rewards = np.zeros(worlds.count)
+    ends = Ends(outcomes, ticks, gold, np.zeros(worlds.count))
     running = np.ones(worlds.count, np.bool_)
-    for chosen in actions:
-        worlds.step(DISCRETE_KEYS[chosen])
-        rewards[running] += worlds.rewards[running]
-        for kept, now in ((outcomes, worlds.outcomes), (ticks, worlds.ticks), (gold, worlds.gold)):
+    for row in actions:
+        worlds.step(DISCRETE_KEYS[row])
+        ends.rewards[running] += worlds.rewards[running]
+        for kept, now in zip(ends, (worlds.outcomes, worlds.ticks, worlds.gold), strict=False):
             kept[running] = now[running]
         running &= ~(worlds.terminated | worlds.truncated)
         if not running.any():
             break
-    passed, dead = outcomes == OUTCOME_EXIT, outcomes == OUTCOME_DEAD
+    return ends
+
+
+def _result(name: str, ends: Ends) -> LevelResult:
+    count, passed, dead = len(ends.ticks), ends.outcomes == OUTCOME_EXIT, ends.outcomes == OUTCOME_DEAD
     return LevelResult(
-        name, worlds.count, int(passed.sum()), int(dead.sum()), int((~passed & ~dead).sum()),
-        float(np.median(ticks[passed])) if passed.any() else float("nan"), float(gold.mean()), float(rewards.mean()),
+        name, count, int(passed.sum()), int(dead.sum()), int((~passed & ~dead).sum()),
+        float(np.median(ends.ticks[passed])) if passed.any() else float("nan"),
+        float(ends.gold.mean()), float(ends.rewards.mean()),
     )  # fmt: skip

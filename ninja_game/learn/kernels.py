@@ -24,21 +24,10 @@ CHANGES = (1 << GOLD_TAKEN) | (1 << MINE_EXPLODED) | (1 << EXIT_OPENED)
 
 @entry_point
 def advance_worlds(
-    maps: Any,
-    level_of: Any,
-    worlds: Any,
-    which: Any,
-    first: int,
-    last: int,
-    keys: Any,
-    frame_skip: int,
-    time_limit: int,
-    repeat: int,
-    weights: Any,
-    rewards: Any,
-    facts: Any,
-    changed: Any,
-) -> int:
+    maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, keys: Any,
+    frame_skip: int, time_limit: int, repeat: int, weights: Any,
+    rewards: Any, facts: Any, changed: Any, terminated: Any, truncated: Any,
+) -> int:  # fmt: skip
     """Run worlds ``which[first:last]``, each with its ``keys`` for ``frame_skip`` ticks; the number of ticks run.
 
     A world stops at its first exit contact or death, and at ``time_limit`` ticks. Jump is pressed, as at a keyboard,
@@ -46,6 +35,7 @@ def advance_worlds(
     before; while it waits, none. ``weights`` (PAID_EXIT to PAID_TICK): what each is worth;
     ``rewards`` (worlds) receives the sum. ``facts`` (worlds x OUTCOME to RANDOM): EVENTS are those of all ticks, as
     bits. ``changed`` (worlds): whether one of CHANGES happened; also set where the list of events was full.
+    ``terminated``, ``truncated`` (worlds): what ENDED tells.
     """
     total = 0
     for k in range(first, last):
@@ -85,6 +75,8 @@ def advance_worlds(
         facts[index, GOLD] = w.gold
         facts[index, EVENTS] = seen
         facts[index, ENDED] = TERMINATED if w.outcome else TRUNCATED if w.tick >= time_limit else 0
+        terminated[index] = w.outcome != 0
+        truncated[index] = w.outcome == 0 and w.tick >= time_limit
         changed[index] = crowded or (seen & CHANGES) != 0
         total += ticks
     return total

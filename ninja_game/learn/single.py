@@ -22,6 +22,7 @@ from gymnasium.error import ClosedEnvironmentError, ResetNeeded, UnsupportedMode
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import Actions
 from ninja_game.learn.draws import checked_seed
+from ninja_game.learn.kernels import TERMINATED, TRUNCATED
 from ninja_game.learn.levels import DEFAULT_LEVEL, Origin
 from ninja_game.learn.rendering import EpisodePicture, checked_size, episode_text
 from ninja_game.learn.worlds import EnvSettings, EnvState, EnvWorlds, refuse_unknown
@@ -124,13 +125,13 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
             raise ResetNeeded(f"{over}; call reset() before step()")
         worlds = self.worlds
         worlds.step(self._actions.key(action))
-        down, held = int(worlds.played[0]), self._inputs[-1] & JUMP_HELD if self._inputs else 0
-        ticks = int(worlds.ticks[0]) - len(self._inputs)
+        _, done, _, _, ended, down, _, _ = worlds.facts(0)
+        held = self._inputs[-1] & JUMP_HELD if self._inputs else 0
+        ticks = done - len(self._inputs)
         self._inputs += bytes([pressed(down, held)]).ljust(ticks, bytes([down]))
-        terminated, truncated = bool(worlds.terminated[0]), bool(worlds.truncated[0])
-        self._running = not (terminated or truncated)
+        self._running = not ended
         self._show(ticks)
-        return self._observation(), float(worlds.rewards[0]), terminated, truncated, self._info()
+        return self._observation(), float(worlds.rewards[0]), ended == TERMINATED, ended == TRUNCATED, self._info()
 
     def __getstate__(self) -> dict[str, Any]:
         """A copy makes its own picture."""
@@ -147,11 +148,11 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
 
     def _info(self) -> dict[str, Any]:
         worlds = self.worlds
-        bits = int(worlds.events[0])
+        outcome, ticks, gold, bits, *_ = worlds.facts(0)
         return {
-            "outcome": OUTCOME_NAMES[worlds.outcomes[0]],
-            "ticks": int(worlds.ticks[0]),
-            "gold": int(worlds.gold[0]),
+            "outcome": OUTCOME_NAMES[outcome],
+            "ticks": ticks,
+            "gold": gold,
             "events": [name for bit, name in enumerate(EVENT_NAMES) if bits >> bit & 1] if bits else [],
             "level": worlds.source.names[worlds.levels_now[0]],
         }

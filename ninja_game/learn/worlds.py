@@ -176,7 +176,8 @@ class EnvWorlds:
         # What the kernels take, first and last.
         self._places = (self._worlds.maps, level_of, self._worlds.worlds)
         chance = int(repeat * CHANCES)
-        self._episodes = (frame_skip, time_limit, chance, weights, self.rewards, self._facts, self._changed)
+        ends = self.terminated, self.truncated
+        self._episodes = (frame_skip, time_limit, chance, weights, self.rewards, self._facts, self._changed, *ends)
         self._settings: dict[str, Any] = {
             "level": self.source, "count": count, "observation": self.observation.parts, "flat": flat, "reward": terms,
             "frame_skip": frame_skip, "time_limit": time_limit, "repeat": repeat,
@@ -223,7 +224,6 @@ class EnvWorlds:
             return ticks
 
         ticks = thread_pool(self.threads).share(work, len(which), self.frame_skip)
-        self._conclude()
         if self.goal:
             moved = self.goal.settle(self.levels_now)
             if self._guided:
@@ -243,9 +243,10 @@ class EnvWorlds:
     def _observe(self, which: Indices) -> None:
         thread_pool(self.threads).share(lambda first, last: self._write(which, first, last), len(which))
 
-    def _conclude(self) -> None:
-        np.equal(self._ended, TERMINATED, out=self.terminated)
-        np.equal(self._ended, TRUNCATED, out=self.truncated)
+    def facts(self, index: int) -> list[int]:
+        """What is told of one world, OUTCOME to RANDOM (`kernels.py`): faster than number by number."""
+        numbers: list[int] = self._facts[index].tolist()
+        return numbers
 
     def ended(self) -> Indices:
         """The worlds whose episode is over."""
@@ -261,7 +262,6 @@ class EnvWorlds:
         if seeds is not None:
             self._levels.seed(numbers, seeds)
         self._restart(numbers, levels)
-        self._conclude()
 
     def _restart(self, numbers: Indices, levels: LevelChoice | None = None) -> None:
         chosen, drawn = self._levels.next(numbers, levels)
@@ -270,6 +270,7 @@ class EnvWorlds:
         else:
             self._worlds.load(numbers.tolist(), chosen.tolist())
         self._facts[numbers] = 0
+        self.terminated[numbers] = self.truncated[numbers] = False
         self._facts[numbers, WAIT], self._facts[numbers, RANDOM] = beginnings(drawn, self._longest_wait)
         self._look(numbers, None)
 
@@ -313,8 +314,8 @@ class EnvWorlds:
         self._worlds.restore_many(state.states, numbers, numbers if self._endless else state.levels)
         self._facts[numbers, :RANDOM] = state.facts[:, :RANDOM]
         self._facts[numbers, EVENTS] = 0
+        self.terminated[:], self.truncated[:] = self._ended == TERMINATED, self._ended == TRUNCATED
         self._look(numbers, state.starts)
-        self._conclude()
 
     def simulation(self, index: int) -> Simulation:
         """A run on the plain memory that stands where a world does, without its past: to look at it, or to go on."""

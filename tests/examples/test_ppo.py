@@ -6,12 +6,14 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
 
+from examples import ppo
 from examples.agents import PolicyAgent, forward, load_policy
 from examples.imitate import imitate, known_steps
 from examples.ppo import OBSERVATION, Settings, advantages, main, new_networks, train, way_left
@@ -101,6 +103,14 @@ def test_a_training_that_is_stopped_leaves_what_it_has_learned(tmp_path: Path) -
     assert training.returncode == 130
     assert b"stopped" in errors
     assert load_policy(output).training["curve"]
+
+
+def test_compiling_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    told: list[Callable[[], None]] = []
+    monkeypatch.setattr(ppo, "before_compiling", told)
+    monkeypatch.setattr(ppo, "train", lambda *_, **__: [tell() for tell in told])
+    result = CliRunner().invoke(main, ["-o", str(tmp_path / "agent.npz")])
+    assert "it takes a minute or two" in result.stderr, result.output
 
 
 def test_an_agent_is_not_replaced(tmp_path: Path) -> None:

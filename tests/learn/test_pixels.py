@@ -16,7 +16,8 @@ from tests.support.crowded import crowded_level
 from tests.support.learning import LEVELS, random_actions
 
 CROWDED = [crowded_level(seed) for seed in range(4)]
-WIDTH, HEIGHT = 66, 50
+SHAPES = [(66, 50), (100, 6), (6, 90)]
+"""The world's, and such that a pixel is much wider than high, or much higher than wide."""
 
 
 def whole_picture(worlds: EnvWorlds, index: int) -> Any:
@@ -24,20 +25,22 @@ def whole_picture(worlds: EnvWorlds, index: int) -> Any:
     names = list(signature(observe_pixels).parameters)[8:]
     t = dict(zip(names, worlds._writers[0]._arguments[2:], strict=True))
     level, w = int(worlds.levels_now[index]), worlds.world(index)
-    size = WIDTH * HEIGHT
+    width, height = t["width"], t["height"]
+    size = width * height
     out = np.array(t["pictures"][level * size : (level + 1) * size], t["layers"].dtype)[np.newaxis].copy()
-    frame = WIDTH, 0.0, 0.0, t["pixel_x"], t["pixel_y"], 0, WIDTH - 1, 0, HEIGHT - 1
+    frame = width, 0.0, 0.0, t["pixel_x"], t["pixel_y"], 0, width - 1, 0, height - 1
     look = tuple(t[name] for name in ("slots", "sizes", "boxes", "shades", "moves", "xs", "ys"))
     first, last = t["bounds"][2 * level : 2 * level + 2]
     draw_objects(w, out, 0, 0, frame, int(first), int(last), look, EVERYWHERE, True, t["whole"])
     paint(out, 0, 0, frame, w.ninja.x, w.ninja.y, RADIUS, RADIUS, True, t["ninja_shade"], t["whole"])
-    return out.reshape(HEIGHT, WIDTH)
+    return out.reshape(height, width)
 
 
 @pytest.mark.parametrize("normalised", [False, True])
 @pytest.mark.parametrize("levels", [LEVELS, CROWDED], ids=["few", "crowded"])
-def test_layers_make_the_whole_picture(levels: Any, normalised: bool) -> None:
-    part = Pixels(WIDTH, HEIGHT, normalised=normalised)
+@pytest.mark.parametrize("shape", SHAPES, ids=str)
+def test_layers_make_the_whole_picture(levels: Any, shape: tuple[int, int], normalised: bool) -> None:
+    part = Pixels(*shape, normalised=normalised)
     worlds = EnvWorlds(levels, len(levels), observation=part, memory="plain", time_limit=120)
     worlds.reset(levels=list(range(len(levels))))
     for row in random_actions(40, len(levels)):

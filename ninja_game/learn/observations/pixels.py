@@ -20,7 +20,7 @@ from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, UNIT_X, UNIT_Y
 from ninja_game.sim.memory.declare import entry_point, fast
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import World
-from ninja_game.sim.rules import HALF, RADIUS, WORLD_HEIGHT, WORLD_WIDTH
+from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, HALF, RADIUS, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.states import DRONE_FIRING, WEAPON_LASER
 
 FAR = 2.0 * WORLD_WIDTH
@@ -28,18 +28,26 @@ FAR = 2.0 * WORLD_WIDTH
 DOOR_HALF, BEAM_RADIUS, CROSS_RADIUS = 4.0, 2.0, 4.0
 """px."""
 EVERYWHERE = (-FAR, FAR, -FAR, FAR)
+ROUNDING = 1.0e-6
+"""px; what rounding may move the rim of an object."""
 
 
 @fast
 def pixels_of(area: Any, frame: Any) -> tuple[int, int, int, int]:
-    """The first and the last column and row of a frame that an area, px from its corner, may reach."""
+    """The first and the last column and row of a frame in which what lies in an area, px from its corner, may be seen.
+
+    That is where the middle of a pixel is less than half a pixel away, of its longer side: else it is not covered.
+    """
     left, right, top, bottom = area
     _, _, _, pixel_x, pixel_y, first, last, low, high = frame
+    room = 0.5 * max(pixel_x, pixel_y) + ROUNDING
+    room_x = min(room, pixel_x)
+    room_y = min(room, pixel_y)
     return (
-        int(clamp(left / pixel_x - 0.5, float(first), float(last))),
-        int(clamp(right / pixel_x + 0.5, first - 1.0, float(last))),
-        int(clamp(top / pixel_y - 0.5, float(low), float(high))),
-        int(clamp(bottom / pixel_y + 0.5, low - 1.0, float(high))),
+        int(clamp((left - room_x) / pixel_x + 0.5, float(first), last + 1.0)),
+        int(clamp((right + room_x) / pixel_x + 0.5, float(first), last + 1.0)) - 1,
+        int(clamp((top - room_y) / pixel_y + 0.5, float(low), high + 1.0)),
+        int(clamp((bottom + room_y) / pixel_y + 0.5, float(low), high + 1.0)) - 1,
     )
 
 
@@ -178,6 +186,15 @@ class Pixels(Part):
         def movers(number: int) -> list[tuple[float, ...]]:
             return [(place,) for place, o in enumerate(setting.objects(number, *SHADES)) if o.kind not in STILL]
 
+        def later(number: int) -> NDArray[np.int16]:
+            found = np.full((2 * GRID_ROWS, 2 * GRID_COLUMNS), -1, np.int16)
+            for place, o in enumerate(setting.objects(number, *SHADES)):
+                room = sizes[o.kind][0] + max(pixel_x, pixel_y) + 2.0 * ROUNDING
+                left, right, top, bottom = cells_of((o.x - room, o.x + room, o.y - room, o.y + room))
+                if o.kind in STILL:
+                    found[top : bottom + 1, left : right + 1] = place
+            return found
+
         sizes = {kind.number: (kind.disc or kind.box or PLAIN_SIZE, kind.box is not None) for kind in OBSERVED}
         sizes[kinds.DOOR] = HALF, False
         layers = np.zeros((1, 1) if self.view else (setting.count, self.length), self.box.dtype)
@@ -185,7 +202,7 @@ class Pixels(Part):
             setting.values(picture, self.box.dtype),
             across + 2 * margins[1][0], down + 2 * margins[0][0], self.width, self.height, int(self.view is not None),
             pixel_x, pixel_y, NINJA_SHADE * factor, int(not self.normalised), setting.changed, layers,
-            *setting.rows(movers, 1), *setting.rows(objects, 7),
+            setting.values(later, np.int16), *setting.rows(movers, 1), *setting.rows(objects, 7),
         )  # fmt: skip
 
 
@@ -218,7 +235,7 @@ def observe_pixels(
     maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
     pictures: Any, across: int, down: int, width: int, height: int, follows: int,
     pixel_x: float, pixel_y: float, ninja_shade: float, whole: int,
-    changed: Any, layers: Any, mover_bounds: Any, movers: Any,
+    changed: Any, layers: Any, later: Any, mover_bounds: Any, movers: Any,
     bounds: Any, slots: Any, sizes: Any, boxes: Any, shades: Any, moves: Any, xs: Any, ys: Any,
 ) -> None:  # fmt: skip
     """Draw the pictures of some worlds: the tiles, copied; the objects in the order of their slots; the ninja.
@@ -263,10 +280,10 @@ def observe_pixels(
             for place in range(mover_bounds[2 * level], mover_bounds[2 * level + 1]):
                 number = start + int(movers[place])
                 o = w.objects[int(slots[number])]
-                near = area_of(o, sizes[number], 2.0 * max(pixel_x, pixel_y))
-                if is_covered(number, end, look, near):
-                    reached = pixels_of(area_of(o, sizes[number], 0.0), frame)
-                    first_column, last_column, first_row, last_row = reached
+                area = area_of(o, sizes[number], 0.0)
+                if is_covered(number - start, level, later, area):
+                    near = area_of(o, sizes[number], max(pixel_x, pixel_y) + 2.0 * ROUNDING)
+                    first_column, last_column, first_row, last_row = pixels_of(area, frame)
                     wide = last_column + 1 - first_column
                     for line in range(first_row, last_row + 1):
                         at = line * width + first_column
@@ -322,10 +339,21 @@ def is_near(number: int, look: Any, area: Any) -> bool:
 
 
 @fast
-def is_covered(number: int, last: int, look: Any, area: Any) -> bool:
+def is_covered(place: int, level: int, later: Any, area: Any) -> bool:
     """Whether an object of the layer that is drawn later may lie in the area of this one."""
-    moves = look[4]
-    for other in range(number + 1, last):  # noqa: SIM110 - what compiles
-        if not moves[other] and is_near(other, look, area):
-            return True
+    left, right, top, bottom = cells_of(area)
+    for row in range(top, bottom + 1):
+        for column in range(left, right + 1):
+            if later[(level * 2 * GRID_ROWS + row) * 2 * GRID_COLUMNS + column] > place:
+                return True
     return False
+
+
+@fast
+def cells_of(area: Any) -> tuple[int, int, int, int]:
+    """The first and the last column and row of cells that an area reaches, px."""
+    left, right, top, bottom = area
+    return (
+        int(clamp(left / HALF, 0.0, 2.0 * GRID_COLUMNS - 1.0)), int(clamp(right / HALF, 0.0, 2.0 * GRID_COLUMNS - 1.0)),
+        int(clamp(top / HALF, 0.0, 2.0 * GRID_ROWS - 1.0)), int(clamp(bottom / HALF, 0.0, 2.0 * GRID_ROWS - 1.0)),
+    )  # fmt: skip
