@@ -37,7 +37,7 @@ def write_inputs(inputs: bytes, markers: Sequence[Marker] = ()) -> list[str]:
     ['R*3', '#corner RJ*3 .']
     """
     check_inputs(inputs)
-    ticks = list(ticks_as_text(inputs))
+    ticks = list(_ticks_as_text(inputs))
     lines: list[str] = []
     parts = [Marker(0, ""), *sorted(markers), Marker(len(inputs), "")]
     for (start, name), (end, _) in pairwise(parts):
@@ -57,7 +57,7 @@ def _runs(ticks: Sequence[str]) -> Iterator[str]:
         yield f"{text}*{count}" if count > 1 else text
 
 
-def ticks_as_text(inputs: bytes) -> Iterator[str]:
+def _ticks_as_text(inputs: bytes) -> Iterator[str]:
     """Keys of every tick, marked where the trigger is not what the keys say."""
     held_before = 0
     for keys in inputs:

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from functools import lru_cache
-from itertools import accumulate, groupby
-from typing import NamedTuple
 
+import numpy as np
 import pygame
+from numpy.typing import NDArray
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.formats.replay.input_runs import ticks_as_text
+from ninja_game.formats.replay.input_runs import KEY_NAMES
 from ninja_game.formats.replay.input_text import Inputs
+from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, pressed, with_press_bits
 from ninja_game.tas.files import inputs_of_text
 from ninja_game.tas.input_track import InputTrack
-from ninja_game.tas_editor.editor import TasEditor
+from ninja_game.tas_editor.editor import Span, TasEditor
 from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, EntryField, Rows, Tab
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button
@@ -23,30 +23,31 @@ LONGEST = 300
 """Characters of a line that is typed."""
 
 
-class Line(NamedTuple):
-    """The text of the ticks ``first`` … ``last`` - 1, with the marker at its beginning."""
-
-    first: int
-    last: int
-    text: str
-
-
 @lru_cache(maxsize=1)
-def lines_of(track: InputTrack, *, celeste: bool) -> list[Line]:
-    """A run's lines, and an empty one behind its end; a jump that no keyboard makes is in our notation in both.
+def starts_of(track: InputTrack) -> NDArray[np.int64]:
+    """The first ticks of a run's lines, in order; the last line is empty and begins behind the end."""
+    inputs = np.frombuffer(track.inputs, np.uint8)
+    odd = inputs != np.frombuffer(with_press_bits(track.inputs), np.uint8)
+    # Keys that are down, and of a jump that no keyboard makes 16, and 8 where it is pressed.
+    looks = inputs & np.uint8(KEYS_DOWN) | (odd * (inputs & np.uint8(JUMP_PRESSED) | np.uint8(16))).astype(np.uint8)
+    named = [tick for tick, _ in track.markers]
+    return np.unique([0, *(np.flatnonzero(looks[1:] != looks[:-1]) + 1), *named, len(inputs)])
 
-    >>> [line.text for line in lines_of(InputTrack(bytes([2, 2, 14, 6])), celeste=True)]
-    ['2,R', '2,R,J', '']
+
+def text_of(track: InputTrack, first: int, last: int, *, celeste: bool) -> str:
+    """The line of the ticks ``first`` … ``last`` - 1; a jump that no keyboard makes is in our notation in both.
+
+    >>> text_of(InputTrack(bytes([2, 2, 14, 6])), 2, 4, celeste=True)
+    '2,R,J'
     """
-    words, names = list(ticks_as_text(track.inputs)), dict(track.markers)
-    parts = accumulate(tick in names for tick in range(len(words)))
-    found, at = [], 0
-    for (_, word), ticks in groupby(zip(parts, words, strict=True)):
-        count = len(list(ticks))
-        frames = ",".join([str(count), *word.strip(".")]) if celeste and word[-1] not in "!-" else f"{word}*{count}"
-        found.append(Line(at, at + count, f"#{names[at]} {frames}" if at in names else frames))
-        at += count
-    return [*found, Line(at, at, "")]
+    name = next((f"#{name}" for tick, name in track.markers if tick == first), "")
+    if first == last:
+        return name
+    keys, held = track.inputs[first], track.keys_at(first - 1) & JUMP_HELD
+    mark = "" if keys == pressed(keys, held) else "!" if keys & JUMP_PRESSED else "-"
+    word, count = KEY_NAMES[keys & KEYS_DOWN] + mark, last - first
+    frames = ",".join([str(count), *word.strip(".")]) if celeste and not mark else f"{word}*{count}"
+    return f"{name} {frames}".lstrip()
 
 
 class TextTab(Tab):
@@ -57,7 +58,8 @@ class TextTab(Tab):
     def __init__(self, editor: TasEditor) -> None:
         super().__init__(editor)
         self.celeste = False
-        self.lines: list[Line] = []
+        self._track = InputTrack(b"")
+        self.starts = starts_of(self._track)
         self._seen: tuple[object, ...] = ()
         self.list = Rows(self._draw_row, self._choose, hint="A click selects the ticks of a line")
         hint = "R*30 RJ*10 or 30,R,J, several with blanks between; #name: a marker; nothing: without these ticks. Enter"
@@ -74,14 +76,22 @@ class TextTab(Tab):
         """While it is shown: have the lines of the run as it is, and the one of the cursor's tick in the field."""
         seen = self.editor.track, self.editor.cursor, self.celeste
         if self.editor.tab == self.name and seen != self._seen:
-            self._seen, self.lines = seen, lines_of(self.editor.track, celeste=self.celeste)
-            self.list.index = bisect_right(self.lines, self.editor.cursor, key=lambda line: line.first) - 1
-            self.list.fill(self.lines)
-            self.field.show(self.lines[self.list.index].text)
+            self._seen, self._track, self.starts = seen, self.editor.track, starts_of(self.editor.track)
+            self.list.index = int(np.searchsorted(self.starts, self.editor.cursor, "right")) - 1
+            self.list.fill(range(len(self.starts)))
+            self.field.show(self.text(self.list.index))
+
+    def span(self, index: int) -> Span:
+        """The ticks of a line; none of the last one."""
+        return int(self.starts[index]), int(self.starts[index + 1 :][:1].sum() or self.starts[index])
+
+    def text(self, index: int) -> str:
+        """A line."""
+        return text_of(self._track, *self.span(index), celeste=self.celeste)
 
     def put(self) -> None:
         """What is in the field instead of its line; the markers there are those that it names."""
-        words, (first, last, _) = self.field.text.split(), self.lines[self.list.index]
+        words, (first, last) = self.field.text.split(), self.span(self.list.index)
         try:
             typed = inputs_of_text("\n".join(words), "the line") if words else Inputs(b"")
         except NinjaGameError as error:
@@ -89,7 +99,7 @@ class TextTab(Tab):
             return
 
         def changed(track: InputTrack) -> InputTrack:
-            others = tuple(each for each in track.markers if not first <= each.tick < last)
+            others = tuple(each for each in track.markers if not first <= each.tick < max(last, first + 1))
             made = InputTrack(track.inputs, others).replaced(first, last, typed.keys)
             for tick, name in typed.markers:
                 made = made.named(first + tick, name)
@@ -99,7 +109,7 @@ class TextTab(Tab):
             self.editor.go(first)
 
     def _choose(self, index: int) -> None:
-        self.editor.select(*self.lines[index][:2])
+        self.editor.select(*self.span(index))
 
     def _turn(self) -> None:
         self.celeste = not self.celeste
@@ -110,7 +120,6 @@ class TextTab(Tab):
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, chosen: bool) -> None:
         x, y, w, _ = area
-        line = self.lines[index]
-        number, room = str(line.first), w - 70
+        number, room = str(self.starts[index]), w - 70
         theme.text(surface, number, x + 44, y + 3, size=SMALL, colour=theme.palette.faint, align="right")
-        theme.text(surface, line.text or "(the end)", x + 56, y + 3, size=SMALL, bold=chosen, width=room)
+        theme.text(surface, self.text(index) or "(the end)", x + 56, y + 3, size=SMALL, bold=chosen, width=room)

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import pytest
 
 from ninja_game.formats.replay.input_runs import Marker
 from ninja_game.sim.inputs import KEY_LEFT
 from ninja_game.tas.files import inputs_of_text
 from ninja_game.tas.input_track import InputTrack
-from ninja_game.tas_editor.tabs.text_tab import TextTab, lines_of
+from ninja_game.tas_editor.tabs.text_tab import TextTab, starts_of, text_of
 from tests.support.tas_driver import TasDriver
 
 RUN = InputTrack(bytes([2] * 5 + [14, 6, 6] + [0] * 4), (Marker(2, "hop"), Marker(8, "land")))
@@ -34,7 +36,7 @@ def typed(at: TasDriver, tab: TextTab, text: str) -> None:
 
 
 def texts(tab: TextTab) -> list[str]:
-    return [line.text for line in tab.lines]
+    return [tab.text(index) for index in range(tab.list.count)]
 
 
 def test_text_follows_the_roll(at: TasDriver, tab: TextTab) -> None:
@@ -66,7 +68,7 @@ def test_the_other_notation(at: TasDriver, tab: TextTab) -> None:
         ("", "R*2 RJ*3|#land .*4"),
         ("(R L)*2", "R*2 R L R L RJ*3|#land .*4"),
     ],
-)  # fmt: skip
+)
 def test_the_roll_follows_what_is_typed(text: str, inputs: str, at: TasDriver, tab: TextTab) -> None:
     at.editor.go(3)
     at.frames()
@@ -96,9 +98,8 @@ def test_a_click_selects_the_ticks_of_a_line(at: TasDriver, tab: TextTab) -> Non
     assert at.editor.selection == (5, 8)
 
 
-def test_lines_are_the_whole_run() -> None:
+def test_a_jump_that_no_keyboard_makes_is_in_our_notation() -> None:
     odd = InputTrack(bytes([8, 4, 12, 14, 6, 2]))
-    for celeste in (False, True):
-        lines = lines_of(odd, celeste=celeste)
-        assert [line.first for line in lines[1:]] == [line.last for line in lines[:-1]]
-    assert lines_of(odd, celeste=True)[0].text == ".!*1", "which CelesteTAS cannot say"
+    starts = starts_of(odd).tolist()
+    lines = [text_of(odd, first, last, celeste=True) for first, last in pairwise(starts)]
+    assert lines == [".!*1", "J-*1", "J!*1", "RJ!*1", "1,R,J", "1,R"]
