@@ -25,6 +25,7 @@ from ninja_game.tas_editor.tabs.branches_tab import BranchesTab
 from ninja_game.tas_editor.tabs.lead_tab import LeadTab
 from ninja_game.tas_editor.tabs.search_tab import SearchTab
 from ninja_game.tas_editor.tabs.tab import Tab, TabStrip
+from ninja_game.tas_editor.tabs.text_tab import TextTab
 from ninja_game.tas_editor.tabs.values_tab import ValuesTab
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.theme import Theme
@@ -53,7 +54,7 @@ class TasScreen(WorkspaceScreen):
             self.session.recover(found)
         self.editor = TasEditor(app, self.session)
         values = ValuesTab(self.editor)
-        self.tabs: list[Tab] = [values, BranchesTab(self.editor), LeadTab(self.editor), SearchTab(self.editor)]
+        self.tabs: list[Tab] = [values, *(tab(self.editor) for tab in (BranchesTab, LeadTab, SearchTab, TextTab))]
         self.level, self.roll = LevelPart(self.editor, values.ask), Roll(self.editor)
         self.strip = TabStrip(self.editor, self.tabs)
         self.head, self.foot_line = Head(self.editor), Foot(self.editor)

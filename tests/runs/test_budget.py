@@ -65,7 +65,7 @@ def test_a_run_that_is_not_over_when_its_budget_is_gets_refused_on_both_memories
         run_level(CROWD, bytes(51), memory=memory, budget=50 * 101)
     assert str(caught.value) == (
         "the run costs too much work; found 51 ticks of 101 each, not over after 50; expected at most 5,050; "
-        "--budget 5151 lets it run; shorten its inputs if they go on after its end"
+        "shorten its inputs if they go on after its end; --budget 5151 lets it run"
     )
 
 

@@ -237,8 +237,8 @@ def _level(at: TasDriver) -> Iterator[str]:
 
 
 def _tabs(at: TasDriver) -> Iterator[str]:
-    """Values, branches, lead and search, with nothing in them and with something."""
-    values, branches, lead, search = at.screen.tabs
+    """Values, branches, lead, search and text, with nothing in them and with something."""
+    values, branches, lead, search, text = at.screen.tabs
     at.editor.select(100, 130)
     at.frames(2)
     x, y, _, _ = values.list.row_area(1)  # type: ignore[attr-defined]
@@ -298,6 +298,9 @@ def _tabs(at: TasDriver) -> Iterator[str]:
     at.editor.edit(lambda track: track.replaced(10, 12, [4, 4]))
     at.frames(2)
     yield "tas-search-run-changed"
+    at.editor.show_tab(text.name)
+    at.frames(2)
+    yield "tas-text"
 
 
 def _panels(at: TasDriver) -> Iterator[str]:

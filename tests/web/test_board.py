@@ -186,7 +186,7 @@ def records(folder: Path) -> None:
 TRICKS: dict[str, tuple[Callable[[Path], object] | str, str]] = {
     "a file of 100 MB": (big, "too large"),
     "a thousand million ticks": (replay().replace("inputs:\n", "inputs:\n  R*999999999\n"), "not an input run"),
-    "a million million ticks in a demo": (record(demo="1000000000000:0"), "exit"),
+    "a million million ticks in a demo": (record(demo="1000000000000:0"), "costs too much work"),
     "a final tick of ten to the ninth": (re.sub(r"final-tick: \d+", "final-tick: 999999999", replay()), "too long"),
     "too many records": (records, "recordings in one file"),
     "a link to a file elsewhere": (link_out, "a link"),

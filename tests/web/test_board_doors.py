@@ -34,7 +34,7 @@ from ninja_game.web.board.runs import _near_to_another, judge
 from ninja_game.web.pages.published import published_levels
 from tests.support.forgeries import WALKING, record, replay
 from tests.support.reference import require_reference
-from tests.web.test_board import levels, put, runs, slow_walk  # noqa: F401
+from tests.web.test_board import DIGEST, levels, put, runs, slow_walk  # noqa: F401
 from tools.measure import near_copies
 
 JSON = "board.json"
@@ -254,6 +254,16 @@ def test_a_record_without_a_level_counts_where_one_level_does(tmp_path: Path, le
     assert [run.player for run in found.runs] == ["me"]
 
 
+def test_a_run_of_six_lines_asks_for_no_second_of_work(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+    put(runs, "ann.txt", f"ninja-game replay 3\nlevel-digest: {DIGEST}\nfinal-tick: 999999\ninputs:\n  .\n")
+    put(runs, "bea.txt", record(bytes(3700) + WALKING))
+    found = judge(runs, published_levels(levels), jobs=1)
+    told = [(each.kind, each.why) for each in found.rejected]
+    assert [kind for kind, _ in told] == ["unreadable", "refused"], told
+    assert re.search(r"ticks of 1. each, not over after [789],\d{3}; .* after its end$", told[0][1]), told
+    assert "in_time is false" in told[1][1], told
+
+
 def test_inputs_alone_take_in_no_other_file(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
     put(runs, "ann.tas", "Read,part.txt\n   1,R\n")
     found = judge(runs, published_levels(levels / "00-0-level.txt"), jobs=1)
@@ -313,6 +323,7 @@ def test_a_name_that_looks_like_another_is_told_and_not_merged(name: str) -> Non
 
 SCRIPTS = {
     "P\u0430ul": True, "J\u0585hn": True, "\u13abohn": True, "\u2ca2aul": True, "\ua4d0ob": True,
+    "\ua4ee\ua4e0\ua4e0": True, "\u13a2\u13aa\u13da": True,
     "Paul \u0418\u0432\u0430\u043d": False, "\u02bbOkina": False, "Ken\u592a\u90ce": False, "\u00aann": False,
 }  # fmt: skip
 

@@ -13,8 +13,8 @@ from ninja_game.formats.lines import MOST_NAME
 UNNAMED = "unnamed"
 
 _LATIN = str.maketrans(
-    "АВЕЅЈКМНОРСТУХԚԜаеѕјкмнорстухһԁԛԝѵΑΒΕΖΗΚΜΝΟΡΤΥΧαεκνορτυχӏІіΙιıIi1|0",  # noqa: RUF001
-    "ABESJKMHOPCTYXQWaesjkmhopctyxhdqwvABEZHKMNOPTYXaekvoptuxllllllllllo",
+    "АВЕЅЈКМНОРСТУХԚԜаеѕјкмнорстухһԁԛԝѵΑΒΕΖΗΚΜΝΟΡΤΥΧαεκνορτυχӀӏІіΙιıIi1|0",  # noqa: RUF001
+    "ABESJKMHOPCTYXQWaesjkmhopctyxhdqwvABEZHKMNOPTYXaekvoptuxlllllllllllo",
 )
 """Letters that look like a Latin one: Cyrillic, Greek, and those that a font draws alike."""
 
@@ -23,6 +23,9 @@ _LATIN_FORM = re.compile(r"LATIN LETTER SMALL CAPITAL ([A-Z])|LATIN SMALL LETTER
 
 _WRITTEN_TOGETHER = frozenset({"CJK", "HIRAGANA", "KATAKANA", "KATAKANA-HIRAGANA", "HANGUL", "BOPOMOFO", "LATIN"})
 """Scripts that may stand in one word: none of their letters look like those of another."""
+
+_DRAWN_AS_LATIN = frozenset({"LISU", "CHEROKEE", "COPTIC", "OSMANYA", "DESERET"})
+"""Scripts with so many letters like Latin ones that a whole word of them reads as one of those."""
 
 
 def player_named(author: str) -> str:
@@ -50,7 +53,7 @@ def folded(player: str) -> str:
 def look(player: str) -> str:
     r"""What a name looks like: equal for names that a reader may take for one another.
 
-    >>> look("\u0410nn") == look("Ann") == look("\u00c1nn"), look("Bill") == look("Bi1I")
+    >>> look("\u0410nn") == look("Ann") == look("\u00c1nn"), look("Bill") == look("Bi\u04c0I")
     (True, True)
     """
     letters = unicodedata.normalize("NFKD", player)
@@ -66,11 +69,11 @@ def _plain(letter: str) -> str:
 
 @lru_cache(4096)
 def mixed_word(player: str) -> bool:
-    """Whether a word of a name has letters of scripts that look alike."""
+    """Whether a word of a name has letters of scripts that look alike, or of one that looks like Latin."""
     for word in player_named(player).split():
         letters = [letter for letter in word if letter.isalpha() and unicodedata.category(letter) != "Lm"]
         scripts = {unicodedata.name(letter, "").partition(" ")[0] for letter in letters}
-        if len(scripts) > 1 and not scripts <= _WRITTEN_TOGETHER:
+        if (len(scripts) > 1 and not scripts <= _WRITTEN_TOGETHER) or scripts & _DRAWN_AS_LATIN:
             return True
     return False
 
@@ -89,4 +92,4 @@ class Players:
         first = self._looks.setdefault(look(player), player)
         if first != player:
             return player, f"the player's name looks like {first} and is another one"
-        return player, "the player's name mixes letters of several scripts" if mixed_word(player) else ""
+        return player, "letters of the player's name look like those of another script" if mixed_word(player) else ""

@@ -12,7 +12,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple, get_type_hints
 
-from ninja_game.budget import RUN_BUDGET
+from ninja_game.budget import RUN_BUDGET, tick_cost
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.replay.made import names_of_text, parse_made
 from ninja_game.formats.replay.text import Replay
@@ -22,6 +22,7 @@ from ninja_game.runs.chunks import Chunk, Result
 from ninja_game.runs.recording_reader import Unreadable
 from ninja_game.runs.run import run_level
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN
+from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.web.board.collect import RunFolder, Sent
 from ninja_game.web.board.copies import Course, course_of, near_ones
 from ninja_game.web.board.players import Players, player_named
@@ -184,7 +185,12 @@ def _judged(
     folder: RunFolder, shown: PublishedLevels, jobs: int | None, memo: Memo
 ) -> Iterator[tuple[str, str, list[Judged]]]:
     """Name, digest and recordings of each file, simulated where the memo does not know them."""
-    context = digest_of([program(), RUN_BUDGET, sorted(shown.entries)])
+    # Twice as long as a run can be that is in time.
+    longest = [
+        2 * (LIFETIME + GOLD_BONUS * each.all_gold) * tick_cost(each.named.level) for each in shown.entries.values()
+    ]
+    budget = min(RUN_BUDGET, max(longest, default=RUN_BUDGET))
+    context = digest_of([program(), budget, sorted(shown.entries)])
     files: deque[tuple[str, str, str, list[Sent], list[Judged]]] = deque()
 
     def chunks() -> Iterator[Chunk]:
@@ -198,7 +204,7 @@ def _judged(
     levels = [entry.named for entry in shown.entries.values()]
     found: list[Judged] = []
     certain = True
-    for result in verify_all((), chunks=chunks(), levels=levels, strict=True, jobs=jobs):
+    for result in verify_all((), chunks=chunks(), levels=levels, strict=True, jobs=jobs, budget=budget):
         yield from _remembered(files)
         name, digest, key, sent, _ = files[0]
         row = _row(sent[len(found)], result, folder)
@@ -256,7 +262,8 @@ def _first(run: Run) -> tuple[str, Key]:
 def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
     """What is kept of a recording."""
     if isinstance(result, Unreadable):
-        return Judged(sent.chunk.first, "unreadable", _without_name(result.message, sent.chunk.file))
+        why = _without_name(result.message, sent.chunk.file).partition("; --budget")[0]  # which a board has not
+        return Judged(sent.chunk.first, "unreadable", why)
     if not result.good:
         why = "; ".join(map(str, result.problems))
         kind = "practice" if result.practice else "refused"

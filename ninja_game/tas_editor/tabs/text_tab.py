@@ -1,0 +1,125 @@
+"""The run as text, in step with the roll: a line for each span of the same keys, with a field to type another one."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+import pygame
+from numpy.typing import NDArray
+
+from ninja_game.errors import NinjaGameError
+from ninja_game.formats.replay.input_runs import KEY_NAMES
+from ninja_game.formats.replay.input_text import Inputs
+from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, pressed, with_press_bits
+from ninja_game.tas.files import inputs_of_text
+from ninja_game.tas.input_track import InputTrack
+from ninja_game.tas_editor.editor import Span, TasEditor
+from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, EntryField, Rows, Tab
+from ninja_game.ui.theme import Area, Theme
+from ninja_game.ui.widgets import Button
+
+LONGEST = 300
+"""Characters of a line that is typed."""
+
+
+@lru_cache(maxsize=1)
+def starts_of(track: InputTrack) -> NDArray[np.int64]:
+    """The first ticks of a run's lines, in order; the last line is empty and begins behind the end."""
+    inputs = np.frombuffer(track.inputs, np.uint8)
+    odd = inputs != np.frombuffer(with_press_bits(track.inputs), np.uint8)
+    # Keys that are down, and of a jump that no keyboard makes 16, and 8 where it is pressed.
+    looks = inputs & np.uint8(KEYS_DOWN) | (odd * (inputs & np.uint8(JUMP_PRESSED) | np.uint8(16))).astype(np.uint8)
+    named = [tick for tick, _ in track.markers]
+    return np.unique([0, *(np.flatnonzero(looks[1:] != looks[:-1]) + 1), *named, len(inputs)])
+
+
+def text_of(track: InputTrack, first: int, last: int, *, celeste: bool) -> str:
+    """The line of the ticks ``first`` … ``last`` - 1; a jump that no keyboard makes is in our notation in both.
+
+    >>> text_of(InputTrack(bytes([2, 2, 14, 6])), 2, 4, celeste=True)
+    '2,R,J'
+    """
+    name = next((f"#{name}" for tick, name in track.markers if tick == first), "")
+    if first == last:
+        return name
+    keys, held = track.inputs[first], track.keys_at(first - 1) & JUMP_HELD
+    mark = "" if keys == pressed(keys, held) else "!" if keys & JUMP_PRESSED else "-"
+    word, count = KEY_NAMES[keys & KEYS_DOWN] + mark, last - first
+    frames = ",".join([str(count), *word.strip(".")]) if celeste and not mark else f"{word}*{count}"
+    return f"{name} {frames}".lstrip()
+
+
+class TextTab(Tab):
+    """The lines; that of the cursor's tick stands in the field, and Enter puts what is typed there in its place."""
+
+    name = "Text"
+
+    def __init__(self, editor: TasEditor) -> None:
+        super().__init__(editor)
+        self.celeste = False
+        self._track = InputTrack(b"")
+        self.starts = starts_of(self._track)
+        self._seen: tuple[object, ...] = ()
+        self.list = Rows(self._draw_row, self._choose, hint="A click selects the ticks of a line")
+        hint = "R*30 RJ*10 or 30,R,J, several with blanks between; #name: a marker; nothing: without these ticks. Enter"
+        self.field = EntryField("the line of the cursor's tick", self.put, longest=LONGEST, hint=hint)
+        self.notation = Button(UNPLACED, "30,R,J", self._turn, hint="The other notation", size=SMALL)
+        self.widgets: list[Rows | EntryField | Button] = [self.field, self.notation, self.list]
+
+    def arrange(self, x: float, y: float, w: float, h: float) -> None:
+        self.field.area = x + 4, y + 4, w - 72, 18
+        self.notation.area = x + w - 64, y + 4, 60, 18
+        self.list.area = x + 4, y + 26, w - 8, h - 30
+
+    def update(self, real_ms: int) -> None:
+        """While it is shown: have the lines of the run as it is, and the one of the cursor's tick in the field."""
+        seen = self.editor.track, self.editor.cursor, self.celeste
+        if self.editor.tab == self.name and seen != self._seen:
+            self._seen, self._track, self.starts = seen, self.editor.track, starts_of(self.editor.track)
+            self.list.index = int(np.searchsorted(self.starts, self.editor.cursor, "right")) - 1
+            self.list.fill(range(len(self.starts)))
+            self.field.show(self.text(self.list.index))
+
+    def span(self, index: int) -> Span:
+        """The ticks of a line; none of the last one."""
+        return int(self.starts[index]), int(self.starts[index + 1 :][:1].sum() or self.starts[index])
+
+    def text(self, index: int) -> str:
+        """A line."""
+        return text_of(self._track, *self.span(index), celeste=self.celeste)
+
+    def put(self) -> None:
+        """What is in the field instead of its line; the markers there are those that it names."""
+        words, (first, last) = self.field.text.split(), self.span(self.list.index)
+        try:
+            typed = inputs_of_text("\n".join(words), "the line") if words else Inputs(b"")
+        except NinjaGameError as error:
+            self.editor.app.notify(f"Not changed: {error}")
+            return
+
+        def changed(track: InputTrack) -> InputTrack:
+            others = tuple(each for each in track.markers if not first <= each.tick < max(last, first + 1))
+            made = InputTrack(track.inputs, others).replaced(first, last, typed.keys)
+            for tick, name in typed.markers:
+                made = made.named(first + tick, name)
+            return made
+
+        if self.editor.edit_selected(changed):
+            self.editor.go(first)
+
+    def _choose(self, index: int) -> None:
+        self.editor.select(*self.span(index))
+
+    def _turn(self) -> None:
+        self.celeste = not self.celeste
+        self.notation.text = "R*30" if self.celeste else "30,R,J"
+
+    def render_key(self) -> tuple[object, ...]:
+        return self._seen, self.list.over, self.list.first
+
+    def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, chosen: bool) -> None:
+        x, y, w, _ = area
+        number, room = str(self.starts[index]), w - 70
+        theme.text(surface, number, x + 44, y + 3, size=SMALL, colour=theme.palette.faint, align="right")
+        theme.text(surface, self.text(index) or "(the end)", x + 56, y + 3, size=SMALL, bold=chosen, width=room)

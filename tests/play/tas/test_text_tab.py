@@ -1,0 +1,105 @@
+"""The run as text: in step with the roll, edited on either side, in two notations; markers stay."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import pytest
+
+from ninja_game.formats.replay.input_runs import Marker
+from ninja_game.sim.inputs import KEY_LEFT
+from ninja_game.tas.files import inputs_of_text
+from ninja_game.tas.input_track import InputTrack
+from ninja_game.tas_editor.tabs.text_tab import TextTab, starts_of, text_of
+from tests.support.tas_driver import TasDriver
+
+RUN = InputTrack(bytes([2] * 5 + [14, 6, 6] + [0] * 4), (Marker(2, "hop"), Marker(8, "land")))
+
+
+@pytest.fixture(name="tab")
+def text_tab(at: TasDriver) -> TextTab:
+    at.session.change(RUN)
+    at.choose("Text")
+    tab = at.screen.tab
+    assert isinstance(tab, TextTab)
+    return tab
+
+
+def typed(at: TasDriver, tab: TextTab, text: str) -> None:
+    """Click into the field, type over what is there, press Enter."""
+    x, y, _, h = tab.field.area
+    at.mouse(x + 30, y + h / 2)
+    tab.field.edited.select_all()
+    at.write(text)
+    at.press("return")
+    at.frames()
+
+
+def texts(tab: TextTab) -> list[str]:
+    return [tab.text(index) for index in range(tab.list.count)]
+
+
+def test_text_follows_the_roll(at: TasDriver, tab: TextTab) -> None:
+    assert texts(tab) == ["R*2", "#hop R*3", "RJ*3", "#land .*4", ""]
+    at.editor.edit(lambda track: track.with_key(3, 4, KEY_LEFT, down=True))
+    at.editor.go(3)
+    at.frames()
+    assert texts(tab) == ["R*2", "#hop R*1", "LR*1", "R*1", "RJ*3", "#land .*4", ""]
+    assert tab.field.text == "LR*1"
+    at.session.undo()
+    at.frames()
+    assert texts(tab)[1] == "#hop R*3"
+
+
+def test_the_other_notation(at: TasDriver, tab: TextTab) -> None:
+    at.choose("30,R,J")
+    at.frames()
+    assert texts(tab) == ["2,R", "#hop 3,R", "3,R,J", "#land 4", ""]
+
+
+@pytest.mark.parametrize(
+    "text, inputs",
+    [
+        ("#hop R*4", "R*2|#hop R*4 RJ*3|#land .*4"),
+        ("#hop 4,R", "R*2|#hop R*4 RJ*3|#land .*4"),
+        ("L*2 J", "R*2 L*2 J RJ*3|#land .*4"),
+        ("#hop R*1 #turn 3", "refused"),
+        ("#one R #two L", "R*2|#one R|#two L RJ*3|#land .*4"),
+        ("", "R*2 RJ*3|#land .*4"),
+        ("(R L)*2", "R*2 R L R L RJ*3|#land .*4"),
+    ],
+)
+def test_the_roll_follows_what_is_typed(text: str, inputs: str, at: TasDriver, tab: TextTab) -> None:
+    at.editor.go(3)
+    at.frames()
+    typed(at, tab, text)
+    if inputs == "refused":
+        assert at.editor.track == RUN
+        assert tab.field.text == text, "it can be mended"
+        return
+    found = inputs_of_text(inputs.replace("|", "\n"), "test")
+    assert at.editor.track == InputTrack(found.keys, found.markers)
+    assert at.editor.cursor == 2
+    at.editor.session.undo()
+    assert at.editor.track == RUN
+
+
+def test_lines_are_added_at_the_end(at: TasDriver, tab: TextTab) -> None:
+    at.editor.go(len(RUN))
+    at.frames()
+    assert tab.field.text == ""
+    typed(at, tab, "#far 5,L")
+    assert texts(tab)[-3:] == ["#land .*4", "#far L*5", ""]
+
+
+def test_a_click_selects_the_ticks_of_a_line(at: TasDriver, tab: TextTab) -> None:
+    x, y, _, h = tab.list.row_area(2)
+    at.mouse(x + 60, y + h / 2)
+    assert at.editor.selection == (5, 8)
+
+
+def test_a_jump_that_no_keyboard_makes_is_in_our_notation() -> None:
+    odd = InputTrack(bytes([8, 4, 12, 14, 6, 2]))
+    starts = starts_of(odd).tolist()
+    lines = [text_of(odd, first, last, celeste=True) for first, last in pairwise(starts)]
+    assert lines == [".!*1", "J-*1", "J!*1", "RJ!*1", "1,R,J", "1,R"]
