@@ -1,4 +1,4 @@
-"""One attempt at a level: two ground plans, tiles, the way, gold as bait, hazards round it - or nothing."""
+"""One attempt at a level: a ground plan, tiles, the way, gold as bait, hazards round it - or nothing."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from random import Random
 from typing import NamedTuple
 
 from ninja_game.generator.gold import lay_gold
-from ninja_game.generator.layouts import LAYOUTS, frame
+from ninja_game.generator.layouts import LAYOUTS
 from ninja_game.generator.obstacles import MOST_OBJECTS, place_enemies, place_fixtures, place_mines
-from ninja_game.generator.scene import MIDDLE, Board, Cell, Scene, mirrored, spec, steps_from
+from ninja_game.generator.scene import Board, Cell, Scene, mirrored, spec, steps_from
 from ninja_game.generator.shaping import chosen_style
 from ninja_game.levels.warnings import level_findings
 from ninja_game.runs.run import run_level
@@ -19,10 +19,10 @@ from ninja_game.sim.inputs import Input
 from ninja_game.sim.level import COLUMNS, ROWS, TILES, Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
-CHOICES = 24
+CHOICES = 96
 """Routes of which the best is taken."""
-CLOSE, WITHHELD = 4.0, 10.0
-"""Cells that are at least between any two of ninja, switches and exit; an exit so near to the start is seen early."""
+CLOSE = 4.0
+"""Cells that are at least between any two of ninja, switches and exit."""
 
 
 class Niche(NamedTuple):
@@ -40,14 +40,14 @@ def place_route(board: Board, tiles: dict[Cell, str], niche: Niche | None, rng: 
     floor = [cell for cell in sorted(bare.empty) if bare.stands(cell) and not _in_niche(cell, niche)]
     if len(floor) < 12:
         return None
+    heart = [cell for cell in floor if cell in board.heart]
     best: tuple[float, list[Cell]] | None = None
     for _ in range(CHOICES):
         start = rng.choice(floor)
-        near = [cell for cell in floor if CLOSE <= dist(cell, start) <= WITHHELD]
-        exit_ = niche.exit if niche else rng.choice([*floor, *near * 4])
+        exit_ = niche.exit if niche else rng.choice([*floor, *heart * 4])
         switches = [rng.choice(floor) for _ in range(1 + (len(niche.doors) if niche else 0))]
         stops = [start, *switches, exit_]
-        worth = _worth(stops, bare.empty, far)
+        worth = _worth(stops, bare.empty, far, board.heart)
         if worth is not None and (best is None or worth > best[0]):
             best = worth, stops
     if best is None:
@@ -67,7 +67,7 @@ def _in_niche(cell: Cell, niche: Niche | None) -> bool:
     return niche is not None and cell[1] == niche.exit[1] and abs(cell[0] - niche.exit[0]) <= 4
 
 
-def _worth(stops: Sequence[Cell], empty: set[Cell], far: float) -> float | None:
+def _worth(stops: Sequence[Cell], empty: set[Cell], far: float, heart: set[Cell]) -> float | None:
     """How well a route would do; None for one that cannot be walked, or with things too close together."""
     if min(dist(a, b) for number, a in enumerate(stops) for b in stops[:number]) < CLOSE:
         return None
@@ -77,52 +77,47 @@ def _worth(stops: Sequence[Cell], empty: set[Cell], far: float) -> float | None:
         if b not in steps:
             return None
         way += steps[b]
-    start, exit_ = stops[0], stops[-1]
+    spread = min(dist(a, b) for number, a in enumerate(stops) for b in stops[:number])
+    width = max(column for column, _ in stops) - min(column for column, _ in stops)
     height = max(row for _, row in stops) - min(row for _, row in stops)
-    return 12.0 * (dist(start, exit_) <= WITHHELD) + min(height, 14) - abs(way - far)
+    told = 12.0 if stops[-1] in heart else 6.0 if not heart.isdisjoint(stops[1:]) else 0.0
+    return told - 20.0 * (stops[0] in heart) + min(spread, 12.0) + min(height, 14) / 2 + width / 2 - abs(way - far) / 2
 
 
-SOLID = 0.13, 0.37
-SHAPES = 20, 73
-OBJECTS = 50, MOST_OBJECTS
+SOLID = 0.13, 0.5
+SHAPES = 20, 110
+OBJECTS = 62, MOST_OBJECTS
 """What levels keep to: shares of the cells, tiles with a shape, objects (the quartiles of N's own levels)."""
 
 
-def compose(layouts: tuple[str, str], rng: Random, difficulty: int) -> Scene | None:
-    """A level that keeps to all marks and has nothing odd; None if this attempt does not.
-
-    ``layouts``: the ground plans of its left and of its right part.
-    """
-    board = _joined(layouts, rng)
-    niche = _niche(board, rng) if rng.random() < 0.4 else None
+def compose(layout: str, rng: Random, difficulty: int) -> Scene | None:
+    """A level of a ground plan that keeps to all marks and has nothing odd; None if this attempt does not."""
+    board = Board()
+    LAYOUTS[layout](board, rng)
+    _break_symmetry(board, rng)
+    niche = _niche(board, rng) if rng.random() < 0.6 else None
     tiles = chosen_style(board, rng, *SHAPES)
     if tiles is None or not SOLID[0] <= len(tiles) / TILES <= SOLID[1]:
         return None
-    scene = place_route(board, tiles, niche, rng, far=22 + 3 * difficulty)
+    scene = place_route(board, tiles, niche, rng, far=36 + 4 * difficulty)
     if scene is None:
         return None
     place_fixtures(scene, rng)
     if not lay_gold(scene, rng):
         return None
-    if not place_enemies(scene, rng, rng.choice((3, 4, 4)) + difficulty // 3, difficulty):
+    if not place_enemies(scene, rng, rng.choice((5, 6, 7)) + difficulty // 4, difficulty):
         return None
-    place_mines(scene, rng, rng.choice((4, 6, 8)) + difficulty // 2)
+    place_mines(scene, rng, rng.choice((14, 18, 22)) + difficulty)
     if not OBJECTS[0] <= len(scene.objects) <= OBJECTS[1] or level_findings(scene.level) or not _fair(scene.level):
         return None
     return scene
 
 
-def _joined(layouts: tuple[str, str], rng: Random) -> Board:
-    """One plan to the left of a seam, another one to its right: two places with two questions."""
-    seam = MIDDLE + rng.randint(-3, 3)
-    joined = Board()
-    for layout, columns in zip(layouts, (range(1, seam), range(seam, COLUMNS + 1)), strict=True):
-        board = Board()
-        frame(board, rng)
-        LAYOUTS[layout](board, rng)
-        joined.cells |= {cell for cell in board.cells if cell[0] in columns}
-        joined.stones |= {cell: tile for cell, tile in board.stones.items() if cell[0] in columns}
-    return joined
+def _break_symmetry(board: Board, rng: Random) -> None:
+    """One side has a shelf that the other one has not."""
+    row, wide, high = rng.randint(6, 18), rng.randint(4, 7), rng.choice((1, 1, 2))
+    shelf = {(column, row + k) for column in range(1, wide + 1) for k in range(high)}
+    board.cells |= {mirrored(cell) for cell in shelf} if rng.random() < 0.5 else shelf
 
 
 def _fair(level: Level) -> bool:

@@ -16,7 +16,7 @@ from ninja_game.formats.replay.text import Replay
 from ninja_game.generator.compose import compose
 from ninja_game.generator.layouts import LAYOUTS
 from ninja_game.generator.naming import AUTHOR, name_for
-from ninja_game.generator.obstacles import mines_beside, nearest_hazard
+from ninja_game.generator.obstacles import more_beside, nearest_hazard
 from ninja_game.generator.scene import Point, Scene
 from ninja_game.runs.level_design import design, design_findings
 from ninja_game.runs.run import run_level
@@ -29,7 +29,7 @@ EASIEST, HARDEST = 1, 10
 
 FIND_TICKS, SHORTEN_TICKS = 1_500_000, 1_000_000
 """Work of the solver on one attempt, and on its changed hazards."""
-ATTEMPTS = 6
+ATTEMPTS = 3
 """Attempts that the solver looks at; of those it passes the nearest to what is wanted is taken."""
 ROUNDS = 14
 """Changes of the hazards of one attempt."""
@@ -91,12 +91,12 @@ def generate(
         if looked_at >= effort.attempts or stop.is_set():
             break
         rng = Random(f"{seed}/{wanted}/{number}")  # noqa: S311 - not for secrets
-        plan, other = plans_of(seed, rng)
-        scene = compose((plan, other), rng, wanted)
+        plan = plan_of(seed, rng)
+        scene = compose(plan, rng, wanted)
         if scene is None:
             continue
         looked_at += 1
-        report(f"attempt {looked_at} of at most {effort.attempts}: {plan} and {other}")
+        report(f"attempt {looked_at} of at most {effort.attempts}: {plan}")
         found = _certified(scene, rng, wanted, effort, stop)
         if found is None or stop.is_set():
             continue
@@ -113,11 +113,10 @@ def generate(
     return best and replace(best[1], attempts=looked_at)
 
 
-def plans_of(seed: int | str, rng: Random) -> tuple[str, str]:
-    """The ground plans of an attempt: the left one is another one for each of thirteen seeds that follow each other."""
+def plan_of(seed: int | str, rng: Random) -> str:
+    """The ground plan of an attempt: another one for each of fifteen seeds that follow each other."""
     layouts = list(LAYOUTS)
-    left = layouts[seed % len(layouts)] if isinstance(seed, int) else rng.choice(layouts)
-    return left, rng.choice([layout for layout in layouts if layout != left])
+    return layouts[seed % len(layouts)] if isinstance(seed, int) else rng.choice(layouts)
 
 
 def _near(measured: float, wanted: int) -> bool:
@@ -138,7 +137,7 @@ def _certified(scene: Scene, rng: Random, wanted: int, effort: Effort, stop: Eve
         path = path_of(scene.level, run)
         before = list(scene.hazards)
         if measured < wanted:
-            more = mines_beside(scene, path, rng)
+            more = more_beside(scene, path, wanted, rng)
             if not more:
                 break
             scene.hazards.append(more)

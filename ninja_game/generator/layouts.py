@@ -1,246 +1,294 @@
-"""Ground plans: each draws the strong shape of a level, its left half and the middle; the board mirrors it."""
+"""Ground plans: each is one figure over the whole screen, with a heart for the exit or its switch."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from random import Random
 
-from ninja_game.generator.scene import MIDDLE, Board, mirrored
+from ninja_game.generator.scene import MIDDLE, Board, Cell
 from ninja_game.sim.level import COLUMNS, ROWS
 
 Layout = Callable[[Board, Random], None]
 
 
-def frame(board: Board, rng: Random) -> None:
-    """What the room is like at its edges: plain, with thick walls, corners cut off, or steps."""
-    board.fill(1, ROWS, COLUMNS, 1)
-    kind = rng.choice(("plain", "walls", "cut", "cut", "steps", "beam"))
-    if kind == "walls":
-        board.fill(1, 1, rng.choice((1, 2)), ROWS)
-    elif kind in ("cut", "steps"):
-        size, step = rng.choice((2, 3, 4)), 1 if kind == "cut" else 2
-        for i in range(size):
-            wide = (size - i) * step
-            board.fill(1, 1 + i, wide, 1)
-            if kind == "cut":
-                board.fill(1, ROWS - 1 - i, wide, 1)
-    elif kind == "beam":
-        board.fill(1, 1, COLUMNS, 1)
-        board.fill(rng.randint(4, 9), 2, 3, 1)
+def octagon(column: int, row: int, wide: int, high: int, cut: int) -> set[Cell]:
+    """The cells of an octagon about a cell: half its width and height, and what is cut off its corners, in cells."""
+    return {
+        (column + dx, row + dy)
+        for dx in range(-wide, wide + 1)
+        for dy in range(-high, high + 1)
+        if abs(dx) + abs(dy) <= wide + high - cut
+    }
 
 
-def terraces(board: Board, rng: Random) -> None:
-    """Stands rise to both sides; islands float between them."""
-    steps, rise = rng.choice((3, 4)), rng.choice((2, 3, 4))
-    wide = rng.choice((2, 3))
-    for i in range(steps):
-        board.fill(1, ROWS - rise * (i + 1), wide * (steps - i), rise)
-    top = ROWS - rise * steps
-    for row in range(max(4, top - 2), ROWS - 4, 5):
-        width = rng.choice((3, 5, 7))
-        board.fill(MIDDLE - width // 2, row, width, rng.choice((1, 2)))
-    board.fill(rng.randint(6, 9), max(3, top - 4), 4, 1)
+def room(board: Board, cut: int) -> None:
+    """The whole screen as one room, its corners cut off."""
+    board.draw(octagon(MIDDLE, 12, COLUMNS, ROWS, 0))
+    board.dig(octagon(MIDDLE, 12, 14, 10, cut))
 
 
-def pillars(board: Board, rng: Random) -> None:
-    """Columns in a row, hanging, standing or floating, their lengths in an arc."""
-    kind = rng.choice(("hanging", "alternate", "floating"))
-    first, grow = rng.randint(6, 9), rng.choice((-2, 2, 3))
-    for i in range(3):
-        column, length = 4 + 4 * i, first + grow * i
-        top = 3 + (ROWS - length - 5) // 2
-        if kind == "hanging" or (kind == "alternate" and i % 2 == 0):
-            top = 1
-        elif kind == "alternate":
-            top = ROWS - length
-        board.fill(column, top, 2, length)
-    width = rng.choice((1, 3, 5))
-    board.fill(MIDDLE - width // 2, rng.randint(11, 14), width, rng.choice((2, 3)))
-    board.fill(1, rng.randint(6, 15), 2, 1)
+def ledges(board: Board, rng: Random, rows: tuple[int, ...], width: int = 3) -> None:
+    """Short shelves at both walls."""
+    for row in rows:
+        board.fill(1, row + rng.choice((-1, 0, 0, 1)), width, 1)
 
 
-def islands(board: Board, rng: Random) -> None:
-    """Stones in staggered rows."""
-    width, height = rng.choice(((3, 2), (4, 1), (3, 1), (2, 2), (5, 1)))
-    apart = width + rng.choice((3, 4))
-    for number, row in enumerate(range(5, ROWS - 3, rng.choice((4, 5)))):
-        if number % 2:
-            board.fill(MIDDLE - width // 2, row, width, height)
-        shift = apart if number % 2 else apart // 2 + 1
-        for column in range(MIDDLE - shift - width // 2, 0, -apart):
-            board.fill(column, row, width, height)
-    board.fill(1, rng.randint(9, 16), 3, 2)
+def rings(board: Board, rng: Random) -> None:
+    """A ring in a ring, their gates turned against each other."""
+    room(board, rng.choice((3, 5, 6)))
+    wide, high = rng.choice(((9, 7), (10, 7), (9, 6)))
+    board.draw(octagon(MIDDLE, 12, wide, high, 5) - octagon(MIDDLE, 12, wide - 1, high - 1, 4))
+    board.draw(octagon(MIDDLE, 12, 5, 3, 2) - octagon(MIDDLE, 12, 4, 2, 2))
+    if rng.random() < 0.5:
+        board.clear(MIDDLE - 2, 12 - high, 5, 2)
+        board.clear(MIDDLE - 6, 11, 3, 3)
+    else:
+        board.clear(MIDDLE - wide, 11, 2, 3)
+        board.clear(MIDDLE - 1, 8, 3, 3)
+    board.clear(MIDDLE - 2, 11 + high, 5, 2)
+    ledges(board, rng, (9, 16), 2)
+    board.heart = octagon(MIDDLE, 12, 4, 2, 2)
 
 
-def ring(board: Board, rng: Random) -> None:
-    """A great ring with gates, and something in its heart."""
-    outer, thick = rng.choice((8, 9)), 2
-    row = 11
-    for c in range(1, MIDDLE + 1):
-        for r in range(1, ROWS):
-            dx, dy = abs(c - MIDDLE), abs(r - row)
-            far = max(dx, dy, (dx + dy) * (0.72 if outer == 8 else 0.7))
-            if outer - thick < far <= outer:
-                board.fill(c, r, 1, 1)
-    for gate in rng.sample(("top", "sides", "bottom", "shoulders"), 2):
-        if gate == "top":
-            board.clear(MIDDLE - 2, 1, 5, 5)
-        elif gate == "bottom":
-            board.clear(MIDDLE - 2, row + outer - thick, 5, 3)
-        elif gate == "sides":
-            board.clear(MIDDLE - outer, row - 1, 3, 3)
-        else:
-            board.clear(MIDDLE - outer, row - outer, 5, 5)
-    width = rng.choice((3, 5))
-    board.fill(MIDDLE - width // 2, row, width, rng.choice((1, 2, 3)))
-    board.fill(MIDDLE - outer + 3, row + 3, 3, 1)
-    board.fill(1, rng.randint(7, 10), 3, 1)
-    board.fill(1, ROWS - 4, 4, 4)
+def bowl(board: Board, rng: Random) -> None:
+    """Pillars hang into a bowl, their lengths in an arc."""
+    room(board, rng.choice((6, 8)))
+    board.dig(octagon(MIDDLE, 8, 14, 6, 2))
+    first, grow = rng.choice(((4, 3), (6, 2), (11, -2)))
+    for i in range(2):
+        column, length = 5 + 5 * i, first + grow * i
+        board.fill(column, 1, 2, 1 + length)
+    board.fill(MIDDLE - 1, 1, 3, rng.choice((6, 9, 11)))
+    board.fill(MIDDLE - 2, 20, 5, 3)
+    board.fill(8, rng.choice((17, 18)), 3, 1)
+    ledges(board, rng, (11,))
+    board.heart = {(c, 19) for c in range(MIDDLE - 2, MIDDLE + 3)}
 
 
-def storeys(board: Board, rng: Random) -> None:
-    """Floors over each other with gaps in the middle and at the sides in turn."""
-    thick, apart = rng.choice(((1, 5), (2, 5), (2, 6), (1, 4)))
-    for number, row in enumerate(range(ROWS - apart, 3, -apart)):
-        gap = rng.choice((3, 4))
-        if number % 2:
-            board.fill(1 + gap, row, COLUMNS - 2 * gap, thick)
-        else:
-            board.fill(1, row, MIDDLE - 1 - gap // 2 - 1, thick)
-        if rng.random() < 0.8 and apart > 4:
-            column = rng.randint(5, 11)
-            board.fill(column, row - 1, rng.choice((2, 3)), 1)
-            board.fill(rng.randint(5, 11), row + thick, 2, 1)
+def wheel(board: Board, rng: Random) -> None:
+    """Stones on a wheel about a great stone."""
+    room(board, rng.choice((5, 7)))
+    size = rng.choice((2, 3))
+    board.draw(octagon(MIDDLE, 12, size + 1, size, size))
+    for column, row in rng.choice((((9, 12), (11, 6), (11, 18)), ((7, 9), (7, 15), (12, 5), (12, 19)))):
+        board.draw(octagon(column, row, *rng.choice(((1, 1, 0), (2, 1, 0)))))
+    if rng.random() < 0.6:
+        board.draw(octagon(MIDDLE, 4, 2, 0, 0))
+    ledges(board, rng, (12,))
+    board.heart = octagon(MIDDLE, 12 - size - 1, 2, 0, 0)
 
 
-def temple(board: Board, rng: Random) -> None:
-    """A roof on columns over a stepped base."""
-    half = rng.choice((9, 10, 11))
-    roof = rng.choice((4, 5))
-    for i in range(3):
-        board.fill(MIDDLE - half + 3 * i, roof + 2 - i, 2 * (half - 3 * i) + 1, 1)
-    for i in range(rng.choice((2, 3))):
-        board.fill(MIDDLE - half - 1 + 2 * i, ROWS - 1 - i, 2 * (half + 1 - 2 * i) + 1, 1)
-    apart = rng.choice((4, 5))
-    for column in range(MIDDLE - half + 1, MIDDLE - 2, apart):
-        length = ROWS - roof - 9 - rng.choice((0, 1))
-        board.fill(column, roof + 3, 2, length)
-    altar = rng.choice((1, 3))
-    board.fill(MIDDLE - altar // 2 - 1, 12, altar + 2, 1)
-    board.fill(1, rng.randint(10, 13), 2, 1)
+def shafts(board: Board, rng: Random) -> None:
+    """Shafts side by side, joined above and below in turn, each with a danger of its own."""
+    board.fill(1, 1, COLUMNS, ROWS)
+    top, low = rng.choice((3, 4)), rng.choice((20, 21))
+    board.clear(2, top, 4, low - top + 1)
+    board.clear(8, top + 1, 3, low - top)
+    board.clear(MIDDLE - 3, top, 7, low - top + 1)
+    board.clear(2, low - 2, 9, 3)
+    board.clear(8, top + 1, 8, 3)
+    for row in range(top + 5, low - 4, 5):
+        board.fill(rng.choice((2, 4)), row, 2, 1)
+    board.fill(MIDDLE - 1, rng.choice((9, 10)), 3, 2)
+    board.fill(MIDDLE - 3, 14, 2, 1)
+    board.fill(MIDDLE - 2, low - 1, 5, 2)
+    board.heart = {(c, low - 2) for c in range(MIDDLE - 2, MIDDLE + 3)}
 
 
-def cross(board: Board, rng: Random) -> None:
-    """Arms around an open heart, shelves in the four quarters."""
-    long, gap, row = rng.choice((8, 9, 10)), rng.choice((2, 3)), 12
-    board.fill(MIDDLE - gap - long, row + gap, long, 2)
-    board.fill(MIDDLE - gap - long, row - gap - 1, long, 2)
-    board.fill(MIDDLE - gap - 1, row - gap - 6, 2, 6)
-    board.fill(MIDDLE - gap - 1, row + gap + 1, 2, 4)
-    rising = rng.random() < 0.5
-    for i in range(3):
-        board.fill(2 + 3 * i, 5 + i if rising else 7 - i, 2, 2)
-    board.fill(1, rng.randint(17, 19), 3, 1)
-    board.clear(MIDDLE - 1, 1, 3, ROWS - 1)
+def pyramid(board: Board, rng: Random) -> None:
+    """A hollow pyramid, a smaller one in it."""
+    room(board, 2)
+    apex = rng.choice((5, 6))
+    for row in range(apex, ROWS - 1):
+        half = row - apex
+        board.fill(MIDDLE - half, row, 2 * half + 1, 1)
+        if row > apex + 3:
+            board.clear(MIDDLE - half + 3, row, 2 * half - 5, 1)
+    board.clear(1, 1, 3, 21)
+    for row in range(14, 19):
+        board.fill(MIDDLE - (row - 14), row, 2 * (row - 14) + 1, 1)
+    board.clear(MIDDLE - 2, 17, 5, 2)
+    board.fill(MIDDLE - 5, 19, 11, 1)
+    board.clear(MIDDLE - 1, 19 if rng.random() < 0.5 else 14, 3, 1)
+    board.clear(4, 20, 8, 3)
+    if rng.random() < 0.5:
+        board.clear(MIDDLE - 1, apex, 3, 4)
+    ledges(board, rng, (8, 14))
+    board.heart = {(c, 18) for c in range(MIDDLE - 2, MIDDLE + 3)}
 
 
-def orbits(board: Board, rng: Random) -> None:
-    """Single stones on rings about the middle, each with its slope or curve to the heart."""
-    tiles = rng.choice(("sawq", "KJIU", "qwas", "IUKJ"))
-    for column, row in ((0, 9), (4, 8), (7, 6), (9, 3), (10, 0), (0, 5), (3, 4), (5, 2), (6, 0)):
-        for dy in {row, -row}:
-            cell = MIDDLE - column, 11 + dy
-            for each in {cell, mirrored(cell)}:
-                number = (each[0] > MIDDLE) + 2 * (dy > 0)
-                board.fill(*each, 1, 1, one_sided=True)
-                if column and row:
-                    board.stones[each] = tiles[number]
-    board.fill(MIDDLE - 1, 10, 3, 3)
-    board.fill(1, 1, 2, rng.randint(6, 9))
-    board.fill(1, 15, 3, 9)
-    board.fill(1, 21, 8, 2)
+def hourglass(board: Board, rng: Random) -> None:
+    """Two wide chambers and the neck between them."""
+    room(board, 2)
+    neck, waist = rng.choice((2, 3)), rng.choice((11, 12, 13))
+    for row in range(1, ROWS + 1):
+        left = MIDDLE - neck - abs(row - waist) * 2
+        if left > 2:
+            board.fill(1, row, left - 1, 1)
+    board.draw(octagon(MIDDLE, waist + 4, 1, 1, 0))
+    board.draw(octagon(MIDDLE - rng.choice((5, 6)), 19, 2, 1, 0))
+    board.draw(octagon(MIDDLE - rng.choice((5, 7)), 5, 2, 0, 0))
+    board.fill(MIDDLE - 2, 21, 5, 2)
+    board.heart = {(c, 20) for c in range(MIDDLE - 2, MIDDLE + 3)}
 
 
-def funnel(board: Board, rng: Random) -> None:
-    """Walls that close in downwards, with shelves in them."""
-    start, wide = rng.choice((6, 8, 9)), rng.choice((9, 10, 11))
-    for row in range(start, ROWS + 1):
-        board.fill(1, row, min(wide, row - start + 1), 1)
-    for row in range(start + 3, ROWS - 3, 4):
-        board.clear(max(1, row - start - 3), row - 2, 8, 3)
-    for i, row in enumerate((5, 9, 13, 17)):
-        width = (3, 5, 3, 1)[i] + rng.choice((0, 2))
-        if rng.random() < 0.75:
-            board.fill(MIDDLE - width // 2, row, width, rng.choice((1, 2)))
+def star(board: Board, rng: Random) -> None:
+    """A hollow star in the middle, a stone in each quarter."""
+    room(board, rng.choice((6, 8)))
+    size = rng.choice((6, 7))
+    board.draw(octagon(MIDDLE, 12, size, size, size))
+    board.draw(octagon(MIDDLE, 12, size + 4, 0, 0))
+    board.dig(octagon(MIDDLE, 12, 3, 3, 2))
+    if rng.random() < 0.5:
+        board.clear(MIDDLE - 1, 4, 3, 7)
+    else:
+        board.clear(MIDDLE - 1, 13, 3, 7)
+        board.fill(MIDDLE - 1, 21, 3, 2)
+    for row in (6, 18):
+        board.draw(octagon(rng.choice((7, 8)), row, 2, 1, 0))
+    ledges(board, rng, (12,), 2)
+    board.heart = octagon(MIDDLE, 13, 2, 1, 1)
 
 
-def arches(board: Board, rng: Random) -> None:
-    """Gates beside each other: two legs and a bow."""
-    high = rng.choice((7, 9, 11))
-    inner = rng.choice((2, 3))
-    column = MIDDLE - (inner + 4) // 2
-    tops = [ROWS - 4 - high, ROWS - 4 - high + rng.choice((-3, 3, 4))]
-    for number in range(2):
-        left = column - number * (inner + 7)
-        top = max(3, tops[number])
-        width = inner + 4 + (inner + 4 + 1) % 2 if number == 0 else inner + 4
-        board.fill(left, top, width, ROWS - 3 - top)
-        board.clear(left + 2, top + 2, width - 4, ROWS)
-        board.fill(left, ROWS, width, 1)
-    board.fill(1, rng.randint(5, 9), 2, 1)
-    board.fill(MIDDLE - 2, ROWS - 1, 5, 1)
+def tower(board: Board, rng: Random) -> None:
+    """A hollow tower with battlements, shelves on both sides of it."""
+    room(board, rng.choice((2, 4)))
+    half, top = rng.choice((4, 5)), rng.choice((6, 7))
+    board.fill(MIDDLE - half, top, 2 * half + 1, ROWS - top)
+    board.clear(MIDDLE - half + 1, top + 1, 2 * half - 1, 21 - top)
+    for column in range(MIDDLE - half - 1, MIDDLE + 1, 2):
+        board.fill(column, top - 1, 1, 1)
+    board.clear(MIDDLE - 1, top - 1, 3, 2)
+    board.fill(MIDDLE - half, 12, half - 1, 1)
+    board.fill(MIDDLE - 1, 17, 3, 1)
+    board.clear(MIDDLE - half, rng.choice((9, 14)), 1, 3)
+    board.draw(octagon(rng.choice((6, 7)), 10, 2, 1, 0))
+    board.draw(octagon(rng.choice((8, 9)), 16, 2, 1, 0))
+    ledges(board, rng, (7, 14))
+    board.heart = {(c, 21) for c in range(MIDDLE - 2, MIDDLE + 3)}
 
 
-def valley(board: Board, rng: Random) -> None:
-    """Hills below and a rock ceiling above, stones between."""
-    low, high = rng.randint(2, 4), rng.randint(1, 3)
-    column = 1
-    while column <= MIDDLE:
-        width = min(rng.randint(2, 4), MIDDLE + 1 - column)
-        low = max(1, min(8, low + rng.choice((-3, -2, -1, 2, 3))))
-        high = max(1, min(5, high + rng.choice((-2, -1, 1, 2))))
-        board.fill(column, ROWS + 1 - low, width, low)
-        board.fill(column, 1, width, high)
-        column += width
-    for row, width in ((9, 3), (13, 5)):
-        board.fill(rng.randint(4, 9), row, width, rng.choice((1, 2)))
-    board.fill(MIDDLE - 1, rng.randint(8, 12), 3, 2)
+def galleries(board: Board, rng: Random) -> None:
+    """Three long caves over each other, a long stone in each, holes between them."""
+    board.fill(1, 1, COLUMNS, ROWS)
+    for number, row in enumerate((5, 12, 19)):
+        board.dig(octagon(MIDDLE, row, 14, 2, 1))
+        board.dig(octagon(rng.choice((8, 9)), row, 3, 3, 1))
+        board.draw(octagon(rng.choice((8, 9)) if number % 2 else MIDDLE, row, rng.choice((2, 3)), 0, 0))
+    board.clear(rng.choice((3, 4)), 7, 3, 4)
+    if rng.random() < 0.5:
+        board.clear(MIDDLE - 1, 14, 3, 4)
+    else:
+        board.clear(6, 14, 3, 4)
+        board.fill(3, 17, 2, 1)
+    board.clear(MIDDLE - 2, 3, 5, 1)
+    board.heart = {(c, 13) for c in range(MIDDLE - 3, MIDDLE + 4)}
 
 
-def chevrons(board: Board, rng: Random) -> None:
-    """Bars that lean to the middle, over each other."""
-    down = rng.random() < 0.5
-    long = rng.choice((5, 6))
-    for row in range(4, ROWS - long - 1, rng.choice((5, 6))):
-        for i in range(long):
-            board.fill(MIDDLE - 4 - i if down else MIDDLE - 4 - long + i, row + i, 2, 1)
-    board.fill(1, rng.randint(7, 9), 3, 1)
-    board.fill(1, rng.randint(14, 16), 3, 2)
-    width = rng.choice((1, 3))
-    for row in (6, 12, 18):
-        board.fill(MIDDLE - width // 2, row, width, 1)
+def comb(board: Board, rng: Random) -> None:
+    """Teeth from above and below, pointed, between each other."""
+    room(board, 3)
+    first = rng.choice((11, 12, 13))
+    for i, column in enumerate((5, 10)):
+        down = i % 2 == 0
+        length = first - i
+        for k in range(length):
+            board.fill(
+                column if k < length - 1 else column + 1, 2 + k if down else 22 - k, 3 if k < length - 1 else 1, 1
+            )
+    if rng.random() < 0.5:
+        board.fill(MIDDLE - 1, 1, 3, rng.choice((7, 9)))
+        board.fill(MIDDLE - 2, 20, 5, 3)
+    else:
+        board.fill(MIDDLE - 1, 14, 3, 9)
+        board.fill(MIDDLE - 3, 6, 7, 1)
+    ledges(board, rng, (8, 16), 2)
+    board.heart = {(c, r) for c in range(MIDDLE - 2, MIDDLE + 3) for r in (5, 13, 19)}
 
 
-def rooms(board: Board, rng: Random) -> None:
-    """Rooms in two or three storeys, with doorways and hatches between them."""
-    walls, floors = rng.choice(((8, 13), (6, 11), (7, 12))), (8, 16)
-    for row in floors:
-        board.fill(1, row, COLUMNS, 1)
-        hatch = rng.randint(2, walls[0] - 4)
-        board.clear(hatch if rng.random() < 0.6 else walls[0] + 2, row, 3, 1)
-        if rng.random() < 0.5:
-            board.clear(MIDDLE - 1, row, 3, 1)
-    for number, top in enumerate((1, 9, 17)):
-        wall = walls[number % 2]
-        board.fill(wall, top, 1, 7)
-        board.clear(wall, top + rng.choice((2, 3, 3)), 1, 3)
-        board.fill(min(wall + rng.choice((2, 3, 4)), MIDDLE - 1), top + 4, 3, 1)
-        board.fill(1, top + 3, 2, 1)
+def eights(board: Board, rng: Random) -> None:
+    """Two round chambers with a core each, and the throat between them."""
+    board.fill(1, 1, COLUMNS, ROWS)
+    board.dig(octagon(8, 12, 6, 9, 4))
+    board.dig(octagon(MIDDLE, rng.choice((8, 12, 15)), 4, 2, 0))
+    board.clear(MIDDLE - 2, 5, 5, 13)
+    core = rng.choice((1, 2))
+    board.draw(octagon(8, 8, 2, 1, 0))
+    board.draw(octagon(8, 16, core + 1, core, 1))
+    board.fill(MIDDLE - 1, rng.choice((9, 10)), 3, rng.choice((2, 4)))
+    ledges(board, rng, (12,))
+    board.heart = {(c, 17) for c in range(MIDDLE - 2, MIDDLE + 3)}
+
+
+def diamonds(board: Board, rng: Random) -> None:
+    """A field of diamonds about a great one."""
+    room(board, rng.choice((4, 7)))
+    big = rng.choice((2, 3))
+    board.draw(octagon(MIDDLE, 12, big, big, big))
+    for column, row in ((12, 6), (12, 18), (7, 9), (7, 15), (9, 12), (5, 4), (5, 20))[rng.choice((0, 1)) :: 1]:
+        board.draw(octagon(column, row, 1, 1, 0))
+    board.fill(1, 12, 2, 1)
+    board.heart = octagon(MIDDLE, 11 - big, 1, 0, 0)
+
+
+def chambers(board: Board, rng: Random) -> None:
+    """Four chambers, a stone in each, doorways between them and a keep in the middle."""
+    board.fill(1, 1, COLUMNS, ROWS)
+    for row, high in ((7, 4), (17, 4)):
+        board.dig(octagon(8, row, 6, high, 3))
+        board.draw(octagon(8, row, *rng.choice(((1, 1, 0), (2, 1, 0)))))
+    board.clear(6, 10, 5, 4)
+    board.dig(octagon(MIDDLE, 7, 3, 1, 0))
+    board.dig(octagon(MIDDLE, 17, 3, 2, 0))
+    board.clear(MIDDLE - 2, 10, 5, 4)
+    if rng.random() < 0.5:
+        board.clear(MIDDLE - 1, 7, 3, 9)
+    else:
+        board.clear(MIDDLE - 3, 11, 7, 3)
+        board.clear(11, 11, 2, 2)
+    board.heart = {(c, 13) for c in range(MIDDLE - 2, MIDDLE + 3)}
+
+
+def hive(board: Board, rng: Random) -> None:
+    """Seven cells of a comb, with openings where they touch."""
+    board.fill(1, 1, COLUMNS, ROWS)
+    for column, row in ((6, 7), (6, 17), (MIDDLE, 12), (MIDDLE, 4), (MIDDLE, 20)):
+        board.dig(octagon(column, row, 4, 3 if column == MIDDLE and row != 12 else 4, 2))
+    board.clear(9, 8, 5, 3)
+    board.clear(9, 14, 5, 3)
+    board.clear(5, 10, 3, 4)
+    if rng.random() < 0.5:
+        board.clear(MIDDLE - 1, 6, 3, 3)
+    else:
+        board.clear(10, 4, 3, 3)
+    board.clear(MIDDLE - 1, 15, 3, 3)
+    board.draw(octagon(6, rng.choice((6, 7)), 1, 0, 0))
+    board.draw(octagon(6, 17, 1, 1, 0))
+    board.draw(octagon(MIDDLE, 13, 2, 0, 0))
+    board.heart = octagon(MIDDLE, 12, 2, 0, 0)
+
+
+def castle(board: Board, rng: Random) -> None:
+    """Towers of different heights and a gate in the middle."""
+    room(board, rng.choice((5, 8)))
+    high, low = rng.choice((13, 15)), rng.choice((7, 9))
+    board.fill(9, ROWS - high, 4, high)
+    board.fill(4, ROWS - low, 3, low)
+    for column, top in ((9, high), (12, high)):
+        board.fill(column, ROWS - top - 1, 1, 1)
+    board.fill(12, ROWS - 9, MIDDLE - 11, 3)
+    board.clear(10, 15, 2, 3)
+    board.clear(9, 18, 4, rng.choice((3, 4)))
+    board.clear(7, 20, 3, 2)
+    board.fill(12, 20, 1, 3)
+    board.draw(octagon(MIDDLE, rng.choice((6, 8)), 2, 1, 0))
+    ledges(board, rng, (8,))
+    board.heart = {(c, 22) for c in range(MIDDLE - 2, MIDDLE + 3)}
 
 
 LAYOUTS: dict[str, Layout] = {
-    "terraces": terraces, "pillars": pillars, "islands": islands, "ring": ring, "storeys": storeys, "temple": temple,
-    "cross": cross, "orbits": orbits, "funnel": funnel, "arches": arches, "valley": valley, "chevrons": chevrons,
-    "rooms": rooms,
+    "rings": rings, "bowl": bowl, "wheel": wheel, "shafts": shafts, "pyramid": pyramid, "hourglass": hourglass,
+    "star": star, "tower": tower, "galleries": galleries, "comb": comb, "eights": eights, "diamonds": diamonds,
+    "chambers": chambers, "hive": hive, "castle": castle,
 }  # fmt: skip
 """The ground plans by name."""

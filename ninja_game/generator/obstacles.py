@@ -7,12 +7,13 @@ from functools import partial
 from math import dist, hypot
 from random import Random
 
+from ninja_game.generator.gold import along
 from ninja_game.generator.scene import ENEMIES, MIDDLE, Cell, Point, Scene, middle, places, spec
 from ninja_game.sim import kinds
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import CELL, PAD_RADIUS
 
-MOST_MINES, MOST_OBJECTS = 21, 88
+MOST_MINES, MOST_OBJECTS = 34, 110
 MORE = 14
 """Mines and objects that may come to them when a level turns out too easy."""
 SAFE = 150.0
@@ -23,6 +24,13 @@ AT_BAIT = 80.0
 """px from the middle of a group of gold in which mines guard it."""
 FROM_RUN = 17.0
 """px from a certified run at which a mine leaves it alone: their radii, and a little."""
+CLOSE = 48.0
+"""px from a certified run within which hazards are put when a level turns out too easy."""
+IN_SIGHT = 200.0
+"""As ``CLOSE``, of what shoots."""
+MOST_ENEMIES = 10
+GATE = 20.0
+"""px from the run to either mine of a gate."""
 
 Source = Callable[[Scene, Random], Iterator[str]]
 
@@ -61,11 +69,11 @@ def thwumps(scene: Scene, _: Random) -> Iterator[str]:
             yield f"thwump {column},{row} down"
 
 
-def turrets(scene: Scene, rng: Random) -> Iterator[str]:
+def turrets(scene: Scene, _: Random) -> Iterator[str]:
     """In the open."""
     for column, row in sorted(scene.steps):
         around = all((column + i, row + j) in scene.steps for i in (-1, 0, 1) for j in (-1, 0, 1))
-        if around and (column in (MIDDLE, 5, 8, 11, 21, 24, 27) or rng.random() < 0.1):
+        if around and column in (MIDDLE, 5, 8, 11, 21, 24, 27):
             yield f"gauss turret {column},{row}"
 
 
@@ -78,7 +86,7 @@ def launchers(scene: Scene, _: Random) -> Iterator[str]:
 
 
 SOURCES: dict[Source, tuple[int, float]] = {
-    guards: (1, 3.0), zaps: (1, 4.0), thwumps: (1, 2.0), patrols: (2, 2.0), turrets: (4, 2.0), launchers: (6, 1.5),
+    guards: (1, 2.5), zaps: (1, 5.0), thwumps: (1, 1.2), patrols: (2, 1.5), turrets: (3, 2.0), launchers: (5, 1.5),
 }  # fmt: skip
 """Where enemies come from: the least difficulty for them, and how often they are taken."""
 
@@ -88,7 +96,7 @@ def place_enemies(scene: Scene, rng: Random, wanted: int, difficulty: int) -> bo
     able = [source for source, (least, _) in SOURCES.items() if difficulty >= least]
     weights = [SOURCES[source][1] for source in able]
     chosen = [rng.choices(able, weights)[0] for _ in range(3)]
-    for number in range(12):
+    for number in range(14):
         source = chosen[number % len(chosen)]
         if number == 6:
             chosen = able
@@ -100,9 +108,13 @@ def place_enemies(scene: Scene, rng: Random, wanted: int, difficulty: int) -> bo
         together = len(scene.hazards) < 3
         lines.sort(key=partial(_from_hoard, scene) if together else lambda line: not _guards_something(scene, line))
         apart = (2 if together else 4) * CELL
-        enemy = next((record for line in lines if (record := _enemy(scene, line, apart))), None)
+        enemy = next((record for line in lines if (record := _enemy(scene, spec(line), apart))), None)
         if enemy:
             scene.hazards.append([enemy])
+            x, y, *_ = enemy.values
+            twins = [record for line in lines if [(record := spec(line)).values[:2]] == scene.twin([(x, y)])]
+            if twins and rng.random() < 0.6 and scene.count(*ENEMIES) < wanted and _enemy(scene, twins[0], apart):
+                scene.hazards.append([twins[0]])
     return scene.count(*ENEMIES) >= 3
 
 
@@ -117,9 +129,9 @@ def _from_hoard(scene: Scene, line: str) -> float:
     return dist(spec(line).values[:2], scene.baits[0])
 
 
-def _enemy(scene: Scene, line: str, apart: float) -> ObjectSpec | None:
-    """The enemy of a line, if it has room, ``apart`` px to others, and does not close on the start."""
-    record, start = spec(line), middle(scene.start)
+def _enemy(scene: Scene, record: ObjectSpec, apart: float) -> ObjectSpec | None:
+    """An enemy, if it has room, ``apart`` px to others, and does not close on the start."""
+    start = middle(scene.start)
     point = (record.values[0], record.values[1])
     enemies = [other for other in scene.objects if other.kind in ENEMIES]
     clear = scene.clear_of(point, key=60.0, other=14.0) and dist(point, start) >= SAFE
@@ -142,50 +154,41 @@ def _beside_tiles(scene: Scene) -> Iterator[Cell]:
 
 
 def place_mines(scene: Scene, rng: Random, wanted: int) -> None:
-    """Lines of mines that guard the gold: under ceilings, on floors and up walls near it."""
-    lines = [line for sort in (_ceiling_mines, _floor_mines, _wall_mines) for line in sort(scene)]
-    rng.shuffle(lines)
-    lines.sort(key=lambda line: dist(line[1], scene.baits[0]) > 1.5 * AT_BAIT)
-    lines.sort(key=lambda line: min((dist(line[len(line) // 2], bait) for bait in scene.baits), default=0.0) > AT_BAIT)
+    """Mines line the rock near what is wanted: under ceilings, up walls, over edges, on the floor of a pit."""
+    lines = _surface_lines(scene, rng)
+    wanted_places = [*scene.baits, *(point for record in scene.key[1:] for point in places(record))]
+    near_first = [
+        (min(dist(line[len(line) // 2], at) for at in wanted_places) * rng.uniform(0.5, 1), line) for line in lines
+    ]
+    lines = [line for far, line in sorted(near_first) if far < AT_BAIT]
     for line in lines:
-        group = _mines(scene, line)
-        near = any(
-            dist(line[len(line) // 2], record.values[:2]) < 4 * CELL
-            for record in scene.objects
-            if record.kind == kinds.MINE
-        )
-        if len(group) == len(line) and not near and scene.count(kinds.MINE) + len(group) <= min(wanted, MOST_MINES):
-            scene.hazards.append(group)
+        for points in [line, scene.twin(line)] if rng.random() < 0.8 else [line]:
+            group = _mines(scene, points)
+            near = any(
+                dist(points[len(points) // 2], record.values[:2]) < 4 * CELL
+                for record in scene.objects
+                if record.kind == kinds.MINE
+            )
+            if len(group) >= 3 and not near and scene.count(kinds.MINE) + len(group) <= min(wanted, MOST_MINES):
+                scene.hazards.append(group)
 
 
-STEP = 15.0
+def _surface_lines(scene: Scene, rng: Random, *, floors: bool = False) -> list[list[Point]]:
+    """Lines along the rock, hardly any on a floor but on that of a pit; ``floors``: short ones on them too."""
+    lines = list[list[Point]]()
+    for chain in scene.surfaces():
+        for first in range(0, len(chain) - 2, 3):
+            part = chain[first : first + rng.randint(4, 10)]
+            floor = [face for face in part if face.away_y < -0.9]
+            if len(floor) <= 2 or min(face.y for face in part) > CELL * 20:
+                lines.append(along([face.off(6.0) for face in part], STEP))
+            elif floors:
+                lines.append(along([face.off(6.0) for face in floor[:3]], STEP))
+    return lines
+
+
+STEP = 16.0
 """px between the mines of a line."""
-
-
-def _ceiling_mines(scene: Scene) -> Iterator[list[Point]]:
-    for column, row in sorted(scene.steps):
-        cells = [(column + k, row) for k in range(3)]
-        if all(cell in scene.steps and scene.full((cell[0], row - 1)) for cell in cells):
-            x, y = middle((column + 1, row))
-            yield [(x + STEP * k, y - 7) for k in (-1.5, -0.5, 0.5, 1.5)]
-
-
-def _floor_mines(scene: Scene) -> Iterator[list[Point]]:
-    for run in scene.runs():
-        if run.length >= 6:
-            left, y = middle((run.column, run.row))
-            right = left + CELL * (run.length - 1)
-            yield [(left + STEP * k, y + 7) for k in range(3)]
-            yield [(right - STEP * k, y + 7) for k in range(3)]
-
-
-def _wall_mines(scene: Scene) -> Iterator[list[Point]]:
-    for column, row in sorted(scene.steps):
-        for dx in (-1, 1):
-            cells = [(column, row + k) for k in range(3)]
-            if all(cell in scene.steps and scene.full((column + dx, cell[1])) for cell in cells):
-                x, y = middle((column, row + 1))
-                yield [(x + 8 * dx, y + STEP * k) for k in (-1.5, -0.5, 0.5, 1.5)]
 
 
 def _mines(scene: Scene, points: Sequence[Point]) -> list[ObjectSpec]:
@@ -195,28 +198,45 @@ def _mines(scene: Scene, points: Sequence[Point]) -> list[ObjectSpec]:
     return [spec(f"mine {round(x)},{round(y)}px") for x, y in dict.fromkeys(fit)]
 
 
-def mines_beside(scene: Scene, run: Sequence[Point], rng: Random) -> list[ObjectSpec]:
-    """A line of mines that points at a run that passes, at a place where it is in the air; perhaps none.
+def more_beside(scene: Scene, run: Sequence[Point], difficulty: int, rng: Random) -> list[ObjectSpec]:
+    """An enemy, or a line of mines on the rock, close to a run that passes; perhaps none.
 
-    The run stays possible: no mine is less than ``FROM_RUN`` px from it.
+    No mine is less than ``FROM_RUN`` px from the run; whether it still passes an enemy is to be tried.
     """
-    full = scene.count(kinds.MINE) > MOST_MINES + MORE - 3 or len(scene.objects) > MOST_OBJECTS + MORE - 3
-    if full or len(run) < 50:
+    if scene.count(*ENEMIES) < MOST_ENEMIES and rng.random() < 0.35:
+        source = rng.choices(list(SOURCES), [often * (difficulty >= least) for least, often in SOURCES.values()])[0]
+        lines = list(source(scene, rng))
+        rng.shuffle(lines)
+        for record in map(spec, lines[:60]):
+            near = IN_SIGHT if record.kind in _SHOOTERS else CLOSE
+            if min(dist(record.values[:2], at) for at in run) < near and _enemy(scene, record, 3 * CELL):
+                return [record]
+    if scene.count(kinds.MINE) > MOST_MINES + MORE - 3 or len(scene.objects) > MOST_OBJECTS + MORE - 3:
         return []
-    for trial in range(20):
+    if rng.random() < 0.5 and (gate := _gate(scene, run, rng)):
+        return gate
+    groups = list[tuple[float, list[ObjectSpec]]]()
+    for line in _surface_lines(scene, rng, floors=True):
+        far = [(min(dist(record.values[:2], at) for at in run), record) for record in _mines(scene, line)]
+        group = [record for away, record in far if away >= FROM_RUN][:8]
+        if len(group) >= 2 and min(away for away, _ in far) < CLOSE:
+            groups.append((sum(away < CLOSE for away, _ in far), group))
+    # Of those with the most mines close to the run, one.
+    groups.sort(key=lambda each: -each[0])
+    return rng.choice(groups[:6])[1] if groups else []
+
+
+def _gate(scene: Scene, run: Sequence[Point], rng: Random) -> list[ObjectSpec]:
+    """A mine on either side of a run in the air; perhaps none."""
+    for _ in range(20 if len(run) > 50 else 0):
         tick = rng.randint(40, len(run) - 3)
         (x0, y0), (x, y) = run[tick - 1], run[tick]
         speed = hypot(x - x0, y - y0)
-        if speed < 1.0:
-            continue
-        side = rng.choice((-1, 1))
-        nx, ny = side * (y - y0) / speed, side * (x0 - x) / speed
-        for away in (18, 22, 26):
-            # A line of three that points at the run.
-            line = [(round(x + (away + STEP * k) * nx), round(y + (away + STEP * k) * ny)) for k in range(3)]
-            group = _mines(scene, [point for point in line if min(dist(point, at) for at in run) >= FROM_RUN])
-            if len(group) >= (2 if trial < 10 else 1):
-                return group
+        if speed >= 1.5:
+            nx, ny = (y - y0) / speed, (x0 - x) / speed
+            gate = _mines(scene, [(round(x + side * nx), round(y + side * ny)) for side in (-GATE, GATE)])
+            if len(gate) == 2 and min(dist(mine.values[:2], at) for mine in gate for at in run) >= FROM_RUN:
+                return gate
     return []
 
 
@@ -254,8 +274,9 @@ def pads(scene: Scene, rng: Random) -> Iterator[str]:
         yield f"launch pad {run.column + rng.randint(0, run.length - 1)},{run.row} up"
 
 
-def one_ways(scene: Scene, _: Random) -> Iterator[str]:
-    """One-way platforms over gaps between tiles."""
+def one_ways(scene: Scene, rng: Random) -> Iterator[str]:
+    """One-way platforms over two gaps between tiles."""
+    gaps = list[list[Cell]]()
     for row in range(4, 22):
         for column in range(2, 30):
             wide = 0
@@ -265,7 +286,11 @@ def one_ways(scene: Scene, _: Random) -> Iterator[str]:
             cells = [(column + k, row) for k in range(wide)]
             open_ = all((c, row + k) in scene.empty for c, _ in cells for k in (-2, -1, 1, 2))
             if ends and 2 <= wide <= 5 and open_:
-                yield from (f"one-way {c},{row} up" for c, _ in cells)
+                gaps.append(cells)
+    rng.shuffle(gaps)
+    apart = [gap for gap in gaps[1:] if abs(gap[0][1] - gaps[0][0][1]) > 3 or gap[0][0] > gaps[0][-1][0]]
+    for gap in [*gaps[:1], *apart[:1]]:
+        yield from (f"one-way {c},{r} up" for c, r in gap)
 
 
 def place_fixtures(scene: Scene, rng: Random) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from math import dist, hypot
 from typing import NamedTuple
 
@@ -29,19 +29,27 @@ def inside(cell: Cell) -> bool:
 
 
 class Board:
-    """Solid cells. ``fill`` and ``clear`` do the same at the mirrored place, unless ``one_sided``."""
+    """Solid cells. All that is drawn or dug is drawn or dug at the mirrored place too."""
 
     def __init__(self) -> None:
         self.cells: set[Cell] = set()
-        self.stones: dict[Cell, str] = {}  #: single tiles with a shape of their own
+        self.heart: set[Cell] = set()  #: where the figure leads the eye to: for the exit or its switch
 
-    def fill(self, column: int, row: int, width: int, height: int, *, one_sided: bool = False) -> None:
+    def draw(self, cells: Iterable[Cell]) -> None:
+        """Make cells solid."""
+        self.cells |= {each for cell in cells if inside(cell) for each in (cell, mirrored(cell))}
+
+    def dig(self, cells: Iterable[Cell]) -> None:
+        """Make cells empty."""
+        self.cells -= {each for cell in cells for each in (cell, mirrored(cell))}
+
+    def fill(self, column: int, row: int, width: int, height: int) -> None:
         """Make a rectangle solid."""
-        self.cells |= set(_both(column, row, width, height, one_sided))
+        self.draw(_rectangle(column, row, width, height))
 
-    def clear(self, column: int, row: int, width: int, height: int, *, one_sided: bool = False) -> None:
+    def clear(self, column: int, row: int, width: int, height: int) -> None:
         """Make a rectangle empty."""
-        self.cells -= set(_both(column, row, width, height, one_sided))
+        self.dig(_rectangle(column, row, width, height))
 
     def solid(self, cell: Cell) -> bool:
         """Whether a cell is solid; the border is."""
@@ -49,7 +57,7 @@ class Board:
 
     def free(self, column: int, row: int, width: int, height: int) -> bool:
         """Whether a rectangle is empty."""
-        return not any(self.solid(cell) for cell in _both(column, row, width, height, one_sided=True, outside=True))
+        return not any(map(self.solid, _rectangle(column, row, width, height)))
 
     def pieces(self) -> list[list[Cell]]:
         """The connected groups of solid cells that do not touch the border, each sorted, in reading order."""
@@ -63,12 +71,8 @@ class Board:
         return found
 
 
-def _both(column: int, row: int, width: int, height: int, one_sided: bool, outside: bool = False) -> Iterator[Cell]:
-    for cell in ((c, r) for c in range(column, column + width) for r in range(row, row + height)):
-        if outside or inside(cell):
-            yield cell
-            if not one_sided:
-                yield mirrored(cell)
+def _rectangle(column: int, row: int, width: int, height: int) -> list[Cell]:
+    return [(c, r) for c in range(column, column + width) for r in range(row, row + height)]
 
 
 def flood(first: Cell, within: set[Cell]) -> set[Cell]:
@@ -110,6 +114,33 @@ class Run(NamedTuple):
     def middle(self) -> Point:
         """The middle of its cells, px."""
         return CELL * (self.column + self.length / 2), CELL * (self.row + 0.5)
+
+
+class Face(NamedTuple):
+    """A side of a cell, or a slope in it, px: its middle, and the direction that leads away from the rock."""
+
+    x: float
+    y: float
+    away_x: float
+    away_y: float
+
+    def off(self, far: float) -> Point:
+        """The point that is so many px away from the rock."""
+        return self.x + far * self.away_x, self.y + far * self.away_y
+
+    def joins(self, other: Face) -> bool:
+        """Whether two faces lie beside each other on one piece of rock."""
+        return (
+            dist(self[:2], other[:2]) < 1.45 * CELL and self.away_x * other.away_x + self.away_y * other.away_y > -0.5
+        )
+
+
+_LEANS = {
+    tile: way
+    for tiles, way in (("ajJdDgG", (1, -1)), ("skKfFhH", (-1, -1)), ("wiIrRyY", (-1, 1)), ("quUeEtT", (1, 1)))
+    for tile in tiles
+}
+"""Where the open side of a tile with a shape is."""
 
 
 def spec(line: str) -> ObjectSpec:
@@ -184,6 +215,35 @@ class Scene:
                 else:
                     found.append(Run(column, row, 1))
         return found
+
+    def surfaces(self) -> list[list[Face]]:
+        """The rock's surface where one can come to: chains of faces, each beside the one before."""
+        faces = list[Face]()
+        for cell in sorted(self.steps):
+            for there in neighbours(cell):
+                (x, y), dx, dy = middle(cell), there[0] - cell[0], there[1] - cell[1]
+                if self.full(there):
+                    faces.append(Face(x + CELL / 2 * dx, y + CELL / 2 * dy, -dx, -dy))
+        for cell, tile in sorted(self.tiles.items()):
+            if tile in _LEANS and any(there in self.steps for there in neighbours(cell)):
+                dx, dy = _LEANS[tile]
+                faces.append(Face(*middle(cell), dx * 0.7, dy * 0.7))
+        chains, left = list[list[Face]](), dict.fromkeys(faces)
+        for first in faces:
+            if first in left:
+                chain = [first]
+                del left[first]
+                for end in (-1, 0):  # on to both sides
+                    while near := [each for each in left if each.joins(chain[end])]:
+                        following = min(near, key=lambda each: dist(each[:2], chain[end][:2]))
+                        del left[following]
+                        chain.insert(len(chain) if end else 0, following)
+                chains.append(chain)
+        return chains
+
+    def twin(self, points: list[Point]) -> list[Point]:
+        """The same points on the other side of the middle column."""
+        return [(2 * middle((MIDDLE, 0))[0] - x, y) for x, y in points]
 
     def clear_of(self, point: Point, *, key: float, other: float) -> bool:
         """Whether a point is in a cell that can be reached, and this many px from all that is there."""

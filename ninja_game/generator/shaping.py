@@ -1,4 +1,4 @@
-"""Tiles for solid cells: corners become slopes or curves, all corners of a level in one style."""
+"""Tiles for solid cells: stairs become slopes, other corners slopes or curves, all of a level in one style."""
 
 from __future__ import annotations
 
@@ -46,8 +46,8 @@ STYLES = (
 
 def shaped(board: Board, style: Style) -> dict[Cell, str]:
     """The tile of every cell that is not empty."""
-    tiles = dict.fromkeys(board.cells, "#") | board.stones
-    for cell in sorted(board.cells - board.stones.keys()):
+    tiles = dict.fromkeys(board.cells, "#")
+    for cell in sorted(board.cells):
         tiles.update(_outer(board, cell, style))
     for cell in sorted((c, r) for c in range(1, COLUMNS + 1) for r in range(1, ROWS + 1)):
         if cell not in tiles:
@@ -66,7 +66,8 @@ def _outer(board: Board, cell: Cell, style: Style) -> Iterator[tuple[Cell, str]]
     for number, (dx, dy) in enumerate(CORNERS):
         open_ = not (board.solid((column + dx, row)) or board.solid((column, row + dy)))
         backed = board.solid((column - dx, row)) and board.solid((column, row - dy))
-        shape = style.above if dy < 0 else style.below
+        stair = board.solid((column + dx, row - dy)) or board.solid((column - dx, row + dy))
+        shape = "slope" if stair else style.above if dy < 0 else style.below
         if not (open_ and backed and shape) or board.solid((column + dx, row + dy)):
             continue
         if shape in OUTER:
@@ -89,7 +90,8 @@ def _inner(board: Board, cell: Cell, style: Style, tiles: dict[Cell, str]) -> It
     """The tile that fills a hollow corner between full ones."""
     column, row = cell
     for number, (dx, dy) in enumerate(CORNERS):
-        shape = style.hollow_above if dy < 0 else style.hollow_below
+        stair = not (board.solid((column + dx, row - dy)) and board.solid((column - dx, row + dy)))
+        shape = "slope" if stair else style.hollow_above if dy < 0 else style.hollow_below
         beside = (column + dx, row), (column, row + dy)
         full = all(tiles.get(each) == "#" or not inside(each) for each in beside)
         room = not (board.solid((column - dx, row)) or board.solid((column, row - dy)))
