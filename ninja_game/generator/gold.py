@@ -89,6 +89,9 @@ def along(line: list[Point], step: float) -> list[Point]:
         while (far := dist(last, point)) >= step:
             last = last[0] + (point[0] - last[0]) * step / far, last[1] + (point[1] - last[1]) * step / far
             points.append(last)
+    # Round a stone the last one comes to the first again.
+    while len(points) > 2 and dist(points[-1], points[0]) < step * 0.75:
+        points.pop()
     return points
 
 
@@ -112,7 +115,7 @@ def lay_gold(scene: Scene, rng: Random) -> bool:
                 if all(dist(centre, other) >= BETWEEN for other in scene.baits):
                     scene.baits.append(centre)
                     scene.gold += [spec(f"gold {round(px)},{round(py)}px") for px, py in points]
-    return LEAST <= len(scene.gold) <= MOST
+    return LEAST <= len(scene.gold) <= MOST and len(scene.baits) >= 3
 
 
 def centre_of(points: list[Point]) -> Point:

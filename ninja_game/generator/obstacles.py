@@ -155,6 +155,7 @@ def _beside_tiles(scene: Scene) -> Iterator[Cell]:
 
 def place_mines(scene: Scene, rng: Random, wanted: int) -> None:
     """Mines line the rock near what is wanted: under ceilings, up walls, over edges, on the floor of a pit."""
+    rock = [face.off(6.0) for chain in scene.surfaces() for face in chain]
     lines = _surface_lines(scene, rng)
     wanted_places = [*scene.baits, *(point for record in scene.key[1:] for point in places(record))]
     near_first = [
@@ -163,7 +164,7 @@ def place_mines(scene: Scene, rng: Random, wanted: int) -> None:
     lines = [line for far, line in sorted(near_first) if far < AT_BAIT]
     for line in lines:
         for points in [line, scene.twin(line)] if rng.random() < 0.8 else [line]:
-            group = _mines(scene, points)
+            group = [mine for mine in _mines(scene, points) if any(dist(mine.values[:2], at) < STEP for at in rock)]
             near = any(
                 dist(points[len(points) // 2], record.values[:2]) < 4 * CELL
                 for record in scene.objects

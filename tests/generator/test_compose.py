@@ -108,7 +108,7 @@ def test_mines_lie_on_the_rock(plan: str) -> None:
     faces = [face for chain in scene.surfaces() for face in chain]
     for record in scene.objects:
         if record.kind == MINE:
-            assert min(dist(record.values[:2], face.off(6.0)) for face in faces) < 18
+            assert min(dist(record.values[:2], face.off(6.0)) for face in faces) < 16
 
 
 def test_every_plan_has_names() -> None:
