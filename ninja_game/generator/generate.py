@@ -31,6 +31,8 @@ FIND_TICKS, SHORTEN_TICKS = 1_500_000, 1_000_000
 """Work of the solver on one attempt, and on its changed hazards."""
 ATTEMPTS = 3
 """Attempts that the solver looks at; of those it passes the nearest to what is wanted is taken."""
+PATIENCE = 4
+"""So many times as many, as long as none of them can be passed."""
 ROUNDS = 14
 """Changes of the hazards of one attempt."""
 TRIES_TO_COMPOSE = 400
@@ -88,7 +90,7 @@ def generate(
     best: tuple[tuple[bool, float], Generated] | None = None
     looked_at = 0
     for number in range(TRIES_TO_COMPOSE):
-        if looked_at >= effort.attempts or stop.is_set():
+        if looked_at >= effort.attempts * (1 if best else PATIENCE) or stop.is_set():
             break
         rng = Random(f"{seed}/{wanted}/{number}")  # noqa: S311 - not for secrets
         plan = plan_of(seed, rng)

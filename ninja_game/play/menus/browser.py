@@ -210,7 +210,10 @@ class Browser(ThumbnailScreen):
         about = "    ".join(filter(None, (by, where_from(entry))))
         theme.text(surface, about, SIDE, 345, size=10.5, colour=palette.faint, width=SIDE_WIDTH)
         teaches = [f"Teaches: {entry.named.teaches}"] if entry.named.teaches else []
-        for number, text in enumerate(wrapped(theme, entry.named.comment, SIDE_WIDTH, 10.5)[:2] + teaches):
+        comment = wrapped(theme, entry.named.comment, SIDE_WIDTH, 10.5)
+        if len(comment) > 2:
+            comment = wrapped(theme, up_to_a_stop(" ".join(comment[:2])), SIDE_WIDTH, 10.5)
+        for number, text in enumerate(comment[:2] + teaches):
             theme.text(surface, text, SIDE, 364 + 13.5 * number, size=10.5, width=SIDE_WIDTH)
         best = self.bests.get(entry.digest)
         text = f"Your best: {seconds_text(best.score)} s left with {best.gold} gold" if best else "Not passed yet"
@@ -247,6 +250,18 @@ class Browser(ThumbnailScreen):
         if entry.pars and entry.pars.difficulty is not None:
             difficulty = f"difficulty {entry.pars.difficulty:.1f}"
             theme.text(surface, difficulty, x + w - 30, y + 32, size=10, colour=palette.faint, align="right", width=88)
+
+
+def up_to_a_stop(text: str) -> str:
+    """A text that was cut somewhere, cut again where a sentence or a part of one ends.
+
+    >>> up_to_a_stop("Touch the switch: then the exit opens; three")
+    'Touch the switch: then the exit opens'
+    >>> up_to_a_stop("no stop at all")
+    'no stop at all'
+    """
+    end = max(map(text.rfind, ";:,."))
+    return text[:end] if end > 0 else text
 
 
 class LevelChoice(Browser):

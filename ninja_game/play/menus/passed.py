@@ -63,7 +63,7 @@ class EpisodePassed(ThumbnailScreen):
             middle = x + PICTURE / 2
             theme.text(surface, entry.title, middle, 232, size=10, align="centre", width=PICTURE, height=15)
             best = self.player.records.level_best(entry.digest)
-            score = f"best {seconds_text(best.score)} s" if best else ""
+            score = f"best {seconds_text(best.score)} s left" if best else ""
             theme.text(surface, score, middle, 247, size=10, colour=palette.faint, align="centre", width=PICTURE)
             mark = self.player.marks.of(entry.digest)
             all_gold_and_medal(surface, theme, entry, mark, x + PICTURE - 11, 135)
