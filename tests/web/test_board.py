@@ -26,7 +26,7 @@ from ninja_game.web.board.pages import BoardPages
 from ninja_game.web.board.ranking import Ranking
 from ninja_game.web.board.report import DATE
 from ninja_game.web.board.rules import FASTEST, HIGHEST
-from ninja_game.web.board.runs import PLAYED, Key, ValidatedRuns, judge
+from ninja_game.web.board.runs import ASSISTED, PLAYED, Key, ValidatedRuns, judge
 from ninja_game.web.pages.frame import POLICY, tag
 from ninja_game.web.pages.published import published_levels
 from tests.support.forgeries import FORGERIES, GOLD_LATER, PRACTISED, WALKING, record, replay
@@ -125,7 +125,7 @@ def test_medals_follow_from_the_par_times(runs: Path) -> None:
         put(runs, path.name, path.read_text("utf-8"))
     pack = published_levels(data_folder("levels")) if data_folder("levels").is_dir() else pytest.skip("no levels")
     ranking = Ranking(judge(runs, pack, jobs=1), pack)
-    assert ranking.standings[PLAYED][0].medals["author"] == len(certificates)
+    assert ranking.standings[ASSISTED][0].medals["author"] == len(certificates)
 
 
 def test_a_player_has_one_row_a_table_the_best_one(runs: Path, levels: Path) -> None:
