@@ -69,7 +69,8 @@ def _in_niche(cell: Cell, niche: Niche | None) -> bool:
 
 def _worth(stops: Sequence[Cell], empty: set[Cell], far: float, heart: set[Cell]) -> float | None:
     """How well a route would do; None for one that cannot be walked, or with things too close together."""
-    if min(dist(a, b) for number, a in enumerate(stops) for b in stops[:number]) < CLOSE:
+    spread = min(dist(a, b) for number, a in enumerate(stops) for b in stops[:number])
+    if spread < CLOSE:
         return None
     way = 0
     for a, b in pairwise(stops):
@@ -77,7 +78,6 @@ def _worth(stops: Sequence[Cell], empty: set[Cell], far: float, heart: set[Cell]
         if b not in steps:
             return None
         way += steps[b]
-    spread = min(dist(a, b) for number, a in enumerate(stops) for b in stops[:number])
     width = max(column for column, _ in stops) - min(column for column, _ in stops)
     height = max(row for _, row in stops) - min(row for _, row in stops)
     told = 12.0 if stops[-1] in heart else 6.0 if not heart.isdisjoint(stops[1:]) else 0.0
@@ -87,7 +87,7 @@ def _worth(stops: Sequence[Cell], empty: set[Cell], far: float, heart: set[Cell]
 SOLID = 0.13, 0.5
 SHAPES = 20, 110
 OBJECTS = 62, MOST_OBJECTS
-"""What levels keep to: shares of the cells, tiles with a shape, objects (the quartiles of N's own levels)."""
+"""What levels keep to: shares of the cells, tiles with a shape, objects."""
 
 
 def compose(layout: str, rng: Random, difficulty: int) -> Scene | None:

@@ -98,7 +98,7 @@ def generate(
         if scene is None:
             continue
         looked_at += 1
-        report(f"attempt {looked_at} of at most {effort.attempts}: {plan}")
+        report(f"attempt {looked_at}: {plan}")
         found = _certified(scene, rng, wanted, effort, stop)
         if found is None or stop.is_set():
             continue

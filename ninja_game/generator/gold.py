@@ -25,15 +25,15 @@ Pattern = Callable[[Scene, Random], Iterator[list[Point]]]
 def round_stones(scene: Scene, _: Random) -> Iterator[list[Point]]:
     """Round a small stone, or over and beside it."""
     small = [set(piece) for piece in scene.board.pieces() if len(piece) <= 25]
-    for chain in scene.surfaces():
-        inner = [face.off(-4.0) for face in chain]
-        if len(chain) <= 20 and any({(int(x // CELL), int(y // CELL)) for x, y in inner} <= piece for piece in small):
+    for chain in scene.surfaces:
+        inside = {cell_of(face.off(-4.0)) for face in chain}
+        if len(chain) <= 20 and any(inside <= piece for piece in small):
             yield along([face.off(OFF) for face in chain], 22.0)
 
 
 def along_walls(scene: Scene, rng: Random) -> Iterator[list[Point]]:
     """Along a slope, a wall or a ceiling, or over an edge."""
-    for chain in scene.surfaces():
+    for chain in scene.surfaces:
         if len(chain) >= 6:
             first, count = rng.randrange(len(chain) - 4), rng.randint(4, 7)
             part = chain[first : first + count]
@@ -43,10 +43,10 @@ def along_walls(scene: Scene, rng: Random) -> Iterator[list[Point]]:
 
 def bows(scene: Scene, rng: Random) -> Iterator[list[Point]]:
     """The flight from one ledge to another."""
-    ends = [(middle((run.column + k, run.row)), k > 0) for run in scene.runs() for k in {0, run.length - 1}]
+    ends = [middle((run.column + k, run.row)) for run in scene.runs() for k in {0, run.length - 1}]
     rng.shuffle(ends)
-    for (x0, y0), _ in ends[:12]:
-        for (x1, y1), _ in ends:
+    for x0, y0 in ends[:12]:
+        for x1, y1 in ends:
             wide, high = x1 - x0, rng.choice((40, 56, 66))
             if 90 <= abs(wide) <= 230 and abs(y1 - y0) <= 60:
                 bow = [

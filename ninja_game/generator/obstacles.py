@@ -8,7 +8,7 @@ from math import dist, hypot
 from random import Random
 
 from ninja_game.generator.gold import along
-from ninja_game.generator.scene import ENEMIES, MIDDLE, Cell, Point, Scene, middle, places, spec
+from ninja_game.generator.scene import ENEMIES, MIDDLE, Cell, Point, Scene, middle, spec
 from ninja_game.sim import kinds
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import CELL, PAD_RADIUS
@@ -121,8 +121,7 @@ def place_enemies(scene: Scene, rng: Random, wanted: int, difficulty: int) -> bo
 def _guards_something(scene: Scene, line: str) -> bool:
     """Whether an enemy is near to something that one wants or has to touch."""
     x, y, *_ = spec(line).values
-    wanted = [*scene.baits, *(point for record in scene.key[1:] for point in places(record))]
-    return any(dist((x, y), point) <= BESIDE for point in wanted)
+    return any(dist((x, y), point) <= BESIDE for point in scene.wanted())
 
 
 def _from_hoard(scene: Scene, line: str) -> float:
@@ -155,14 +154,13 @@ def _beside_tiles(scene: Scene) -> Iterator[Cell]:
 
 def place_mines(scene: Scene, rng: Random, wanted: int) -> None:
     """Mines line the rock near what is wanted: under ceilings, up walls, over edges, on the floor of a pit."""
-    rock = [face.off(6.0) for chain in scene.surfaces() for face in chain]
-    lines = _surface_lines(scene, rng)
-    wanted_places = [*scene.baits, *(point for record in scene.key[1:] for point in places(record))]
+    rock = [face.off(ON_ROCK) for chain in scene.surfaces for face in chain]
+    wanted_places = scene.wanted()
     near_first = [
-        (min(dist(line[len(line) // 2], at) for at in wanted_places) * rng.uniform(0.5, 1), line) for line in lines
+        (min(dist(line[len(line) // 2], at) for at in wanted_places) * rng.uniform(0.5, 1), line)
+        for line in _surface_lines(scene, rng)
     ]
-    lines = [line for far, line in sorted(near_first) if far < AT_BAIT]
-    for line in lines:
+    for line in (line for far, line in sorted(near_first) if far < AT_BAIT):
         for points in [line, scene.twin(line)] if rng.random() < 0.8 else [line]:
             group = [mine for mine in _mines(scene, points) if any(dist(mine.values[:2], at) < STEP for at in rock)]
             near = any(
@@ -177,19 +175,19 @@ def place_mines(scene: Scene, rng: Random, wanted: int) -> None:
 def _surface_lines(scene: Scene, rng: Random, *, floors: bool = False) -> list[list[Point]]:
     """Lines along the rock, hardly any on a floor but on that of a pit; ``floors``: short ones on them too."""
     lines = list[list[Point]]()
-    for chain in scene.surfaces():
+    for chain in scene.surfaces:
         for first in range(0, len(chain) - 2, 3):
             part = chain[first : first + rng.randint(4, 10)]
             floor = [face for face in part if face.away_y < -0.9]
-            if len(floor) <= 2 or min(face.y for face in part) > CELL * 20:
-                lines.append(along([face.off(6.0) for face in part], STEP))
-            elif floors:
-                lines.append(along([face.off(6.0) for face in floor[:3]], STEP))
+            if len(floor) > 2 and min(face.y for face in part) <= CELL * 20:
+                part = floor[:3] if floors else []
+            if part:
+                lines.append(along([face.off(ON_ROCK) for face in part], STEP))
     return lines
 
 
-STEP = 16.0
-"""px between the mines of a line."""
+STEP, ON_ROCK = 16.0, 6.0
+"""px between the mines of a line, and from the rock to their middles."""
 
 
 def _mines(scene: Scene, points: Sequence[Point]) -> list[ObjectSpec]:

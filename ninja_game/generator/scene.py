@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from functools import cached_property
 from math import dist, hypot
 from typing import NamedTuple
 
@@ -216,6 +217,7 @@ class Scene:
                     found.append(Run(column, row, 1))
         return found
 
+    @cached_property
     def surfaces(self) -> list[list[Face]]:
         """The rock's surface where one can come to: chains of faces, each beside the one before."""
         faces = list[Face]()
@@ -240,6 +242,10 @@ class Scene:
                         chain.insert(len(chain) if end else 0, following)
                 chains.append(chain)
         return chains
+
+    def wanted(self) -> list[Point]:
+        """What one wants or has to touch, px: the middles of groups of gold, exit, doors and switches."""
+        return [*self.baits, *(point for record in self.key[1:] for point in places(record))]
 
     def twin(self, points: list[Point]) -> list[Point]:
         """The same points on the other side of the middle column."""

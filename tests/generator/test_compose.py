@@ -105,7 +105,7 @@ def test_a_plan_is_a_figure_with_a_heart_and_the_same_on_both_sides(plan: str) -
 @pytest.mark.parametrize("plan", PLANS)
 def test_mines_lie_on_the_rock(plan: str) -> None:
     scene = composed(plan, 5)
-    faces = [face for chain in scene.surfaces() for face in chain]
+    faces = [face for chain in scene.surfaces for face in chain]
     for record in scene.objects:
         if record.kind == MINE:
             assert min(dist(record.values[:2], face.off(6.0)) for face in faces) < 16

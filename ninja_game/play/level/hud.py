@@ -290,7 +290,8 @@ def hud_view(play: LevelPlay) -> HudView:
     y = ABOVE if attempt.simulation.world.ninja.y > HEIGHT / 2 else BELOW
     text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.sayings.text
     still = play.phase is Phase.READY
-    said = (named_keys(text, key), context.level.tiles if still else (), _things(play)) if text else None
+    where = (context.level.tiles, _things(play)) if still else ((), ())
+    said = (named_keys(text, key), *where) if text else None
     if play.phase is Phase.DEAD:
         # The line of keys keeps its place until it comes.
         cause, _, why = cause_of_death(play).partition(". ")
