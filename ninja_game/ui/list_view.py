@@ -35,14 +35,18 @@ class ListView(Widget):
         self.empty = empty
         self.opens = opens
         self._clicked = -1
+        self._rows: Sequence[object] = ()
         self.count = 0
         self.index = 0
         self.first = 0
 
     def fill(self, rows: Sequence[object]) -> None:
-        """Show so many rows; the selection stays where that is possible."""
-        self.count = len(rows)
+        """Show so many rows; the selection stays where that is possible, a first click where its row is the same."""
+        at = self._clicked
+        stays = 0 <= at < min(len(self._rows), len(rows)) and self._rows[at] is rows[at]
+        self._rows, self.count = rows, len(rows)
         self._select(min(self.index, max(0, self.count - 1)))
+        self._clicked = at if stays else -1
 
     @property
     def visible_lines(self) -> int:

@@ -137,6 +137,7 @@ class ReplaysScreen(MenuScreen):
 
     def _file_rows(self) -> Iterator[list[ReplayRow]]:
         """The rows of one file after the other."""
+        seen = set[tuple[object, ...]]()
         for when, files in self.places():
             for file in files:
                 if isinstance(file, LeftOut):
@@ -147,9 +148,11 @@ class ReplaysScreen(MenuScreen):
                 except (NinjaGameError, OSError):
                     self.problems.append(file.name)
                     continue
-                rows = [_row_of_recording(recording, when) for recording in recordings]
                 # An author's run for the exit may be the one for all gold too.
-                yield [row for row in rows if row[:4] not in {each[:4] for each in self._files}]
+                read = (_row_of_recording(recording, when) for recording in recordings)
+                rows = [row for row in read if row[:4] not in seen]
+                seen.update(row[:4] for row in rows)
+                yield rows
                 if len(self._files) > FILES_SHOWN:
                     break
 

@@ -138,3 +138,16 @@ def test_a_click_below_the_last_whole_line_chooses_nothing(driver: MenuDriver) -
     assert rows.click(10, 70)
     assert not rows.click(10, 80)
     assert chosen == [3]
+
+
+def test_a_second_click_counts_while_more_rows_come_and_not_where_another_row_is() -> None:
+    one, other, chosen = object(), object(), list[int]()
+    shown = ListView((0, 0, 100, 80), 20, lambda *_: None, chosen.append, opens=True)
+    shown.fill([one])
+    shown.click(10, 10)
+    shown.fill([one, other])
+    shown.click(10, 10)
+    assert chosen == [0]
+    shown.fill([other])
+    shown.click(10, 10)
+    assert chosen == [0], "only selected"
