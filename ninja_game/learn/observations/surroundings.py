@@ -43,26 +43,27 @@ def mark_solid(maps: Any, number: int, wide: float, high: float, points: Any) ->
                 points[row, column] = 1
 
 
-_DISTANCES: dict[tuple[tuple[int, ...], float], NDArray[np.float64]] = {}
-MOST_DISTANCES = 4096
-"""Levels whose distances are kept, by their tiles, which many levels share."""
+_OF_TILES: dict[Any, NDArray[Any]] = {}
+MOST_OF_TILES = 4096
+"""What is kept of levels by their tiles, which many levels share."""
+
+
+def of_tiles(make: Callable[..., NDArray[Any]], setting: Setting, number: int, *about: float) -> NDArray[Any]:
+    """What ``make`` gives of a level's tiles, kept for the next level that has the same."""
+    key = make, tuple(setting.fresh[number].tiles), about
+    if key not in _OF_TILES:
+        if len(_OF_TILES) >= MOST_OF_TILES:
+            _OF_TILES.clear()
+        _OF_TILES[key] = make(setting, number, *about)
+    return _OF_TILES[key]
 
 
 def surface_distances(setting: Setting, number: int, reach: float) -> NDArray[np.float64]:
     """Of every cell (25, 33) how far its centre is from the nearest surface, px, at most ``reach``; within below 0.
 
-    What is outside the world counts as solid.
+    What is outside the world counts as solid. Of each row of points near a cell the nearest one, and of these the
+    nearest.
     """
-    key = tuple(setting.fresh[number].tiles), reach
-    if key not in _DISTANCES:
-        if len(_DISTANCES) >= MOST_DISTANCES:
-            _DISTANCES.clear()
-        _DISTANCES[key] = _measured_distances(setting, number, reach)
-    return _DISTANCES[key]
-
-
-def _measured_distances(setting: Setting, number: int, reach: float) -> NDArray[np.float64]:
-    """Of each row of points near a cell the nearest one, and of these the nearest."""
     spacing = WORLD_WIDTH / GRID_COLUMNS / FINE
     margin = int(reach / spacing)
     solid = np.pad(solidity(setting, number, GRID_COLUMNS * FINE, GRID_ROWS * FINE), margin, constant_values=1)
@@ -129,7 +130,7 @@ class LocalTiles(Part):
             if self.form == "one-hot":
                 tiles = np.reshape(setting.fresh[number].tiles, (-1, STRIDE))
                 return np.pad(tiles[1 : GRID_ROWS + 1, 1 : GRID_COLUMNS + 1], margin, constant_values=FULL_TILE)
-            return np.pad(surface_distances(setting, number, REACH), margin, constant_values=-REACH) / unit
+            return np.pad(of_tiles(surface_distances, setting, number, REACH), margin, constant_values=-REACH) / unit
 
         return setting.values(picture, np.int64 if self.form == "one-hot" else np.float32), width, height, self.size
 
