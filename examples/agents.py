@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import io
 import json
+from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any, ClassVar
@@ -63,8 +64,8 @@ class RandomAgent:
 class PolicyAgent:
     """Plays actions by their probabilities, drawn by the seed of ``reset``.
 
-    ``layers``: weights (inputs x outputs) and biases, with tanh between them, on observations less ``mean`` times
-    ``scale``. ``settings``: the keywords of the environment it was made for. ``training``: how it was made, by name.
+    ``layers``: weights and biases (``forward``), on observations less ``mean`` times ``scale``. ``settings``: the
+    keywords of the environment it was made for. ``training``: how it was made, by name.
     """
 
     layers: list[tuple[Floats, Floats]]
@@ -88,7 +89,7 @@ class PolicyAgent:
 
     def scores(self, observations: Floats) -> Floats:
         """A number for each action, (n, 6): the logarithm of its probability, up to a constant of the row."""
-        return forward(self.layers, normalised(observations, self.mean, self.scale))
+        return np.asarray(forward(self.layers, normalised(observations, self.mean, self.scale)), np.float32)
 
     def save(self, path: Path) -> None:
         """Write the file. Raises FileError or OSError where it cannot be written."""
@@ -132,12 +133,21 @@ def load_policy(path: Path) -> PolicyAgent:
     return agent
 
 
-def forward(layers: list[tuple[Floats, Floats]], values: Floats) -> Floats:
-    """What a network says: tanh after all layers but the last."""
-    for weights, biases in layers[:-1]:
-        values = np.tanh(values @ weights + biases)
-    weights, biases = layers[-1]
-    return values @ weights + biases
+def forward(layers: list[tuple[Any, Any]], values: Any, tanh: Callable[[Any], Any] = np.tanh) -> Any:
+    """What a network says, (n, outputs): tanh after all layers but the last; by NumPy, or with JAX's ``tanh`` by JAX.
+
+    Weights are (inputs x outputs), or of a picture (side, side, channels, features): for each of its squares the same.
+    """
+    for number, (weights, biases) in enumerate(layers):
+        if weights.ndim == 4:
+            side, _, channels, _ = weights.shape
+            across = round((values.shape[1] / channels) ** 0.5) // side
+            squares = values.reshape(-1, across, side, across, side, channels).transpose(0, 1, 3, 2, 4, 5)
+            values = squares.reshape(-1, across * across, side * side * channels)
+        values = values @ weights.reshape(-1, len(biases)) + biases
+        if number < len(layers) - 1:
+            values = tanh(values).reshape(len(values), -1)
+    return values
 
 
 def normalised(observations: Floats, mean: Floats, scale: Floats) -> Floats:
@@ -150,12 +160,9 @@ def _check(agent: PolicyAgent) -> None:
     size = Observation(agent.settings["observation"], flat=True).space.shape
     if size != agent.mean.shape or size != agent.scale.shape:
         raise ValueError(f"it takes {agent.mean.shape} numbers; its observation has {size}")
-    for weights, biases in agent.layers:
-        if weights.shape != (*size, *biases.shape) or biases.ndim != 1:
-            raise ValueError(f"a layer of shape {weights.shape} follows {size} numbers")
-        size = biases.shape
-    if size != (len(ACTION_NAMES),):
-        raise ValueError(f"it ends in {size} numbers; there are {len(ACTION_NAMES)} actions")
+    said = forward(agent.layers, np.zeros((1, *size), np.float32)).shape
+    if said != (1, len(ACTION_NAMES)):
+        raise ValueError(f"it ends in {said} numbers; there are {len(ACTION_NAMES)} actions")
 
 
 def _written(settings: dict[str, Any]) -> dict[str, Any]:

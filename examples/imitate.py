@@ -15,7 +15,7 @@ import click
 import numpy as np
 from numpy.typing import NDArray
 
-from examples.agents import Floats, PolicyAgent, normalised
+from examples.agents import Floats, PolicyAgent, forward, normalised
 from examples.ppo import OBSERVATION, SMALLEST_DEVIATION, new_networks
 from ninja_game.errors import MissingExtraError, NinjaGameError
 from ninja_game.learn.actions import DISCRETE_KEYS
@@ -72,10 +72,8 @@ def imitate(levels: str, *, passes: int = 12, seed: int = 0, hidden: int = 128, 
     memory = optimiser.init(layers)
 
     def loss(layers: Any, values: Any, wanted: Any) -> Any:
-        for weights, biases in layers[:-1]:
-            values = jnp.tanh(values @ weights + biases)
-        weights, biases = layers[-1]
-        return optax.softmax_cross_entropy_with_integer_labels(values @ weights + biases, wanted).mean()
+        scores = forward(layers, values, jnp.tanh)
+        return optax.softmax_cross_entropy_with_integer_labels(scores, wanted).mean()
 
     def update(layers: Any, memory: Any, values: Any, wanted: Any) -> Any:
         changes, memory = optimiser.update(jax.grad(loss)(layers, values, wanted), memory)

@@ -2,6 +2,7 @@
 
     python3 -m examples.ppo --steps 10000000 --seed 0 -o agent.npz
     python3 -m examples.ppo --level 00-0-first-steps --steps 1000000 -o first.npz
+    python3 -m examples.ppo --pixels --steps 1000000 -o pixels.npz
 
 It learns in the environment that it is measured in, with no demonstrations and without the solver's field. To the
 reward it adds a share of the straight way to the switch and then to the exit, which the observation tells. The same
@@ -26,14 +27,14 @@ import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
-from examples.agents import Floats, PolicyAgent, normalised
+from examples.agents import Floats, PolicyAgent, forward, normalised
 from examples.measure import BENCH, measure
 from ninja_game.backend.kernel_cache import before_compiling
 from ninja_game.errors import MissingExtraError, NinjaGameError
 from ninja_game.learn.actions import ACTION_NAMES
 from ninja_game.learn.observations.objects import OBSERVED_KINDS, NearObjects
-from ninja_game.learn.observations.observation import Observation
 from ninja_game.learn.observations.part import Part
+from ninja_game.learn.observations.pixels import Pixels
 from ninja_game.learn.observations.surroundings import LocalTiles, Rays
 from ninja_game.learn.observations.vectors import FIELDS, StateVector
 from ninja_game.sim.states import OUTCOME_EXIT
@@ -45,6 +46,8 @@ Networks: TypeAlias = "dict[str, Layers]"
 SEEN_KINDS = tuple(kind for kind in OBSERVED_KINDS if kind not in {"gold", "exit", "switch"})
 OBSERVATION: tuple[Part, ...] = (StateVector(), LocalTiles(9), Rays(16), NearObjects(8, kinds=SEEN_KINDS))
 """Exit and switch are in the state vector; gold is nothing to this agent."""
+SQUARES = ((6, 1, 16), (2, 16, 32))
+"""Of a network that sees a picture: pixels across a square, channels, features of each of the first layers."""
 SMALLEST_DEVIATION = 0.02
 """Of an observation; what hardly ever changes would be blown up otherwise."""
 POINTS = 20
@@ -59,7 +62,8 @@ class Settings:
     """Numbers of the method. ``learning_rate`` and ``entropy`` fall to ``last`` of themselves over the training.
 
     ``worlds`` play ``round`` steps between two improvements, each of ``passes`` over them. ``exit``, ``way``: what the
-    exit and the way to it are worth; ``time_limit``: ticks of an episode in training.
+    exit and the way to it are worth; ``time_limit``: ticks of an episode in training. ``view``: the policy sees a
+    picture of so many px round the ninja, and nothing else; 0: it sees the numbers that the value is told from.
     """
 
     hidden: int = 128
@@ -78,6 +82,10 @@ class Settings:
     exit: float = 10.0
     way: float = 5.0
     time_limit: int = 800
+    view: float = 0.0
+
+
+PIXELS = Settings(view=504.0, learning_rate=5e-4, batch=1024, worlds=128)
 
 
 class Trainer:
@@ -85,23 +93,26 @@ class Trainer:
 
     def __init__(self, level: Any, steps: int, seed: int, settings: Settings) -> None:
         self.settings, self.seed, self.steps_planned, self.steps = settings, seed, steps, 0
-        parts = Observation(OBSERVATION, flat=True).parts
-        self.made_for: dict[str, Any] = {"observation": parts, "flat": True, "frame_skip": 4}
+        picture = [Pixels(view=settings.view, normalised=True)] if settings.view else []
+        self.made_for: dict[str, Any] = {"observation": picture or [*OBSERVATION], "flat": True, "frame_skip": 4}
         how = {**self.made_for, "level": level, "time_limit": settings.time_limit, "copy": False}
+        how["observation"] = [*OBSERVATION, *picture]
         self.envs = gymnasium.make_vec(BENCH, num_envs=settings.worlds, **how)
         self._rng = np.random.default_rng([seed, 1])
         self._observed: Floats = self.envs.reset(seed=seed * settings.worlds)[0]
-        inputs = self._observed.shape[1]
+        inputs, pixels = self._observed.shape[1], sum(part.length for part in picture)
+        self._sight = slice(inputs - pixels if pixels else 0, inputs)
         self._begins = np.zeros(settings.worlds, np.bool_)
         self._whole = way_left(self._observed)
-        self.networks = new_networks(inputs, settings.hidden, self._rng)
-        self._play, self._update, self._memory = compiled(self.networks, settings)
+        self.networks = new_networks(inputs - pixels, settings.hidden, self._rng, pixels)
+        self._play, self._update, self._memory = compiled(self.networks, settings, self._sight, inputs - pixels)
         self._mean, self._scale = np.zeros(inputs, np.float32), np.ones(inputs, np.float32)
         self.episodes: list[NDArray[np.bool_]] = []
         self._mean, self._scale = self._measure()
 
     def agent(self, training: dict[str, Any]) -> PolicyAgent:
-        return PolicyAgent(self.networks["policy"], self._mean, self._scale, self.made_for, training)
+        mean, scale = self._mean[self._sight], self._scale[self._sight]
+        return PolicyAgent(self.networks["policy"], mean, scale, self.made_for, training)
 
     def improve(self) -> None:
         """Play a round and learn from it."""
@@ -199,11 +210,23 @@ def advantages(
     return result
 
 
-def new_networks(inputs: int, hidden: int, rng: np.random.Generator) -> Networks:
-    """Two networks with orthogonal weights, small in the policy's last layer: it begins by playing anything."""
+def new_networks(inputs: int, hidden: int, rng: np.random.Generator, pixels: int = 0) -> Networks:
+    """Two networks with orthogonal weights, small in the policy's last layer: it begins by playing anything.
+
+    ``pixels``: of the square picture that the policy sees instead of the ``inputs``.
+    """
+    eyes: Layers = []
+    for side, channels, features in SQUARES if pixels else ():
+        weights = _orthogonal(side * side * channels, features, 2**0.5, rng)
+        eyes.append((weights.reshape(side, side, channels, features), np.zeros(features, np.float32)))
+        pixels = pixels // (side * side * channels) * features
     return {
         name: [
-            (_orthogonal(inputs, hidden, 2**0.5, rng), np.zeros(hidden, np.float32)),
+            *(eyes if name == "policy" else ()),
+            (
+                _orthogonal(pixels if name == "policy" and eyes else inputs, hidden, 2**0.5, rng),
+                np.zeros(hidden, np.float32),
+            ),
             (_orthogonal(hidden, hidden, 2**0.5, rng), np.zeros(hidden, np.float32)),
             (_orthogonal(hidden, outputs, gain, rng), np.zeros(outputs, np.float32)),
         ]
@@ -216,10 +239,13 @@ def _orthogonal(rows: int, columns: int, gain: float, rng: np.random.Generator) 
     return np.asarray(gain * (square if rows >= columns else square.T), np.float32)
 
 
-def compiled(networks: Networks, settings: Settings) -> tuple[Callable[..., Any], Callable[..., Any], Any]:
+def compiled(
+    networks: Networks, settings: Settings, sight: slice, numbers: int
+) -> tuple[Callable[..., Any], Callable[..., Any], Any]:
     """What plays, (networks, observations) -> (logarithms of the chances, values); what learns; the optimiser's memory.
 
-    That is (networks, memory, share, batch) -> (networks, memory), one step of Adam.
+    That is (networks, memory, share, batch) -> (networks, memory), one step of Adam. ``sight``: the columns that the
+    policy sees; the value is told from the first ``numbers``.
     """
     try:
         import jax
@@ -228,15 +254,9 @@ def compiled(networks: Networks, settings: Settings) -> tuple[Callable[..., Any]
     except ModuleNotFoundError as error:
         raise MissingExtraError("training needs JAX and Optax: python3 -m pip install jax optax") from error
 
-    def network(layers: Any, values: Any) -> Any:
-        for weights, biases in layers[:-1]:
-            values = jnp.tanh(values @ weights + biases)
-        weights, biases = layers[-1]
-        return values @ weights + biases
-
     def play(nets: Any, observations: Any) -> Any:
-        scores = jax.nn.log_softmax(network(nets["policy"], observations))
-        return scores, network(nets["value"], observations)[:, 0]
+        scores = jax.nn.log_softmax(forward(nets["policy"], observations[:, sight], jnp.tanh))
+        return scores, forward(nets["value"], observations[:, :numbers], jnp.tanh)[:, 0]
 
     def loss(nets: Any, share: Any, observations: Any, actions: Any, chances: Any, gains: Any, returns: Any) -> Any:
         scores, values = play(nets, observations)
@@ -292,8 +312,9 @@ def train(
 @click.option("--watch", default="", metavar="LEVELS", help="Levels that the curve tells too, such as bench:test:easy.")
 @click.option("--steps", type=click.IntRange(1), default=10_000_000, show_default=True, help="Of all worlds together.")
 @click.option("--seed", type=click.IntRange(0, 999), default=0, show_default=True)
+@click.option("--pixels", is_flag=True, help="See a picture, 84 x 84, and nothing else; some twenty times as slow.")
 @click.option("--output", "-o", default="agent.npz", show_default=True, type=click.Path(dir_okay=False, path_type=Path))
-def main(level: str, watch: str, steps: int, seed: int, output: Path) -> None:
+def main(level: str, watch: str, steps: int, seed: int, pixels: bool, output: Path) -> None:
     if output.exists():
         raise click.UsageError(f"{output} exists; name another file with -o, or remove it")
 
@@ -306,7 +327,7 @@ def main(level: str, watch: str, steps: int, seed: int, output: Path) -> None:
     said = "compiling the worlds for this machine, the first time only; it takes a minute or two"
     before_compiling.append(lambda: click.echo(said, err=True))
     try:
-        train(level, steps, seed, watch=watch, report=report)
+        train(level, steps, seed, watch=watch, settings=PIXELS if pixels else Settings(), report=report)
     except KeyboardInterrupt:
         click.echo("stopped", err=True)
         sys.exit(130)

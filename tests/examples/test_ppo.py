@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,10 +17,12 @@ from click.testing import CliRunner
 from examples import ppo
 from examples.agents import PolicyAgent, forward, load_policy
 from examples.imitate import imitate, known_steps
+from examples.measure import measure
 from examples.ppo import OBSERVATION, Settings, advantages, main, new_networks, train, way_left
 from ninja_game.backend.memories import compiled_available
 from ninja_game.learn.levels import level_source
 from ninja_game.learn.observations.observation import Observation
+from ninja_game.learn.observations.pixels import Pixels
 from ninja_game.learn.observations.vectors import FIELDS, Guide
 from ninja_game.learn.worlds import EnvWorlds
 from tests.support.waiting import LONGEST
@@ -56,6 +59,20 @@ def test_new_networks_expect_nothing_and_prefer_nothing() -> None:
     assert [weights.shape for weights, _ in networks["value"]] == [(10, 16), (16, 16), (16, 1)]
 
 
+def test_a_network_sees_each_square_of_a_picture_alike() -> None:
+    networks = new_networks(10, 16, np.random.default_rng(0), 84 * 84)
+    assert [weights.shape for weights, _ in networks["policy"]] == [
+        (6, 6, 1, 16), (2, 2, 16, 32), (1568, 16), (16, 16), (16, 6),
+    ]  # fmt: skip
+    assert networks["value"][0][0].shape == (10, 16)
+    rng = np.random.default_rng(1)
+    picture, weights, biases = rng.random((2, 12, 12, 3)), rng.random((4, 4, 3, 5)), rng.random(5)
+    found = forward([(weights, biases)], picture.reshape(2, -1)).reshape(2, 3, 3, 5)
+    for row, column in np.ndindex(3, 3):
+        square = picture[:, 4 * row : 4 * row + 4, 4 * column : 4 * column + 4]
+        assert np.allclose(found[:, row, column], np.tensordot(square, weights, 3) + biases)
+
+
 def test_the_way_left_goes_by_the_switch_until_the_exit_is_open() -> None:
     worlds = EnvWorlds("0" * 713 + "|5^100,566!11^300,566,200,566", 1, observation="state", memory="plain")
     for ticks, left in ((0, 200), (16, None)):
@@ -85,6 +102,17 @@ def test_the_same_seed_makes_the_same_agent() -> None:
     assert arrays(first) == arrays(again) != arrays(other)
     assert first.training["curve"][-1][0] == 512
     assert [len(point) for point in first.training["curve"]] == [5] * 4
+
+
+@fast
+@pytest.mark.slow
+def test_an_agent_that_sees_a_picture_sees_nothing_else(tmp_path: Path) -> None:
+    pytest.importorskip("jax")
+    train("bench:train:easy", 128, settings=replace(SHORT, view=504.0)).save(tmp_path / "agent.npz")
+    agent = load_policy(tmp_path / "agent.npz")
+    assert agent.settings["observation"] == [Pixels(view=504.0, normalised=True)]
+    assert agent.mean.shape == (84 * 84,)
+    assert measure(agent, "bench:test:0-2")["ticks"].all()
 
 
 @fast

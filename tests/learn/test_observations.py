@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from math import cos, sin
 from typing import Any
 
 import numpy as np
@@ -19,7 +21,9 @@ from ninja_game.learn.observations.pixels import SHADES, SOLID_SHADE, Pixels
 from ninja_game.learn.observations.surroundings import LocalTiles, Rays
 from ninja_game.learn.observations.vectors import DIRECTIONS, FIELDS, Guide, StateVector, TimeLeft
 from ninja_game.learn.worlds import EnvWorlds
+from ninja_game.sim.collision.rays import cast
 from ninja_game.sim.kinds import DOOR, GOLD
+from ninja_game.sim.level import ObjectSpec
 from tests.support.learning import FLOOR, LEVELS, playable_levels, random_actions, same
 from tests.support.memories import BOTH
 
@@ -124,6 +128,24 @@ def test_rays_end_at_walls_and_closed_doors() -> None:
     door = parse_level(FLOOR + "|5^100,300!9^700,500,0,0,5,12,1,0,0")
     assert np.allclose(seen(door, Rays(4, reach=1000.0, normalised=False)), [44, 276, 76, 276])
     assert np.allclose(seen(door, Rays(4, reach=200.0)), [0.22, 1.0, 0.38, 1.0])
+
+
+@settings(max_examples=100)
+@given(level=playable_levels, actions=st.lists(st.integers(0, 5), max_size=8), way=st.floats(-30.0, 30.0))
+def test_rays_are_those_of_the_world(level: Level, actions: list[int], way: float) -> None:
+    doors = tuple(ObjectSpec(DOOR, (x, 300.0, 0.0, 0.0, float(x // 24), 12.0, 1.0, 0.0, 0.0)) for x in (60.0, 396.0))
+    level = replace(level, objects=(*level.objects, *doors))
+    worlds = EnvWorlds(level, 1, observation=Rays(32, reach=900.0, normalised=False), memory="plain")
+    for action in actions:
+        worlds.step(DISCRETE_KEYS[[action]])
+    maps, w = worlds._worlds.maps, worlds.world(0)
+    w.ninja.x, w.ninja.y = w.ninja.x + way, w.ninja.y - way
+    worlds._observe(np.array([0]))
+    for angle, shown in zip(np.arange(32) * np.pi / 16, np.asarray(worlds.observations)[0], strict=True):
+        dx, dy = (round(f(float(angle)), 12) for f in (cos, sin))
+        stopped, x, y = cast(maps[0], w, w.ninja.x, w.ninja.y, dx, dy)
+        length = (x - w.ninja.x) * dx + (y - w.ninja.y) * dy if stopped else 900.0
+        assert shown == np.float32(min(max(length, 0.0), 900.0))
 
 
 def test_near_objects_are_the_nearest_that_are_left_with_what_they_do() -> None:

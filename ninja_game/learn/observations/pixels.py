@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.observations.objects import OBSERVED, activity_of, contact_place_of, is_there
 from ninja_game.learn.observations.part import Part, Setting, clamp, copy_values
-from ninja_game.learn.observations.surroundings import solidity
+from ninja_game.learn.observations.surroundings import of_tiles, solidity
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, UNIT_X, UNIT_Y
 from ninja_game.sim.memory.declare import entry_point, fast
@@ -176,8 +176,8 @@ class Pixels(Part):
         factor = 1.0 / 255.0 if self.normalised else 1.0
 
         def picture(number: int) -> NDArray[np.float64]:
-            tiles = tile_picture(setting, number, across, down, pixel_x, pixel_y)
-            return np.rint(np.pad(tiles, margins, constant_values=1.0) * SOLID_SHADE) * factor
+            tiles = of_tiles(tile_picture, setting, number, across, down, pixel_x, pixel_y)
+            return np.rint(np.pad(tiles, margins, constant_values=SAMPLES**2) * (SOLID_SHADE / SAMPLES**2)) * factor
 
         def objects(number: int) -> list[tuple[float, ...]]:
             found = setting.objects(number, *SHADES)
@@ -220,14 +220,13 @@ class Image(Pixels):
 
 def tile_picture(
     setting: Setting, number: int, across: int, down: int, pixel_x: float, pixel_y: float
-) -> NDArray[np.float64]:
-    """How much of each pixel (down, across) is solid; what is outside the world is."""
+) -> NDArray[np.uint8]:
+    """How many of the points of each pixel (down, across) are solid; what is outside the world is."""
     wide, high = pixel_x / SAMPLES, pixel_y / SAMPLES
     points = solidity(setting, number, across * SAMPLES, down * SAMPLES, (wide, high))
     points[:, int(WORLD_WIDTH / wide) :] = 1
     points[int(WORLD_HEIGHT / high) :] = 1
-    share: NDArray[np.float64] = points.reshape(down, SAMPLES, across, SAMPLES).mean((1, 3))
-    return share
+    return np.asarray(points.reshape(down, SAMPLES, across, SAMPLES).sum((1, 3)), np.uint8)
 
 
 @entry_point
