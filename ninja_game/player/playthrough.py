@@ -19,7 +19,6 @@ from ninja_game.formats.load import load_levels
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.replay.text import Replay
-from ninja_game.formats.run_time import seconds_text
 from ninja_game.formats.sayings import Saying, read_sayings
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry, Episode
@@ -321,7 +320,7 @@ class EpisodeRun(LevelContext):
         keep_place(self.data.store, self.episode.key, replays if whole and position < levels - 1 else ())
         if position == levels - 1:
             if whole and self.data.records.episode_passed(self.episode.key, score, replays):
-                notices.append(EPISODE_BEST.format(seconds_text(score)))
+                notices.append(EPISODE_BEST)
             if not self.episode.pack:
                 notices += new_unlocks(self.data.store, self.data.columns_complete, self.data.columns_present)
         return notices

@@ -9,7 +9,7 @@ from functools import lru_cache
 import pygame
 
 from ninja_game.files.shown_text import shown_text
-from ninja_game.formats.run_time import rounded_text, seconds_text
+from ninja_game.formats.run_time import rounded_text
 from ninja_game.formats.sayings import named_keys, things_named
 from ninja_game.play.level.play import DEATH_PAUSE, LevelPlay, Phase
 from ninja_game.play.level.sayings import FALL_HELP, WHY
@@ -121,7 +121,9 @@ class Hud:
         if length > 0:
             canvas.fill_rect(surface, colour, _BAR_LEFT, _BAR_MIDDLE - thick / 2, length, thick, 1.5)
         x = _BAR_LEFT + _BAR_LONGEST + 5
-        text = self.theme.text(surface, seconds_text(int(left)), x, 7.4, size=9, colour=palette.on_tile, bold=True)
+        text = self.theme.text(
+            surface, f"{rounded_text(int(left))} s left", x, 7.4, size=9, colour=palette.on_tile, bold=True
+        )
         return frame.union(text.inflate(canvas.px(8), 4))
 
     def label(self, surface: pygame.Surface, text: str) -> pygame.Rect:
@@ -301,7 +303,7 @@ def hud_view(play: LevelPlay) -> HudView:
         if not context.leads_on:
             keys = f"{key('confirm')}: play it again    {key('replay')}: replay    {key('back')}: leave"
         time = f"{rounded_text(attempt.ended_tick)} s"
-        message = f"{play.medal.capitalize() or 'Passed'}    {time}", [*_reached(play), keys], y
+        message = f"{play.medal.capitalize() or 'Passed'}    time {time}", [*_reached(play), keys], y
     hint = _hint(play, key)
     name = shown_text(context.title)
     title = f"{name} ({play.aim})" if play.phase is Phase.READY and play.aim else name

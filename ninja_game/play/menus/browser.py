@@ -14,7 +14,7 @@ from ninja_game.files.shown_text import name_problem, unreadable
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.load import load_levels
-from ninja_game.formats.run_time import seconds_text
+from ninja_game.formats.run_time import rounded_text
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.level.screen import play_level
@@ -23,7 +23,7 @@ from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text, where_from
 from ninja_game.player.catalogue import Entry, author_name
-from ninja_game.player.marks import Mark, opens_author
+from ninja_game.player.marks import Mark, opens_author, reached
 from ninja_game.player.records import SavedReplay
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import ListView
@@ -38,7 +38,7 @@ SORT_ORDERS: list[tuple[str, object]] = [
     ("My levels first", "listed"),
     ("Name", "name"),
     ("Author", "author"),
-    ("Best", "best"),
+    ("Time", "time"),
     ("Difficulty", "difficulty"),
 ]
 
@@ -141,7 +141,7 @@ class Browser(ThumbnailScreen):
             "name": lambda e: e.title.casefold(),
             "author": lambda e: (e.named.author.casefold(), e.title.casefold()),
             "difficulty": lambda e: (e.pars.difficulty if e.pars and e.pars.difficulty is not None else 1e9, e.title),
-            "best": lambda e: -(best.score if (best := self.bests.get(e.digest)) else -1),
+            "time": lambda e: mark.fastest if (mark := self.marks.get(e.digest)) else 1e9,
         }
         if self.sort in keys:
             found.sort(key=keys[self.sort])  # type: ignore[arg-type]
@@ -164,7 +164,7 @@ class Browser(ThumbnailScreen):
         opened = selected is not None and opens_author(selected, self.marks.get(selected.digest))
         self.watch_author.enabled = opened
         self.watch_author.hint = "" if self.watch_author.enabled else "A gold medal opens it"
-        self.watch_best.hint = "" if self.watch_best.enabled else "This level has not been passed yet"
+        self.watch_best.hint = "Most clock left" if self.watch_best.enabled else "This level has not been passed yet"
 
     # --- go ---
 
@@ -215,14 +215,9 @@ class Browser(ThumbnailScreen):
             comment = wrapped(theme, up_to_a_stop(" ".join(comment[:2])), SIDE_WIDTH, 10.5)
         for number, text in enumerate(comment[:2] + teaches):
             theme.text(surface, text, SIDE, 364 + 13.5 * number, size=10.5, width=SIDE_WIDTH)
-        best = self.bests.get(entry.digest)
-        text = f"Your best: {seconds_text(best.score)} s left with {best.gold} gold" if best else "Not passed yet"
-        colour = palette.good if best else palette.faint
-        theme.text(surface, text, SIDE, 408, size=12, colour=colour, width=SIDE_WIDTH - 90)
         mark = self.marks.get(entry.digest)
-        if mark:
-            time = f"in {seconds_text(mark.fastest)} s"
-            theme.text(surface, time, SIDE + SIDE_WIDTH, 408, size=12, colour=palette.good, align="right", width=84)
+        colour = palette.good if mark else palette.faint
+        theme.text(surface, reached(entry, mark), SIDE, 408, size=12, colour=colour, width=SIDE_WIDTH)
         played = self.player.statistics.played(entry.digest)
         if played.attempts:
             theme.text(surface, tries_text(played), SIDE, 425, size=10.5, colour=palette.faint)
@@ -242,14 +237,13 @@ class Browser(ThumbnailScreen):
             draw_look(surface, theme, "locked", (x + 4 + PICTURE / 2 - 11, y + 16, 22, 22))
         source = author_name(entry.named.author) or ("your folder" if entry.source == "yours" else "")
         theme.text(surface, source, left, y + 32, size=10, colour=palette.faint, width=150)
-        best = self.bests.get(entry.digest)
-        if best:
-            score = f"{seconds_text(best.score)} s left"
-            theme.text(surface, score, x + w - 8, y + 11, size=12, colour=palette.good, align="right", width=100)
-        all_gold_and_medal(surface, theme, entry, self.marks.get(entry.digest), x + w - 16, y + 37)
-        if entry.pars and entry.pars.difficulty is not None:
-            difficulty = f"difficulty {entry.pars.difficulty:.1f}"
-            theme.text(surface, difficulty, x + w - 30, y + 32, size=10, colour=palette.faint, align="right", width=88)
+        mark = self.marks.get(entry.digest)
+        if mark:
+            time = f"time {rounded_text(mark.fastest)} s"
+            theme.text(surface, time, x + w - 8, y + 11, size=12, colour=palette.good, align="right", width=100)
+        all_gold_and_medal(surface, theme, entry, mark, x + w - 16, y + 37)
+        grade = entry.pars.grade if entry.pars else ""
+        theme.text(surface, grade, x + w - 50, y + 32, size=10, colour=palette.faint, align="right", width=88)
 
 
 def up_to_a_stop(text: str) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import pygame
@@ -11,6 +11,8 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.replays import watch
+from ninja_game.player.marks import Mark
+from ninja_game.player.records import SavedReplay
 from ninja_game.sim.rules import TICK_MS
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.theme import Area, Theme
@@ -21,13 +23,17 @@ SIDE, SIDE_WIDTH = 528, 228
 
 
 class RecordRow(NamedTuple):
-    """A record: what, its score in ticks (None: not passed), the ids of its replays, whether it heads a group."""
+    """A record: what, its clock in ticks (None: not passed), the ids of its replays, whether it heads a group.
+
+    ``time``: ticks of the fastest pass of a level.
+    """
 
     text: str
-    score: int | None
+    clock: int | None
     replays: tuple[int, ...]
     head: bool
     when: str = ""
+    time: int | None = None
 
 
 class RecordsScreen(MenuScreen):
@@ -49,7 +55,7 @@ class RecordsScreen(MenuScreen):
     def _rows(self) -> list[RecordRow]:
         """Episodes with their levels, then other levels that have been passed."""
         records, catalogue = self.player.records, self.player.catalogue
-        bests = records.level_bests()
+        bests, marks = records.level_bests(), self.player.marks.all()
         rows = []
         listed = set()
         episodes = [(pack, episode) for pack in catalogue.packs() for episode in pack.episodes.values()]
@@ -60,15 +66,12 @@ class RecordsScreen(MenuScreen):
             for entry in episode.levels:
                 listed.add(entry.digest)
                 saved = bests.get(entry.digest)
-                score, ids = (saved.score, (saved.id,)) if saved else (None, ())
-                rows.append(RecordRow(entry.title, score, ids, False, saved.made_at[:10] if saved else ""))
+                rows.append(_row(entry.title, saved, marks) if saved else RecordRow(entry.title, None, (), False))
         others = [saved for digest, saved in bests.items() if digest not in listed]
         if others:
             rows.append(RecordRow("Other levels", None, (), True))
         others.sort(key=lambda saved: saved.name.casefold())
-        return rows + [
-            RecordRow(saved.name or "unnamed", saved.score, (saved.id,), False, saved.made_at[:10]) for saved in others
-        ]
+        return rows + [_row(saved.name or "unnamed", saved, marks) for saved in others]
 
     def _say(self, index: int) -> None:
         """The hint of the selected row."""
@@ -83,6 +86,8 @@ class RecordsScreen(MenuScreen):
         super().draw_frame(surface)
         theme, palette = self.app.theme, self.app.theme.palette
         theme.text(surface, "Your best", 44, 68, size=14, bold=True)
+        for text, right in (("Time", 330), ("Clock left", 412)):
+            theme.text(surface, text, right, 71, size=10.5, colour=palette.faint, align="right")
         theme.text(surface, "What killed you", SIDE, 68, size=14, bold=True)
         deaths = {killer: times for killer, times in self.player.statistics.deaths().items() if times}
         most = max(deaths.values(), default=1)
@@ -113,15 +118,23 @@ class RecordsScreen(MenuScreen):
         theme.row(surface, (x, y + 2, w, h - 4), chosen=chosen, focused=focused, radius=3, filled=row.head)
         top = y + h / 2 - 6
         left = x + (8 if row.head else 24)
-        theme.text(surface, row.text, left, top, size=12, bold=row.head, width=w - 210)
-        if row.score is not None:
-            score = f"{seconds_text(row.score)} s"
-            theme.text(
-                surface, score, x + w - 90, top, size=12, colour=palette.good, align="right", bold=row.head, width=90
-            )
+        room = w - 210 if row.time is None else w - 270
+        theme.text(surface, row.text, left, top, size=12, bold=row.head, width=room)
+        if row.time is not None:
+            time = f"{seconds_text(row.time)} s"
+            theme.text(surface, time, 330, top, size=12, colour=palette.good, align="right", width=62)
+        if row.clock is not None:
+            clock = f"{seconds_text(row.clock)} s"
+            theme.text(surface, clock, 412, top, size=12, colour=palette.good, align="right", bold=row.head, width=70)
             theme.text(surface, row.when, x + w - 8, top + 1, size=10, colour=palette.faint, align="right", width=76)
         elif not row.head or index == 0:
             theme.text(surface, "not passed yet", x + w - 8, top, size=10.5, colour=palette.faint, align="right")
+
+
+def _row(text: str, saved: SavedReplay, marks: Mapping[str, Mark]) -> RecordRow:
+    """That of a level that was passed."""
+    mark = marks.get(saved.level)
+    return RecordRow(text, saved.score, (saved.id,), False, saved.made_at[:10], mark.fastest if mark else None)
 
 
 _NAMES = {"player": "yourself: falls, walls, time"}
