@@ -136,10 +136,9 @@ class LevelContext:
             return read_sayings(self.entry.named.says)
         return ()
 
-    def died(self, attempt: Attempt) -> bool:
-        """Called once per death: counts it; whether this killer has killed for the first time."""
+    def died(self, attempt: Attempt) -> None:
+        """Called once per death: counts it."""
         told(self.data, count_of(self.data, self.entry, attempt, killer=attempt.killer))
-        return self.data.statistics.deaths()[attempt.killer] == 1
 
     def gave_up(self, attempt: Attempt) -> None:
         """Called when an attempt is left or started again, whether it has ended or not: counts one that has not."""
@@ -167,11 +166,16 @@ class LevelContext:
 class LevelRun(LevelContext):
     """A level by itself (single level, time trial): every attempt starts with the full lifetime.
 
-    Its file is read again when it has changed and the level starts again.
+    Its file is read again when it has changed and the level starts again. ``following``: the levels after it in the
+    list that it was chosen from; those that are locked are left out.
     """
 
-    def __init__(self, data: PlayerData, entry: Entry, *, body: Body = "circle", practice_mode: bool = False) -> None:
+    def __init__(
+        self, data: PlayerData, entry: Entry, *, body: Body = "circle", practice_mode: bool = False,
+        following: Sequence[Entry] = (),
+    ) -> None:  # fmt: skip
         super().__init__(data, entry, body=body, practice_mode=practice_mode)
+        self._following = following
         self._levels: Sequence[NamedLevel] = [entry.named]
         self._stamp = _stamp(entry)
 
@@ -191,6 +195,25 @@ class LevelRun(LevelContext):
 
     @property
     def leads_on(self) -> bool:
+        return bool(self._ahead())
+
+    def _ahead(self) -> list[Entry]:
+        return [each for each in self._following if not self.data.lock_of(each)]
+
+    def advance(self) -> Navigation:
+        """The next level of the list that can be played."""
+        for number, entry in enumerate(ahead := self._ahead(), 1):
+            if self._is_playable(entry.named):
+                self.entry, self._following = entry, ahead[number:]
+                self._levels, self._stamp = [entry.named], _stamp(entry)
+                return Navigation.NEXT_LEVEL
+        return Navigation.SAME_LEVEL
+
+    def _is_playable(self, named: NamedLevel) -> bool:
+        """Whether a level can be begun: files may hold levels without a ninja."""
+        with suppress(LevelError):
+            Simulation(named.level, body=self.body)
+            return True
         return False
 
     def passed(self, attempt: Attempt) -> list[str]:
@@ -221,16 +244,13 @@ class FileRun(LevelRun):
         return len(self._levels) > 1
 
     def advance(self) -> Navigation:
-        """The next level of the file that can be played; files may hold levels without a ninja."""
+        """The next level of the file that can be played."""
         for step in range(1, len(self._levels)):
             number = (self._number + step) % len(self._levels)
-            try:
-                Simulation(self._levels[number].level, body=self.body)
-            except LevelError:
-                continue
-            self._number, self.entry = number, Entry(self._levels[number], "yours")
-            self._stamp = _stamp(self.entry)
-            return Navigation.NEXT_LEVEL
+            if self._is_playable(self._levels[number]):
+                self._number, self.entry = number, Entry(self._levels[number], "yours")
+                self._stamp = _stamp(self.entry)
+                return Navigation.NEXT_LEVEL
         return Navigation.SAME_LEVEL
 
 

@@ -14,6 +14,7 @@ from ninja_game.formats.sayings import named_keys, things_named
 from ninja_game.play.level.play import DEATH_PAUSE, LevelPlay, Phase
 from ninja_game.play.level.sayings import FALL_HELP, WHY
 from ninja_game.player.marks import Mark, next_par
+from ninja_game.player.playthrough import Navigation
 from ninja_game.player.statistics import SELF
 from ninja_game.sim.collision.tiles import FULL, SHAPE
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
@@ -299,9 +300,10 @@ def hud_view(play: LevelPlay) -> HudView:
         cause, _, why = cause_of_death(play).partition(". ")
         message = cause.rstrip("."), [*filter(None, [why]), _after_death(play, key)], y
     if play.phase is Phase.PASSED:
-        keys = f"{key('confirm')}: go on    {key('retry')}: retry    {key('replay')}: replay"
+        onward = "go on" if context.way_out is Navigation.EPISODE_END else "next level"
+        keys = f"{key('confirm')}: {onward}    {key('retry')}: play again    {key('replay')}: replay"
         if not context.leads_on:
-            keys = f"{key('confirm')}: play it again    {key('replay')}: replay    {key('back')}: leave"
+            keys = f"{key('confirm')}: play again    {key('replay')}: replay    {key('back')}: leave"
         time = f"{rounded_text(attempt.ended_tick)} s"
         message = f"{play.medal.capitalize() or 'Passed'}    time {time}", [*_reached(play), keys], y
     hint = _hint(play, key)
@@ -383,7 +385,7 @@ def cause_of_death(play: LevelPlay) -> str:
     if play.attempt.own_hand:
         return "You gave up."
     if play.killer != SELF:
-        return f"Killed by a {play.killer}." + f" {WHY[play.killer]}" * play.first_death
+        return f"Killed by a {play.killer}." + f" {WHY[play.killer]}" * play.sayings.helps
     if play.crushed:
         return "You were crushed."
     if play.attempt.lifetime <= 0:

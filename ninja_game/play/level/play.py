@@ -74,10 +74,9 @@ class LevelPlay:
     """One level of a context, tried again and again.
 
     ``view`` shows every tick. ``tries``: the failed ones, inputs. ``after_end``: ticks since the exit contact or death;
-    ``killer``: what killed, one of ``statistics.KILLERS``, ``crushed`` whether by being crushed, ``first_death``
-    whether it never did before. ``keys``: those of the last tick. ``notices``: what a pass has brought. ``aim``: the
-    next par, while it waits at the start. ``changed``: more than a tick has happened, so that everything has to be
-    drawn again.
+    ``killer``: what killed, one of ``statistics.KILLERS``, ``crushed`` whether by being crushed. ``keys``: those of the
+    last tick. ``notices``: what a pass has brought. ``aim``: the next par, while it waits at the start. ``changed``:
+    more than a tick has happened, so that everything has to be drawn again.
     """
 
     def __init__(self, app: App, context: LevelContext) -> None:
@@ -106,7 +105,7 @@ class LevelPlay:
         self._held_before = self.app.controls.poll()
         self.keys = 0
         self.after_end = self._frozen_ms = 0
-        self.killer, self.crushed, self.first_death = "", False, False
+        self.killer, self.crushed = "", False
         self.sayings.at_start()
         self.notices: list[str] = []
         self.aim = self.context.aim()
@@ -269,7 +268,7 @@ class LevelPlay:
                 self.killer = self.attempt.killer
                 self.crushed = cause_of(self.attempt.simulation.world) == CRUSHED
                 self.sayings.on_death()
-                self.first_death = self.context.died(self.attempt)
+                self.context.died(self.attempt)
         elif self.phase in {Phase.DEAD, Phase.PASSED}:
             self.after_end += 1
             self.changed = self.changed or self.after_end == DEATH_PAUSE + 1

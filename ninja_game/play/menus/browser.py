@@ -170,8 +170,9 @@ class Browser(ThumbnailScreen):
 
     def play(self, index: int, *, practice: bool = False) -> None:
         if index < len(self.shown):
-            self.message = self.player.lock_of(self.shown[index]) or play_level(
-                self.app, self.shown[index], practice=practice
+            entry, *following = self.shown[index:]
+            self.message = self.player.lock_of(entry) or play_level(
+                self.app, entry, practice=practice, following=following
             )
 
     def _change(self) -> None:

@@ -229,7 +229,8 @@ class EpisodeGrid(ThumbnailScreen):
 
     def _trial(self, index: int) -> None:
         if self.episode is not None:
-            self.problem = play_level(self.app, self.episode.levels[index]) or self.problem
+            entry, *following = self.episode.levels[index:]
+            self.problem = play_level(self.app, entry, following=following) or self.problem
 
     # --- picture ---
 

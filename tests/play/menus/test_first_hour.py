@@ -148,19 +148,21 @@ def test_text_at_a_place_is_said_there_once() -> None:
     assert (near.text, far.text) == ("here", "")
 
 
-def test_first_death_of_each_kind_says_why(driver: MenuDriver) -> None:
+def test_every_death_says_what_helps_until_the_level_is_passed(driver: MenuDriver) -> None:
     run = LevelRun(driver.player, entry(deadly_level()))
     driver.app.push(LevelScreen(driver.app, run))
     level = driver.shown(LevelScreen)
     texts = []
-    for _ in range(2):
+    for helps in (True, True, False):
+        level.play.sayings.helps = helps
         level.begin()
         driver.keys.script = [2] * 60
         driver.frames(60)
         assert level.phase is Phase.DEAD
         texts.append(cause_of_death(level.play))
         level.retry()
-    assert texts == ["Killed by a mine. Mines never move: keep a body's width away.", "Killed by a mine."]
+    tip = "Killed by a mine. Mines never move: keep a body's width away."
+    assert texts == [tip, tip, "Killed by a mine."]
 
 
 def test_who_is_still_for_long_reads_once_how_to_try_again_and_nobody_who_moves(driver: MenuDriver) -> None:
@@ -296,9 +298,9 @@ def test_nobody_is_stopped_by_one_level(driver: MenuDriver) -> None:
     assert message[1][-1].endswith("N: stuck?")
     driver.press("n")
     assert [getattr(each, "text", "") for each in driver.shown(Menu).widgets] == [
-        "Try again", "Watch how", "Slow down", "Next level",
+        "Try again", "Watch how", "Slow down", "Skip this level",
     ]  # fmt: skip
-    driver.choose("Next level")
+    driver.choose("Skip this level")
     run = level.context
     assert isinstance(run, EpisodeRun)
     assert driver.top() is level
@@ -318,3 +320,49 @@ def test_slower_play_opens_what_follows_without_a_record(driver: MenuDriver) -> 
     level.context.passed(level.attempt)
     assert driver.player.progress.columns[0].beaten == (0, 1)
     assert driver.player.marks.of(level.context.entry.digest) is None
+
+
+def test_help_with_a_level_can_always_be_asked_for_and_says_what_is_not_possible(driver: MenuDriver) -> None:
+    driver.press("return")
+    level = driver.shown(LevelScreen)
+    for begun, keys in ((False, ["n"]), (True, ["n"]), (True, ["escape", "down", "down", "return"])):
+        level.retry()
+        if begun:
+            level.begin()
+        driver.press(*keys)
+        menu = driver.shown(Menu)
+        hints = {each.text: each.hint for each in menu.widgets if isinstance(each, Button)}
+        assert hints["Watch how"] == f"after {STUCK_AFTER} failed tries"
+        assert hints["Skip this level"] == "You can come back to it"
+        tick = level.attempt.simulation.tick
+        driver.frames(5)
+        assert level.attempt.simulation.tick == tick
+        driver.press("escape")
+        assert driver.top() is level
+        assert level.phase is (Phase.PLAY if begun else Phase.READY)
+    driver.press("n", "down", "return")
+    assert driver.top() is level
+    assert driver.app.notice == f"Watch how: after {STUCK_AFTER} failed tries"
+
+
+def test_a_win_in_levels_leads_to_the_next_one_that_is_open(driver: MenuDriver) -> None:
+    browser = driver.open("Levels")
+    assert isinstance(browser, Browser)
+    driver.press("return")
+    level = driver.shown(LevelScreen)
+    titles = []
+    for number in (1, 2):
+        level.begin()
+        driver.play_replay(number)
+        assert level.phase is Phase.PASSED
+        titles.append(level.context.title)
+        message = hud_view(level.play).message
+        assert message
+        assert message[1][-1].startswith("Space: next level    R: play again")
+        driver.press("space")
+    assert titles == ["First Steps", "Mind the Gap"]
+    driver.press("q")
+    last = next(k for k, each in enumerate(browser.shown) if each.place == "Episode 1, level 5")
+    browser.play(last)
+    context = driver.shown(LevelScreen).context
+    assert context.leads_on == any(not driver.player.lock_of(each) for each in browser.shown[last + 1 :])
