@@ -213,11 +213,12 @@ class Hud:
     ) -> Box:
         """Where a text of the level lies: over what is solid, or in the border below, beside the gold."""
         theme = self.theme
-        lines = text.split("\n") if keys else wrapped(theme, text, 360, SAID)
-        w = max(theme.width(line, SAID) for line in lines) + 28 + keys
-        left, y, covered = solid_place(tiles, w, 20.0 * len(lines) + 19, things, eye)
-        if covers or not covered:
-            return lines, left, y, w, 20.0, 10.0, SAID
+        for width in (360, 200) if eye else (360,):
+            lines = text.split("\n") if keys else wrapped(theme, text, width, SAID)
+            w = max(theme.width(line, SAID) for line in lines) + 28 + keys
+            left, y, covered = solid_place(tiles, w, 20.0 * len(lines) + 19, things, eye)
+            if covers or not covered:
+                return lines, left, y, w, 20.0, 10.0, SAID
         text = text.replace("\n", "    ")
         size = min(SAID, SAID * BESIDE_GOLD / theme.width(text, SAID))
         w = theme.width(text, size) + 28
@@ -317,7 +318,9 @@ def hud_view(play: LevelPlay) -> HudView:
     y = ABOVE if attempt.simulation.world.ninja.y > HEIGHT / 2 else BELOW
     text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.sayings.text
     still = play.phase is Phase.READY
-    said = (named_keys(text, key), context.level.tiles, play.things, play.eye, still) if text else None
+    # Who needs to see what keys do is stuck: that may cover open space.
+    covers = still or "\n" in text
+    said = (named_keys(text, key), context.level.tiles, play.things, play.eye, covers) if text else None
     if play.phase is Phase.DEAD:
         # The line of keys keeps its place until it comes.
         cause, _, why = cause_of_death(play).partition(". ")
