@@ -203,18 +203,12 @@ class LevelRun(LevelContext):
     def advance(self) -> Navigation:
         """The next level of the list that can be played."""
         for number, entry in enumerate(ahead := self._ahead(), 1):
-            if self._is_playable(entry.named):
-                self.entry, self._following = entry, ahead[number:]
-                self._levels, self._stamp = [entry.named], _stamp(entry)
+            # Files may hold levels without a ninja.
+            with suppress(LevelError):
+                Simulation(entry.named.level, body=self.body)
+                self.entry, self._following, self._stamp = entry, ahead[number:], _stamp(entry)
                 return Navigation.NEXT_LEVEL
         return Navigation.SAME_LEVEL
-
-    def _is_playable(self, named: NamedLevel) -> bool:
-        """Whether a level can be begun: files may hold levels without a ninja."""
-        with suppress(LevelError):
-            Simulation(named.level, body=self.body)
-            return True
-        return False
 
     def passed(self, attempt: Attempt) -> list[str]:
         """Save what a passed attempt is worth; notices about it."""
@@ -237,7 +231,6 @@ class FileRun(LevelRun):
     ) -> None:
         super().__init__(data, Entry(levels[0], "yours"), body=body, practice_mode=practice_mode)
         self._levels = levels
-        self._number = 0
 
     @property
     def leads_on(self) -> bool:
@@ -245,13 +238,9 @@ class FileRun(LevelRun):
 
     def advance(self) -> Navigation:
         """The next level of the file that can be played."""
-        for step in range(1, len(self._levels)):
-            number = (self._number + step) % len(self._levels)
-            if self._is_playable(self._levels[number]):
-                self._number, self.entry = number, Entry(self._levels[number], "yours")
-                self._stamp = _stamp(self.entry)
-                return Navigation.NEXT_LEVEL
-        return Navigation.SAME_LEVEL
+        place = [each.record for each in self._levels].index(self.entry.named.record)
+        self._following = [Entry(each, "yours") for each in (*self._levels[place + 1 :], *self._levels[:place])]
+        return super().advance()
 
 
 class EpisodeRun(LevelContext):

@@ -133,12 +133,10 @@ class LevelScreen(Screen):
             self._leave_to(where)
 
     def skip(self) -> None:
-        """A passed level, and any in practice, may be left at once; else there is a choice of help."""
+        """In practice a level may be left out; else there is a choice of help."""
         if self.context.practice_mode:
             self.go_on()
             self.app.notify("    ".join(self.context.notices))
-        elif self.phase is Phase.PASSED:
-            self.go_on()
         else:
             self._ask_for_help()
 
@@ -316,7 +314,7 @@ ACTIONS_BY_PHASE: dict[Phase, PhaseActions] = {
     Phase.DEAD: {
         "confirm": LevelScreen.retry, "jump": LevelScreen.retry_by_jump, "skip": LevelScreen.skip, **_END,
     },
-    Phase.PASSED: {"confirm": LevelScreen.go_on, "skip": LevelScreen.skip, **_END},
+    Phase.PASSED: {"confirm": LevelScreen.go_on, "skip": LevelScreen.go_on, **_END},
 }  # fmt: skip
 """What each action does in each phase; the other actions do nothing there."""
 

@@ -28,7 +28,7 @@ from ninja_game.player.records import SavedReplay
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.text_entry import TextEntry
-from ninja_game.ui.theme import Area, Theme, wrapped
+from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Choice, Widget
 
 ROW = 54
@@ -67,7 +67,7 @@ class Browser(ThumbnailScreen):
         )  # fmt: skip
         self.play_it = Button((SIDE, 470, 154, 32), "Play", lambda: self.play(self.list.index))
         self.practice = Button(
-            (SIDE + 166, 470, 154, 32), "Practise", lambda: self.play(self.list.index, practice=True)
+            (SIDE + 166, 470, 154, 32), "Practice", lambda: self.play(self.list.index, practice=True)
         )
         self.watch_best = Button((SIDE, 510, 98, 32), "Watch best", self._watch)
         self.watch_author = Button((SIDE + 104, 510, 98, 32), "Author's run", self._watch_author)
@@ -163,7 +163,7 @@ class Browser(ThumbnailScreen):
         self.watch_best.enabled = selected is not None and selected.digest in self.bests
         opened = selected is not None and opens_author(selected, self.marks.get(selected.digest))
         self.watch_author.enabled = opened
-        self.watch_author.hint = "" if self.watch_author.enabled else "A gold medal opens it"
+        self.watch_author.hint = "" if self.watch_author.enabled else "a gold medal opens it"
         self.watch_best.hint = "Most clock left" if self.watch_best.enabled else "This level has not been passed yet"
 
     # --- go ---
@@ -201,28 +201,25 @@ class Browser(ThumbnailScreen):
         entry = self.selected
         count = f"{len(self.shown)} of {len(self.entries)} levels"
         theme.text(surface, count, 44, 549, size=9.5, colour=palette.faint)
-        if self.message:
-            theme.text(surface, self.message, SIDE, 548, size=10, colour=palette.bad, width=SIDE_WIDTH)
+        word = "" if self.watch_author.enabled else f"Author's run: {self.watch_author.hint}"
+        colour = palette.bad if self.message else palette.faint
+        theme.text(surface, self.message or word, SIDE, 548, size=10, colour=colour, width=SIDE_WIDTH)
         if entry is None:
             return
-        self.thumbnails.draw(surface, entry, SIDE, 66, SIDE_WIDTH)
-        theme.text(surface, entry.title, SIDE, 320, size=17, bold=True, width=SIDE_WIDTH - 44)
+        self.thumbnails.draw(surface, entry, SIDE + 28, 66, SIDE_WIDTH - 56)
+        theme.text(surface, entry.title, SIDE, 278, size=17, bold=True, width=SIDE_WIDTH - 44)
         by = f"by {author_name(entry.named.author)}" if entry.named.author else "author unknown"
         about = "    ".join(filter(None, (by, where_from(entry))))
-        theme.text(surface, about, SIDE, 345, size=10.5, colour=palette.faint, width=SIDE_WIDTH)
+        theme.text(surface, about, SIDE, 303, size=10.5, colour=palette.faint, width=SIDE_WIDTH)
         teaches = [f"Teaches: {entry.named.teaches}"] if entry.named.teaches else []
-        comment = wrapped(theme, entry.named.comment, SIDE_WIDTH, 10.5)
-        if len(comment) > 2:
-            comment = wrapped(theme, up_to_a_stop(" ".join(comment[:2])), SIDE_WIDTH, 10.5)
-        for number, text in enumerate(comment[:2] + teaches):
-            theme.text(surface, text, SIDE, 364 + 13.5 * number, size=10.5, width=SIDE_WIDTH)
+        theme.paragraph(surface, [entry.named.comment, *teaches], (SIDE, 321, SIDE_WIDTH, 85), 10.5, 13.5)
         mark = self.marks.get(entry.digest)
         colour = palette.good if mark else palette.faint
         theme.text(surface, reached(entry, mark), SIDE, 408, size=12, colour=colour, width=SIDE_WIDTH)
         played = self.player.statistics.played(entry.digest)
         if played.attempts:
             theme.text(surface, tries_text(played), SIDE, 425, size=10.5, colour=palette.faint)
-        all_gold_and_medal(surface, theme, entry, mark, SIDE + SIDE_WIDTH - 10, 330)
+        all_gold_and_medal(surface, theme, entry, mark, SIDE + SIDE_WIDTH - 10, 288)
         draw_pars(surface, theme, entry.pars, mark and mark.fastest, SIDE, 443)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
@@ -245,18 +242,6 @@ class Browser(ThumbnailScreen):
         all_gold_and_medal(surface, theme, entry, mark, x + w - 16, y + 37)
         grade = entry.pars.grade if entry.pars else ""
         theme.text(surface, grade, x + w - 50, y + 32, size=10, colour=palette.faint, align="right", width=88)
-
-
-def up_to_a_stop(text: str) -> str:
-    """A text that was cut somewhere, cut again where a sentence or a part of one ends.
-
-    >>> up_to_a_stop("Touch the switch: then the exit opens; three")
-    'Touch the switch: then the exit opens'
-    >>> up_to_a_stop("no stop at all")
-    'no stop at all'
-    """
-    end = max(map(text.rfind, ";:,."))
-    return text[:end] if end > 0 else text
 
 
 class LevelChoice(Browser):

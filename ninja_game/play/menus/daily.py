@@ -69,7 +69,7 @@ class DailyScreen(ThumbnailScreen):
         self._shown = ""
         self.play = Button((SIDE, 390, SIDE_WIDTH, 36), "Play", self._play)
         self.practice = Button(
-            (SIDE, 436, SIDE_WIDTH, 36), "Practise", lambda: self._play(practice=True), hint=PRACTICE_HINT
+            (SIDE, 436, SIDE_WIDTH, 36), "Practice", lambda: self._play(practice=True), hint=PRACTICE_HINT
         )
 
     @property

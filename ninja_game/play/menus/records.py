@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import pygame
@@ -11,7 +11,6 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.replays import watch
-from ninja_game.player.marks import Mark
 from ninja_game.player.records import SavedReplay
 from ninja_game.sim.rules import TICK_MS
 from ninja_game.ui.list_view import ListView
@@ -23,17 +22,13 @@ SIDE, SIDE_WIDTH = 528, 228
 
 
 class RecordRow(NamedTuple):
-    """A record: what, its clock in ticks (None: not passed), the ids of its replays, whether it heads a group.
-
-    ``time``: ticks of the fastest pass of a level.
-    """
+    """A record: what, an episode's clock or a level's time ("": not passed), its replays, whether it heads a group."""
 
     text: str
-    clock: int | None
+    score: str
     replays: tuple[int, ...]
     head: bool
     when: str = ""
-    time: int | None = None
 
 
 class RecordsScreen(MenuScreen):
@@ -56,22 +51,28 @@ class RecordsScreen(MenuScreen):
         """Episodes with their levels, then other levels that have been passed."""
         records, catalogue = self.player.records, self.player.catalogue
         bests, marks = records.level_bests(), self.player.marks.all()
+
+        def row(text: str, saved: SavedReplay) -> RecordRow:
+            time = marks[saved.level].fastest if saved.level in marks else saved.final_tick
+            return RecordRow(text, f"time {seconds_text(time)} s", (saved.id,), False, saved.made_at[:10])
+
         rows = []
         listed = set()
         episodes = [(pack, episode) for pack in catalogue.packs() for episode in pack.episodes.values()]
         for pack, episode in episodes:
             best = records.episode_best(episode.key)
             text = f"{pack.key}{', e' if pack.key else 'E'}pisode {episode.code}: {episode.name}"
-            rows.append(RecordRow(text, best.score if best else None, best.replays if best else (), True))
+            clock = f"{seconds_text(best.score)} s left" if best else ""
+            rows.append(RecordRow(text, clock, best.replays if best else (), True))
             for entry in episode.levels:
                 listed.add(entry.digest)
                 saved = bests.get(entry.digest)
-                rows.append(_row(entry.title, saved, marks) if saved else RecordRow(entry.title, None, (), False))
+                rows.append(row(entry.title, saved) if saved else RecordRow(entry.title, "", (), False))
         others = [saved for digest, saved in bests.items() if digest not in listed]
         if others:
-            rows.append(RecordRow("Other levels", None, (), True))
+            rows.append(RecordRow("Other levels", "", (), True))
         others.sort(key=lambda saved: saved.name.casefold())
-        return rows + [_row(saved.name or "unnamed", saved, marks) for saved in others]
+        return rows + [row(saved.name or "unnamed", saved) for saved in others]
 
     def _say(self, index: int) -> None:
         """The hint of the selected row."""
@@ -86,8 +87,6 @@ class RecordsScreen(MenuScreen):
         super().draw_frame(surface)
         theme, palette = self.app.theme, self.app.theme.palette
         theme.text(surface, "Your best", 44, 68, size=14, bold=True)
-        for text, right in (("Time", 330), ("Clock left", 412)):
-            theme.text(surface, text, right, 71, size=10.5, colour=palette.faint, align="right")
         theme.text(surface, "What killed you", SIDE, 68, size=14, bold=True)
         deaths = {killer: times for killer, times in self.player.statistics.deaths().items() if times}
         most = max(deaths.values(), default=1)
@@ -118,23 +117,13 @@ class RecordsScreen(MenuScreen):
         theme.row(surface, (x, y + 2, w, h - 4), chosen=chosen, focused=focused, radius=3, filled=row.head)
         top = y + h / 2 - 6
         left = x + (8 if row.head else 24)
-        room = w - 210 if row.time is None else w - 270
-        theme.text(surface, row.text, left, top, size=12, bold=row.head, width=room)
-        if row.time is not None:
-            time = f"{seconds_text(row.time)} s"
-            theme.text(surface, time, 330, top, size=12, colour=palette.good, align="right", width=62)
-        if row.clock is not None:
-            clock = f"{seconds_text(row.clock)} s"
-            theme.text(surface, clock, 412, top, size=12, colour=palette.good, align="right", bold=row.head, width=70)
+        theme.text(surface, row.text, left, top, size=12, bold=row.head, width=w - 210)
+        if row.score:
+            right, ink = x + w - 90, palette.good
+            theme.text(surface, row.score, right, top, size=12, colour=ink, align="right", bold=row.head, width=110)
             theme.text(surface, row.when, x + w - 8, top + 1, size=10, colour=palette.faint, align="right", width=76)
         elif not row.head or index == 0:
             theme.text(surface, "not passed yet", x + w - 8, top, size=10.5, colour=palette.faint, align="right")
-
-
-def _row(text: str, saved: SavedReplay, marks: Mapping[str, Mark]) -> RecordRow:
-    """That of a level that was passed."""
-    mark = marks.get(saved.level)
-    return RecordRow(text, saved.score, (saved.id,), False, saved.made_at[:10], mark.fastest if mark else None)
 
 
 _NAMES = {"player": "yourself: falls, walls, time"}

@@ -37,7 +37,7 @@ ENTRIES = {
     "Records": RecordsScreen,
     "Replays": ReplaysScreen,
     "Editor": EditorScreen,
-    "Physics": LabScreen,
+    "Extras": LabScreen,
     "Settings": SettingsScreen,
     "Help": HelpScreen,
 }
