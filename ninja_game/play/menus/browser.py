@@ -33,7 +33,7 @@ from ninja_game.ui.widgets import Button, Choice, Widget
 
 ROW = 54
 PICTURE = 60
-SIDE, SIDE_WIDTH = 436, 320
+SIDE, SIDE_WIDTH, TEXT_HIGH = 436, 320, 85
 SORT_ORDERS: list[tuple[str, object]] = [
     ("My levels first", "listed"),
     ("Name", "name"),
@@ -212,7 +212,7 @@ class Browser(ThumbnailScreen):
         about = "    ".join(filter(None, (by, where_from(entry))))
         theme.text(surface, about, SIDE, 303, size=10.5, colour=palette.faint, width=SIDE_WIDTH)
         teaches = [f"Teaches: {entry.named.teaches}"] if entry.named.teaches else []
-        theme.paragraph(surface, [entry.named.comment, *teaches], (SIDE, 321, SIDE_WIDTH, 85), 10.5, 13.5)
+        theme.paragraph(surface, [entry.named.comment, *teaches], (SIDE, 321, SIDE_WIDTH, TEXT_HIGH), 10.5, 13.5)
         mark = self.marks.get(entry.digest)
         colour = palette.good if mark else palette.faint
         theme.text(surface, reached(entry, mark), SIDE, 408, size=12, colour=colour, width=SIDE_WIDTH)
