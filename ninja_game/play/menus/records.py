@@ -117,7 +117,7 @@ class RecordsScreen(MenuScreen):
         theme.row(surface, (x, y + 2, w, h - 4), chosen=chosen, focused=focused, radius=3, filled=row.head)
         top = y + h / 2 - 6
         left = x + (8 if row.head else 24)
-        theme.text(surface, row.text, left, top, size=12, bold=row.head, width=w - 210)
+        theme.text(surface, row.text, left, top, size=12, bold=row.head, width=w - 232)
         if row.score:
             right, ink = x + w - 90, palette.good
             theme.text(surface, row.score, right, top, size=12, colour=ink, align="right", bold=row.head, width=110)
