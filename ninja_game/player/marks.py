@@ -46,7 +46,7 @@ class Marks:
 
 
 class Tally(NamedTuple):
-    """What has been reached in levels: how many there are, passed, with each medal or a better one, with all gold."""
+    """What has been reached in levels: how many there are, passed, whose best medal is which, with all gold."""
 
     levels: int
     passed: int
@@ -65,9 +65,17 @@ def opens_author(entry: Entry, mark: Mark | None) -> bool:
 
 
 def next_par(pars: Pars, mark: Mark) -> str:
-    """The medal after the one that a mark brings, and how much faster a run must be for it; "" after the best."""
+    """The medal after the one that a mark brings, and by how much it was missed; "" after the best."""
     medal = pars.next_medal(mark.fastest)
-    return f"{rounded_text(mark.fastest - pars.par(medal))} s faster for {medal}" if medal else ""
+    behind = "the author" if medal == "author" else medal
+    return f"{rounded_text(mark.fastest - pars.par(medal))} s behind {behind}" if medal else ""
+
+
+def reached(entry: Entry, mark: Mark | None) -> str:
+    """The player's fastest time in a level and the most gold of a pass, in words."""
+    if mark is None:
+        return "Not passed yet"
+    return f"Time {rounded_text(mark.fastest)} s, gold {mark.most_gold} of {entry.all_gold}"
 
 
 def has_all_gold(entry: Entry, mark: Mark | None) -> bool:
@@ -85,8 +93,7 @@ def worst_medal(entries: Iterable[Entry], marks: dict[str, Mark]) -> str:
 def tally(entries: Iterable[Entry], marks: dict[str, Mark]) -> Tally:
     """Count what has been reached in levels."""
     pairs = [(entry, marks.get(entry.digest)) for entry in entries]
-    order = list(MEDALS)
     medals = [medal_of(*pair) for pair in pairs]
-    at_least = {medal: sum(order.index(each) <= order.index(medal) for each in medals if each) for medal in order}
     passed = sum(mark is not None for _, mark in pairs)
-    return Tally(len(pairs), passed, at_least, sum(has_all_gold(*pair) for pair in pairs))
+    counts = {medal: medals.count(medal) for medal in MEDALS}
+    return Tally(len(pairs), passed, counts, sum(has_all_gold(*pair) for pair in pairs))

@@ -19,7 +19,6 @@ from ninja_game.formats.load import load_levels
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.replay.text import Replay
-from ninja_game.formats.run_time import seconds_text
 from ninja_game.formats.sayings import Saying, read_sayings
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry, Episode
@@ -137,10 +136,9 @@ class LevelContext:
             return read_sayings(self.entry.named.says)
         return ()
 
-    def died(self, attempt: Attempt) -> bool:
-        """Called once per death: counts it; whether this killer has killed for the first time."""
+    def died(self, attempt: Attempt) -> None:
+        """Called once per death: counts it."""
         told(self.data, count_of(self.data, self.entry, attempt, killer=attempt.killer))
-        return self.data.statistics.deaths()[attempt.killer] == 1
 
     def gave_up(self, attempt: Attempt) -> None:
         """Called when an attempt is left or started again, whether it has ended or not: counts one that has not."""
@@ -168,11 +166,16 @@ class LevelContext:
 class LevelRun(LevelContext):
     """A level by itself (single level, time trial): every attempt starts with the full lifetime.
 
-    Its file is read again when it has changed and the level starts again.
+    Its file is read again when it has changed and the level starts again. ``following``: the levels after it in the
+    list that it was chosen from; those that are locked are left out.
     """
 
-    def __init__(self, data: PlayerData, entry: Entry, *, body: Body = "circle", practice_mode: bool = False) -> None:
+    def __init__(
+        self, data: PlayerData, entry: Entry, *, body: Body = "circle", practice_mode: bool = False,
+        following: Sequence[Entry] = (),
+    ) -> None:  # fmt: skip
         super().__init__(data, entry, body=body, practice_mode=practice_mode)
+        self._following = following
         self._levels: Sequence[NamedLevel] = [entry.named]
         self._stamp = _stamp(entry)
 
@@ -192,7 +195,20 @@ class LevelRun(LevelContext):
 
     @property
     def leads_on(self) -> bool:
-        return False
+        return bool(self._ahead())
+
+    def _ahead(self) -> list[Entry]:
+        return [each for each in self._following if not self.data.lock_of(each)]
+
+    def advance(self) -> Navigation:
+        """The next level of the list that can be played."""
+        for number, entry in enumerate(ahead := self._ahead(), 1):
+            # Files may hold levels without a ninja.
+            with suppress(LevelError):
+                Simulation(entry.named.level, body=self.body)
+                self.entry, self._following, self._stamp = entry, ahead[number:], _stamp(entry)
+                return Navigation.NEXT_LEVEL
+        return Navigation.SAME_LEVEL
 
     def passed(self, attempt: Attempt) -> list[str]:
         """Save what a passed attempt is worth; notices about it."""
@@ -215,24 +231,16 @@ class FileRun(LevelRun):
     ) -> None:
         super().__init__(data, Entry(levels[0], "yours"), body=body, practice_mode=practice_mode)
         self._levels = levels
-        self._number = 0
 
     @property
     def leads_on(self) -> bool:
         return len(self._levels) > 1
 
     def advance(self) -> Navigation:
-        """The next level of the file that can be played; files may hold levels without a ninja."""
-        for step in range(1, len(self._levels)):
-            number = (self._number + step) % len(self._levels)
-            try:
-                Simulation(self._levels[number].level, body=self.body)
-            except LevelError:
-                continue
-            self._number, self.entry = number, Entry(self._levels[number], "yours")
-            self._stamp = _stamp(self.entry)
-            return Navigation.NEXT_LEVEL
-        return Navigation.SAME_LEVEL
+        """The next level of the file that can be played."""
+        place = [each.record for each in self._levels].index(self.entry.named.record)
+        self._following = [Entry(each, "yours") for each in (*self._levels[place + 1 :], *self._levels[:place])]
+        return super().advance()
 
 
 class EpisodeRun(LevelContext):
@@ -321,7 +329,7 @@ class EpisodeRun(LevelContext):
         keep_place(self.data.store, self.episode.key, replays if whole and position < levels - 1 else ())
         if position == levels - 1:
             if whole and self.data.records.episode_passed(self.episode.key, score, replays):
-                notices.append(EPISODE_BEST.format(seconds_text(score)))
+                notices.append(EPISODE_BEST)
             if not self.episode.pack:
                 notices += new_unlocks(self.data.store, self.data.columns_complete, self.data.columns_present)
         return notices

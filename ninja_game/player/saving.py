@@ -13,8 +13,8 @@ from ninja_game.player.player_data import PlayerData
 from ninja_game.player.store import Work
 
 SAVED = ": saved"
-NEW_BEST, FIRST_PASS, NEW_MEDAL, NEW_ALL_GOLD = "New best", "First pass", "New medal", "All gold"
-EPISODE_BEST = "Episode best {} s"
+OF_A_LEVEL = NEW_BEST, FIRST_PASS, NEW_MEDAL, NEW_ALL_GOLD = "Best time", "First pass", "New medal", "All gold"
+EPISODE_BEST = "Best clock of the episode"
 REPLAY_KEPT = "Replay" + SAVED
 NOT_SAVED = "Not saved yet: {}"
 
@@ -52,23 +52,16 @@ def replay_of(data: PlayerData, entry: Entry, attempt: Attempt) -> Replay:
 
 
 def save_best(data: PlayerData, entry: Entry, replay: Replay) -> list[str]:
-    """Save a level's best and its mark; notices for the player."""
-    first = data.records.level_best(replay.level_digest, replay.body) is None
-    notices = _marked(data, entry, replay)
-    if data.records.level_passed(replay):
-        notices.insert(0, FIRST_PASS if first else NEW_BEST)
-    return notices
-
-
-def _marked(data: PlayerData, entry: Entry, replay: Replay) -> list[str]:
-    """Save what a passed run adds to the level's mark; notices about a better medal, and the first all-gold run."""
+    """Save a level's best and its mark; notices of a better time or medal, and the first pass with all gold."""
     level, body = replay.level_digest, replay.body
+    data.records.level_passed(replay)
     before = data.marks.of(level, body)
     now = data.marks.passed(level, replay.final_tick, replay.gold, body)
+    notices = [FIRST_PASS] if before is None else [NEW_BEST] * (now.fastest < before.fastest)
     if body != "circle":
-        return []
+        return notices
     medal = medal_of(entry, now)
-    notices = [NEW_MEDAL] * bool(medal and medal != medal_of(entry, before))
+    notices += [NEW_MEDAL] * bool(medal and medal != medal_of(entry, before))
     return notices + [NEW_ALL_GOLD] * (has_all_gold(entry, now) and not has_all_gold(entry, before))
 
 

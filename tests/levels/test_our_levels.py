@@ -13,7 +13,9 @@ from ninja_game.formats.ascii.reader import parse_ascii_level, write_ascii_level
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.pack import Pack
+from ninja_game.formats.pack.pars import GRADES
 from ninja_game.levels.warnings import level_warnings
+from ninja_game.play.level.sayings import FALL_HELP, WHY
 from ninja_game.runs.packs import make_pars
 from ninja_game.sim.kinds import GOLD
 
@@ -43,6 +45,22 @@ def test_a_level_of_ours_is_proper(file: str) -> None:
     assert level_warnings(read.level) == []
     assert any(record.kind == GOLD for record in read.level.objects)
     assert parse_ascii_level(write_ascii_level(read.level)).level == read.level
+
+
+def test_no_text_names_a_colour_which_a_palette_may_change() -> None:
+    colours = re.compile(
+        r"\b(red|orange|green|blue|yellow|violet|purple|pink|brown|black|white|gr[ae]y)\b", re.IGNORECASE
+    )
+    helped = (data_folder("assets") / "help/pages.toml").read_text("utf-8")
+    texts = [FALL_HELP, *WHY.values(), *re.findall('"(.*)"', helped)]
+    texts += [text for named in OURS.levels.values() for text in (named.comment, named.teaches, named.says)]
+    assert not [text for text in texts if colours.search(text)]
+
+
+def test_levels_of_the_first_episode_read_alike() -> None:
+    pars = [OURS.pars[file] for file in sorted(LEVELS)]
+    assert {each.grade for each in pars[:5]} == {"easy"}
+    assert {each.grade for each in pars} == set(GRADES.values())
 
 
 def test_every_certificate_is_one_of_a_level() -> None:

@@ -145,7 +145,7 @@ def test_a_passed_level_says_what_its_keys_do(
     (tmp_path / "two.txt").write_text(f"$one#me#a#{text}#\n$two#me#a#{text}#\n")
     two = LevelScreen(app, FileRun(app.player, load_levels(str(tmp_path / "two.txt"))))
     alone = LevelScreen(app, level_run(app, recording.level))
-    for screen, words in ((two, "Confirm: go on"), (alone, "Confirm: play it again")):
+    for screen, words in ((two, "Confirm: next level"), (alone, "Confirm: play again")):
         app.push(screen)
         play_to_the_end(app, controls, screen, recording)
         message = hud_view(screen.play).message

@@ -39,7 +39,7 @@ def test_better_medal_is_told_once_and_slower_runs_change_nothing(tmp_path: Path
     assert notices == ["First pass", "New medal"]
     notices, mark = passed(tmp_path, level)
     assert mark == (EXIT_TICK, 0)
-    assert notices == ["New best", "New medal"]
+    assert notices == ["Best time", "New medal"]
     assert passed(tmp_path, level, wait=30) == ([], mark)
 
 
@@ -74,10 +74,10 @@ def test_levels_without_pars_have_marks_and_no_medal(tmp_path: Path) -> None:
     assert medal_of(entry(short_level()), mark) == ""
 
 
-def test_tally_counts_every_medal_or_a_better_one() -> None:
+def test_tally_counts_each_level_by_its_best_medal() -> None:
     first, second, third = with_pars(), with_pars(gold=1), entry(deadly_level())
     marks = {first.digest: Mark(EXIT_TICK, 0), second.digest: Mark(60, 1)}
-    assert tally([first, second, third], marks) == (3, 2, {"author": 1, "gold": 1, "silver": 1, "bronze": 2}, 1)
+    assert tally([first, second, third], marks) == (3, 2, {"author": 1, "gold": 0, "silver": 0, "bronze": 1}, 1)
     assert worst_medal([first, second], marks) == "bronze"
     assert worst_medal([first, third], marks) == ""
 

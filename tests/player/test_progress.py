@@ -8,6 +8,7 @@ import pytest
 
 from ninja_game.player.playthrough import EpisodeRun, LevelRun, Navigation
 from ninja_game.player.progress import CHEATED, LOCKED, UNLOCKED, Progress, complete_columns, new_unlocks
+from ninja_game.player.saving import EPISODE_BEST, NEW_BEST
 from ninja_game.player.statistics import SELF
 from ninja_game.player.store import Store
 from ninja_game.sim.rules import LIFETIME
@@ -92,7 +93,7 @@ def test_episode_carries_its_lifetime_and_saves_its_best(tmp_path: Path) -> None
         notices = run.passed(attempt)
         assert run.advance() is (Navigation.NEXT_LEVEL if level < 4 else Navigation.EPISODE_END)
     assert run.score == LIFETIME - 5 * EXIT_TICK
-    assert any("Episode best" in notice for notice in notices)
+    assert EPISODE_BEST in notices
     best = data.records.episode_best(episode().key)
     assert best is not None
     assert best.score == run.score
@@ -130,7 +131,7 @@ def test_only_a_better_level_score_replaces_the_best(tmp_path: Path) -> None:
     assert "First pass" in run.passed(played(short_level(), wait=5))[0]
     assert run.passed(played(short_level(), wait=5)) == []
     assert run.passed(played(short_level(), wait=9)) == []
-    assert "best" in run.passed(played(short_level()))[0]
+    assert run.passed(played(short_level())) == [NEW_BEST]
     best = data.records.level_best(run.entry.digest)
     assert best is not None
     assert best.score == LIFETIME - EXIT_TICK

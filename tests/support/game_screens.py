@@ -296,7 +296,7 @@ def _help(driver: MenuDriver) -> Iterator[str]:
 
 def _lab(driver: MenuDriver) -> Iterator[str]:
     """Every figure, a second into its demonstration."""
-    screen = driver.open("Physics")
+    screen = driver.open("Extras")
     assert isinstance(screen, LabScreen)
     for index, figure in enumerate(screen.figures):
         screen.list._select(index)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import ceil
+from math import ceil, inf
 from typing import Any
 
 from ninja_game.errors import PackError
@@ -22,6 +22,9 @@ MEDALS = (*MARGINS, "bronze")
 
 CARE = 0.25
 """What each point of difficulty adds to a margin, as a share of it: who plays safe takes longer. Chosen, not tuned."""
+
+GRADES = {1.5: "easy", 4.0: "medium", 8.0: "hard", 15.0: "very hard", inf: "extreme"}
+"""Words for a difficulty below a number: what a player reads."""
 
 STEP = 4
 """Ticks to whose multiples pars are rounded up: a tenth of a second."""
@@ -46,6 +49,17 @@ class Pars:
     exit: int
     gold: int | None = None
     difficulty: float | None = None
+
+    @property
+    def grade(self) -> str:
+        """The difficulty in a word, "" where it is not known.
+
+        >>> [Pars("", "", 400, difficulty=points).grade for points in (None, 0.2, 0.8, 5.0, 40.0)]
+        ['', 'easy', 'easy', 'hard', 'extreme']
+        """
+        if self.difficulty is None:
+            return ""
+        return next(word for below, word in GRADES.items() if self.difficulty < below)
 
     def par(self, medal: str) -> int:
         """The tick of the exit contact that still brings a medal with a margin, which difficulty widens.

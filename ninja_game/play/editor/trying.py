@@ -32,9 +32,8 @@ class TryContext(LevelContext):
     def passed(self, attempt: Attempt) -> list[str]:
         return ["It can be passed"]
 
-    def died(self, attempt: Attempt) -> bool:
+    def died(self, attempt: Attempt) -> None:
         """Nothing is counted."""
-        return False
 
     def gave_up(self, attempt: Attempt) -> None:
         """Nothing is counted."""

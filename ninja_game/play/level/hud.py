@@ -5,22 +5,25 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from math import hypot
 
 import pygame
 
 from ninja_game.files.shown_text import shown_text
-from ninja_game.formats.run_time import rounded_text, seconds_text
+from ninja_game.formats.run_time import rounded_text
 from ninja_game.formats.sayings import named_keys, things_named
 from ninja_game.play.level.play import DEATH_PAUSE, LevelPlay, Phase
 from ninja_game.play.level.sayings import FALL_HELP, WHY
 from ninja_game.player.marks import Mark, next_par
+from ninja_game.player.playthrough import Navigation
 from ninja_game.player.statistics import SELF
 from ninja_game.sim.collision.tiles import FULL, SHAPE
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
-from ninja_game.sim.kinds import EXIT, GOLD, SWITCH
+from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL, LIFETIME
-from ninja_game.ui.canvas import HEIGHT, WIDTH
+from ninja_game.ui.canvas import HEIGHT, WIDTH, Point
+from ninja_game.ui.input.bindings import MOVES
 from ninja_game.ui.theme import Palette, Theme, mixed, wrapped
 from ninja_game.ui.widgets import draw_medal
 
@@ -55,6 +58,9 @@ def trough(palette: Palette) -> pygame.Color:
     return mixed(palette.tile, palette.outline, 0.8)
 
 
+Box = tuple[list[str], float, float, float, float, float, float]
+"""Lines of text; left, top and width of their panel; the height of a line, the margin, the size of the letters."""
+
 KeyName = Callable[[str], str]
 """Gives what to press for an action."""
 
@@ -68,8 +74,9 @@ class HudView:
 
     ``lifetime``: ticks, for the time bar; ``label``: a word in its place. ``foot``: texts at the left and the right of
     the border below. ``keys``: those of the present tick, ``frame_ms``: of the last picture; None: not shown.
-    ``said``: a text of the level, the tiles of which it covers those that are full, () for the border below, and the
-    places of the things that it must not cover.
+    ``said``: a text of the level, its tiles and the things of which it covers as little as can be, the place near which
+    it should be, and whether it may cover anything but rock: else it may lie in the border below. ``moves``: the keys
+    of each of its lines.
     ``named``: what it names, and where that is, px. ``message``: title and lines of a panel, and its top; ``medal``:
     that of the pass, or "", and ``stamp``: how far it has come down, 0…1.
     """
@@ -79,7 +86,8 @@ class HudView:
     foot: tuple[str, str]
     keys: int | None = None
     frame_ms: float | None = None
-    said: tuple[str, tuple[int, ...], Things] | None = None
+    said: tuple[str, tuple[int, ...], Things, Point | None, bool] | None = None
+    moves: Sequence[int] = ()
     named: Sequence[tuple[str, float, float]] = ()
     message: tuple[str, Sequence[str], float] | None = None
     medal: str = ""
@@ -95,13 +103,15 @@ class Hud:
     def draw(self, surface: pygame.Surface, view: HudView) -> list[pygame.Rect]:
         """All of it; the px rectangles that it covers."""
         top = self.label(surface, view.label) if view.label else self.time_bar(surface, view.lifetime)
-        written = [top, self.foot(surface, *view.foot)]
+        said = self.box(*view.said, keys=KEYS_WIDE if view.moves else 0) if view.said else None
+        in_border = said is not None and said[2] == IN_BORDER
+        written = [top, self.foot(surface, "" if in_border else view.foot[0], view.foot[1])]
         if view.frame_ms is not None:
             written.append(self.frame_time(surface, view.frame_ms))
         if view.keys is not None:
             written.append(self.keys(surface, view.keys))
-        if view.said is not None:
-            written.append(self.said(surface, *view.said))
+        if said is not None:
+            written.append(self.said(surface, said, () if in_border else view.moves))
             written += [self.pointer(surface, *named) for named in view.named]
         if view.message is not None:
             written.append(self.message(surface, *view.message, medal=view.medal, stamp=view.stamp))
@@ -121,7 +131,9 @@ class Hud:
         if length > 0:
             canvas.fill_rect(surface, colour, _BAR_LEFT, _BAR_MIDDLE - thick / 2, length, thick, 1.5)
         x = _BAR_LEFT + _BAR_LONGEST + 5
-        text = self.theme.text(surface, seconds_text(int(left)), x, 7.4, size=9, colour=palette.on_tile, bold=True)
+        text = self.theme.text(
+            surface, f"{rounded_text(int(left))} s left", x, 7.4, size=9, colour=palette.on_tile, bold=True
+        )
         return frame.union(text.inflate(canvas.px(8), 4))
 
     def label(self, surface: pygame.Surface, text: str) -> pygame.Rect:
@@ -196,42 +208,56 @@ class Hud:
         theme.text(surface, name, middle, top + 3, size=POINTER, colour=palette.panel, align="centre", bold=True)
         return box.inflate(theme.canvas.px(4), theme.canvas.px(18))
 
-    def said(self, surface: pygame.Surface, text: str, tiles: tuple[int, ...] = (), things: Things = ()) -> pygame.Rect:
-        """A text of the level in a panel over what is solid; without tiles in the border below, beside the gold."""
+    def box(
+        self, text: str, tiles: tuple[int, ...], things: Things, eye: Point | None, covers: bool, *, keys: float = 0.0
+    ) -> Box:
+        """Where a text of the level lies: over what is solid, or in the border below, beside the gold."""
         theme = self.theme
-        in_border = not tiles
-        size = min(SAID, SAID * BESIDE_GOLD / theme.width(text, SAID)) if in_border else SAID
-        lines = [text] if in_border else wrapped(theme, text, 360, size)
-        margin, high = (3, 17) if in_border else (10, 20)
-        w = max(theme.width(line, size) for line in lines) + 28
-        h = high * len(lines) + 2 * margin - 1.0
-        left, y = ((WIDTH - w) / 2, IN_BORDER) if in_border else solid_place(tiles, w, h, things)
-        rect = theme.panel(surface, left, y, w, h, 4)
+        for width in (360, 200) if eye else (360,):
+            lines = text.split("\n") if keys else wrapped(theme, text, width, SAID)
+            w = max(theme.width(line, SAID) for line in lines) + 28 + keys
+            left, y, covered = solid_place(tiles, w, 20.0 * len(lines) + 19, things, eye)
+            if covers or not covered:
+                return lines, left, y, w, 20.0, 10.0, SAID
+        text = text.replace("\n", "    ")
+        size = min(SAID, SAID * BESIDE_GOLD / theme.width(text, SAID))
+        w = theme.width(text, size) + 28
+        return [text], (WIDTH - w) / 2, IN_BORDER, w, 17.0, 3.0, size
+
+    def said(self, surface: pygame.Surface, box: Box, moves: Sequence[int] = ()) -> pygame.Rect:
+        """A text of the level in its panel, its lines behind the keys that they are about."""
+        lines, left, y, w, high, margin, size = box
+        rect = self.theme.panel(surface, left, y, w, high * len(lines) + 2 * margin - 1, 4)
         for k, line in enumerate(lines):
-            top = y + margin + high * k + (high - size) / 2
-            theme.text(surface, line, left + w / 2, top, size=size, align="centre")
+            top = y + margin + high * k
+            if moves:
+                self.keys(surface, moves[k], left + 14, top + 2)
+            x, align = (left + 14 + KEYS_WIDE, "left") if moves else (left + w / 2, "centre")
+            self.theme.text(surface, line, x, top + (high - size) / 2, size=size, align=align)
         return rect
 
-    def keys(self, surface: pygame.Surface, held: int, x: float = 366) -> pygame.Rect:
-        """The three keys of the present input below the level, from ``x`` on: left, jump, right."""
+    def keys(self, surface: pygame.Surface, held: int, x: float = 366, y: float = 580) -> pygame.Rect:
+        """The three keys of an input: left, jump, right; that of the present tick lies below the level."""
         palette, canvas = self.theme.palette, self.theme.canvas
         rect = pygame.Rect(0, 0, 0, 0)
         for dx, bit, arrow in _KEYS:
             down = bool(held & bit)
-            box = canvas.fill_rect(surface, palette.accent if down else palette.panel, x + dx, 580, 18, 16, 3)
-            canvas.frame_rect(surface, palette.panel_edge, x + dx, 580, 18, 16, 1, 3)
+            box = canvas.fill_rect(surface, palette.accent if down else palette.panel, x + dx, y, 18, 16, 3)
+            canvas.frame_rect(surface, palette.panel_edge, x + dx, y, 18, 16, 1, 3)
             ink = palette.panel if down else palette.faint
-            canvas.polygon(surface, ink, [(x + dx + 9 + px, 588 + py) for px, py in arrow])
+            canvas.polygon(surface, ink, [(x + dx + 9 + px, y + 8 + py) for px, py in arrow])
             rect = box if not rect.width else rect.union(box)
         return rect
 
 
 @lru_cache(maxsize=4)
-def solid_place(tiles: tuple[int, ...], w: float, h: float, things: Things = ()) -> tuple[float, float]:
-    """Upper left corner of a panel of that size, px, where it covers none of the things and the least of any way.
+def solid_place(
+    tiles: tuple[int, ...], w: float, h: float, things: Things = (), eye: Point | None = None
+) -> tuple[float, float, int]:
+    """Upper left corner of a panel of that size, px, where it covers the least of things and ways, and how much.
 
     What is full is no way, open space far from all that is full hardly one. Of equal places it is the one nearest to
-    the middle of a border.
+    ``eye``, or to the middle of a border.
     """
     full = [SHAPE[tile] == FULL for tile in tiles]
 
@@ -245,12 +271,14 @@ def solid_place(tiles: tuple[int, ...], w: float, h: float, things: Things = ())
         columns, rows = (range(int(a // CELL) - 1, int((a + b - 1) // CELL)) for a, b in ((x, w), (y, h)))
         covered = sum(ways[column * ROWS + row] for column in columns for row in rows if row < ROWS)
         hidden = sum(x - NEAR < a < x + w + NEAR and y - NEAR < b < y + h + NEAR for a, b in things)
-        return covered + 100 * hidden, abs(x + w / 2 - WIDTH / 2) + min(y, HEIGHT - y - h)
+        far = hypot(x + w / 2 - eye[0], y + h / 2 - eye[1]) if eye else 0.0
+        return covered + 100 * hidden, far or abs(x + w / 2 - WIDTH / 2) + min(y, HEIGHT - y - h)
 
     ways = [way(*divmod(place, ROWS)) for place in range(COLUMNS * ROWS)]
     edge = CELL + 4
     lefts = [edge + k * (WIDTH - 2 * edge - w) / 8 for k in range(9)]
-    return min(((x, y) for x in lefts for y in range(int(edge), int(LOWEST - h), 6)), key=cost)
+    best = min(((x, y) for x in lefts for y in range(int(edge), int(LOWEST - h), 6)), key=cost)
+    return *best, cost(best)[0]
 
 
 NEAR = 16.0
@@ -271,8 +299,8 @@ PRIZE, STAMP_SEEN = 54.0, 0.2
 POINTER_ROOM = 72.0
 """Below this line, px, there is room for a pointer above a thing."""
 
-FOOT, SAID, IN_BORDER, BESIDE_GOLD = 11.0, 12.5, 576.0, 550.0
-"""Sizes of the lines in the borders and of what a level says; where that is in play, and its width there."""
+FOOT, SAID, IN_BORDER, BESIDE_GOLD, KEYS_WIDE = 11.0, 12.5, 576.0, 550.0, 70.0
+"""Sizes of the lines in the borders and of what a level says; where that is in a border; its width there; of keys."""
 _TOOLS = {"quick_save": "save", "quick_load": "load", "rewind": "rewind", "slow": "slow", "step": "step"}
 _TOOLS_NAMED = 600
 """Ticks of a practice run in which the keys of its tools are named: where they work, and not for ever."""
@@ -290,18 +318,20 @@ def hud_view(play: LevelPlay) -> HudView:
     y = ABOVE if attempt.simulation.world.ninja.y > HEIGHT / 2 else BELOW
     text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.sayings.text
     still = play.phase is Phase.READY
-    where = (context.level.tiles, _things(play)) if still else ((), ())
-    said = (named_keys(text, key), *where) if text else None
+    # Who needs to see what keys do is stuck: that may cover open space.
+    covers = still or "\n" in text
+    said = (named_keys(text, key), context.level.tiles, play.things, play.eye, covers) if text else None
     if play.phase is Phase.DEAD:
         # The line of keys keeps its place until it comes.
         cause, _, why = cause_of_death(play).partition(". ")
         message = cause.rstrip("."), [*filter(None, [why]), _after_death(play, key)], y
     if play.phase is Phase.PASSED:
-        keys = f"{key('confirm')}: go on    {key('retry')}: retry    {key('replay')}: replay"
+        onward = "go on" if context.way_out is Navigation.EPISODE_END else "next level"
+        keys = f"{key('confirm')}: {onward}    {key('retry')}: play again    {key('replay')}: replay"
         if not context.leads_on:
-            keys = f"{key('confirm')}: play it again    {key('replay')}: replay    {key('back')}: leave"
+            keys = f"{key('confirm')}: play again    {key('replay')}: replay    {key('back')}: leave"
         time = f"{rounded_text(attempt.ended_tick)} s"
-        message = f"{play.medal.capitalize() or 'Passed'}    {time}", [*_reached(play), keys], y
+        message = f"{play.medal.capitalize() or 'Passed'}    time {time}", [*_reached(play), keys], y
     hint = _hint(play, key)
     name = shown_text(context.title)
     title = f"{name} ({play.aim})" if play.phase is Phase.READY and play.aim else name
@@ -311,21 +341,16 @@ def hud_view(play: LevelPlay) -> HudView:
     return HudView(
         play.shown_lifetime,
         practice if context.practice_mode else "",
-        ("" if said and not still else title, hint or f"gold {gold}"),
+        (title, hint or f"gold {gold}"),
         keys=play.keys if settings.show_keys and not hint else None,
         frame_ms=app.frame_ms if settings.show_frame_time else None,
         said=said,
+        moves=[sum(bit for name, bit in MOVES if f"{{{name}}}" in line) for line in text.split("\n") if "\n" in text],
         message=message,
         named=_named(play, text),
         medal=play.medal,
         stamp=play.stamp,
     )
-
-
-def _things(play: LevelPlay) -> Things:
-    """Where what a player looks for at the start is: the ninja and all but gold."""
-    world = play.attempt.simulation.world
-    return ((world.ninja.x, world.ninja.y), *((o.x, o.y) for o in world.objects[1:] if o.kind != GOLD))
 
 
 def _reached(play: LevelPlay) -> list[str]:
@@ -381,7 +406,7 @@ def cause_of_death(play: LevelPlay) -> str:
     if play.attempt.own_hand:
         return "You gave up."
     if play.killer != SELF:
-        return f"Killed by a {play.killer}." + f" {WHY[play.killer]}" * play.first_death
+        return f"Killed by a {play.killer}." + f" {WHY[play.killer]}" * play.sayings.helps
     if play.crushed:
         return "You were crushed."
     if play.attempt.lifetime <= 0:

@@ -13,6 +13,7 @@ from ninja_game.play.replay.playback import Ghost, Playback
 from ninja_game.player.attempt import Attempt, Moment
 from ninja_game.player.playthrough import LevelContext
 from ninja_game.player.statistics import cause_of
+from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.states import CRUSHED
 from ninja_game.view.level_view import LevelView
@@ -74,10 +75,10 @@ class LevelPlay:
     """One level of a context, tried again and again.
 
     ``view`` shows every tick. ``tries``: the failed ones, inputs. ``after_end``: ticks since the exit contact or death;
-    ``killer``: what killed, one of ``statistics.KILLERS``, ``crushed`` whether by being crushed, ``first_death``
-    whether it never did before. ``keys``: those of the last tick. ``notices``: what a pass has brought. ``aim``: the
-    next par, while it waits at the start. ``changed``: more than a tick has happened, so that everything has to be
-    drawn again.
+    ``killer``: what killed, one of ``statistics.KILLERS``, ``crushed`` whether by being crushed. ``keys``: those of the
+    last tick. ``things``: where the ninja and all but gold are at the start, px; ``eye``: where the ninja was when the
+    present text came, None for that of the start. ``notices``: what a pass has brought. ``aim``: the next par, while it
+    waits at the start. ``changed``: more than a tick has happened, so that everything has to be drawn again.
     """
 
     def __init__(self, app: App, context: LevelContext) -> None:
@@ -105,8 +106,11 @@ class LevelPlay:
         self.app.controls.stop_running()
         self._held_before = self.app.controls.poll()
         self.keys = 0
+        self.eye: tuple[float, float] | None = None
+        objects = self.attempt.simulation.world.objects[1:]
+        self.things = (self._ninja_place(), *((o.x, o.y) for o in objects if o.kind != GOLD))
         self.after_end = self._frozen_ms = 0
-        self.killer, self.crushed, self.first_death = "", False, False
+        self.killer, self.crushed = "", False
         self.sayings.at_start()
         self.notices: list[str] = []
         self.aim = self.context.aim()
@@ -115,6 +119,10 @@ class LevelPlay:
             self.ghosts = [Ghost(run, self.context.level, self.context.body, pace=pace) for run, pace in runs]
             self.view.ghosts = self.ghosts
         self.view.on_seek()
+
+    def _ninja_place(self) -> tuple[float, float]:
+        ninja = self.attempt.simulation.world.ninja
+        return ninja.x, ninja.y
 
     # --- from phase to phase ---
 
@@ -245,7 +253,7 @@ class LevelPlay:
             self.view.on_tick()
             self.tools.on_tick()
             if self.phase is Phase.PLAY and self.sayings.on_tick(self.attempt.simulation.world):
-                self.changed = True
+                self.changed, self.eye = True, self._ninja_place()
             self._note_end()
         if due and self.phase is Phase.PLAY:
             self.attempt.check_time()
@@ -269,7 +277,7 @@ class LevelPlay:
                 self.killer = self.attempt.killer
                 self.crushed = cause_of(self.attempt.simulation.world) == CRUSHED
                 self.sayings.on_death()
-                self.first_death = self.context.died(self.attempt)
+                self.context.died(self.attempt)
         elif self.phase in {Phase.DEAD, Phase.PASSED}:
             self.after_end += 1
             self.changed = self.changed or self.after_end == DEATH_PAUSE + 1

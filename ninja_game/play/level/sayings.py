@@ -9,6 +9,7 @@ from ninja_game.formats.sayings import Saying
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL
+from ninja_game.sim.states import SLIDING
 
 NEAR = 2.5 * CELL
 """px from the middle of its cell within which a text with a place is said."""
@@ -22,6 +23,10 @@ STILL = 0.05
 AGAIN = "{retry} tries again from the start"
 STILL_TICKS, AWAY = 240, 2 * CELL
 """It is said to who stands or lies still for so many ticks, so many px from the start."""
+
+CLIMB = "%s and {jump} at each touch, held: climb\n{jump} alone: fly off to the other side\n%s first: you only drop"
+SLIPS = 3
+"""It is said to who has come down so often from a wall to where the jump began."""
 
 _WHEN = {EXIT_OPENED: "switch", GOLD_TAKEN: "gold"}
 
@@ -43,7 +48,7 @@ FALL_HELP = "Slide down a wall, or land on a slope: then a deep fall does not ki
 class Sayings:
     """The texts of one level. Each event's text is said once; those of the start at each start until the exit is open.
 
-    ``text``: what is to be read now, or "". ``helps``: the game itself says what helps too: how to try again.
+    ``text``: what is to be read now, or "". ``helps``: the game itself says what helps too: to try again, to climb.
     """
 
     def __init__(self, sayings: Sequence[Saying], *, helps: bool = False) -> None:
@@ -51,7 +56,7 @@ class Sayings:
         self.helps = helps
         self._again = helps
         self._said: set[Saying] = set()
-        self._deaths = 0
+        self._deaths = self._slips = 0
         self._began = 0.0, 0.0
         self.at_start()
 
@@ -61,6 +66,7 @@ class Sayings:
         self.text = due[0].text if due else self._start()
         self._left = SHOWN_TICKS if due else START_TICKS
         self._still = 0
+        self._jumped_at = self._wall = 0.0
 
     def _start(self) -> str:
         """How the level begins, until that is done."""
@@ -87,7 +93,21 @@ class Sayings:
         if self._again and self._is_stuck(world):
             self._again = False
             self.text, self._left = AGAIN, SHOWN_TICKS
+        if self.helps and (wall := self._slipped(world)):
+            towards, away = ("{right}", "{left}") if wall < 0 else ("{left}", "{right}")
+            self.text, self._left = CLIMB % (towards, away), START_TICKS
         return self.text != before
+
+    def _slipped(self, world: World) -> float:
+        """At a landing after which it is said how to climb, the x of the wall's normal; else 0."""
+        ninja, wall = world.ninja, self._wall
+        if ninja.in_air:
+            self._wall = ninja.wall_x if ninja.state == SLIDING else wall
+            return 0.0
+        height, self._jumped_at, self._wall = abs(ninja.y - self._jumped_at), ninja.y, 0.0
+        if wall:
+            self._slips = self._slips % SLIPS + 1 if height < CELL else 0
+        return wall if self._slips == SLIPS else 0.0
 
     def _is_stuck(self, world: World) -> bool:
         """Whether the ninja has been still for long, away from its start."""

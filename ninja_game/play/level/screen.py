@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from functools import partial
 
 import pygame
 
@@ -13,7 +14,7 @@ from ninja_game.formats.replay.text import Replay
 from ninja_game.play.app import App, Screen
 from ninja_game.play.clipboard import copy_level_link, copy_link
 from ninja_game.play.level.hud import Hud, hud_view
-from ninja_game.play.level.play import DEATH_PAUSE, LevelPlay, Phase
+from ninja_game.play.level.play import DEATH_PAUSE, STUCK_AFTER, LevelPlay, Phase
 from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.panels import Menu, Panel, Row
 from ninja_game.play.menus.passed import EpisodePassed
@@ -22,6 +23,7 @@ from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
+from ninja_game.player.marks import opens_author
 from ninja_game.player.playthrough import EpisodeRun, LevelContext, LevelRun, Navigation
 from ninja_game.player.saving import keep_replay
 from ninja_game.sim.inputs import JUMP_HELD
@@ -31,6 +33,8 @@ from ninja_game.view.overlays import Overlays
 
 SLOWER = 70
 """Game speed that is offered to who is stuck, %."""
+
+HELP, SKIP = "Help with this level", "Skip this level"
 
 
 class LevelScreen(Screen):
@@ -73,7 +77,9 @@ class LevelScreen(Screen):
         return self.play.attempt
 
     def enter(self) -> None:
-        """Uncovered: the clock starts afresh, and text input is off, so that keys are keys."""
+        """Uncovered: a pause is over, the clock starts afresh, and text input is off, so that keys are keys."""
+        if self.phase is Phase.PAUSED:
+            self.play.resume()
         self.play.clock.reset()
         pygame.key.stop_text_input()
 
@@ -89,9 +95,6 @@ class LevelScreen(Screen):
     def pause(self) -> None:
         self.play.pause()
         self.app.push(PausePanel(self.app, self))
-
-    def resume(self) -> None:
-        self.play.resume()
 
     def back(self) -> None:
         """Out of a level that is not being played; where that would end the program, the pause panel comes first."""
@@ -130,24 +133,37 @@ class LevelScreen(Screen):
             self._leave_to(where)
 
     def skip(self) -> None:
-        """In practice a level may be left out; else there is help after many failed tries."""
+        """In practice a level may be left out; else there is a choice of help."""
         if self.context.practice_mode:
             self.go_on()
             self.app.notify("    ".join(self.context.notices))
-        elif self.play.is_stuck:
-            self.ask_for_help()
+        else:
+            self._ask_for_help()
 
-    def ask_for_help(self) -> None:
-        """What to do about a level that is too hard: nobody has to stay in it."""
+    def _ask_for_help(self) -> None:
+        """What to do about a level that is too hard: nobody has to stay in it. What is not possible says why."""
         context, app = self.context, self.app
         run = context.data.catalogue.author_run(context.entry)
-        rows: list[Row] = [("Try again", self.retry, "")]
-        if run is not None:
-            rows.append(("Watch how", lambda: watch(app, [run]), "The run of the level's author"))
-        rows.append(("Slow down", self._slow_down, f"Game speed {SLOWER} %: no record; Settings change it"))
-        if context.leads_on:
-            rows.append(("Next level", self.go_on, "Skip this one; you can come back to it"))
-        app.push(Menu(app, "Stuck?", rows))
+        seen = self.play.is_stuck or opens_author(context.entry, context.data.marks.of(context.entry.digest))
+        if self.phase is Phase.PLAY:
+            self.play.pause()
+
+        def row(text: str, action: Callable[[], object], hint: str, why_not: str) -> Row:
+            return text, partial(app.notify, f"{text}: {why_not}") if why_not else action, why_not or hint
+
+        unseen = f"after {STUCK_AFTER} failed tries" if run else "no run comes with this level"
+        rows: list[Row] = [
+            ("Try again", self.retry, ""),
+            row("Watch how", partial(self._watch, run), "The run of the level's author", unseen * (not (run and seen))),
+            ("Slow down", self._slow_down, f"Game speed {SLOWER} %: no record; Settings change it"),
+            row(SKIP, self.go_on, "You can come back to it", "no level follows" * (not context.leads_on)),
+        ]
+        app.push(Menu(app, HELP, rows))
+
+    def _watch(self, run: Replay | None) -> None:
+        """Watch a run; then the level waits at its start."""
+        self.retry()
+        watch(self.app, [run])
 
     def _slow_down(self) -> None:
         self.app.change_settings(game_speed=SLOWER)
@@ -265,9 +281,9 @@ class LevelScreen(Screen):
         return None if changed is None else changed + written
 
 
-def play_level(app: App, entry: Entry, *, practice: bool = False) -> str:
-    """Play a level by itself; why that is impossible, or ''."""
-    run = LevelRun(app.player, entry, practice_mode=practice or app.settings.practice)
+def play_level(app: App, entry: Entry, *, practice: bool = False, following: Sequence[Entry] = ()) -> str:
+    """Play a level by itself, then those that follow it in a list; why that is impossible, or ''."""
+    run = LevelRun(app.player, entry, practice_mode=practice or app.settings.practice, following=following)
     try:
         app.push(LevelScreen(app, run))
     except LevelError as error:
@@ -298,7 +314,7 @@ ACTIONS_BY_PHASE: dict[Phase, PhaseActions] = {
     Phase.DEAD: {
         "confirm": LevelScreen.retry, "jump": LevelScreen.retry_by_jump, "skip": LevelScreen.skip, **_END,
     },
-    Phase.PASSED: {"confirm": LevelScreen.go_on, **_END},
+    Phase.PASSED: {"confirm": LevelScreen.go_on, "skip": LevelScreen.go_on, **_END},
 }  # fmt: skip
 """What each action does in each phase; the other actions do nothing there."""
 
@@ -311,20 +327,16 @@ class PausePanel(Panel):
         self.playing = playing
 
     def rows(self) -> list[tuple[str, Callable[[], object], str]]:
-        stuck = ("Stuck?", lambda: self._leave(self._ask), "Ways past a level that is too hard")
+        skip = SKIP if self.playing.context.practice_mode else HELP
         return [
             ("Resume", self.back, ""),
-            *([stuck] if self.playing.play.is_stuck else []),
             ("Retry", lambda: self._leave(self.playing.retry), ""),
-            ("Copy a link", self._copy_link, "Whoever opens the link plays this level"),
+            (skip, lambda: self._leave(self.playing.skip), f"{self.app.controls.name('skip')}, also in play"),
             ("Settings", lambda: self.app.push(SettingsScreen(self.app)), ""),
             ("Help", lambda: self.app.push(HelpScreen(self.app)), ""),
+            ("Copy a link", self._copy_link, "Whoever opens the link plays this level"),
             ("Leave the level", lambda: self._leave(self.playing.quit), ""),
         ]
-
-    def _ask(self) -> None:
-        self.playing.resume()
-        self.playing.ask_for_help()
 
     def _copy_link(self) -> None:
         entry = self.playing.context.entry
@@ -338,9 +350,6 @@ class PausePanel(Panel):
             self._leave(self.playing.quit)
         else:
             super().handle(event)
-
-    def back(self) -> None:
-        self._leave(self.playing.resume)
 
     def _leave(self, then: Callable[[], object]) -> None:
         self.app.pop()

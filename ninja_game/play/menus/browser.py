@@ -14,7 +14,7 @@ from ninja_game.files.shown_text import name_problem, unreadable
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.load import load_levels
-from ninja_game.formats.run_time import seconds_text
+from ninja_game.formats.run_time import rounded_text
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.level.screen import play_level
@@ -23,22 +23,22 @@ from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text, where_from
 from ninja_game.player.catalogue import Entry, author_name
-from ninja_game.player.marks import Mark, opens_author
+from ninja_game.player.marks import Mark, opens_author, reached
 from ninja_game.player.records import SavedReplay
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.text_entry import TextEntry
-from ninja_game.ui.theme import Area, Theme, wrapped
+from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Choice, Widget
 
 ROW = 54
 PICTURE = 60
-SIDE, SIDE_WIDTH = 436, 320
+SIDE, SIDE_WIDTH, TEXT_HIGH = 436, 320, 85
 SORT_ORDERS: list[tuple[str, object]] = [
     ("My levels first", "listed"),
     ("Name", "name"),
     ("Author", "author"),
-    ("Best", "best"),
+    ("Time", "time"),
     ("Difficulty", "difficulty"),
 ]
 
@@ -67,7 +67,7 @@ class Browser(ThumbnailScreen):
         )  # fmt: skip
         self.play_it = Button((SIDE, 470, 154, 32), "Play", lambda: self.play(self.list.index))
         self.practice = Button(
-            (SIDE + 166, 470, 154, 32), "Practise", lambda: self.play(self.list.index, practice=True)
+            (SIDE + 166, 470, 154, 32), "Practice", lambda: self.play(self.list.index, practice=True)
         )
         self.watch_best = Button((SIDE, 510, 98, 32), "Watch best", self._watch)
         self.watch_author = Button((SIDE + 104, 510, 98, 32), "Author's run", self._watch_author)
@@ -141,7 +141,7 @@ class Browser(ThumbnailScreen):
             "name": lambda e: e.title.casefold(),
             "author": lambda e: (e.named.author.casefold(), e.title.casefold()),
             "difficulty": lambda e: (e.pars.difficulty if e.pars and e.pars.difficulty is not None else 1e9, e.title),
-            "best": lambda e: -(best.score if (best := self.bests.get(e.digest)) else -1),
+            "time": lambda e: mark.fastest if (mark := self.marks.get(e.digest)) else 1e9,
         }
         if self.sort in keys:
             found.sort(key=keys[self.sort])  # type: ignore[arg-type]
@@ -163,15 +163,16 @@ class Browser(ThumbnailScreen):
         self.watch_best.enabled = selected is not None and selected.digest in self.bests
         opened = selected is not None and opens_author(selected, self.marks.get(selected.digest))
         self.watch_author.enabled = opened
-        self.watch_author.hint = "" if self.watch_author.enabled else "A gold medal opens it"
-        self.watch_best.hint = "" if self.watch_best.enabled else "This level has not been passed yet"
+        self.watch_author.hint = "" if self.watch_author.enabled else "a gold medal opens it"
+        self.watch_best.hint = "Most clock left" if self.watch_best.enabled else "This level has not been passed yet"
 
     # --- go ---
 
     def play(self, index: int, *, practice: bool = False) -> None:
         if index < len(self.shown):
-            self.message = self.player.lock_of(self.shown[index]) or play_level(
-                self.app, self.shown[index], practice=practice
+            entry, *following = self.shown[index:]
+            self.message = self.player.lock_of(entry) or play_level(
+                self.app, entry, practice=practice, following=following
             )
 
     def _change(self) -> None:
@@ -200,33 +201,25 @@ class Browser(ThumbnailScreen):
         entry = self.selected
         count = f"{len(self.shown)} of {len(self.entries)} levels"
         theme.text(surface, count, 44, 549, size=9.5, colour=palette.faint)
-        if self.message:
-            theme.text(surface, self.message, SIDE, 548, size=10, colour=palette.bad, width=SIDE_WIDTH)
+        word = "" if self.watch_author.enabled else f"Author's run: {self.watch_author.hint}"
+        colour = palette.bad if self.message else palette.faint
+        theme.text(surface, self.message or word, SIDE, 548, size=10, colour=colour, width=SIDE_WIDTH)
         if entry is None:
             return
-        self.thumbnails.draw(surface, entry, SIDE, 66, SIDE_WIDTH)
-        theme.text(surface, entry.title, SIDE, 320, size=17, bold=True, width=SIDE_WIDTH - 44)
+        self.thumbnails.draw(surface, entry, SIDE + 28, 66, SIDE_WIDTH - 56)
+        theme.text(surface, entry.title, SIDE, 278, size=17, bold=True, width=SIDE_WIDTH - 44)
         by = f"by {author_name(entry.named.author)}" if entry.named.author else "author unknown"
         about = "    ".join(filter(None, (by, where_from(entry))))
-        theme.text(surface, about, SIDE, 345, size=10.5, colour=palette.faint, width=SIDE_WIDTH)
+        theme.text(surface, about, SIDE, 303, size=10.5, colour=palette.faint, width=SIDE_WIDTH)
         teaches = [f"Teaches: {entry.named.teaches}"] if entry.named.teaches else []
-        comment = wrapped(theme, entry.named.comment, SIDE_WIDTH, 10.5)
-        if len(comment) > 2:
-            comment = wrapped(theme, up_to_a_stop(" ".join(comment[:2])), SIDE_WIDTH, 10.5)
-        for number, text in enumerate(comment[:2] + teaches):
-            theme.text(surface, text, SIDE, 364 + 13.5 * number, size=10.5, width=SIDE_WIDTH)
-        best = self.bests.get(entry.digest)
-        text = f"Your best: {seconds_text(best.score)} s left with {best.gold} gold" if best else "Not passed yet"
-        colour = palette.good if best else palette.faint
-        theme.text(surface, text, SIDE, 408, size=12, colour=colour, width=SIDE_WIDTH - 90)
+        theme.paragraph(surface, [entry.named.comment, *teaches], (SIDE, 321, SIDE_WIDTH, TEXT_HIGH), 10.5, 13.5)
         mark = self.marks.get(entry.digest)
-        if mark:
-            time = f"in {seconds_text(mark.fastest)} s"
-            theme.text(surface, time, SIDE + SIDE_WIDTH, 408, size=12, colour=palette.good, align="right", width=84)
+        colour = palette.good if mark else palette.faint
+        theme.text(surface, reached(entry, mark), SIDE, 408, size=12, colour=colour, width=SIDE_WIDTH)
         played = self.player.statistics.played(entry.digest)
         if played.attempts:
             theme.text(surface, tries_text(played), SIDE, 425, size=10.5, colour=palette.faint)
-        all_gold_and_medal(surface, theme, entry, mark, SIDE + SIDE_WIDTH - 10, 330)
+        all_gold_and_medal(surface, theme, entry, mark, SIDE + SIDE_WIDTH - 10, 288)
         draw_pars(surface, theme, entry.pars, mark and mark.fastest, SIDE, 443)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
@@ -242,26 +235,13 @@ class Browser(ThumbnailScreen):
             draw_look(surface, theme, "locked", (x + 4 + PICTURE / 2 - 11, y + 16, 22, 22))
         source = author_name(entry.named.author) or ("your folder" if entry.source == "yours" else "")
         theme.text(surface, source, left, y + 32, size=10, colour=palette.faint, width=150)
-        best = self.bests.get(entry.digest)
-        if best:
-            score = f"{seconds_text(best.score)} s left"
-            theme.text(surface, score, x + w - 8, y + 11, size=12, colour=palette.good, align="right", width=100)
-        all_gold_and_medal(surface, theme, entry, self.marks.get(entry.digest), x + w - 16, y + 37)
-        if entry.pars and entry.pars.difficulty is not None:
-            difficulty = f"difficulty {entry.pars.difficulty:.1f}"
-            theme.text(surface, difficulty, x + w - 30, y + 32, size=10, colour=palette.faint, align="right", width=88)
-
-
-def up_to_a_stop(text: str) -> str:
-    """A text that was cut somewhere, cut again where a sentence or a part of one ends.
-
-    >>> up_to_a_stop("Touch the switch: then the exit opens; three")
-    'Touch the switch: then the exit opens'
-    >>> up_to_a_stop("no stop at all")
-    'no stop at all'
-    """
-    end = max(map(text.rfind, ";:,."))
-    return text[:end] if end > 0 else text
+        mark = self.marks.get(entry.digest)
+        if mark:
+            time = f"time {rounded_text(mark.fastest)} s"
+            theme.text(surface, time, x + w - 8, y + 11, size=12, colour=palette.good, align="right", width=100)
+        all_gold_and_medal(surface, theme, entry, mark, x + w - 16, y + 37)
+        grade = entry.pars.grade if entry.pars else ""
+        theme.text(surface, grade, x + w - 50, y + 32, size=10, colour=palette.faint, align="right", width=88)
 
 
 class LevelChoice(Browser):

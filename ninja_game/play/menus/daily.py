@@ -11,13 +11,13 @@ import pygame
 
 from ninja_game.backend.memories import choose_memory
 from ninja_game.files.user_folder import LEVELS
-from ninja_game.formats.run_time import seconds_text
 from ninja_game.generator import daily
 from ninja_game.play.app import App
 from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.settings import PRACTICE_HINT
-from ninja_game.play.menus.thumbnails import ThumbnailScreen, draw_pars, time_and_par, tries_text
+from ninja_game.play.menus.thumbnails import ThumbnailScreen, draw_pars, tries_text
 from ninja_game.player.catalogue import Entry
+from ninja_game.player.marks import next_par, reached
 from ninja_game.runtime import require_desktop, run_in_background
 from ninja_game.ui.theme import wrapped
 from ninja_game.ui.widgets import Button, Widget
@@ -69,7 +69,7 @@ class DailyScreen(ThumbnailScreen):
         self._shown = ""
         self.play = Button((SIDE, 390, SIDE_WIDTH, 36), "Play", self._play)
         self.practice = Button(
-            (SIDE, 436, SIDE_WIDTH, 36), "Practise", lambda: self._play(practice=True), hint=PRACTICE_HINT
+            (SIDE, 436, SIDE_WIDTH, 36), "Practice", lambda: self._play(practice=True), hint=PRACTICE_HINT
         )
 
     @property
@@ -154,18 +154,16 @@ class DailyScreen(ThumbnailScreen):
         theme = self.app.theme
         self.thumbnails.draw(surface, entry, LEFT, TOP, WIDE)
         theme.text(surface, entry.title, SIDE, TOP + 24, size=17, bold=True, width=SIDE_WIDTH)
-        best = self.player.records.level_bests().get(entry.digest)
-        mark = self.player.marks.all().get(entry.digest)
+        mark = self.player.marks.of(entry.digest)
         played = self.player.statistics.played(entry.digest)
         lines = [f"{entry.all_gold} gold"]
-        if entry.pars and entry.pars.difficulty is not None:
-            lines.insert(0, f"difficulty {entry.pars.difficulty:.1f}")
-        lines.append(
-            f"Your best: {seconds_text(best.score)} s left with {best.gold} gold" if best else "Not passed yet"
-        )
+        if entry.pars and entry.pars.grade:
+            lines.insert(0, entry.pars.grade)
+        lines.append(reached(entry, mark))
+        if entry.pars and mark:
+            lines.append(next_par(entry.pars, mark))
         if played.attempts:
             lines.append(tries_text(played))
-        lines.append(time_and_par(entry, mark))
         for number, line in enumerate(lines):
             theme.text(surface, line, SIDE, TOP + 60 + 20 * number, size=11, width=SIDE_WIDTH)
         draw_pars(surface, theme, entry.pars, mark and mark.fastest, LEFT, TOP + WIDE * 25 / 33 + 12)

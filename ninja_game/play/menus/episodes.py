@@ -14,9 +14,9 @@ from ninja_game.play.clipboard import copy_link
 from ninja_game.play.level.screen import LevelScreen, play_level
 from ninja_game.play.menus.panels import CANCEL, Menu, Row
 from ninja_game.play.menus.settings import PRACTICE_HINT
-from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, time_and_par, tries_text
+from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, tries_text
 from ninja_game.player.catalogue import Episode, EpisodeSet
-from ninja_game.player.marks import Mark, has_all_gold, tally, worst_medal
+from ninja_game.player.marks import Mark, has_all_gold, next_par, reached, tally, worst_medal
 from ninja_game.player.playthrough import EpisodeRun, left_half_way
 from ninja_game.player.progress import CHEATED, LOCKED
 from ninja_game.ui.input.bindings import InputEvent
@@ -229,7 +229,8 @@ class EpisodeGrid(ThumbnailScreen):
 
     def _trial(self, index: int) -> None:
         if self.episode is not None:
-            self.problem = play_level(self.app, self.episode.levels[index]) or self.problem
+            entry, *following = self.episode.levels[index:]
+            self.problem = play_level(self.app, entry, following=following) or self.problem
 
     # --- picture ---
 
@@ -257,9 +258,8 @@ class EpisodeGrid(ThumbnailScreen):
         head = f"Episode {episode.code}: {episode.name}"
         theme.text(surface, head, SIDE, 66, size=16, bold=True, width=264)
         best = self.player.records.episode_best(episode.key)
-        text = (
-            f"Your best: {seconds_text(best.score)} s left" if best else f"{len(episode.levels)} levels, not passed yet"
-        )
+        clock = f"Best clock: {seconds_text(best.score)} s left" if best else ""
+        text = clock or f"{len(episode.levels)} levels, not passed in one go yet"
         theme.text(surface, self._hint() if self._state(episode.number) == LOCKED else text, SIDE, 96, size=11,
                    colour=palette.good if best else palette.faint)  # fmt: skip
 
@@ -333,16 +333,11 @@ class EpisodeGrid(ThumbnailScreen):
         )
         mark = self.marks.get(entry.digest)
         all_gold_and_medal(surface, theme, entry, mark, x + w - 14, y + 19)
-        best = self.player.records.level_best(entry.digest)
         played = self.player.statistics.played(entry.digest)
-        text = (
-            f"best {seconds_text(best.score)} s left, {best.gold} of {entry.all_gold} gold"
-            if best
-            else "not passed yet"
-        )
-        colour = theme.palette.good if best else theme.palette.faint
+        colour = theme.palette.good if mark else theme.palette.faint
         room = w - SMALL_PICTURE - 24
-        theme.text(surface, text, left, y + 32, size=11, colour=colour, width=room)
-        theme.text(surface, time_and_par(entry, mark), left, y + 48, size=10, width=room)
+        theme.text(surface, reached(entry, mark), left, y + 32, size=11, colour=colour, width=room)
+        following = next_par(entry.pars, mark) if entry.pars and mark else ""
+        theme.text(surface, following, left, y + 48, size=10, width=room)
         if played.attempts:
             theme.text(surface, tries_text(played), left, y + 63, size=10, colour=theme.palette.faint)

@@ -91,10 +91,10 @@ class MainMenu(MenuScreen):
             ("Daily", self._opener(DailyScreen), "A new level every day, the same for everybody"),
             ("Records", self._opener(RecordsScreen), "Your best runs, and what killed you"),
             ("Replays", self._opener(ReplaysScreen), "Watch your runs, and those of the levels' authors"),
-            ("Physics", self._opener(LabScreen), "How the ninja and the walls meet, in ten moving figures"),
             ("Editor", self._opener(EditorScreen), "Make levels of your own"),
             ("Help", self._opener(HelpScreen), "How to move, and what everything does"),
             ("Settings", self._opener(SettingsScreen), "Keys, sound, colours, comfort"),
+            ("Extras", self._opener(LabScreen), "For the curious: how ninja and walls meet, in ten moving figures"),
             ("Quit", self.back, "Leave the game"),
         ]
 

@@ -11,11 +11,15 @@ from ninja_game.play.app import App
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal
 from ninja_game.player.catalogue import Episode
+from ninja_game.player.marks import reached
 from ninja_game.player.playthrough import EpisodeRun
+from ninja_game.player.saving import OF_A_LEVEL
 from ninja_game.ui.canvas import WIDTH
 from ninja_game.ui.widgets import Button, Widget
 
 PICTURE = 132
+
+CLOCK = "on the clock, the score of the episode: gold adds to it, time takes from it"
 
 
 class EpisodePassed(ThumbnailScreen):
@@ -62,16 +66,16 @@ class EpisodePassed(ThumbnailScreen):
             self.thumbnails.draw(surface, entry, x, 124, PICTURE)
             middle = x + PICTURE / 2
             theme.text(surface, entry.title, middle, 232, size=10, align="centre", width=PICTURE, height=15)
-            best = self.player.records.level_best(entry.digest)
-            score = f"best {seconds_text(best.score)} s left" if best else ""
-            theme.text(surface, score, middle, 247, size=10, colour=palette.faint, align="centre", width=PICTURE)
             mark = self.player.marks.of(entry.digest)
+            time = reached(entry, mark)
+            theme.text(surface, time, middle, 247, size=10, colour=palette.faint, align="centre", width=PICTURE)
             all_gold_and_medal(surface, theme, entry, mark, x + PICTURE - 11, 135)
-        score = f"{seconds_text(self.run.score)} s"
+        score = f"{seconds_text(self.run.score)} s left"
         theme.text(surface, score, WIDTH / 2, 290, size=44, align="centre", bold=True, height=60)
-        what = "left on the clock: your score" if self.run.whole else "practice, or help was used: no record"
+        what = CLOCK if self.run.whole else "practice, or help was used: no record"
         theme.text(surface, what, WIDTH / 2, 340, size=11, colour=palette.faint, align="centre")
-        for line, notice in enumerate(self.run.notices[-4:]):
+        notices = [notice for notice in self.run.notices if notice not in OF_A_LEVEL]
+        for line, notice in enumerate(notices[-4:]):
             y = 364 + 17 * line
             theme.text(
                 surface, notice, WIDTH / 2, y, size=12, colour=palette.good, align="centre", width=WIDTH - 96, height=17

@@ -11,6 +11,7 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.replays import watch
+from ninja_game.player.records import SavedReplay
 from ninja_game.sim.rules import TICK_MS
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.theme import Area, Theme
@@ -21,10 +22,10 @@ SIDE, SIDE_WIDTH = 528, 228
 
 
 class RecordRow(NamedTuple):
-    """A record: what, its score in ticks (None: not passed), the ids of its replays, whether it heads a group."""
+    """A record: what, an episode's clock or a level's time ("": not passed), its replays, whether it heads a group."""
 
     text: str
-    score: int | None
+    score: str
     replays: tuple[int, ...]
     head: bool
     when: str = ""
@@ -49,26 +50,29 @@ class RecordsScreen(MenuScreen):
     def _rows(self) -> list[RecordRow]:
         """Episodes with their levels, then other levels that have been passed."""
         records, catalogue = self.player.records, self.player.catalogue
-        bests = records.level_bests()
+        bests, marks = records.level_bests(), self.player.marks.all()
+
+        def row(text: str, saved: SavedReplay) -> RecordRow:
+            time = marks[saved.level].fastest if saved.level in marks else saved.final_tick
+            return RecordRow(text, f"time {seconds_text(time)} s", (saved.id,), False, saved.made_at[:10])
+
         rows = []
         listed = set()
         episodes = [(pack, episode) for pack in catalogue.packs() for episode in pack.episodes.values()]
         for pack, episode in episodes:
             best = records.episode_best(episode.key)
             text = f"{pack.key}{', e' if pack.key else 'E'}pisode {episode.code}: {episode.name}"
-            rows.append(RecordRow(text, best.score if best else None, best.replays if best else (), True))
+            clock = f"{seconds_text(best.score)} s left" if best else ""
+            rows.append(RecordRow(text, clock, best.replays if best else (), True))
             for entry in episode.levels:
                 listed.add(entry.digest)
                 saved = bests.get(entry.digest)
-                score, ids = (saved.score, (saved.id,)) if saved else (None, ())
-                rows.append(RecordRow(entry.title, score, ids, False, saved.made_at[:10] if saved else ""))
+                rows.append(row(entry.title, saved) if saved else RecordRow(entry.title, "", (), False))
         others = [saved for digest, saved in bests.items() if digest not in listed]
         if others:
-            rows.append(RecordRow("Other levels", None, (), True))
+            rows.append(RecordRow("Other levels", "", (), True))
         others.sort(key=lambda saved: saved.name.casefold())
-        return rows + [
-            RecordRow(saved.name or "unnamed", saved.score, (saved.id,), False, saved.made_at[:10]) for saved in others
-        ]
+        return rows + [row(saved.name or "unnamed", saved) for saved in others]
 
     def _say(self, index: int) -> None:
         """The hint of the selected row."""
@@ -113,12 +117,10 @@ class RecordsScreen(MenuScreen):
         theme.row(surface, (x, y + 2, w, h - 4), chosen=chosen, focused=focused, radius=3, filled=row.head)
         top = y + h / 2 - 6
         left = x + (8 if row.head else 24)
-        theme.text(surface, row.text, left, top, size=12, bold=row.head, width=w - 210)
-        if row.score is not None:
-            score = f"{seconds_text(row.score)} s"
-            theme.text(
-                surface, score, x + w - 90, top, size=12, colour=palette.good, align="right", bold=row.head, width=90
-            )
+        theme.text(surface, row.text, left, top, size=12, bold=row.head, width=w - 232)
+        if row.score:
+            right, ink = x + w - 90, palette.good
+            theme.text(surface, row.score, right, top, size=12, colour=ink, align="right", bold=row.head, width=110)
             theme.text(surface, row.when, x + w - 8, top + 1, size=10, colour=palette.faint, align="right", width=76)
         elif not row.head or index == 0:
             theme.text(surface, "not passed yet", x + w - 8, top, size=10.5, colour=palette.faint, align="right")

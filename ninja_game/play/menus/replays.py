@@ -25,7 +25,7 @@ from ninja_game.play.menus.panels import Question
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.catalogue import author_name
 from ninja_game.player.marks import opens_author
-from ninja_game.player.records import NEWEST_SHOWN, SavedReplay, has_words, level_score
+from ninja_game.player.records import NEWEST_SHOWN, SavedReplay, has_words
 from ninja_game.player.saving import forget_replay
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import ListView
@@ -63,7 +63,7 @@ class ReplaysScreen(MenuScreen):
     """One list of all replays. Delete removes one of the records that no best needs. ``hint``: of the list."""
 
     title = "Replays"
-    heads = "Level", "Player", "Result", "From"
+    heads = "Level", "Player", "Result, time", "From"
     hint = HINT
 
     def __init__(self, app: App) -> None:
@@ -250,11 +250,10 @@ def _row_of_recording(recording: Recording, when: str) -> ReplayRow:
 
 
 def _result(outcome: str, gold: int, final_tick: int, all_gold: int = 0) -> str:
-    """The score of a passed level, and its gold; of any other run, how it ended and after which time."""
-    if outcome == "exit":
-        what = "all gold" if gold == all_gold > 0 else f"{gold} gold" if gold else "exit"
-        return f"{what}, {seconds_text(level_score(gold, final_tick))} s left"
-    return f"{OUTCOMES[outcome]}, {seconds_text(final_tick + (outcome == 'running'))} s"
+    """What a passed run took, of any other how it ended; and its time."""
+    taken = "all gold" if gold == all_gold > 0 else f"{gold} gold" if gold else "exit"
+    what = taken if outcome == "exit" else OUTCOMES[outcome]
+    return f"{what}, {seconds_text(final_tick + (outcome == 'running'))} s"
 
 
 def watch(app: App, replays: Iterable[Replay | None]) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
+from pathlib import Path
 
 import pygame
 
@@ -311,8 +312,8 @@ class SettingsScreen(ThumbnailScreen):
     def _sound(self) -> list[Widget]:
         return [
             self._slider(0, "Volume", "volume", (0, 99, 3), "0: no sound"),
-            self._slider(1, "Long sounds", "loop_volume", (0, 99, 3), "Slides, rockets, lasers"),
-            self._slider(2, "Music", "music_volume", (0, 99, 3), "0: no music"),
+            self._slider(1, "Slides, rockets, lasers", "loop_volume", (0, 99, 3), "A share of the volume"),
+            self._slider(2, "Music", "music_volume", (0, 99, 3), "A share of the volume; 0: no music"),
             self._choice(3, "Music in practice", "music_in_practice", SWITCH),
         ]
 
@@ -330,8 +331,10 @@ class SettingsScreen(ThumbnailScreen):
                        lambda value: setattr(self.app, "overclock", round(value)),
                        hint="A faster game, until you quit")
             )  # fmt: skip
-        text = f"Your levels: {self.player.folder / LEVELS}"
-        return [*widgets, Label((LEFT, TOP + STEP * 10 + 16, WIDTH_OF_ROW, 13), text, size=9.5, faint=True)]
+        folder = str(self.player.folder / LEVELS).replace(str(Path.home()), "~")
+        texts = ("Levels that you put into this folder are in the list of levels:", folder)
+        below = TOP + STEP * 9
+        return [*widgets, *(Label((LEFT, below + 20 * k, WIDTH_OF_ROW, 14), text) for k, text in enumerate(texts))]
 
     def _accessibility(self) -> list[Widget]:
         return [

@@ -8,11 +8,11 @@ import pygame
 
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.pars import MARGINS, Pars
-from ninja_game.formats.run_time import seconds_text
+from ninja_game.formats.run_time import rounded_text
 from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.marks import Mark, has_all_gold, medal_of, next_par
+from ninja_game.player.marks import Mark, has_all_gold, medal_of
 from ninja_game.player.statistics import Played
 from ninja_game.ui.audio.music import MENU
 from ninja_game.ui.theme import Theme
@@ -100,14 +100,6 @@ def tries_text(played: Played) -> str:
     return f"{counted(played.attempts, 'try', 'tries')}, {counted(played.deaths, 'death', 'deaths')}"
 
 
-def time_and_par(entry: Entry, mark: Mark | None) -> str:
-    """The player's fastest time in a level and what the next medal needs, in words; "" before the first pass."""
-    if mark is None:
-        return ""
-    following = next_par(entry.pars, mark) if entry.pars else ""
-    return "    ".join(filter(None, (f"{seconds_text(mark.fastest)} s", following)))
-
-
 def draw_pars(surface: pygame.Surface, theme: Theme, pars: Pars | None, tick: int | None, x: float, y: float) -> None:
     """All pars in a row, those reached in a tick filled."""
     if pars is None:
@@ -116,14 +108,12 @@ def draw_pars(surface: pygame.Surface, theme: Theme, pars: Pars | None, tick: in
         par = pars.par(medal) if medal in MARGINS else None
         reached = tick is not None and (par is None or tick <= par)
         draw_medal(surface, theme, medal, x + 8, y + 8, 16, reached=reached)
-        theme.text(surface, "pass it" if par is None else f"{seconds_text(par)} s", x + 20, y + 3.5, size=9.5)
+        theme.text(surface, "pass it" if par is None else f"{rounded_text(par)} s", x + 20, y + 3.5, size=9.5)
         x += 80
 
 
 def where_from(entry: Entry) -> str:
     """Where a level comes from, and how hard it is."""
     pack = shown_text(entry.source) if entry.source not in {"game", "yours"} else ""
-    parts = [pack, entry.place or ("Your folder" if entry.source == "yours" else "")]
-    if entry.pars and entry.pars.difficulty is not None:
-        parts.append(f"difficulty {entry.pars.difficulty:.1f}")
-    return "    ".join(filter(None, parts))
+    place = entry.place or ("Your folder" if entry.source == "yours" else "")
+    return "    ".join(filter(None, (pack, place, entry.pars.grade if entry.pars else "")))

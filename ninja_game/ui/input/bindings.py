@@ -161,7 +161,7 @@ ACTIONS: dict[str, Action] = {
     "suicide": Action("Give up", ("k",), ("back", "button-6")),
     "replay": Action("Watch the replay", ("v",), ("y", "button-3")),
     "quit": Action("Leave to the menu", ("q",)),
-    "skip": Action("Skip, or help when stuck", ("n",)),
+    "skip": Action("Help with a level, or skip it", ("n",)),
     "boss": Action("Hide the game", ("tab",)),
     "ghost": Action("Ghost on or off", ("g",), ("rightshoulder",)),
     "quick_save": Action("Quick save (practice)", ("f5",), ("leftstick",)),

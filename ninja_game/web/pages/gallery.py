@@ -56,7 +56,7 @@ def level_page(
     if entry.episode:
         about.append(("Episode", entry.episode))
     if entry.pars and entry.pars.difficulty is not None:
-        about.append(("Difficulty", f"{entry.pars.difficulty:.1f}"))
+        about.append(("Difficulty", f"{entry.pars.difficulty:.1f}, {entry.pars.grade}"))
     about.append(("Objects", objects_text(entry)))
     facts = tag("div", _play(entry, game), definitions(about), class_="about")
     contents = [
@@ -179,8 +179,8 @@ def _card(entry: Entry, place: int) -> Markup:
     if pars:
         facts.append(tag("span", f"gold medal {seconds_text(pars.par('gold'))} s"))
     difficulty = f"{pars.difficulty:.1f}" if pars and pars.difficulty is not None else ""
-    if difficulty:
-        facts.append(tag("span", f"difficulty {difficulty}"))
+    if pars and difficulty:
+        facts.append(tag("span", f"difficulty {difficulty}, {pars.grade}"))
     name = tag("a", shown_text(entry.title, LONGEST_NAME), href=page_name(entry.digest))
     number = tag("span", entry.episode, class_="number") if entry.episode else None
     words = f"{entry.title} {entry.named.author} {entry.named.comment} {entry.episode}".casefold()

@@ -8,17 +8,19 @@ import pytest
 
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.sayings import read_sayings
-from ninja_game.play.level.hud import cause_of_death, hud_view, solid_place
+from ninja_game.play.level.hud import IN_BORDER, Hud, cause_of_death, hud_view, solid_place
 from ninja_game.play.level.play import DEATH_PAUSE, STUCK_AFTER, Phase
-from ninja_game.play.level.sayings import FALL_HELP, SHOWN_TICKS, START_TICKS, STILL_TICKS, Sayings
+from ninja_game.play.level.sayings import CLIMB, FALL_HELP, SHOWN_TICKS, START_TICKS, STILL_TICKS, Sayings
 from ninja_game.play.level.screen import LevelScreen, play_level
 from ninja_game.play.menus.browser import Browser
+from ninja_game.play.menus.help import room_level, strokes
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.panels import Menu
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.playthrough import EpisodeRun, LevelRun
 from ninja_game.player.statistics import SELF
 from ninja_game.sim.kinds import EXIT, SWITCH
+from ninja_game.sim.level import ROWS
 from ninja_game.simulation import Simulation
 from ninja_game.ui.widgets import Button
 from tests.support.menu_driver import MenuDriver
@@ -84,12 +86,12 @@ def test_switch_sends_out_rings_until_it_is_touched(driver: MenuDriver, reduced:
 
 def test_text_of_the_start_covers_what_is_solid_and_no_way() -> None:
     block = tuple(int(12 <= column < 30 and 11 <= row < 14) for column in range(31) for row in range(23))
-    x, y = solid_place(block, 360.0, 59.0)
+    x, y, _ = solid_place(block, 360.0, 59.0)
     assert 13 * 24 <= x <= 31 * 24 - 360
     assert 12 * 24 <= y <= 15 * 24 - 59
     assert solid_place((0,) * 713, 300.0, 39.0)[1] > 2 * 24, "in the open it is not along a wall"
     for thing in ((x + 10, y + 10), (x + 350, y - 8)):
-        left, top = solid_place(block, 360.0, 59.0, (thing,))
+        left, top, _ = solid_place(block, 360.0, 59.0, (thing,))
         assert not (left < thing[0] < left + 360 and top < thing[1] < top + 59), "a thing is never covered"
 
 
@@ -148,19 +150,21 @@ def test_text_at_a_place_is_said_there_once() -> None:
     assert (near.text, far.text) == ("here", "")
 
 
-def test_first_death_of_each_kind_says_why(driver: MenuDriver) -> None:
+def test_every_death_says_what_helps_until_the_level_is_passed(driver: MenuDriver) -> None:
     run = LevelRun(driver.player, entry(deadly_level()))
     driver.app.push(LevelScreen(driver.app, run))
     level = driver.shown(LevelScreen)
     texts = []
-    for _ in range(2):
+    for helps in (True, True, False):
+        level.play.sayings.helps = helps
         level.begin()
         driver.keys.script = [2] * 60
         driver.frames(60)
         assert level.phase is Phase.DEAD
         texts.append(cause_of_death(level.play))
         level.retry()
-    assert texts == ["Killed by a mine. Mines never move: keep a body's width away.", "Killed by a mine."]
+    tip = "Killed by a mine. Mines never move: keep a body's width away."
+    assert texts == [tip, tip, "Killed by a mine."]
 
 
 def test_who_is_still_for_long_reads_once_how_to_try_again_and_nobody_who_moves(driver: MenuDriver) -> None:
@@ -296,9 +300,9 @@ def test_nobody_is_stopped_by_one_level(driver: MenuDriver) -> None:
     assert message[1][-1].endswith("N: stuck?")
     driver.press("n")
     assert [getattr(each, "text", "") for each in driver.shown(Menu).widgets] == [
-        "Try again", "Watch how", "Slow down", "Next level",
+        "Try again", "Watch how", "Slow down", "Skip this level",
     ]  # fmt: skip
-    driver.choose("Next level")
+    driver.choose("Skip this level")
     run = level.context
     assert isinstance(run, EpisodeRun)
     assert driver.top() is level
@@ -318,3 +322,100 @@ def test_slower_play_opens_what_follows_without_a_record(driver: MenuDriver) -> 
     level.context.passed(level.attempt)
     assert driver.player.progress.columns[0].beaten == (0, 1)
     assert driver.player.marks.of(level.context.entry.digest) is None
+
+
+def test_help_with_a_level_can_always_be_asked_for_and_says_what_is_not_possible(driver: MenuDriver) -> None:
+    driver.press("return")
+    level = driver.shown(LevelScreen)
+    for begun, keys in ((False, ["n"]), (True, ["n"]), (True, ["escape", "down", "down", "return"])):
+        level.retry()
+        if begun:
+            level.begin()
+        driver.press(*keys)
+        menu = driver.shown(Menu)
+        hints = {each.text: each.hint for each in menu.widgets if isinstance(each, Button)}
+        assert hints["Watch how"] == f"after {STUCK_AFTER} failed tries"
+        assert hints["Skip this level"] == "You can come back to it"
+        tick = level.attempt.simulation.tick
+        driver.frames(5)
+        assert level.attempt.simulation.tick == tick
+        driver.press("escape")
+        assert driver.top() is level
+        assert level.phase is (Phase.PLAY if begun else Phase.READY)
+    driver.press("n", "down", "return")
+    assert driver.top() is level
+    assert driver.app.notice == f"Watch how: after {STUCK_AFTER} failed tries"
+
+
+def test_a_win_in_levels_leads_to_the_next_one_that_is_open(driver: MenuDriver) -> None:
+    browser = driver.open("Levels")
+    assert isinstance(browser, Browser)
+    driver.press("return")
+    level = driver.shown(LevelScreen)
+    titles = []
+    for number in (1, 2):
+        level.begin()
+        driver.play_replay(number)
+        assert level.phase is Phase.PASSED
+        titles.append(level.context.title)
+        message = hud_view(level.play).message
+        assert message
+        assert message[1][-1].startswith("Space: next level    R: play again")
+        driver.press("space")
+    assert titles == ["First Steps", "Mind the Gap"]
+    driver.press("q")
+    last = next(k for k, each in enumerate(browser.shown) if each.place == "Episode 1, level 5")
+    browser.play(last)
+    context = driver.shown(LevelScreen).context
+    assert context.leads_on == any(not driver.player.lock_of(each) for each in browser.shown[last + 1 :])
+
+
+def test_text_in_play_lies_over_rock_near_the_ninja_or_else_in_the_border(driver: MenuDriver) -> None:
+    driver.press("return")
+    level = driver.shown(LevelScreen)
+    level.begin()
+    hud = Hud(driver.app.theme)
+    (text, tiles, things, _, covers), far = hud_view(level.play).said or ("", (), (), None, True), []
+    assert not covers
+    for eye in ((40.0, 500.0), (750.0, 500.0)):
+        lines, left, y, w, high, *_ = hud.box(text, tiles, things, eye, covers)
+        assert y < IN_BORDER
+        cells = {(int(a // 24) - 1, int(b // 24) - 1) for a in (left, left + w) for b in (y, y + high * len(lines))}
+        assert all(tiles[column * ROWS + row] == 1 for column, row in cells), "over rock only"
+        far.append(left)
+    assert far[0] < far[1]
+    assert hud.box(text, (0,) * 713, (), None, covers)[2] == IN_BORDER
+
+
+WELL = room_level(["#...#"] * 10 + ["#@..#"], ())
+
+
+def climb(keys: str) -> tuple[list[str], float]:
+    """What is said in a well in which one plays so, and the greatest height, px."""
+    simulation, sayings = Simulation(WELL), Sayings((), helps=True)
+    seen, floor, height = [], simulation.world.ninja.y, 0.0
+    for each in strokes(keys):
+        simulation.step_keys(each)
+        height = max(height, floor - simulation.world.ninja.y)
+        if sayings.on_tick(simulation.world) and sayings.text:
+            seen.append(sayings.text)
+    return seen, height
+
+
+SLIP = "40 r12 rj20 r20 l60 "
+
+
+def test_who_slips_down_a_wall_three_times_sees_what_the_keys_do_at_it() -> None:
+    right, left = (CLIMB % names for names in (("{right}", "{left}"), ("{left}", "{right}")))
+    assert climb(SLIP * 2)[0] == []
+    assert climb(SLIP * 3)[0] == [right]
+    assert climb(SLIP * 3 + "500 " + SLIP * 3)[0] == [right, right], "it comes back"
+    assert climb(3 * "40 l12 lj20 l20 r60 ")[0] == [left]
+    assert climb("40 r12 rj20 r20 l60 " + "40 rj30 40 " * 6)[0] == []
+
+
+def test_climbing_as_the_hint_says_works_and_away_from_the_wall_first_does_not() -> None:
+    _, once = climb("40 r12 rj20 r20")
+    assert climb("40 r12 rj20 r18 " + "rj20 r8 " * 6)[1] > once + 100, "towards the wall, jump held at each touch"
+    assert climb("40 r12 rj20 r18 " + "l3 lj20 l30 ")[1] <= once, "away first: no jump at all"
+    assert climb("40 r12 rj20 r18 j20 l20")[1] > once + 10, "jump alone"

@@ -15,8 +15,7 @@ from ninja_game.play.main import first_screen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import NAMED, Cells, EpisodeGrid
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.thumbnails import time_and_par
-from ninja_game.player.marks import Mark
+from ninja_game.player.marks import Mark, next_par, reached
 from tests.support.draw_log import DrawLog
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK
@@ -120,15 +119,18 @@ def test_browser_sorts_by_difficulty(driver: MenuDriver) -> None:
     assert len(hard) == 8
     assert hard == sorted(hard)
     driver.frames(2)
-    assert f"{hard[0]:.1f}" in shown(driver)
+    assert "easy" in shown(driver)
+    assert "difficulty" not in shown(driver)
 
 
-def test_card_says_the_time_and_the_next_par(driver: MenuDriver) -> None:
+def test_card_says_time_and_gold_and_the_next_par(driver: MenuDriver) -> None:
     entry = driver.player.catalogue.episodes[0].levels[0]
     assert entry.pars is not None
-    assert not time_and_par(entry, None)
-    assert time_and_par(entry, Mark(200, 0)) == "5.000 s    0.1 s faster for gold"
-    assert time_and_par(entry, Mark(156, 0)) == "3.900 s"
+    assert reached(entry, None) == "Not passed yet"
+    assert reached(entry, Mark(197, 3)) == f"Time 5.0 s, gold 3 of {entry.all_gold}"
+    assert next_par(entry.pars, Mark(200, 0)) == "0.1 s behind gold"
+    assert next_par(entry.pars, Mark(entry.pars.par("author") + 4, 0)) == "0.1 s behind the author"
+    assert next_par(entry.pars, Mark(156, 0)) == ""
 
 
 @pytest.mark.parametrize("numbers", [range(100), range(10), (5, 55), [10 * c + r for c in range(5) for r in range(4)]])

@@ -15,6 +15,8 @@ from ninja_game.play.menus.records import RecordsScreen
 from ninja_game.play.menus.replays import ReplaysScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.progress import UNLOCKED
+from ninja_game.player.saving import EPISODE_BEST, OF_A_LEVEL
+from tests.support.draw_log import DrawLog
 from tests.support.menu_driver import MenuDriver
 
 
@@ -32,6 +34,13 @@ def test_first_episode_is_played_to_its_end(driver: MenuDriver) -> None:
         driver.press("space")
     passed = driver.shown(EpisodePassed)
     assert driver.player.progress.state(1) == UNLOCKED
+    log = DrawLog()
+    with log.installed(), log.recording(driver.app.theme.palette) as lines:
+        driver.app.stack.redraw_all()
+        driver.app.draw()
+    drawn = "\n".join(lines)
+    assert EPISODE_BEST in drawn
+    assert not [notice for notice in OF_A_LEVEL if notice in drawn], "what the last level has brought is not its"
     best = driver.player.records.episode_best(passed.run.episode.key)
     assert best is not None
     assert best.score == passed.run.score

@@ -95,7 +95,7 @@ def test_rows_say_exit_or_gold_and_authors_have_one_name(driver: MenuDriver) -> 
     assert "exit" in {row.what.split(", ")[0] for row in screen.rows}
     level = room_level(["@.o.o"], ())
     full = Replay(b"", 9, "exit", gold=level.gold, level=level)
-    assert _row_of_recording(Recording(level, full), "").what == "all gold, 93.775 s left"
+    assert _row_of_recording(Recording(level, full), "").what == "all gold, 0.225 s"
     theirs = replace(full, author="ninja-game check")
     assert _row_of_recording(Recording(level, theirs), "").who == "ninja-game"
 

@@ -7,14 +7,16 @@ from pathlib import Path
 import pygame
 import pytest
 
+from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen, PausePanel
-from ninja_game.play.menus.browser import Browser
+from ninja_game.play.menus.browser import SIDE_WIDTH, TEXT_HIGH, Browser
 from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.help import HelpScreen
@@ -26,6 +28,7 @@ from ninja_game.play.menus.replays import ReplaysScreen
 from ninja_game.play.menus.settings import PAGES, SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.settings import DEFAULT_PALETTE
+from ninja_game.ui.theme import wrapped
 from ninja_game.ui.widgets import Button
 from tests.support.menu_driver import MenuDriver
 
@@ -37,7 +40,7 @@ ENTRIES = {
     "Records": RecordsScreen,
     "Replays": ReplaysScreen,
     "Editor": EditorScreen,
-    "Physics": LabScreen,
+    "Extras": LabScreen,
     "Settings": SettingsScreen,
     "Help": HelpScreen,
 }
@@ -316,3 +319,24 @@ def test_replay_is_written_as_a_text_to_share(driver: MenuDriver) -> None:
     written = list((driver.player.folder / "exports").glob("*.replay.txt"))
     assert len(written) == 1
     assert load_replays(written[0])[0].replay
+
+
+def test_what_players_need_comes_before_what_is_for_the_curious(driver: MenuDriver) -> None:
+    names = [text for text, _, _ in driver.shown(MainMenu).entries()]
+    assert names[-2:] == ["Extras", "Quit"]
+    for entry in ("Levels", "Daily", "Episodes"):
+        screen = driver.open(entry)
+        assert isinstance(screen, MenuScreen)
+        words = " ".join(getattr(each, "text", "") for each in screen.widgets)
+        assert "Practice" in words
+        assert "Practise" not in words
+        driver.press("escape")
+
+
+def test_text_of_every_level_is_seen_whole_in_the_list(driver: MenuDriver) -> None:
+    theme, cut = driver.app.theme, []
+    for named in Pack(data_folder("levels")).levels.values():
+        texts = (named.comment, f"Teaches: {named.teaches}")
+        lines = [line for text in texts for line in wrapped(theme, text, SIDE_WIDTH, 10.5)]
+        cut += [named.name] * (13.5 * len(lines) > TEXT_HIGH)
+    assert not cut

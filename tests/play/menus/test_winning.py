@@ -81,8 +81,8 @@ def test_card_says_one_thing_large_one_next_and_the_rest_short(driver: MenuDrive
     assert level.context.pars
     level.attempt.ended_tick = level.context.pars.par("gold") + 1
     title, (following, rest, _), _ = hud_view(level.play).message or ("", [""], 0)
-    assert title == f"Silver    {rounded_text(level.attempt.ended_tick)} s"
-    assert following == "0.1 s faster for gold"
+    assert title == f"Silver    time {rounded_text(level.attempt.ended_tick)} s"
+    assert following == "0.1 s behind gold"
     assert rest == "1 of 5 gold    First pass    New medal"
 
 
