@@ -11,7 +11,7 @@ from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.drawing import SpriteBook, is_near
 from ninja_game.view.sprites.light import Light, light_of, light_picture
 from ninja_game.view.sprites.object_animation import ObjectAnimation
-from ninja_game.view.sprites.relief import add_relief, ground_in_shadow
+from ninja_game.view.sprites.relief import add_relief
 from ninja_game.view.sprites.sketch import Sprite
 from ninja_game.view.sprites.static_sprites import SETTLED_TICKS, PlacedSprite, static_sprites_of
 from ninja_game.view.sprites.tile_sheet import TileSheet
@@ -29,17 +29,13 @@ class Backdrop:
         self._book = book
         self._corner = canvas.stage.topleft
         self.picture = pygame.Surface(canvas.size)
-        sheet = TileSheet(canvas, palette.outline)
+        sheet = TileSheet(canvas, palette.tile)
+        sheet.show(level)
         if palette.scenery:
-            sheet.show(level)
-            self.ground = ground_in_shadow(sheet, palette)
+            self.ground = add_relief(sheet, palette)
         else:
             self.ground = pygame.Surface(canvas.size)
             self.ground.fill(palette.background)
-        sheet.colour = palette.tile
-        sheet.show(level)
-        if palette.scenery:
-            add_relief(sheet, level, palette)
         self.tiles, self.has_tile = sheet.surface, sheet.has_tile
         self._blits: dict[int, list[tuple[Sprite, int, int]]] = {}
         self._order: list[int] = []
