@@ -233,10 +233,10 @@ def _palette(
     return Palette(name, danger_by_shape, **inks, scenery=scenery)
 
 
-CLASSIC = _palette("classic")
+CLASSIC = _palette("classic", scenery="paper", sky="#c3c6d4", background="#e4e1dc", tile="#666779")
 
 DARK = _palette(
-    "dark", background="#23252c", tile="#4a4e5c", text="#e8e8ee", faint="#9a9eac", on_tile="#e8e8ee",
+    "dark", scenery="paper", background="#23252e", sky="#15161c", tile="#565b70", text="#e8e8ee", faint="#9a9eac", on_tile="#e8e8ee",
     panel="#2e313a", panel_edge="#565b69", accent="#ff8f6b", good="#7fd08c", bad="#ff7b74",
     bar_full="#7f92e0", bar_empty="#e06a6a", ninja="#f1f1f5", band="#ff6b4a", ghost="#8fa0ff", blood="#d92626",
     outline="#0f1014", dark="#757a88", middle="#8e93a1", light="#a9aebb", bright="#e4e6ec",
@@ -259,7 +259,7 @@ CONTRAST = _palette(
 
 # Blue and orange differ for every common kind of colour blindness; danger is always orange to vermilion, and spiked.
 SAFE = _palette(
-    "safe", danger_by_shape=True, background="#d3d5d8", tile="#6f7680", text="#14161a", faint="#565c66",
+    "safe", danger_by_shape=True, scenery="paper", background="#eceae4", sky="#c2cfdd", tile="#4f6078", text="#14161a", faint="#565c66",
     on_tile="#eef0f3", panel="#e3e5e8", panel_edge="#8f959f", accent="#0060a8", good="#0060a8", bad="#c24a00",
     bar_full="#a6dcfa", bar_empty="#ffb877", ninja="#101216", band="#0060a8", ghost="#0072b2", blood="#8a2c00",
     gold="#e6c200", gold_light="#fff27a", gold_dark="#6b5900", exit="#56b4e9", exit_light="#c9e8fb",
@@ -269,7 +269,7 @@ SAFE = _palette(
 )  # fmt: skip
 
 SAFE_DARK = _palette(
-    "safe-dark", danger_by_shape=True, background="#1e2227", tile="#4b525c", text="#eceff3", faint="#a2a9b3",
+    "safe-dark", danger_by_shape=True, scenery="paper", background="#232a36", sky="#141920", tile="#4b525c", text="#eceff3", faint="#a2a9b3",
     on_tile="#eceff3", panel="#2a2f36", panel_edge="#5a626d", accent="#56b4e9", good="#56b4e9", bad="#ff9a4d",
     bar_full="#56b4e9", bar_empty="#ff8c33", ninja="#f4f6f8", band="#56b4e9", ghost="#56b4e9", blood="#d06a2c",
     outline="#0c0e10", dark="#78808c", middle="#8f97a3", light="#aab1bc", bright="#e6e9ee",
