@@ -233,7 +233,9 @@ def _palette(
     return Palette(name, danger_by_shape, **inks, scenery=scenery)
 
 
-CLASSIC = _palette("classic", scenery="paper", sky="#c3c6d4", background="#e4e1dc", tile="#666779")
+CLASSIC = _palette(
+    "classic", scenery="paper", sky="#c3c6d4", background="#e4e1dc", tile="#666779", exit_light="#fbf4ff",
+)  # fmt: skip
 
 DARK = _palette(
     "dark", scenery="paper", background="#23252e", sky="#15161c", tile="#565b70", text="#e8e8ee", faint="#9a9eac", on_tile="#e8e8ee",
@@ -262,7 +264,7 @@ SAFE = _palette(
     "safe", danger_by_shape=True, scenery="paper", background="#eceae4", sky="#c2cfdd", tile="#4f6078", text="#14161a", faint="#565c66",
     on_tile="#eef0f3", panel="#e3e5e8", panel_edge="#8f959f", accent="#0060a8", good="#0060a8", bad="#c24a00",
     bar_full="#a6dcfa", bar_empty="#ffb877", ninja="#101216", band="#0060a8", ghost="#0072b2", blood="#8a2c00",
-    gold="#e6c200", gold_light="#fff27a", gold_dark="#6b5900", exit="#56b4e9", exit_light="#c9e8fb",
+    gold="#e6c200", gold_light="#fff27a", gold_dark="#6b5900", exit="#56b4e9", exit_light="#f4fbff",
     switch="#0072b2", mine="#d55e00", weapon="#d55e00", laser="#d55e00", warning="#e8a06a", turret="#b04a00",
     launcher="#7a3300", electric="#d55e00", spark="#fff0d8", drone="#202329", lock="#5b5f22", trap="#a34700",
     flame="#ffe9a0", ember="#e69f00",

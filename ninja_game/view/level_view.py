@@ -211,6 +211,8 @@ class LevelView:
         surface.set_clip(self.canvas.stage)
         self._draw_moving(surface, fraction)
         self._cover_by_tiles(surface)
+        if not self.context.settings.reduced_motion:
+            draw_pulses(self.target, self.simulation.world, self.object_animation, fraction)
         if self.overlays is not None:
             self.overlays.draw(self.target, self.simulation)
         surface.set_clip(None)
@@ -241,8 +243,6 @@ class LevelView:
         target, now = self.target, self.effects.now + fraction - 1
         target.begin(surface)
         Particles.draw(self.particles.rear, target, now)
-        if not self.context.settings.reduced_motion:
-            draw_pulses(target, self.simulation.world, self.object_animation, fraction)
         draw_moving(target, self.simulation.world, self.object_animation, fraction)
         if self.context.settings.show_ghost:
             for ghost in self.ghosts:
@@ -276,7 +276,7 @@ class LevelView:
         for rect in self.target.covered:
             local = rect.move(-origin[0], -origin[1])
             if backdrop.has_tile(local):
-                surface.blit(backdrop.tiles, rect, local, pygame.BLEND_PREMULTIPLIED)
+                backdrop.cover(surface, local, origin)
 
     def also_covered(self, rect: pygame.Rect) -> None:
         """Something else was drawn over the level there; it is taken away before the next picture."""

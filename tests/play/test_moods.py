@@ -58,7 +58,9 @@ THINGS: dict[str, tuple[SpriteKey, Look | None]] = {
 LINES = ("ninja", "ghost", "laser", "electric")
 """Roles of what is drawn as thin lines, or all in one colour."""
 
-moods = pytest.mark.parametrize("palette", [each for each in PALETTES.values() if each.scenery], ids=lambda palette: palette.name)
+moods = pytest.mark.parametrize(
+    "palette", [each for each in PALETTES.values() if each.scenery], ids=lambda palette: palette.name
+)
 
 
 def seen(colours: Colours, sight: str) -> Colours:

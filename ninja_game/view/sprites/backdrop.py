@@ -37,6 +37,9 @@ class Backdrop:
             self.ground = pygame.Surface(canvas.size)
             self.ground.fill(palette.background)
         self.tiles, self.has_tile = sheet.surface, sheet.has_tile
+        self._behind: list[int] = []
+        self._mines: list[int] = []
+        self._mine_places: list[pygame.Rect] = []
         self._blits: dict[int, list[tuple[Sprite, int, int]]] = {}
         self._order: list[int] = []
         self._rects: dict[int, pygame.Rect] = {}
@@ -58,6 +61,10 @@ class Backdrop:
             for slot in order:
                 self._place(slot, static_sprites_of(world, slot, animation, 1.0))
                 self._light(world, slot)
+            self._behind, self._mines = (
+                [slot for slot in order if (world.objects[slot].kind == MINE) is before] for before in (False, True)
+            )
+            self._mine_places = [self._rects.get(slot, pygame.Rect(0, 0, 0, 0)) for slot in self._mines]
             changed = [self.picture.get_rect()]
         else:
             changed = []
@@ -96,9 +103,10 @@ class Backdrop:
         before = self._lights.get(slot)
         if light == (before and before[0]):
             return []
-        self._lights.pop(slot, None)
         changed = [before[2]] if before else []
-        if light is not None and is_near(light.x, light.y):
+        if light is None or not is_near(light.x, light.y):
+            self._lights.pop(slot, None)
+        else:
             picture = light_picture(light.look, self.canvas.scale, self.palette)
             px, py = self.canvas.point(light.x, light.y)
             reach = picture.width // 2
@@ -114,13 +122,23 @@ class Backdrop:
         for _, glow, place in self._lights.values():
             if place.colliderect(area):
                 self.picture.blit(glow, place)
-        for slot in self._order:
+        for slot in self._behind:
             rect = self._rects.get(slot)
             if rect is not None and rect.colliderect(area):
                 for sprite, px, py in self._blits[slot]:
                     sprite.blit(self.picture, (px, py))
-        self.picture.blit(self.tiles, area, area, pygame.BLEND_PREMULTIPLIED)
+        self.cover(self.picture, area, (0, 0))
         self.picture.set_clip(None)
+
+    def cover(self, surface: pygame.Surface, area: pygame.Rect, corner: tuple[int, int]) -> None:
+        """Draw what is in front of all that moves in an area: tiles, and mines, so that no corner hides one."""
+        surface.blit(self.tiles, area.move(corner), area, pygame.BLEND_PREMULTIPLIED)
+        for number in area.collidelistall(self._mine_places):
+            place = self._mine_places[number]
+            part = place.clip(area)
+            for sprite, *_ in self._blits[self._mines[number]]:
+                inside = part.move(-place.x, -place.y)
+                surface.blit(sprite.surface, part.move(corner), inside, pygame.BLEND_PREMULTIPLIED)
 
     def update(self, world: World, animation: ObjectAnimation, fraction: float) -> list[pygame.Rect]:
         """Mend what changed since the last picture; the px that did."""

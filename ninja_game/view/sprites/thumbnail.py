@@ -38,5 +38,5 @@ def thumbnail(level: Level, palette: Palette, width: int) -> pygame.Surface:
     draw_moving(target, run.world, animation, 1.0)
     n = run.world.ninja
     target.picture(ninja_sprite(canvas.scale, palette, STAND, 1, (0.0, 0.0), colour=palette.ninja), n.x, n.y)
-    backdrop.picture.blit(backdrop.tiles, (0, 0), special_flags=pygame.BLEND_PREMULTIPLIED)
+    backdrop.cover(backdrop.picture, backdrop.picture.get_rect(), (0, 0))
     return backdrop.picture
