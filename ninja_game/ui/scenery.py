@@ -141,6 +141,7 @@ def _crystals(sheet: pygame.Surface, colour: pygame.Color, base: float, numbers:
 
 
 SCENERIES: dict[str, Callable[[pygame.Surface, pygame.Color, float, Numbers], None]] = {
-    "hills": _hills, "clouds": _clouds, "dunes": _dunes, "towers": _towers, "crystals": _crystals, "paper": lambda *_: None,
+    "hills": _hills, "clouds": _clouds, "dunes": _dunes, "towers": _towers, "crystals": _crystals,
+    "paper": lambda *_: None,
 }  # fmt: skip
 """What a layer's shapes are, by kind: each draws one, of a colour, about a height (px of the sheet)."""

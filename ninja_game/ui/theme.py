@@ -238,8 +238,8 @@ CLASSIC = _palette(
 )  # fmt: skip
 
 DARK = _palette(
-    "dark", scenery="paper", background="#23252e", sky="#15161c", tile="#565b70", text="#e8e8ee", faint="#9a9eac", on_tile="#e8e8ee",
-    panel="#2e313a", panel_edge="#565b69", accent="#ff8f6b", good="#7fd08c", bad="#ff7b74",
+    "dark", scenery="paper", background="#23252e", sky="#15161c", tile="#565b70", text="#e8e8ee", faint="#9a9eac",
+    on_tile="#e8e8ee", panel="#2e313a", panel_edge="#565b69", accent="#ff8f6b", good="#7fd08c", bad="#ff7b74",
     bar_full="#7f92e0", bar_empty="#e06a6a", ninja="#f1f1f5", band="#ff6b4a", ghost="#8fa0ff", blood="#d92626",
     outline="#0f1014", dark="#757a88", middle="#8e93a1", light="#a9aebb", bright="#e4e6ec",
     gold="#e0ae1c", gold_light="#fff08a", gold_dark="#7d5c00", exit="#9c78c8", exit_light="#d9c4ee",
@@ -261,24 +261,24 @@ CONTRAST = _palette(
 
 # Blue and orange differ for every common kind of colour blindness; danger is always orange to vermilion, and spiked.
 SAFE = _palette(
-    "safe", danger_by_shape=True, scenery="paper", background="#eceae4", sky="#c2cfdd", tile="#4f6078", text="#14161a", faint="#565c66",
-    on_tile="#eef0f3", panel="#e3e5e8", panel_edge="#8f959f", accent="#0060a8", good="#0060a8", bad="#c24a00",
-    bar_full="#a6dcfa", bar_empty="#ffb877", ninja="#101216", band="#0060a8", ghost="#0072b2", blood="#8a2c00",
-    gold="#e6c200", gold_light="#fff27a", gold_dark="#6b5900", exit="#56b4e9", exit_light="#f4fbff",
+    "safe", danger_by_shape=True, scenery="paper", background="#eceae4", sky="#c2cfdd", tile="#4f6078", text="#14161a",
+    faint="#565c66", on_tile="#eef0f3", panel="#e3e5e8", panel_edge="#8f959f", accent="#0060a8", good="#0060a8",
+    bad="#c24a00", bar_full="#a6dcfa", bar_empty="#ffb877", ninja="#101216", band="#0060a8", ghost="#0072b2",
+    blood="#8a2c00", gold="#e6c200", gold_light="#fff27a", gold_dark="#6b5900", exit="#56b4e9", exit_light="#f4fbff",
     switch="#0072b2", mine="#d55e00", weapon="#d55e00", laser="#d55e00", warning="#e8a06a", turret="#b04a00",
     launcher="#7a3300", electric="#d55e00", spark="#fff0d8", drone="#202329", lock="#5b5f22", trap="#a34700",
     flame="#ffe9a0", ember="#e69f00",
 )  # fmt: skip
 
 SAFE_DARK = _palette(
-    "safe-dark", danger_by_shape=True, scenery="paper", background="#232a36", sky="#141920", tile="#4b525c", text="#eceff3", faint="#a2a9b3",
-    on_tile="#eceff3", panel="#2a2f36", panel_edge="#5a626d", accent="#56b4e9", good="#56b4e9", bad="#ff9a4d",
-    bar_full="#56b4e9", bar_empty="#ff8c33", ninja="#f4f6f8", band="#56b4e9", ghost="#56b4e9", blood="#d06a2c",
-    outline="#0c0e10", dark="#78808c", middle="#8f97a3", light="#aab1bc", bright="#e6e9ee",
-    gold="#f0e442", gold_light="#fffbc0", gold_dark="#7a7200", exit="#56b4e9", exit_light="#d0ecfc",
-    switch="#3a9bdc", mine="#ff8c33", weapon="#ff7a1a", laser="#ff8c33", warning="#a8642e", turret="#ff9a4d",
-    launcher="#d0702a", electric="#ff8c33", spark="#fff0d8", drone="#8b939f", lock="#c0c060", trap="#ff9a4d",
-    flame="#fff0b0", ember="#f0a820", smoke="#6d737c", dust="#7d848f",
+    "safe-dark", danger_by_shape=True, scenery="paper", background="#232a36", sky="#141920", tile="#4b525c",
+    text="#eceff3", faint="#a2a9b3", on_tile="#eceff3", panel="#2a2f36", panel_edge="#5a626d", accent="#56b4e9",
+    good="#56b4e9", bad="#ff9a4d", bar_full="#56b4e9", bar_empty="#ff8c33", ninja="#f4f6f8", band="#56b4e9",
+    ghost="#56b4e9", blood="#d06a2c", outline="#0c0e10", dark="#78808c", middle="#8f97a3", light="#aab1bc",
+    bright="#e6e9ee", gold="#f0e442", gold_light="#fffbc0", gold_dark="#7a7200", exit="#56b4e9",
+    exit_light="#d0ecfc", switch="#3a9bdc", mine="#ff8c33", weapon="#ff7a1a", laser="#ff8c33", warning="#a8642e",
+    turret="#ff9a4d", launcher="#d0702a", electric="#ff8c33", spark="#fff0d8", drone="#8b939f", lock="#c0c060",
+    trap="#ff9a4d", flame="#fff0b0", ember="#f0a820", smoke="#6d737c", dust="#7d848f",
 )  # fmt: skip
 
 # A mood for each column of episodes. What lies behind stays near the sky in lightness, the tiles far from both.
