@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 from bisect import bisect_right
+from cmath import rect
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, fields
+from colorsys import rgb_to_yiq, yiq_to_rgb
+from dataclasses import dataclass, fields, replace
+from functools import lru_cache
+from math import radians
+from typing import Any
 
 import pygame
 
@@ -152,6 +157,11 @@ class Palette:
 
     name: str
     danger_by_shape: bool
+
+    @property
+    def base(self) -> Palette:
+        """The mood of a tone, whose colours are the same but for rock and scenery; of any other palette itself."""
+        return PALETTES.get(self.name.partition(" ")[0], self)
 
     # The stage and the interface.
     background: pygame.Color
@@ -323,12 +333,30 @@ NIGHT = _palette(
 MOODS = (MORNING, NOON, AFTERNOON, DUSK, NIGHT)
 """By column of episodes; a pack with more columns begins again."""
 
+GROUND_ROLES = "sky", "background", "far", "near"
+"""From the upper edge of the sky to the lower one, then from the farthest layer to the nearest one."""
+
+TONE = (-18, -18, 18, 18, -18)
+"""By mood: degrees in YIQ by which rock and scenery turn from a level of an episode to the next one."""
+
 PALETTES: dict[str, Palette] = {palette.name: palette for palette in (CLASSIC, DARK, CONTRAST, SAFE, SAFE_DARK, *MOODS)}
 
 
-def palette_named(name: str, column: int = 0) -> Palette:
-    """The palette of a name; for ``settings.BY_COLUMN``, and for an unknown name, the mood of a column."""
-    return PALETTES.get(name) or MOODS[column % len(MOODS)]
+def palette_named(name: str, mood: int = 0) -> Palette:
+    """The palette of a name; for ``settings.BY_COLUMN``, and for an unknown name, a mood as levels number theirs."""
+    return PALETTES.get(name) or _tone(mood % 10 % len(MOODS), mood // 10)
+
+
+@lru_cache
+def _tone(column: int, level: int) -> Palette:
+    """The mood of a column as it is in a level of an episode: other hues, as light."""
+    mood = MOODS[column]
+    colours: dict[str, Any] = {}
+    for role in (*GROUND_ROLES, "tile") if level else ():
+        y, i, q = rgb_to_yiq(*(channel / 255 for channel in getattr(mood, role)[:3]))
+        turned = complex(i, q) * rect(1, radians(TONE[column] * level))
+        colours[role] = pygame.Color(*(round(255 * channel) for channel in yiq_to_rgb(y, turned.real, turned.imag)))
+    return replace(mood, name=f"{mood.name} {level}", **colours) if level else mood
 
 
 NINJA_COLOURS = ("", "#d9127f", "#7d7700", "#1a6488", "#765484", "#6a2424", "#f7f7f7", "#c79400", "#787887", "#bfbfc6")

@@ -180,8 +180,8 @@ class LevelView:
         """Make what depends on the window's size and the palette."""
         self.canvas = self.context.canvas
         palette = self.context.theme.palette
-        book = shared_book(self.canvas.scale, palette)
-        self.target = DrawTarget(self.canvas, palette, book)
+        book = shared_book(self.canvas.scale, palette.base)
+        self.target = DrawTarget(self.canvas, palette.base, book)
         self._backdrop = Backdrop(self.canvas, palette, book, self.simulation.tiles)
         self._backdrop.reset(self.simulation.world, self.object_animation)
         self._look = self._wanted_look()
@@ -231,7 +231,7 @@ class LevelView:
         mended = [rect.move(origin) for rect in self._mended]
         self._mended.clear()
         if whole:
-            surface.fill(self.target.palette.tile)
+            surface.fill(self._backdrop.palette.tile)
             surface.blit(self._backdrop.picture, origin)
             return mended
         for rect in self._covered + mended:

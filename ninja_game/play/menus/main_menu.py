@@ -58,9 +58,9 @@ class MainMenu(MenuScreen):
         self.run: EpisodeRun | None = None
 
     @property
-    def column(self) -> int:
+    def mood(self) -> int:
         """That in which play goes on."""
-        return self.run.entry.column if self.run else 0
+        return self.run.entry.mood if self.run else 0
 
     def enter(self) -> None:
         """Look where play goes on."""

@@ -55,15 +55,15 @@ class ReplayScreen(Screen):
         self.show(0)
 
     @property
-    def column(self) -> int:
+    def mood(self) -> int:
         """That of the run's level."""
-        return super().column if self._column is None else self._column
+        return super().mood if self._mood is None else self._mood
 
     def show(self, index: int) -> None:
         self.index = index % len(self.runs)
         self.run = run = self.runs[self.index]
-        self._column = self.app.player.catalogue.column_of(run.level)
-        self.app.follow_mood(self.column)
+        self._mood = self.app.player.catalogue.mood_of(run.level)
+        self.app.follow_mood(self.mood)
         inputs = run.inputs[: affordable_ticks(run.level)]
         if len(inputs) < len(run.inputs):
             self.app.notify(f"This run costs too much work: it is shown up to tick {len(inputs):,}")

@@ -21,7 +21,7 @@ from ninja_game.view.sprites.object_animation import ObjectAnimation
 def thumbnail(level: Level, palette: Palette, width: int) -> pygame.Surface:
     """The level at its start, ``width`` px wide; only the tiles of one that cannot be played."""
     canvas = Canvas((width, max(1, round(width * HEIGHT / WIDTH))))
-    book = shared_book(canvas.scale, palette)
+    book = shared_book(canvas.scale, palette.base)
     try:
         run = Simulation(level)
     except LevelError:
