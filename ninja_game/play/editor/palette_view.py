@@ -117,10 +117,10 @@ class PaletteView(Widget):
     def _icon(self, theme: Theme, what: int | ObjectType, area: Area) -> pygame.Surface:
         size = theme.canvas.rect(*area).size
         if not isinstance(what, ObjectType):
-            return tile_icon(what, size, theme.palette.name)
+            return tile_icon(what, size, theme.palette.base.name)
         # The one in hand as it is drawn now.
         in_hand = self.tools.objects and object_type_of(self.tools.spec) == what.name
-        return object_icon(self.tools.spec if in_hand else what.spec, size, theme.canvas.scale, theme.palette.name)
+        return object_icon(self.tools.spec if in_hand else what.spec, size, theme.canvas.scale, theme.palette.base.name)
 
 
 @lru_cache(maxsize=200)

@@ -253,7 +253,7 @@ class ReplayScreen(Screen):
         """Make a film of this run among the player's exports."""
         if self.export is None:
             self.export = FilmJob(
-                self.run, self.app.settings.changed(palette=self.theme.palette.name), self.app.player.folder
+                self.run, self.app.settings.changed(palette=self.theme.palette.base.name), self.app.player.folder
             )
 
     def copy_link(self) -> None:
