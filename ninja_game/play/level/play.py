@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from enum import Enum
+from functools import cached_property
 from random import Random
 
 from ninja_game.play.app import App
@@ -13,15 +14,17 @@ from ninja_game.play.replay.playback import Ghost, Playback
 from ninja_game.player.attempt import Attempt, Moment
 from ninja_game.player.playthrough import LevelContext
 from ninja_game.player.statistics import cause_of
+from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.states import CRUSHED
+from ninja_game.simulation import Simulation
 from ninja_game.view.level_view import LevelView
 
 _FILL_SHARE, _FILL_AT_START = 0.05, 0.15
 """Share of what the bar lacks that fills in per picture, at least; before play starts, which is done in a second."""
 
-DEATH_PAUSE = 41
-"""Ticks after a death before the message comes."""
+DEATH_PAUSE = 20
+"""Ticks after a death before the jump key retries, and the run can be watched."""
 
 FREEZE_MS = 50
 """How long the picture stands still at the exit."""
@@ -54,6 +57,13 @@ def followed(shown: float, true: float, *, filling: bool) -> float:
         return true
     share = _FILL_AT_START if filling else max(_FILL_SHARE, (1 - max(0.0, shown) / LIFETIME) ** 2)
     return shown + (true - shown) * min(1.0, share)
+
+
+ROUTE_TICKS = 4
+"""Of the author's run every so many ticks are a place that should be seen at the start."""
+
+Things = tuple[tuple[float, float, bool], ...]
+"""Where things are, px, and whether they must not be covered: gold, and the way, may."""
 
 
 class Phase(Enum):
@@ -115,6 +125,19 @@ class LevelPlay:
             self.ghosts = [Ghost(run, self.context.level, self.context.body, pace=pace) for run, pace in runs]
             self.view.ghosts = self.ghosts
         self.view.on_seek()
+
+    @cached_property
+    def things(self) -> Things:
+        """What a player looks for at the start: what there is, and the way of the author's run."""
+        run, world = self.context.data.catalogue.author_run(self.context.entry), self.attempt.simulation.world
+        places = [(world.ninja.x, world.ninja.y, True), *((o.x, o.y, o.kind != GOLD) for o in world.objects[1:])]
+        if run is not None:
+            route = Simulation(self.context.level, body=run.body)
+            for tick, keys in enumerate(run.inputs):
+                route.step_keys(keys)
+                if tick % ROUTE_TICKS == 0:
+                    places.append((route.world.ninja.x, route.world.ninja.y, False))
+        return tuple(places)
 
     # --- from phase to phase ---
 
@@ -272,7 +295,6 @@ class LevelPlay:
                 self.first_death = self.context.died(self.attempt)
         elif self.phase in {Phase.DEAD, Phase.PASSED}:
             self.after_end += 1
-            self.changed = self.changed or self.after_end == DEATH_PAUSE + 1
             if self.phase is Phase.PASSED:
                 self._celebrate()
 

@@ -114,7 +114,7 @@ class LevelScreen(Screen):
         self.play.retry(ignored=ignored)
 
     def retry_by_jump(self) -> None:
-        """The jump key retries too, once the message has come; it begins to count when it is pressed again."""
+        """The jump key retries too, but not at once; it begins to count when it is pressed again."""
         if self.play.after_end > DEATH_PAUSE:
             self.retry(ignored=JUMP_HELD)
 
