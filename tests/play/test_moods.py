@@ -159,9 +159,10 @@ def in_column(app: App, column: int) -> LevelScreen:
 
 
 def test_the_picture_follows_the_column_of_what_is_shown(app: App) -> None:
-    app.push(MainMenu(app))
+    menu = MainMenu(app)
+    app.push(menu)
     app.frame(0)
-    assert app.theme.palette is MOODS[0]
+    assert app.theme.palette is app.palette_in(menu.attract.mood), "that of the level behind it"
     app.push(in_column(app, 3))
     app.frame(0)
     assert app.theme.palette is MOODS[3]
@@ -171,7 +172,7 @@ def test_the_picture_follows_the_column_of_what_is_shown(app: App) -> None:
     app.pop()
     app.pop()
     app.frame(0)
-    assert app.theme.palette is MOODS[0]
+    assert app.theme.palette is app.palette_in(menu.attract.mood)
 
 
 def test_a_run_of_an_episode_is_watched_in_its_mood(app: App, recording: Recording) -> None:
