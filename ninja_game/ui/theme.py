@@ -336,7 +336,7 @@ MOODS = (MORNING, NOON, AFTERNOON, DUSK, NIGHT)
 GROUND_ROLES = "sky", "background", "far", "near"
 """From the upper edge of the sky to the lower one, then from the farthest layer to the nearest one."""
 
-TONE = (-18, -18, 18, 18, -18)
+TONE = (-18, -16, 9, 15, -16)
 """By mood: degrees in YIQ by which rock and scenery turn from a level of an episode to the next one."""
 
 PALETTES: dict[str, Palette] = {palette.name: palette for palette in (CLASSIC, DARK, CONTRAST, SAFE, SAFE_DARK, *MOODS)}

@@ -111,7 +111,6 @@ class PaletteView(Widget):
             at = canvas.point(area[0], area[1])
             surface.blit(self._icon(theme, what, area), at, special_flags=pygame.BLEND_PREMULTIPLIED)
             if isinstance(what, ObjectType) and (tools.objects or what.key not in _TILE_KEYS):
-                # Only what the key does now, in the lower corner, where few pictures reach.
                 canvas.fill_rect(surface, palette.panel, area[0] + 0.5, area[1] + OBJECT - 10, 8, 9.5, 2)
                 theme.text(surface, key_label_of(what.key), area[0] + 1.5, area[1] + OBJECT - 9, size=7.5)
             if what in (EMPTY, FULL):

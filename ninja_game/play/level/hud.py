@@ -152,16 +152,9 @@ class Hud:
         return rect.inflate(self.theme.canvas.px(12), 2)
 
     def message(
-        self,
-        surface: pygame.Surface,
-        title: str,
-        lines: Sequence[str],
-        y: float,
-        *,
-        medal: str = "",
-        stamp: float = 1.0,
-        seen: float = 1.0,
-    ) -> pygame.Rect:
+        self, surface: pygame.Surface, title: str, lines: Sequence[str], y: float, *,
+        medal: str = "", stamp: float = 1.0, seen: float = 1.0,
+    ) -> pygame.Rect:  # fmt: skip
         """A panel: a title, a medal left of it or none, and lines under them, from ``y`` on; all fade in together."""
         theme = self.theme
         below, beside = (26, PRIZE + 14) if medal else (0, 0)
@@ -248,11 +241,7 @@ def solid_place(tiles: tuple[int, ...], w: float, h: float, things: Things = ())
         x, y = place
         columns, rows = (range(int(a // CELL) - 1, int((a + b - 1) // CELL)) for a, b in ((x, w), (y, h)))
         covered = sum(ways[column * ROWS + row] for column in columns for row in rows if row < ROWS)
-        hidden = sum(
-            1000 if must else GOLDEN
-            for a, b, must in things
-            if x - NEAR < a < x + w + NEAR and y - NEAR < b < y + h + NEAR
-        )
+        hidden = sum(worth for a, b, worth in things if -NEAR < a - x < w + NEAR and -NEAR < b - y < h + NEAR)
         return covered + hidden, abs(x + w / 2 - WIDTH / 2) + HEIGHT - y
 
     ways = [way(*divmod(place, ROWS)) for place in range(COLUMNS * ROWS)]
@@ -261,14 +250,12 @@ def solid_place(tiles: tuple[int, ...], w: float, h: float, things: Things = ())
     return min(((x, y) for x in lefts for y in range(int(edge), int(LOWEST - h), 6)), key=cost)
 
 
-NEAR, ALONG, GOLDEN = 16.0, 7, 30
-"""px that a panel keeps from the middle of a thing; what a cell along rock, and a piece of gold, count in open ones."""
+NEAR, ALONG = 16.0, 7
+"""px that a panel keeps from the middle of a thing; open cells that weigh as much as a cell along rock."""
 
-ABOVE, BELOW, NINJA_ROOM = 34.0, 474.0, 230.0
-"""Where the panel of an ended run begins: near the upper border, or the lower one if the ninja is above this line."""
-
-FADE_TICKS = 8
-"""In how many ticks it fades in."""
+ABOVE, BELOW, NINJA_ROOM, FADE_TICKS = 34.0, 474.0, 230.0, 8
+"""Where the panel of an ended run begins: near the upper border, or the lower one if the ninja is above this line; in
+how many ticks it fades in."""
 
 LOWEST = 573.0
 """Where it ends at the latest: below it are the level's name and what a pass has brought."""
@@ -279,11 +266,8 @@ TITLE, LINE, POINTER = 24.0, 12.5, 9.5
 PRIZE, STAMP_SEEN = 54.0, 0.2
 """Size of the medal of a pass; how far its stamp has come when it is first seen."""
 
-POINTER_ROOM = 72.0
-"""Below this line, px, there is room for a pointer above a thing."""
-
-FLAG_UP, FLAG_ROOM = 24.0, 50.0
-"""px from a thing up to the middle of its pointer; nearer to that the ninja is not hidden by it."""
+POINTER_ROOM, POINTER_UP, POINTER_REACH = 72.0, 24.0, 50.0
+"""Below this line, px, there is room for a pointer above a thing; px from there to its middle, and to where it ends."""
 
 FOOT, SAID, IN_BORDER, BESIDE_GOLD = 11.0, 12.5, 576.0, 550.0
 """Sizes of the lines in the borders and of what a level says; where that is in play, and its width there."""
@@ -329,7 +313,7 @@ def hud_view(play: LevelPlay) -> HudView:
         frame_ms=app.frame_ms if settings.show_frame_time else None,
         said=said,
         message=message,
-        named=_named(play),
+        named=() if message else _named(play),
         medal=play.medal,
         stamp=play.stamp,
         seen=1.0 if settings.reduced_motion else min(1.0, (play.after_end + play.fraction) / FADE_TICKS),
@@ -347,14 +331,12 @@ def _reached(play: LevelPlay) -> list[str]:
 def _named(play: LevelPlay) -> list[tuple[str, float, float]]:
     """What the level names, and where it is until it is used: never over the ninja."""
     world = play.attempt.simulation.world
-    if play.phase in {Phase.DEAD, Phase.PASSED}:
-        return []
     return [
         (name, o.x, o.y)
         for name in dict.fromkeys(play.sayings.named)
         for o in world.objects[1:]
         if o.kind == _THINGS[name] and not (o.kind == SWITCH and world.objects[o.partner].is_open)
-        if hypot(o.x - world.ninja.x, o.y - FLAG_UP - world.ninja.y) > FLAG_ROOM
+        if hypot(o.x - world.ninja.x, o.y - POINTER_UP - world.ninja.y) > POINTER_REACH
     ]
 
 

@@ -59,11 +59,10 @@ def followed(shown: float, true: float, *, filling: bool) -> float:
     return shown + (true - shown) * min(1.0, share)
 
 
-ROUTE_TICKS = 4
-"""Of the author's run every so many ticks are a place that should be seen at the start."""
+Things = tuple[tuple[float, float, int], ...]
+"""Where things are, px, and how bad it is to cover them: ``MUST``, or ``MAY`` for gold and the way."""
 
-Things = tuple[tuple[float, float, bool], ...]
-"""Where things are, px, and whether they must not be covered: gold, and the way, may."""
+MUST, MAY = 1000, 30
 
 
 class Phase(Enum):
@@ -130,14 +129,13 @@ class LevelPlay:
     def things(self) -> Things:
         """What a player looks for at the start: what there is, and the way of the author's run."""
         run, world = self.context.data.catalogue.author_run(self.context.entry), self.attempt.simulation.world
-        places = [(world.ninja.x, world.ninja.y, True), *((o.x, o.y, o.kind != GOLD) for o in world.objects[1:])]
-        if run is not None:
-            route = Simulation(self.context.level, body=run.body)
-            for tick, keys in enumerate(run.inputs):
-                route.step_keys(keys)
-                if tick % ROUTE_TICKS == 0:
-                    places.append((route.world.ninja.x, route.world.ninja.y, False))
-        return tuple(places)
+        places = [(o.x, o.y, MAY if o.kind == GOLD else MUST) for o in world.objects[1:]]
+        way = Simulation(self.context.level)
+        for keys in run.inputs if run else b"":
+            way.step_keys(keys)
+            if way.tick % 4 == 0:
+                places.append((way.world.ninja.x, way.world.ninja.y, MAY))
+        return (world.ninja.x, world.ninja.y, MUST), *places
 
     # --- from phase to phase ---
 

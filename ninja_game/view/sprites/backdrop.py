@@ -37,7 +37,6 @@ class Backdrop:
             self.ground = pygame.Surface(canvas.size)
             self.ground.fill(palette.background)
         self.tiles, self.has_tile = sheet.surface, sheet.has_tile
-        self._behind: list[int] = []
         self._mines: list[int] = []
         self._mine_places: list[pygame.Rect] = []
         self._blits: dict[int, list[tuple[Sprite, int, int]]] = {}
@@ -61,9 +60,7 @@ class Backdrop:
             for slot in order:
                 self._place(slot, static_sprites_of(world, slot, animation, 1.0))
                 self._light(world, slot)
-            self._behind, self._mines = (
-                [slot for slot in order if (world.objects[slot].kind == MINE) is before] for before in (False, True)
-            )
+            self._mines = [slot for slot in order if world.objects[slot].kind == MINE]
             self._mine_places = [self._rects.get(slot, pygame.Rect(0, 0, 0, 0)) for slot in self._mines]
             changed = [self.picture.get_rect()]
         else:
@@ -122,7 +119,7 @@ class Backdrop:
         for _, glow, place in self._lights.values():
             if place.colliderect(area):
                 self.picture.blit(glow, place)
-        for slot in self._behind:
+        for slot in self._order:
             rect = self._rects.get(slot)
             if rect is not None and rect.colliderect(area):
                 for sprite, px, py in self._blits[slot]:
@@ -134,9 +131,8 @@ class Backdrop:
         """Draw what is in front of all that moves in an area: tiles, and mines, so that no corner hides one."""
         surface.blit(self.tiles, area.move(corner), area, pygame.BLEND_PREMULTIPLIED)
         for number in area.collidelistall(self._mine_places):
-            place = self._mine_places[number]
-            part = place.clip(area)
-            for sprite, *_ in self._blits[self._mines[number]]:
+            place, part = self._mine_places[number], self._mine_places[number].clip(area)
+            for sprite, _, _ in self._blits[self._mines[number]]:
                 inside = part.move(-place.x, -place.y)
                 surface.blit(sprite.surface, part.move(corner), inside, pygame.BLEND_PREMULTIPLIED)
 

@@ -9,7 +9,7 @@ import pytest
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.sayings import read_sayings
 from ninja_game.play.level.hud import Hud, cause_of_death, hud_view, solid_place
-from ninja_game.play.level.play import DEATH_PAUSE, STUCK_AFTER, Phase
+from ninja_game.play.level.play import DEATH_PAUSE, MUST, STUCK_AFTER, Phase
 from ninja_game.play.level.sayings import FALL_HELP, SHOWN_TICKS, START_TICKS, STILL_TICKS, Sayings
 from ninja_game.play.level.screen import LevelScreen, play_level
 from ninja_game.play.menus.browser import Browser
@@ -97,7 +97,7 @@ def test_text_of_the_start_covers_what_is_solid_and_no_way() -> None:
     assert 13 * 24 <= x <= 31 * 24 - 360
     assert 12 * 24 <= y <= 15 * 24 - 59
     assert solid_place((0,) * 713, 300.0, 39.0)[1] > 2 * 24, "in the open it is not along a wall"
-    for thing in ((x + 10, y + 10, True), (x + 350, y - 8, True)):
+    for thing in ((x + 10, y + 10, MUST), (x + 350, y - 8, MUST)):
         left, top = solid_place(block, 360.0, 59.0, (thing,))
         assert not (left < thing[0] < left + 360 and top < thing[1] < top + 59), "a thing is never covered"
 
