@@ -133,7 +133,7 @@ class Theme:
 
     def window(self, surface: pygame.Surface, x: float, y: float, w: float, h: float) -> pygame.Rect:
         """A large panel that lies over a level or a screen; its px rectangle."""
-        self.canvas.fill_rect(surface, self.palette.background, x, y, w, h, 6)
+        self.canvas.fill_rect(surface, self.palette.base.background, x, y, w, h, 6)
         return self.canvas.frame_rect(surface, self.palette.panel_edge, x, y, w, h, 1.5, 6)
 
     def row(
