@@ -102,7 +102,7 @@ class Hud:
         written += [self.pointer(surface, *named) for named in view.named]
         if view.said is not None:
             written.append(self.said(surface, *view.said))
-        if view.message is not None:
+        if view.message is not None and view.seen > 0:
             written.append(self.message(surface, *view.message, medal=view.medal, stamp=view.stamp, seen=view.seen))
         return written
 
