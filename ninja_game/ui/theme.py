@@ -244,8 +244,8 @@ def _palette(
 
 
 CLASSIC = _palette(
-    "classic", scenery="paper", sky="#c3c6d4", background="#e4e1dc", tile="#666779", exit_light="#fbf4ff",
-)  # fmt: skip
+    "classic", scenery="paper", sky="#c3c6d4", background="#e4e1dc", tile="#666779", exit_light="#fbf4ff"
+)
 
 DARK = _palette(
     "dark", scenery="paper", background="#23252e", sky="#15161c", tile="#565b70", text="#e8e8ee", faint="#9a9eac",
