@@ -51,9 +51,9 @@ class Screen:
         return self.app.theme
 
     @property
-    def column(self) -> int:
-        """The column of episodes whose mood it has; by default that of the screen before."""
-        return self.app.column
+    def mood(self) -> int:
+        """The number of its look (``Entry.mood``); by default that of the screen before."""
+        return self.app.mood
 
     @property
     def music(self) -> str:
@@ -179,7 +179,7 @@ class App:
     ``controls``: keys to actions. ``player``: the player's data with the settings, which ``change_settings`` changes.
     ``overclock``: ms by which ticks are shorter until the program ends, 0 to 10 (game.md §1.1). ``tas_editor``:
     opens a run in the TAS editor, with others beside it, at a tick; None where there is none, as in a page.
-    ``column``: of episodes, whose mood is shown.
+    ``mood``: the number of the present look.
     ``size``: px of the window; ``window``: one that is open already. Raises NinjaGameError where there is no display.
     """
 
@@ -201,7 +201,7 @@ class App:
         self.stack = ScreenStack()
         self.running = True
         self.frame_ms = 0.0
-        self.column = 0
+        self.mood = 0
         self.notice = ""
         self._notice_ms = 0
         self.window = window or Window(size, self.settings)
@@ -256,17 +256,17 @@ class App:
     def _lay_out(self) -> None:
         """Draw everything again, at the window's present size and in the present palette."""
         self.canvas = Canvas(self.surface.get_size())
-        self.theme = Theme(self.palette_in(self.column), self.canvas, self.settings.text_size)
+        self.theme = Theme(self.palette_in(self.mood), self.canvas, self.settings.text_size)
         self.stack.redraw_all()
 
-    def palette_in(self, column: int) -> Palette:
-        """The palette that the player has chosen, as it is in a column of episodes."""
-        return palette_named(self.settings.palette, column)
+    def palette_in(self, mood: int) -> Palette:
+        """The palette that the player has chosen, as it is in a mood."""
+        return palette_named(self.settings.palette, mood)
 
-    def follow_mood(self, column: int) -> None:
-        """Look as that column of episodes does."""
-        self.column = column
-        if self.palette_in(column) is not self.theme.palette:
+    def follow_mood(self, mood: int) -> None:
+        """Look like that."""
+        self.mood = mood
+        if self.palette_in(mood) is not self.theme.palette:
             self._lay_out()
 
     # --- the screens ---
@@ -382,7 +382,7 @@ class App:
 
     def draw(self) -> None:
         """Draw the screens that are seen and show what changed."""
-        self.follow_mood(self.top.column)
+        self.follow_mood(self.top.mood)
         changed = self.stack.draw(self.surface)
         self.wipe.draw(self.surface, self.theme)
         if self.notice and not isinstance(self.top, BossScreen):

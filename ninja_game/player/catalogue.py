@@ -59,9 +59,10 @@ class Entry:
         return f"Episode {int(episode) + 1}, level {int(level) + 1}" if level else ""
 
     @property
-    def column(self) -> int:
-        """The column of its episode; 0 for a level in none."""
-        return int(self.episode[:2]) // EPISODES_PER_COLUMN if self.episode else 0
+    def mood(self) -> int:
+        """The column of its episode, and ten times its place in it; 0 for a level in none."""
+        episode, _, level = self.episode.partition("-")
+        return int(episode) // EPISODES_PER_COLUMN + 10 * int(level) if level else 0
 
     @property
     def title(self) -> str:
@@ -194,9 +195,9 @@ class Catalogue:
         pack = self.ours if entry.source == "game" else self._known.get(entry.source)
         return pack.episodes.get(int(entry.episode.partition("-")[0])) if pack and entry.episode else None
 
-    def column_of(self, level: Level) -> int | None:
-        """The column of a level of the game's own pack; None for any other."""
-        return next((entry.column for entry in self.ours.levels if entry.episode and entry.named.level == level), None)
+    def mood_of(self, level: Level) -> int | None:
+        """The mood of a level of the game's own pack; None for any other."""
+        return next((entry.mood for entry in self.ours.levels if entry.episode and entry.named.level == level), None)
 
     def following(self, episode: Episode) -> Episode | None:
         """The next episode that there is in an episode's column, if any."""

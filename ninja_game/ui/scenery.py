@@ -9,7 +9,7 @@ from math import cos, pi, sin
 import pygame
 
 from ninja_game.ui.canvas import Point
-from ninja_game.ui.theme import Palette, mixed
+from ninja_game.ui.theme import GROUND_ROLES, Palette, mixed
 
 _WIDE, _HIGH = 396, 300
 """Px of the sheet on which the layers are painted."""
@@ -35,10 +35,6 @@ def lay_ground(surface: pygame.Surface, palette: Palette, stage: pygame.Rect, ar
         surface.blit(ground(stage.size, palette), area, area.move(-stage.x, -stage.y))
     else:
         surface.fill(palette.background, area)
-
-
-GROUND_ROLES = "sky", "background", "far", "near"
-"""From the upper edge of the sky to the lower one, then from the farthest layer to the nearest one."""
 
 
 @lru_cache(maxsize=_KEPT)
@@ -142,5 +138,6 @@ def _crystals(sheet: pygame.Surface, colour: pygame.Color, base: float, numbers:
 
 SCENERIES: dict[str, Callable[[pygame.Surface, pygame.Color, float, Numbers], None]] = {
     "hills": _hills, "clouds": _clouds, "dunes": _dunes, "towers": _towers, "crystals": _crystals,
+    "paper": lambda *_: None,
 }  # fmt: skip
 """What a layer's shapes are, by kind: each draws one, of a colour, about a height (px of the sheet)."""

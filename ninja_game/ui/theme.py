@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 from bisect import bisect_right
+from cmath import rect
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, fields
+from colorsys import rgb_to_yiq, yiq_to_rgb
+from dataclasses import dataclass, fields, replace
+from functools import lru_cache
+from math import radians
+from typing import Any
 
 import pygame
 
@@ -128,7 +133,7 @@ class Theme:
 
     def window(self, surface: pygame.Surface, x: float, y: float, w: float, h: float) -> pygame.Rect:
         """A large panel that lies over a level or a screen; its px rectangle."""
-        self.canvas.fill_rect(surface, self.palette.background, x, y, w, h, 6)
+        self.canvas.fill_rect(surface, self.palette.base.background, x, y, w, h, 6)
         return self.canvas.frame_rect(surface, self.palette.panel_edge, x, y, w, h, 1.5, 6)
 
     def row(
@@ -152,6 +157,11 @@ class Palette:
 
     name: str
     danger_by_shape: bool
+
+    @property
+    def base(self) -> Palette:
+        """The mood of a tone, whose colours are the same but for rock and scenery; of any other palette itself."""
+        return PALETTES.get(self.name.partition(" ")[0], self)
 
     # The stage and the interface.
     background: pygame.Color
@@ -233,11 +243,13 @@ def _palette(
     return Palette(name, danger_by_shape, **inks, scenery=scenery)
 
 
-CLASSIC = _palette("classic")
+CLASSIC = _palette(
+    "classic", scenery="paper", sky="#c3c6d4", background="#e4e1dc", tile="#666779", exit_light="#fbf4ff"
+)
 
 DARK = _palette(
-    "dark", background="#23252c", tile="#4a4e5c", text="#e8e8ee", faint="#9a9eac", on_tile="#e8e8ee",
-    panel="#2e313a", panel_edge="#565b69", accent="#ff8f6b", good="#7fd08c", bad="#ff7b74",
+    "dark", scenery="paper", background="#23252e", sky="#15161c", tile="#565b70", text="#e8e8ee", faint="#9a9eac",
+    on_tile="#e8e8ee", panel="#2e313a", panel_edge="#565b69", accent="#ff8f6b", good="#7fd08c", bad="#ff7b74",
     bar_full="#7f92e0", bar_empty="#e06a6a", ninja="#f1f1f5", band="#ff6b4a", ghost="#8fa0ff", blood="#d92626",
     outline="#0f1014", dark="#757a88", middle="#8e93a1", light="#a9aebb", bright="#e4e6ec",
     gold="#e0ae1c", gold_light="#fff08a", gold_dark="#7d5c00", exit="#9c78c8", exit_light="#d9c4ee",
@@ -259,24 +271,24 @@ CONTRAST = _palette(
 
 # Blue and orange differ for every common kind of colour blindness; danger is always orange to vermilion, and spiked.
 SAFE = _palette(
-    "safe", danger_by_shape=True, background="#d3d5d8", tile="#6f7680", text="#14161a", faint="#565c66",
-    on_tile="#eef0f3", panel="#e3e5e8", panel_edge="#8f959f", accent="#0060a8", good="#0060a8", bad="#c24a00",
-    bar_full="#a6dcfa", bar_empty="#ffb877", ninja="#101216", band="#0060a8", ghost="#0072b2", blood="#8a2c00",
-    gold="#e6c200", gold_light="#fff27a", gold_dark="#6b5900", exit="#56b4e9", exit_light="#c9e8fb",
+    "safe", danger_by_shape=True, scenery="paper", background="#eceae4", sky="#c2cfdd", tile="#4f6078", text="#14161a",
+    faint="#565c66", on_tile="#eef0f3", panel="#e3e5e8", panel_edge="#8f959f", accent="#0060a8", good="#0060a8",
+    bad="#c24a00", bar_full="#a6dcfa", bar_empty="#ffb877", ninja="#101216", band="#0060a8", ghost="#0072b2",
+    blood="#8a2c00", gold="#e6c200", gold_light="#fff27a", gold_dark="#6b5900", exit="#56b4e9", exit_light="#f4fbff",
     switch="#0072b2", mine="#d55e00", weapon="#d55e00", laser="#d55e00", warning="#e8a06a", turret="#b04a00",
     launcher="#7a3300", electric="#d55e00", spark="#fff0d8", drone="#202329", lock="#5b5f22", trap="#a34700",
     flame="#ffe9a0", ember="#e69f00",
 )  # fmt: skip
 
 SAFE_DARK = _palette(
-    "safe-dark", danger_by_shape=True, background="#1e2227", tile="#4b525c", text="#eceff3", faint="#a2a9b3",
-    on_tile="#eceff3", panel="#2a2f36", panel_edge="#5a626d", accent="#56b4e9", good="#56b4e9", bad="#ff9a4d",
-    bar_full="#56b4e9", bar_empty="#ff8c33", ninja="#f4f6f8", band="#56b4e9", ghost="#56b4e9", blood="#d06a2c",
-    outline="#0c0e10", dark="#78808c", middle="#8f97a3", light="#aab1bc", bright="#e6e9ee",
-    gold="#f0e442", gold_light="#fffbc0", gold_dark="#7a7200", exit="#56b4e9", exit_light="#d0ecfc",
-    switch="#3a9bdc", mine="#ff8c33", weapon="#ff7a1a", laser="#ff8c33", warning="#a8642e", turret="#ff9a4d",
-    launcher="#d0702a", electric="#ff8c33", spark="#fff0d8", drone="#8b939f", lock="#c0c060", trap="#ff9a4d",
-    flame="#fff0b0", ember="#f0a820", smoke="#6d737c", dust="#7d848f",
+    "safe-dark", danger_by_shape=True, scenery="paper", background="#232a36", sky="#141920", tile="#4b525c",
+    text="#eceff3", faint="#a2a9b3", on_tile="#eceff3", panel="#2a2f36", panel_edge="#5a626d", accent="#56b4e9",
+    good="#56b4e9", bad="#ff9a4d", bar_full="#56b4e9", bar_empty="#ff8c33", ninja="#f4f6f8", band="#56b4e9",
+    ghost="#56b4e9", blood="#d06a2c", outline="#0c0e10", dark="#78808c", middle="#8f97a3", light="#aab1bc",
+    bright="#e6e9ee", gold="#f0e442", gold_light="#fffbc0", gold_dark="#7a7200", exit="#56b4e9",
+    exit_light="#d0ecfc", switch="#3a9bdc", mine="#ff8c33", weapon="#ff7a1a", laser="#ff8c33", warning="#a8642e",
+    turret="#ff9a4d", launcher="#d0702a", electric="#ff8c33", spark="#fff0d8", drone="#8b939f", lock="#c0c060",
+    trap="#ff9a4d", flame="#fff0b0", ember="#f0a820", smoke="#6d737c", dust="#7d848f",
 )  # fmt: skip
 
 # A mood for each column of episodes. What lies behind stays near the sky in lightness, the tiles far from both.
@@ -321,12 +333,30 @@ NIGHT = _palette(
 MOODS = (MORNING, NOON, AFTERNOON, DUSK, NIGHT)
 """By column of episodes; a pack with more columns begins again."""
 
+GROUND_ROLES = "sky", "background", "far", "near"
+"""From the upper edge of the sky to the lower one, then from the farthest layer to the nearest one."""
+
+TONE = (-18, -16, 9, 15, -16)
+"""By mood: degrees in YIQ by which rock and scenery turn from a level of an episode to the next one."""
+
 PALETTES: dict[str, Palette] = {palette.name: palette for palette in (CLASSIC, DARK, CONTRAST, SAFE, SAFE_DARK, *MOODS)}
 
 
-def palette_named(name: str, column: int = 0) -> Palette:
-    """The palette of a name; for ``settings.BY_COLUMN``, and for an unknown name, the mood of a column."""
-    return PALETTES.get(name) or MOODS[column % len(MOODS)]
+def palette_named(name: str, mood: int = 0) -> Palette:
+    """The palette of a name; for ``settings.BY_COLUMN``, and for an unknown name, a mood as levels number theirs."""
+    return PALETTES.get(name) or _tone(mood % 10 % len(MOODS), mood // 10)
+
+
+@lru_cache
+def _tone(column: int, level: int) -> Palette:
+    """The mood of a column as it is in a level of an episode: other hues, as light."""
+    mood = MOODS[column]
+    colours: dict[str, Any] = {}
+    for role in (*GROUND_ROLES, "tile") if level else ():
+        y, i, q = rgb_to_yiq(*(channel / 255 for channel in getattr(mood, role)[:3]))
+        turned = complex(i, q) * rect(1, radians(TONE[column] * level))
+        colours[role] = pygame.Color(*(round(255 * channel) for channel in yiq_to_rgb(y, turned.real, turned.imag)))
+    return replace(mood, name=f"{mood.name} {level}", **colours) if level else mood
 
 
 NINJA_COLOURS = ("", "#d9127f", "#7d7700", "#1a6488", "#765484", "#6a2424", "#f7f7f7", "#c79400", "#787887", "#bfbfc6")

@@ -180,8 +180,8 @@ class LevelView:
         """Make what depends on the window's size and the palette."""
         self.canvas = self.context.canvas
         palette = self.context.theme.palette
-        book = shared_book(self.canvas.scale, palette)
-        self.target = DrawTarget(self.canvas, palette, book)
+        book = shared_book(self.canvas.scale, palette.base)
+        self.target = DrawTarget(self.canvas, palette.base, book)
         self._backdrop = Backdrop(self.canvas, palette, book, self.simulation.tiles)
         self._backdrop.reset(self.simulation.world, self.object_animation)
         self._look = self._wanted_look()
@@ -211,6 +211,8 @@ class LevelView:
         surface.set_clip(self.canvas.stage)
         self._draw_moving(surface, fraction)
         self._cover_by_tiles(surface)
+        if not self.context.settings.reduced_motion:
+            draw_pulses(self.target, self.simulation.world, self.object_animation, fraction)
         if self.overlays is not None:
             self.overlays.draw(self.target, self.simulation)
         surface.set_clip(None)
@@ -229,7 +231,7 @@ class LevelView:
         mended = [rect.move(origin) for rect in self._mended]
         self._mended.clear()
         if whole:
-            surface.fill(self.target.palette.tile)
+            surface.fill(self._backdrop.palette.tile)
             surface.blit(self._backdrop.picture, origin)
             return mended
         for rect in self._covered + mended:
@@ -241,8 +243,6 @@ class LevelView:
         target, now = self.target, self.effects.now + fraction - 1
         target.begin(surface)
         Particles.draw(self.particles.rear, target, now)
-        if not self.context.settings.reduced_motion:
-            draw_pulses(target, self.simulation.world, self.object_animation, fraction)
         draw_moving(target, self.simulation.world, self.object_animation, fraction)
         if self.context.settings.show_ghost:
             for ghost in self.ghosts:
@@ -276,7 +276,7 @@ class LevelView:
         for rect in self.target.covered:
             local = rect.move(-origin[0], -origin[1])
             if backdrop.has_tile(local):
-                surface.blit(backdrop.tiles, rect, local, pygame.BLEND_PREMULTIPLIED)
+                backdrop.cover(surface, local, origin)
 
     def also_covered(self, rect: pygame.Rect) -> None:
         """Something else was drawn over the level there; it is taken away before the next picture."""

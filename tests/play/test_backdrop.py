@@ -8,16 +8,18 @@ from pathlib import Path
 import pygame
 import pytest
 
-from ninja_game.formats.load import load_replays
+from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.sim.events import EXIT_OPENED
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
-from ninja_game.ui.theme import CLASSIC, MOODS, NIGHT, Palette
+from ninja_game.ui.theme import CLASSIC, CONTRAST, MOODS, NIGHT, SAFE, Palette
+from ninja_game.view.level_view import LevelView, OffscreenContext
 from ninja_game.view.sprites import moving_sprites
 from ninja_game.view.sprites.backdrop import Backdrop
 from ninja_game.view.sprites.drawing import DrawTarget, SpriteBook
 from ninja_game.view.sprites.object_animation import ObjectAnimation
+from ninja_game.view.sprites.static_sprites import exit_door
 from tests.support.own_pack import PACK
 
 REPLAYS = sorted(PACK.glob("certificates/*.replay.txt"))
@@ -67,7 +69,7 @@ def test_exit_switch_looks_pressed_from_its_tick_on() -> None:
     assert pygame.transform.average_color(backdrop.picture, place) != lit
 
 
-@pytest.mark.parametrize("palette", [CLASSIC, NIGHT], ids=lambda palette: palette.name)
+@pytest.mark.parametrize("palette", [CLASSIC, CONTRAST, NIGHT, SAFE], ids=lambda palette: palette.name)
 def test_light_goes_from_the_switch_to_the_open_exit_where_there_is_a_scenery(palette: Palette) -> None:
     recording = load_replays(REPLAYS[0])[0]
     run, book = Simulation(recording.level), SpriteBook(CANVAS.scale, palette)
@@ -102,3 +104,28 @@ def test_whatever_is_drawn_lies_in_what_is_told_to_be_covered() -> None:
         drawn = pygame.mask.from_threshold(target.surface, (0, 0, 0), (1, 1, 1, 255))
         drawn.invert()
         assert any(rect.contains(drawn.get_bounding_rects()[0]) for rect in target.covered)
+
+
+def test_an_open_exit_needs_no_more_room_than_a_closed_one() -> None:
+    """Beside it there may be rock, which is in front."""
+    book = SpriteBook(4.0, CLASSIC)
+    closed, opened = (pygame.mask.from_surface(book.sprite(exit_door(step)).surface) for step in (0, 8))
+    assert opened.get_bounding_rects() == closed.get_bounding_rects()
+
+
+def test_no_corner_hides_a_mine(tmp_path: Path) -> None:
+    """Half of it lies in the rock, and is seen; nor does rock hide it again when something has moved there."""
+    file = tmp_path / "corner.txt"
+    rows = [f"|{'#' * 8}{'.' * 23}|" for _ in range(22)]
+    lines = ["ninja-game level 1", "name: Corner", *rows, f"|{'#' * 20}@{'.' * 10}|", "mine 216,300px"]
+    file.write_text("\n".join(lines), "utf-8")
+    view = LevelView(OffscreenContext((792, 600)), Simulation(load_levels(file)[0].level))
+    surface = pygame.Surface((792, 600))
+    view.draw(surface, whole=True)
+    mine = surface.get_at((213, 300))
+    view.also_covered(pygame.Rect(200, 290, 30, 30))
+    view.draw(surface)
+    surface.set_clip(None)
+    view._backdrop.cover(surface, pygame.Rect(200, 290, 30, 30), (0, 0))
+    assert surface.get_at((213, 300)) == mine
+    assert mine.r > 2 * mine.b

@@ -20,9 +20,10 @@ from ninja_game.play.menus.thumbnails import Thumbnails
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import LevelRun
+from ninja_game.player.settings import BY_COLUMN
 from ninja_game.sim import kinds
 from ninja_game.ui.scenery import ground
-from ninja_game.ui.theme import MOODS, PALETTES, Palette
+from ninja_game.ui.theme import MOODS, PALETTES, Palette, palette_named
 from ninja_game.view.sprites import moving_sprites as moving, static_sprites as static
 from ninja_game.view.sprites.drawing import SpriteBook, SpriteKey
 from ninja_game.view.sprites.light import EXIT_OPEN, LOOKS, Look, light_picture
@@ -58,7 +59,9 @@ THINGS: dict[str, tuple[SpriteKey, Look | None]] = {
 LINES = ("ninja", "ghost", "laser", "electric")
 """Roles of what is drawn as thin lines, or all in one colour."""
 
-moods = pytest.mark.parametrize("palette", MOODS, ids=lambda palette: palette.name)
+GROUNDS = [each for each in PALETTES.values() if each.scenery]
+GROUNDS += [palette_named(BY_COLUMN, column + 10 * level) for column in range(5) for level in range(1, 5)]
+moods = pytest.mark.parametrize("palette", GROUNDS, ids=lambda palette: palette.name)
 
 
 def seen(colours: Colours, sight: str) -> Colours:
@@ -83,9 +86,9 @@ def rgba(surface: pygame.Surface) -> Colours:
 
 
 @lru_cache
-def plain_ground(name: str) -> Colours:
+def plain_ground(palette: Palette) -> Colours:
     """The colours of a mood's ground without light."""
-    return np.unique(rgba(ground((66, 50), PALETTES[name]))[:, :3] // 6 * 6 + 3, axis=0)
+    return np.unique(rgba(ground((66, 50), palette))[:, :3] // 6 * 6 + 3, axis=0)
 
 
 def lit(colours: Colours, palette: Palette, look: Look, share: float = 1.0) -> Colours:
@@ -96,9 +99,9 @@ def lit(colours: Colours, palette: Palette, look: Look, share: float = 1.0) -> C
 
 
 @lru_cache
-def grounds(name: str, own: Look | None = None) -> Colours:
+def grounds(palette: Palette, own: Look | None = None) -> Colours:
     """What may lie around a thing with that light: the ground, in its light, and half way out in that of others."""
-    plain, palette = plain_ground(name), PALETTES[name]
+    plain = plain_ground(palette)
     lights = [lit(plain, palette, look, 0.5) for look in (*LOOKS.values(), EXIT_OPEN)]
     return np.concatenate([plain, *lights, lit(plain, palette, own) if own else plain])
 
@@ -110,7 +113,7 @@ def test_things_stand_out_from_the_scenery(palette: Palette, sight: str, thing: 
     key, look = THINGS[thing]
     drawn = rgba(SpriteBook(2.0, palette).sprite(key).surface)
     solid = drawn[drawn[:, 3] > 250][:, :3]
-    told = (differences(solid, grounds(palette.name, look), sight) >= LEAST).mean(axis=0)
+    told = (differences(solid, grounds(palette, look), sight) >= LEAST).mean(axis=0)
     assert told.min() >= LEAST_SHARE
 
 
@@ -119,7 +122,7 @@ def test_things_stand_out_from_the_scenery(palette: Palette, sight: str, thing: 
 @pytest.mark.parametrize("role", LINES)
 def test_lines_stand_out_from_the_scenery(palette: Palette, sight: str, role: str) -> None:
     colour = np.array([getattr(palette, role)[:3]], np.float64)
-    assert differences(colour, grounds(palette.name), sight).min() >= LEAST
+    assert differences(colour, grounds(palette), sight).min() >= LEAST
 
 
 @moods
@@ -134,7 +137,7 @@ def test_the_arrow_of_an_open_exit_stands_out_from_its_doorway(palette: Palette,
 def test_tiles_are_never_taken_for_scenery(palette: Palette, sight: str) -> None:
     """The tiles' lightness is far from the scenery's, wherever that is; the scenery's own is nearly one."""
     tile = seen(np.array([palette.tile[:3]], np.float64), sight)[0, 0]
-    lightness = seen(plain_ground(palette.name), sight)[:, 0]
+    lightness = seen(plain_ground(palette), sight)[:, 0]
     assert abs(lightness - tile).min() >= 16
     assert np.ptp(lightness) <= 1.25 * abs(lightness - tile).min()
 
@@ -143,7 +146,7 @@ def test_tiles_are_never_taken_for_scenery(palette: Palette, sight: str) -> None
 def test_text_can_be_read_on_the_scenery(palette: Palette) -> None:
     """WCAG's contrast ratio: 4.5 for text, 3 for what is said beside it."""
     for role, least in (("text", 6.0), ("faint", 3.0)):
-        colours = np.concatenate([np.array([getattr(palette, role)[:3]], np.float64), plain_ground(palette.name)])
+        colours = np.concatenate([np.array([getattr(palette, role)[:3]], np.float64), plain_ground(palette)])
         light = (seen(colours, "normal")[:, 0] + 16) / 116
         luminance = light**3 + 0.05
         assert (np.maximum(luminance[1:], luminance[0]) / np.minimum(luminance[1:], luminance[0])).min() >= least
@@ -152,13 +155,14 @@ def test_text_can_be_read_on_the_scenery(palette: Palette) -> None:
 def in_column(app: App, column: int) -> LevelScreen:
     """A level of a column, as it is played."""
     named = app.player.catalogue.ours.levels[0].named
-    return LevelScreen(app, LevelRun(app.player, Entry(named, "game", f"{10 * column:02d}-1")))
+    return LevelScreen(app, LevelRun(app.player, Entry(named, "game", f"{10 * column:02d}-0")))
 
 
 def test_the_picture_follows_the_column_of_what_is_shown(app: App) -> None:
-    app.push(MainMenu(app))
+    menu = MainMenu(app)
+    app.push(menu)
     app.frame(0)
-    assert app.theme.palette is MOODS[0]
+    assert app.theme.palette is app.palette_in(menu.attract.mood), "that of the level behind it"
     app.push(in_column(app, 3))
     app.frame(0)
     assert app.theme.palette is MOODS[3]
@@ -168,7 +172,7 @@ def test_the_picture_follows_the_column_of_what_is_shown(app: App) -> None:
     app.pop()
     app.pop()
     app.frame(0)
-    assert app.theme.palette is MOODS[0]
+    assert app.theme.palette is app.palette_in(menu.attract.mood)
 
 
 def test_a_run_of_an_episode_is_watched_in_its_mood(app: App, recording: Recording) -> None:
@@ -183,6 +187,16 @@ def test_a_run_of_an_episode_is_watched_in_its_mood(app: App, recording: Recordi
     app.push(ReplayScreen(app, [Recording(level, Replay.of_inputs(recording.inputs, level, name="other"))]))
     app.frame(0)
     assert app.theme.palette is MOODS[3]
+
+
+def test_each_level_of_an_episode_has_its_tone_and_what_stands_on_it_looks_the_same(app: App) -> None:
+    tones = [palette_named(BY_COLUMN, 10 * level) for level in range(5)]
+    assert len({tuple(tone.tile) for tone in tones}) == len({tuple(tone.background) for tone in tones}) == 5
+    assert {tone.base for tone in tones} == {MOODS[0]}
+    named = app.player.catalogue.ours.levels[0].named
+    app.push(LevelScreen(app, LevelRun(app.player, Entry(named, "game", "00-2"))))
+    app.frame(0)
+    assert app.theme.palette is tones[2]
 
 
 def test_a_level_is_laid_out_once_in_its_mood(app: App) -> None:
@@ -207,7 +221,7 @@ def test_a_chosen_palette_is_the_same_in_every_column(app: App) -> None:
 def test_thumbnails_have_the_mood_of_their_level(app: App) -> None:
     thumbnails = Thumbnails(app)
     named = app.player.catalogue.ours.levels[0].named
-    entries = [Entry(named, "game", f"{10 * column:02d}-1") for column in range(5)]
+    entries = [Entry(named, "game", f"{10 * column:02d}-0") for column in range(5)]
     for entry in entries:
         thumbnails.get(entry, 60)
     while thumbnails.work():

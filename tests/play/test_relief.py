@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 
 import pygame
@@ -14,6 +15,9 @@ from ninja_game.view.sprites.thumbnail import thumbnail
 
 SHELF = "ninja-game level 1\nname: Shelf\n" + "\n".join(
     f"|{'.@'[row == 5]}{'.' * 9}{('#' if row == 11 else '.') * 10}{'.' * 11}|" for row in range(23)
+)
+STEP = "ninja-game level 1\nname: Step\n" + "\n".join(
+    f"|{'.@'[row == 5]}{'.' * 14}{'.#'[row >= 10] * 16}|" if row < 15 else f"|{'#' * 31}|" for row in range(23)
 )
 WIDTH = 792
 
@@ -41,6 +45,18 @@ def test_edges_are_light_above_and_dark_below_and_a_shadow_falls(shelf: Level, p
     assert upper > middle > lower
     shadow, far = (light(colours[y - 280]) for y in (314, 329))
     assert shadow < far
+
+
+@pytest.mark.parametrize("palette", [name for name, each in PALETTES.items() if each.scenery])
+def test_light_below_the_ground_fades_without_an_edge(tmp_path: Path, palette: str) -> None:
+    """Nothing is seen in the middle of a wall: neither a step's side drawn on into it, nor where the light ends."""
+    file = tmp_path / "step.txt"
+    file.write_text(STEP, "utf-8")
+    picture = thumbnail(load_levels(file)[0].level, PALETTES[palette], WIDTH)
+    # The floor is at 384 px, the step's side at 384 px from the left.
+    rows = [[picture.get_at((x, 400)) for x in range(300, 460)], [picture.get_at((336, y)) for y in range(392, 440)]]
+    for row in rows:
+        assert max(abs(a[k] - b[k]) for a, b in pairwise(row) for k in range(3)) <= 5
 
 
 def test_plain_palettes_are_flat(shelf: Level) -> None:

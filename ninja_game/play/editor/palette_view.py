@@ -35,6 +35,9 @@ OBJECTS_PER_ROW = 6
 
 TILE_ORDER = (EMPTY, FULL, *(tile for family in FAMILIES for tile in family.tiles))
 
+_TILE_KEYS = {family.key for family in FAMILIES}
+"""Keys that choose tiles, where tiles are drawn; the other ones choose objects there too."""
+
 
 class PaletteView(Widget):
     """Tiles above, objects below. ``hovered``: what the mouse is over."""
@@ -99,16 +102,17 @@ class PaletteView(Widget):
         for number, family in enumerate(FAMILIES):
             row, column = divmod(number, 4)
             at = x + 2 + column * BLOCK, y + 36 + row * BLOCK
-            theme.text(surface, family.key, *at, size=8, colour=palette.faint)
+            if not tools.objects:
+                theme.text(surface, family.key, *at, size=8)
         in_hand: int | str = object_type_of(tools.spec) if tools.objects else tools.tile
         for what, area in self.places():
             chosen = (what.name if isinstance(what, ObjectType) else what) == in_hand
             canvas.fill_rect(surface, palette.background, *area)
             at = canvas.point(area[0], area[1])
             surface.blit(self._icon(theme, what, area), at, special_flags=pygame.BLEND_PREMULTIPLIED)
-            if isinstance(what, ObjectType):
-                canvas.fill_rect(surface, palette.panel, area[0] + 0.5, area[1] + 0.5, 9, 11, 2)
-                theme.text(surface, key_label_of(what.key), area[0] + 1.5, area[1] + 1, size=9)
+            if isinstance(what, ObjectType) and (tools.objects or what.key not in _TILE_KEYS):
+                canvas.fill_rect(surface, palette.panel, area[0] + 0.5, area[1] + OBJECT - 10, 8, 9.5, 2)
+                theme.text(surface, key_label_of(what.key), area[0] + 1.5, area[1] + OBJECT - 9, size=7.5)
             if what in (EMPTY, FULL):
                 canvas.frame_rect(surface, palette.panel_edge, *area)
             if chosen:
@@ -117,10 +121,10 @@ class PaletteView(Widget):
     def _icon(self, theme: Theme, what: int | ObjectType, area: Area) -> pygame.Surface:
         size = theme.canvas.rect(*area).size
         if not isinstance(what, ObjectType):
-            return tile_icon(what, size, theme.palette.name)
+            return tile_icon(what, size, theme.palette.base.name)
         # The one in hand as it is drawn now.
         in_hand = self.tools.objects and object_type_of(self.tools.spec) == what.name
-        return object_icon(self.tools.spec if in_hand else what.spec, size, theme.canvas.scale, theme.palette.name)
+        return object_icon(self.tools.spec if in_hand else what.spec, size, theme.canvas.scale, theme.palette.base.name)
 
 
 @lru_cache(maxsize=200)

@@ -128,7 +128,8 @@ class EditorScreen(WorkspaceScreen):
             tile = tile_of_key(key, tools.tile)
             if tile is not None:
                 tools.pick_up(tile)
-            return tile is not None
+            if tile is not None or key not in OBJECT_TYPE_OF_KEY:
+                return tile is not None
         object_type = OBJECT_TYPE_OF_KEY.get(key)
         if object_type and not tools.selection:
             tools.pick_up(object_type.spec)

@@ -119,7 +119,7 @@ class Overlay:
 
     def _ghost_tile(self, cell: tuple[int, int], tile: int) -> None:
         rect = self.canvas.rect(24 * cell[0], 24 * cell[1], 24, 24)
-        picture = tile_icon(tile, rect.size, self.sheet.palette.name, alpha=150)
+        picture = tile_icon(tile, rect.size, self.sheet.palette.base.name, alpha=150)
         self.target.surface.blit(picture, rect, special_flags=pygame.BLEND_PREMULTIPLIED)
         self._note(rect)
 

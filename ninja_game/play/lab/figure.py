@@ -235,7 +235,7 @@ class Stage:
         if self._view is None or look != self._look:
             self._look = look
             self._sheet = pygame.Surface((round(WIDTH * scale), round(HEIGHT * scale)))
-            context = OffscreenContext(self._sheet.get_size(), Settings().changed(palette=sheet.palette.name))
+            context = OffscreenContext(self._sheet.get_size(), Settings().changed(palette=sheet.palette.base.name))
             self._view = LevelView(context, self.simulation, audible=False)
             self._view.draw(self._sheet, 1.0, whole=True)
         else:

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from math import hypot
+from math import hypot, pi, sin
 
 import pygame
 
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.run_time import rounded_text
-from ninja_game.formats.sayings import named_keys, things_named
-from ninja_game.play.level.play import DEATH_PAUSE, LevelPlay, Phase
+from ninja_game.formats.sayings import named_keys
+from ninja_game.play.level.play import LevelPlay, Phase, Things
 from ninja_game.play.level.sayings import FALL_HELP, WHY
 from ninja_game.player.marks import Mark, next_par
 from ninja_game.player.playthrough import Navigation
@@ -64,9 +64,6 @@ Box = tuple[list[str], float, float, float, float, float, float]
 KeyName = Callable[[str], str]
 """Gives what to press for an action."""
 
-Things = tuple[tuple[float, float], ...]
-"""Where things are, px."""
-
 
 @dataclass(frozen=True)
 class HudView:
@@ -78,7 +75,7 @@ class HudView:
     it should be, and whether it may cover anything but rock: else it may lie in the border below. ``moves``: the keys
     of each of its lines.
     ``named``: what it names, and where that is, px. ``message``: title and lines of a panel, and its top; ``medal``:
-    that of the pass, or "", and ``stamp``: how far it has come down, 0…1.
+    that of the pass, or "", and ``stamp``: how far it has grown, 0…1. ``seen``: how solid the panel is, 0…1.
     """
 
     lifetime: float
@@ -92,6 +89,7 @@ class HudView:
     message: tuple[str, Sequence[str], float] | None = None
     medal: str = ""
     stamp: float = 1.0
+    seen: float = 1.0
 
 
 class Hud:
@@ -110,11 +108,11 @@ class Hud:
             written.append(self.frame_time(surface, view.frame_ms))
         if view.keys is not None:
             written.append(self.keys(surface, view.keys))
+        written += [self.pointer(surface, *named) for named in view.named]
         if said is not None:
             written.append(self.said(surface, said, () if in_border else view.moves))
-            written += [self.pointer(surface, *named) for named in view.named]
-        if view.message is not None:
-            written.append(self.message(surface, *view.message, medal=view.medal, stamp=view.stamp))
+        if view.message is not None and view.seen > 0:
+            written.append(self.message(surface, *view.message, medal=view.medal, stamp=view.stamp, seen=view.seen))
         return written
 
     def time_bar(self, surface: pygame.Surface, lifetime: float) -> pygame.Rect:
@@ -165,33 +163,31 @@ class Hud:
         return rect.inflate(self.theme.canvas.px(12), 2)
 
     def message(
-        self,
-        surface: pygame.Surface,
-        title: str,
-        lines: Sequence[str],
-        y: float,
-        *,
-        medal: str = "",
-        stamp: float = 1.0,
-    ) -> pygame.Rect:
-        """A panel: a title, a medal left of it or none, and lines under them, from ``y`` on."""
+        self, surface: pygame.Surface, title: str, lines: Sequence[str], y: float, *,
+        medal: str = "", stamp: float = 1.0, seen: float = 1.0,
+    ) -> pygame.Rect:  # fmt: skip
+        """A panel: a title, a medal left of it or none, and lines under them, from ``y`` on; all fade in together."""
         theme = self.theme
         below, beside = (26, PRIZE + 14) if medal else (0, 0)
         head = theme.width(title, TITLE, bold=True)
         w = max(220.0, head + beside, *(theme.width(line, LINE) for line in lines)) + 44
         h = 48.0 + 18 * len(lines) + below
         y = min(y, LOWEST - h)
+        place = theme.canvas.rect((WIDTH - w) / 2, y, w, h)
+        behind = pygame.Surface(place.size, pygame.SRCALPHA)
+        behind.blit(surface, (0, 0), place)
         rect = theme.panel(surface, (WIDTH - w) / 2, y, w, h, 4)
         if medal and stamp > STAMP_SEEN:
-            # Before the words, so that it covers none of them while it comes down.
-            size = PRIZE * (1 + 1.5 * (1 - stamp) ** 2)
+            # It grows a little too large, but never over the words beside it.
+            size = PRIZE * stamp * (1 + 0.6 * sin(pi * stamp))
             draw_medal(surface, theme, medal, (WIDTH - head - 14) / 2, y + 9 + PRIZE / 2, size)
-            rect = rect.inflate(theme.canvas.px(PRIZE), theme.canvas.px(PRIZE))
         middle = (WIDTH + beside) / 2
         theme.text(surface, title, middle, y + 9 + below / 2, size=TITLE, align="centre", bold=True)
         for k, line in enumerate(lines):
             colour = theme.palette.text if k < len(lines) - 1 else theme.palette.faint
             theme.text(surface, line, WIDTH / 2, y + 41 + below + 18 * k, size=LINE, colour=colour, align="centre")
+        behind.fill((round(255 * (1 - seen)),) * 4, special_flags=pygame.BLEND_RGBA_MULT)
+        surface.blit(behind, place, special_flags=pygame.BLEND_PREMULTIPLIED)
         return rect
 
     def pointer(self, surface: pygame.Surface, name: str, x: float, y: float) -> pygame.Rect:
@@ -254,25 +250,25 @@ class Hud:
 def solid_place(
     tiles: tuple[int, ...], w: float, h: float, things: Things = (), eye: Point | None = None
 ) -> tuple[float, float, int]:
-    """Upper left corner of a panel of that size, px, where it covers the least of things and ways, and how much.
+    """Upper left corner of a panel of that size, px, where it covers no thing, little gold and the least of any way.
 
-    What is full is no way, open space far from all that is full hardly one. Of equal places it is the one nearest to
-    ``eye``, or to the middle of a border.
+    The third is how much it covers. What is full is no way, open space far from all that is full hardly one. Of equal
+    places it is the one nearest to ``eye``, or to the middle of the lower border.
     """
     full = [SHAPE[tile] == FULL for tile in tiles]
 
     def way(column: int, row: int) -> int:
         around = [full[a * ROWS + b] for a in range(column - 1, column + 2) for b in range(row - 1, row + 2)
                   if 0 <= a < COLUMNS and 0 <= b < ROWS]  # fmt: skip
-        return 0 if full[column * ROWS + row] else 4 if any(around) or len(around) < 9 else 1
+        return 0 if full[column * ROWS + row] else ALONG if any(around) or len(around) < 9 else 1
 
     def cost(place: tuple[float, float]) -> tuple[int, float]:
         x, y = place
         columns, rows = (range(int(a // CELL) - 1, int((a + b - 1) // CELL)) for a, b in ((x, w), (y, h)))
         covered = sum(ways[column * ROWS + row] for column in columns for row in rows if row < ROWS)
-        hidden = sum(x - NEAR < a < x + w + NEAR and y - NEAR < b < y + h + NEAR for a, b in things)
+        hidden = sum(worth for a, b, worth in things if -NEAR < a - x < w + NEAR and -NEAR < b - y < h + NEAR)
         far = hypot(x + w / 2 - eye[0], y + h / 2 - eye[1]) if eye else 0.0
-        return covered + 100 * hidden, far or abs(x + w / 2 - WIDTH / 2) + min(y, HEIGHT - y - h)
+        return covered + hidden, far or abs(x + w / 2 - WIDTH / 2) + HEIGHT - y
 
     ways = [way(*divmod(place, ROWS)) for place in range(COLUMNS * ROWS)]
     edge = CELL + 4
@@ -281,11 +277,12 @@ def solid_place(
     return *best, cost(best)[0]
 
 
-NEAR = 16.0
-"""px that a panel keeps from the middle of a thing."""
+NEAR, ALONG = 16.0, 7
+"""px that a panel keeps from the middle of a thing; open cells that weigh as much as a cell along rock."""
 
-ABOVE, BELOW = 34.0, 474.0
-"""Where the panel of a passed level begins: near the upper or the lower border."""
+ABOVE, BELOW, NINJA_ROOM, FADE_TICKS = 34.0, 474.0, 230.0, 8
+"""Where the panel of an ended run begins: near the upper border, or the lower one if the ninja is above this line; in
+how many ticks it fades in."""
 
 LOWEST = 573.0
 """Where it ends at the latest: below it are the level's name and what a pass has brought."""
@@ -296,8 +293,8 @@ TITLE, LINE, POINTER = 24.0, 12.5, 9.5
 PRIZE, STAMP_SEEN = 54.0, 0.2
 """Size of the medal of a pass; how far its stamp has come when it is first seen."""
 
-POINTER_ROOM = 72.0
-"""Below this line, px, there is room for a pointer above a thing."""
+POINTER_ROOM, POINTER_UP, POINTER_REACH = 72.0, 24.0, 50.0
+"""Below this line, px, there is room for a pointer above a thing; px from there to its middle, and to where it ends."""
 
 FOOT, SAID, IN_BORDER, BESIDE_GOLD, KEYS_WIDE = 11.0, 12.5, 576.0, 550.0, 70.0
 """Sizes of the lines in the borders and of what a level says; where that is in a border; its width there; of keys."""
@@ -314,15 +311,14 @@ def hud_view(play: LevelPlay) -> HudView:
     key, settings = app.controls.name, app.settings
     gold = f"{attempt.gold} / {play.all_gold}"
     message = None
-    # At the far side from the ninja, so that neither its dance nor the way that it came is hidden.
-    y = ABOVE if attempt.simulation.world.ninja.y > HEIGHT / 2 else BELOW
+    # Always at the same place, but where the ninja is: its dance or its corpse is never hidden.
+    y = ABOVE if attempt.simulation.world.ninja.y > NINJA_ROOM else BELOW
     text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.sayings.text
     still = play.phase is Phase.READY
     # Who needs to see what keys do is stuck: that may cover open space.
     covers = still or "\n" in text
     said = (named_keys(text, key), context.level.tiles, play.things, play.eye, covers) if text else None
     if play.phase is Phase.DEAD:
-        # The line of keys keeps its place until it comes.
         cause, _, why = cause_of_death(play).partition(". ")
         message = cause.rstrip("."), [*filter(None, [why]), _after_death(play, key)], y
     if play.phase is Phase.PASSED:
@@ -347,9 +343,10 @@ def hud_view(play: LevelPlay) -> HudView:
         said=said,
         moves=[sum(bit for name, bit in MOVES if f"{{{name}}}" in line) for line in text.split("\n") if "\n" in text],
         message=message,
-        named=_named(play, text),
+        named=() if message else _named(play),
         medal=play.medal,
         stamp=play.stamp,
+        seen=1.0 if settings.reduced_motion else min(1.0, (play.after_end + play.fraction) / FADE_TICKS),
     )
 
 
@@ -361,14 +358,15 @@ def _reached(play: LevelPlay) -> list[str]:
     return [*following, "    ".join([gold, *play.notices])]
 
 
-def _named(play: LevelPlay, text: str) -> list[tuple[str, float, float]]:
-    """What a text names, and where it is: switches that are still to be touched, and exits."""
-    objects = play.attempt.simulation.world.objects
+def _named(play: LevelPlay) -> list[tuple[str, float, float]]:
+    """What the level names, and where it is until it is used: never over the ninja."""
+    world = play.attempt.simulation.world
     return [
         (name, o.x, o.y)
-        for name in things_named(text)
-        for o in objects[1:]
-        if o.kind == _THINGS[name] and not (o.kind == SWITCH and objects[o.partner].is_open)
+        for name in dict.fromkeys(play.sayings.named)
+        for o in world.objects[1:]
+        if o.kind == _THINGS[name] and not (o.kind == SWITCH and world.objects[o.partner].is_open)
+        if hypot(o.x - world.ninja.x, o.y - POINTER_UP - world.ninja.y) > POINTER_REACH
     ]
 
 
@@ -386,9 +384,7 @@ def _hint(play: LevelPlay, key: KeyName) -> str:
 
 
 def _after_death(play: LevelPlay, key: KeyName) -> str:
-    """What to press after a death, a moment later."""
-    if play.after_end <= DEATH_PAUSE:
-        return ""
+    """What to press after a death."""
     again = f"{key('confirm')} or {key('jump')}: try again"
     return f"{again}    {key('replay')}: watch it" + f"    {key('skip')}: stuck?" * play.is_stuck
 

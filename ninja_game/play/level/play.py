@@ -16,13 +16,14 @@ from ninja_game.player.statistics import cause_of
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.states import CRUSHED
+from ninja_game.simulation import Simulation
 from ninja_game.view.level_view import LevelView
 
 _FILL_SHARE, _FILL_AT_START = 0.05, 0.15
 """Share of what the bar lacks that fills in per picture, at least; before play starts, which is done in a second."""
 
-DEATH_PAUSE = 41
-"""Ticks after a death before the message comes."""
+DEATH_PAUSE = 20
+"""Ticks after a death before the jump key retries, and the run can be watched."""
 
 FREEZE_MS = 50
 """How long the picture stands still at the exit."""
@@ -57,6 +58,12 @@ def followed(shown: float, true: float, *, filling: bool) -> float:
     return shown + (true - shown) * min(1.0, share)
 
 
+Things = tuple[tuple[float, float, int], ...]
+"""Where things are, px, and how bad it is to cover them: ``MUST``, or ``MAY`` for gold and the way."""
+
+MUST, MAY = 1000, 30
+
+
 class Phase(Enum):
     """Where in its life a level is."""
 
@@ -76,7 +83,7 @@ class LevelPlay:
 
     ``view`` shows every tick. ``tries``: the failed ones, inputs. ``after_end``: ticks since the exit contact or death;
     ``killer``: what killed, one of ``statistics.KILLERS``, ``crushed`` whether by being crushed. ``keys``: those of the
-    last tick. ``things``: where the ninja and all but gold are at the start, px; ``eye``: where the ninja was when the
+    last tick. ``things``: what a text of the level is not to cover; ``eye``: where the ninja was when the
     present text came, None for that of the start. ``notices``: what a pass has brought. ``aim``: the next par, while it
     waits at the start. ``changed``: more than a tick has happened, so that everything has to be drawn again.
     """
@@ -89,6 +96,7 @@ class LevelPlay:
         self.attempt = Attempt(
             context.level, body=context.body, lifetime=context.lifetime, practice_mode=context.practice_mode
         )
+        self.things = self._things()
         self.tools = PracticeTools(self.attempt)
         self.view = LevelView(app, self.attempt.simulation, seed=self.rng.randrange(1 << 30))
         self.all_gold = context.level.gold
@@ -107,8 +115,6 @@ class LevelPlay:
         self._held_before = self.app.controls.poll()
         self.keys = 0
         self.eye: tuple[float, float] | None = None
-        objects = self.attempt.simulation.world.objects[1:]
-        self.things = (self._ninja_place(), *((o.x, o.y) for o in objects if o.kind != GOLD))
         self.after_end = self._frozen_ms = 0
         self.killer, self.crushed = "", False
         self.sayings.at_start()
@@ -123,6 +129,17 @@ class LevelPlay:
     def _ninja_place(self) -> tuple[float, float]:
         ninja = self.attempt.simulation.world.ninja
         return ninja.x, ninja.y
+
+    def _things(self) -> Things:
+        """What a player looks for at the start: what there is, and, where the level has texts, the author's way."""
+        run = self.context.data.catalogue.author_run(self.context.entry) if self.context.sayings() else None
+        places = [(o.x, o.y, MAY if o.kind == GOLD else MUST) for o in self.attempt.simulation.world.objects[1:]]
+        way = Simulation(self.context.level)
+        for keys in run.inputs if run else b"":
+            way.step_keys(keys)
+            if way.tick % 4 == 0:
+                places.append((way.world.ninja.x, way.world.ninja.y, MAY))
+        return (*self._ninja_place(), MUST), *places
 
     # --- from phase to phase ---
 
@@ -280,7 +297,6 @@ class LevelPlay:
                 self.context.died(self.attempt)
         elif self.phase in {Phase.DEAD, Phase.PASSED}:
             self.after_end += 1
-            self.changed = self.changed or self.after_end == DEATH_PAUSE + 1
             if self.phase is Phase.PASSED:
                 self._celebrate()
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import hypot
 
-from ninja_game.formats.sayings import Saying
+from ninja_game.formats.sayings import Saying, things_named
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL
@@ -71,6 +71,12 @@ class Sayings:
     def _start(self) -> str:
         """How the level begins, until that is done."""
         return next((each.text for each in self._sayings if each.when == "start" and each not in self._said), "")
+
+    @property
+    def named(self) -> list[str]:
+        """What its texts of the start, and those that were said, lead to."""
+        texts = [each.text for each in self._sayings if each.when == "start" or each in self._said]
+        return things_named(" ".join(texts))
 
     def on_death(self) -> None:
         self._deaths += 1

@@ -49,14 +49,14 @@ class LevelScreen(Screen):
     def _start_level(self) -> None:
         """The context's present level."""
         self.app.audio_output.quiet()
-        self.app.follow_mood(self.column)
+        self.app.follow_mood(self.mood)
         self.play = LevelPlay(self.app, self.context)
         self.play.view.overlays = self.overlays
 
     @property
-    def column(self) -> int:
+    def mood(self) -> int:
         """That of the level."""
-        return self.context.entry.column
+        return self.context.entry.mood
 
     @property
     def music(self) -> str:
@@ -64,7 +64,7 @@ class LevelScreen(Screen):
         if self.context.practice_mode and not self.app.settings.music_in_practice:
             return SILENCE
         entry = self.context.entry
-        column = entry.column if entry.episode else int(entry.digest[:8], 16)
+        column = entry.mood % 10 if entry.episode else int(entry.digest[:8], 16)
         return BY_COLUMN[column % len(BY_COLUMN)]
 
     @property
@@ -117,7 +117,7 @@ class LevelScreen(Screen):
         self.play.retry(ignored=ignored)
 
     def retry_by_jump(self) -> None:
-        """The jump key retries too, once the message has come; it begins to count when it is pressed again."""
+        """The jump key retries too, but not at once; it begins to count when it is pressed again."""
         if self.play.after_end > DEATH_PAUSE:
             self.retry(ignored=JUMP_HELD)
 

@@ -92,7 +92,7 @@ class DailyScreen(ThumbnailScreen):
             self._maker = None
 
     def build(self) -> Sequence[Widget]:
-        return [self.play, self.practice]
+        return [self.play, self.practice] if self.entry else [Button(self.play.area, "Back", self.close)]
 
     def _find(self) -> None:
         """Look for the day's level in the player's folder; a message says why it cannot be read."""
@@ -103,8 +103,6 @@ class DailyScreen(ThumbnailScreen):
         self.message = ""
         if self.entry is None and self.file.exists():
             self.message = next(iter(catalogue.problems), f"{self.file} is not a level")
-        for button in (self.play, self.practice):
-            button.enabled = self.entry is not None
 
     def update(self, real_ms: int) -> None:
         """See whether the level is there, and how its making stands."""

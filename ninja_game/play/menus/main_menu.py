@@ -58,9 +58,9 @@ class MainMenu(MenuScreen):
         self.run: EpisodeRun | None = None
 
     @property
-    def column(self) -> int:
-        """That in which play goes on."""
-        return self.run.entry.column if self.run else 0
+    def mood(self) -> int:
+        """That of the level behind it: other worlds are seen before one gets there."""
+        return self.attract.mood
 
     def enter(self) -> None:
         """Look where play goes on."""
@@ -170,11 +170,11 @@ REST_TICKS = 130
 
 
 class Attract:
-    """Plays replays for ever in a shuffled order, silently. ``shown``: how many were begun."""
+    """Plays replays for ever in a shuffled order, silently. ``shown``: how many were begun; ``mood``: of the level."""
 
     def __init__(self, app: App) -> None:
         self.app = app
-        self.shown = 0
+        self.shown = self.mood = 0
         self._clock = RunClock()
         self._rng = Random()  # noqa: S311 - the order is no secret
         self._order = self._shuffled()
@@ -203,6 +203,8 @@ class Attract:
                 continue
             self._playback = Playback(simulation, recording.inputs, spacing=0)
             self._until = len(self._playback.inputs) + REST_TICKS
+            self.mood = self.app.player.catalogue.mood_of(recording.level) or 0
+            self.app.follow_mood(self.mood)
             self.view = LevelView(self.app, simulation, seed=self.shown, audible=False)
             self.name = recording.name
             self.shown += 1

@@ -206,6 +206,8 @@ class BindingTable(ListView):
         for slot in range(SLOTS):
             x = left + slot * width
             here = focused and slot == self.slot
+            if slot > len(inputs) - 1 + focused and not here:
+                continue
             theme.row(surface, (x + 2, y + 2, width - 4, h - 4), chosen=here, focused=here, radius=3)
             if slot < len(inputs):
                 text = input_label(self.device, inputs[slot])
@@ -362,6 +364,8 @@ class SettingsScreen(ThumbnailScreen):
             episodes = self.player.catalogue.episodes
             firsts = [episodes[each].levels[0] for each in sorted(episodes) if each % EPISODES_PER_COLUMN == 0]
             for place, entry in enumerate(firsts[:5]):
+                if self.thumbnails.get(entry, 100) is None:
+                    self.thumbnails.work()
                 self.thumbnails.draw(surface, entry, LEFT + 106 * place, TOP + STEP * 8 + 20, 100)
 
     def _draw_tab(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:

@@ -37,7 +37,7 @@ class Thumbnails:
 
     def get(self, entry: Entry, width: float) -> pygame.Surface | None:
         """The picture of a level, ``width`` logical px wide; None if it has yet to be made."""
-        palette = self.app.palette_in(entry.column)
+        palette = self.app.palette_in(entry.mood)
         key = id(entry.named.level), self.app.canvas.px(width), palette.name
         if key not in self._made:
             self._wanted[key] = entry
@@ -50,7 +50,7 @@ class Thumbnails:
         made = False
         while self._wanted and (not made or perf_counter() - start < BUDGET):
             key, entry = self._wanted.popitem()
-            picture = thumbnail(entry.named.level, self.app.palette_in(entry.column), key[1])
+            picture = thumbnail(entry.named.level, self.app.palette_in(entry.mood), key[1])
             if len(self._made) >= MOST_KEPT:
                 self._made.clear()
             # The entry is kept too, so that its level's id stays its own.

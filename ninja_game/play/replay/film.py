@@ -25,8 +25,7 @@ from ninja_game.player.settings import Settings
 from ninja_game.runtime import require_desktop, run_in_background
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
-from ninja_game.ui.scenery import GROUND_ROLES
-from ninja_game.ui.theme import ROLES, Palette, mixed, palette_named
+from ninja_game.ui.theme import GROUND_ROLES, ROLES, Palette, mixed, palette_named
 from ninja_game.view.level_view import LevelView, OffscreenContext
 from ninja_game.view.sprites.light import EXIT_OPEN, LOOKS
 

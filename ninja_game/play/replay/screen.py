@@ -55,15 +55,15 @@ class ReplayScreen(Screen):
         self.show(0)
 
     @property
-    def column(self) -> int:
+    def mood(self) -> int:
         """That of the run's level."""
-        return super().column if self._column is None else self._column
+        return super().mood if self._mood is None else self._mood
 
     def show(self, index: int) -> None:
         self.index = index % len(self.runs)
         self.run = run = self.runs[self.index]
-        self._column = self.app.player.catalogue.column_of(run.level)
-        self.app.follow_mood(self.column)
+        self._mood = self.app.player.catalogue.mood_of(run.level)
+        self.app.follow_mood(self.mood)
         inputs = run.inputs[: affordable_ticks(run.level)]
         if len(inputs) < len(run.inputs):
             self.app.notify(f"This run costs too much work: it is shown up to tick {len(inputs):,}")
@@ -253,7 +253,7 @@ class ReplayScreen(Screen):
         """Make a film of this run among the player's exports."""
         if self.export is None:
             self.export = FilmJob(
-                self.run, self.app.settings.changed(palette=self.theme.palette.name), self.app.player.folder
+                self.run, self.app.settings.changed(palette=self.theme.palette.base.name), self.app.player.folder
             )
 
     def copy_link(self) -> None:

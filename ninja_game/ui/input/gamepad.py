@@ -28,7 +28,8 @@ LABELS = {
     "lefttrigger+": "LT", "righttrigger+": "RT", "dpad-up": "D-pad up", "dpad-down": "D-pad down",
     "dpad-left": "D-pad left", "dpad-right": "D-pad right", "leftx-": "Stick left", "leftx+": "Stick right",
     "lefty-": "Stick up", "lefty+": "Stick down", "rightx-": "Right stick left", "rightx+": "Right stick right",
-    "righty-": "Right stick up", "righty+": "Right stick down",
+    "righty-": "Right stick up", "righty+": "Right stick down", "hat-up": "Cross up", "hat-down": "Cross down",
+    "hat-left": "Cross left", "hat-right": "Cross right",
 }  # fmt: skip
 
 Change = tuple[str, bool]

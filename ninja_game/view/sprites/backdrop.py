@@ -11,7 +11,7 @@ from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.drawing import SpriteBook, is_near
 from ninja_game.view.sprites.light import Light, light_of, light_picture
 from ninja_game.view.sprites.object_animation import ObjectAnimation
-from ninja_game.view.sprites.relief import add_relief, ground_in_shadow
+from ninja_game.view.sprites.relief import add_relief
 from ninja_game.view.sprites.sketch import Sprite
 from ninja_game.view.sprites.static_sprites import SETTLED_TICKS, PlacedSprite, static_sprites_of
 from ninja_game.view.sprites.tile_sheet import TileSheet
@@ -29,18 +29,16 @@ class Backdrop:
         self._book = book
         self._corner = canvas.stage.topleft
         self.picture = pygame.Surface(canvas.size)
-        sheet = TileSheet(canvas, palette.outline)
+        sheet = TileSheet(canvas, palette.tile)
+        sheet.show(level)
         if palette.scenery:
-            sheet.show(level)
-            self.ground = ground_in_shadow(sheet, palette)
+            self.ground = add_relief(sheet, palette)
         else:
             self.ground = pygame.Surface(canvas.size)
             self.ground.fill(palette.background)
-        sheet.colour = palette.tile
-        sheet.show(level)
-        if palette.scenery:
-            add_relief(sheet, level, palette)
         self.tiles, self.has_tile = sheet.surface, sheet.has_tile
+        self._mines: list[int] = []
+        self._mine_places: list[pygame.Rect] = []
         self._blits: dict[int, list[tuple[Sprite, int, int]]] = {}
         self._order: list[int] = []
         self._rects: dict[int, pygame.Rect] = {}
@@ -62,6 +60,8 @@ class Backdrop:
             for slot in order:
                 self._place(slot, static_sprites_of(world, slot, animation, 1.0))
                 self._light(world, slot)
+            self._mines = [slot for slot in order if world.objects[slot].kind == MINE]
+            self._mine_places = [self._rects.get(slot, pygame.Rect(0, 0, 0, 0)) for slot in self._mines]
             changed = [self.picture.get_rect()]
         else:
             changed = []
@@ -100,10 +100,11 @@ class Backdrop:
         before = self._lights.get(slot)
         if light == (before and before[0]):
             return []
-        self._lights.pop(slot, None)
         changed = [before[2]] if before else []
-        if light is not None and is_near(light.x, light.y):
-            picture = light_picture(light.look, self.canvas.scale, self.palette)
+        if light is None or not is_near(light.x, light.y):
+            self._lights.pop(slot, None)
+        else:
+            picture = light_picture(light.look, self.canvas.scale, self._book.palette)
             px, py = self.canvas.point(light.x, light.y)
             reach = picture.width // 2
             corner = px - self._corner[0] - reach, py - self._corner[1] - reach
@@ -123,8 +124,17 @@ class Backdrop:
             if rect is not None and rect.colliderect(area):
                 for sprite, px, py in self._blits[slot]:
                     sprite.blit(self.picture, (px, py))
-        self.picture.blit(self.tiles, area, area, pygame.BLEND_PREMULTIPLIED)
+        self.cover(self.picture, area, (0, 0))
         self.picture.set_clip(None)
+
+    def cover(self, surface: pygame.Surface, area: pygame.Rect, corner: tuple[int, int]) -> None:
+        """Draw what is in front of all that moves in an area: tiles, and mines, so that no corner hides one."""
+        surface.blit(self.tiles, area.move(corner), area, pygame.BLEND_PREMULTIPLIED)
+        for number in area.collidelistall(self._mine_places):
+            place, part = self._mine_places[number], self._mine_places[number].clip(area)
+            for sprite, _, _ in self._blits[self._mines[number]]:
+                inside = part.move(-place.x, -place.y)
+                surface.blit(sprite.surface, part.move(corner), inside, pygame.BLEND_PREMULTIPLIED)
 
     def update(self, world: World, animation: ObjectAnimation, fraction: float) -> list[pygame.Rect]:
         """Mend what changed since the last picture; the px that did."""

@@ -24,6 +24,7 @@ EXIT_OPEN = Look("exit_light", 74, 126)
 LOOKS = {
     kinds.EXIT: Look("exit_light", 46, 70),
     kinds.SWITCH: Look("exit_light", 52, 150),
+    kinds.GOLD: Look("gold_light", 14, 96),
     kinds.MINE: Look("mine", 15, 54),
     kinds.TURRET: Look("turret", 26, 60),
     kinds.LAUNCHER: Look("launcher", 26, 60),
@@ -43,7 +44,7 @@ def light_of(world: World, slot: int) -> Light | None:
     """The light around an object as it is now."""
     o = world.objects[slot]
     look = LOOKS.get(o.kind)
-    if look is None or (o.kind == kinds.MINE and o.exploded):
+    if look is None or (o.kind == kinds.MINE and o.exploded) or (o.kind == kinds.GOLD and o.taken):
         return None
     if o.kind == kinds.SWITCH and world.objects[o.partner].is_open:
         return None

@@ -18,15 +18,16 @@ from ninja_game.view.sprites.object_animation import ObjectAnimation
 from ninja_game.view.sprites.sketch import Sketch, star
 
 
-@drawing(4.5)
+@drawing(5.5)
 def gold(s: Sketch, p: Palette) -> None:
-    """A small bevelled ingot seen from above."""
-    s.box(p.gold_dark, -3.4, -3.4, 6.8, 6.8)
-    s.box(p.gold, -2.8, -2.8, 5.6, 5.6)
-    s.polygon(p.gold_light, [(-2.8, -2.8), (2.8, -2.8), (1.4, -1.4), (-1.4, -1.4), (-1.4, 1.4), (-2.8, 2.8)])
+    """A small bevelled ingot seen from above, with a glint in its corner."""
+    s.box(p.gold_dark, -4.3, -4.3, 8.6, 8.6)
+    s.box(p.gold, -3.6, -3.6, 7.2, 7.2)
+    s.polygon(p.gold_light, [(-3.6, -3.6), (3.6, -3.6), (1.8, -1.8), (-1.8, -1.8), (-1.8, 1.8), (-3.6, 3.6)])
     s.polygon(
-        mixed(p.gold, p.gold_dark, 0.55), [(2.8, 2.8), (-2.8, 2.8), (-1.4, 1.4), (1.4, 1.4), (1.4, -1.4), (2.8, -2.8)]
+        mixed(p.gold, p.gold_dark, 0.55), [(3.6, 3.6), (-3.6, 3.6), (-1.8, 1.8), (1.8, 1.8), (1.8, -1.8), (3.6, -3.6)]
     )
+    s.polygon(p.spark, [(x - 2.6, y - 2.6) for x, y in star(4, 2.4, 0.6)])
 
 
 @drawing(5.6)
@@ -38,10 +39,10 @@ def mine(s: Sketch, p: Palette) -> None:
     s.disc(p.bright, -0.6, -0.6, 0.6)
 
 
-@drawing(-26, -14, 26, 14)
+@drawing(13.5)
 def exit_door(s: Sketch, p: Palette, step: int) -> None:
-    """Two leaves before a lit doorway; they slide apart."""
-    gap = 12.4 * step / 8
+    """Two leaves before a lit doorway; they fold away to its sides, within its frame: beside it there may be rock."""
+    wide = 12.1 - 8 * step / 8
     s.box(p.outline, -12.6, -12.6, 25.2, 25.2)
     s.box(p.exit if step else mixed(p.exit, p.outline, 0.35), -11.6, -11.6, 23.2, 23.2)
     if step:
@@ -49,18 +50,20 @@ def exit_door(s: Sketch, p: Palette, step: int) -> None:
         arrow = p.exit if p.scenery else p.bright
         s.polygon(arrow, [(-4.2, -1), (0, -6.2), (4.2, -1), (1.6, -1), (1.6, 5), (-1.6, 5), (-1.6, -1)])
     for side in (-1, 1):
-        x = side * gap + (-12.1 if side < 0 else 0)
-        s.framed_box(p.light, p.outline, x, -12.1, 12.1, 24.2)
-        s.box(p.bright, x + 1.8, -10.2, 8.5, 1.2)
-        s.framed_box(p.middle, p.dark, x + 2.6, -7.4, 6.9, 14.8, 0.7)
-        s.box(p.exit, x + (8.9 if side < 0 else 1.5), -2.5, 1.7, 5)
+        x, folded = -12.1 if side < 0 else 12.1 - wide, wide / 12.1
+        s.framed_box(p.light, p.outline, x, -12.1, wide, 24.2)
+        s.box(p.bright, x + 1.8 * folded, -10.2, 8.5 * folded, 1.2)
+        s.framed_box(p.middle, p.dark, x + 2.6 * folded, -7.4, 6.9 * folded, 14.8, 0.7)
+        s.box(p.exit, x + (8.9 if side < 0 else 1.5) * folded, -2.5, 1.7 * folded, 5)
 
 
 @drawing(11)
 def exit_switch(s: Sketch, p: Palette, pressed: int) -> None:
-    """A plate in the exit's colour with a bright key: dark once it is pressed."""
-    s.framed_box(p.dark if pressed else p.exit, p.outline, -9, -5.8, 18, 11.6)
-    s.framed_box(p.middle if pressed else p.exit_light, p.outline, -6, -2.9, 12, 5.8, 0.7)
+    """A plate in the exit's colour with a bright key: once it is pressed, a dark one with a tick on it."""
+    s.framed_box(mixed(p.exit, p.outline, 0.5) if pressed else p.exit, p.outline, -9, -5.8, 18, 11.6)
+    s.framed_box(mixed(p.exit, p.outline, 0.75) if pressed else p.exit_light, p.outline, -6, -2.9, 12, 5.8, 0.7)
+    if pressed:
+        s.path(p.exit_light, [(-3, -0.3), (-0.8, 1.9), (3.6, -3.4)], 1.5)
 
 
 @drawing(14)

@@ -21,7 +21,7 @@ from ninja_game.view.sprites.object_animation import ObjectAnimation
 def thumbnail(level: Level, palette: Palette, width: int) -> pygame.Surface:
     """The level at its start, ``width`` px wide; only the tiles of one that cannot be played."""
     canvas = Canvas((width, max(1, round(width * HEIGHT / WIDTH))))
-    book = shared_book(canvas.scale, palette)
+    book = shared_book(canvas.scale, palette.base)
     try:
         run = Simulation(level)
     except LevelError:
@@ -38,5 +38,5 @@ def thumbnail(level: Level, palette: Palette, width: int) -> pygame.Surface:
     draw_moving(target, run.world, animation, 1.0)
     n = run.world.ninja
     target.picture(ninja_sprite(canvas.scale, palette, STAND, 1, (0.0, 0.0), colour=palette.ninja), n.x, n.y)
-    backdrop.picture.blit(backdrop.tiles, (0, 0), special_flags=pygame.BLEND_PREMULTIPLIED)
+    backdrop.cover(backdrop.picture, backdrop.picture.get_rect(), (0, 0))
     return backdrop.picture

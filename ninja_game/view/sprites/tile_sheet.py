@@ -27,6 +27,7 @@ class TileSheet:
         self._shift = canvas.origin[0] - self._corner[0], canvas.origin[1] - self._corner[1]
         self.colour = colour
         self.surface = pygame.Surface(canvas.size, pygame.SRCALPHA)
+        self._shown: dict[tuple[int, int], tuple[TileKey, pygame.Rect]] = {}
         # A bit for each column of a row that is not empty.
         self._rows = [0] * GRID_ROWS
 
@@ -48,12 +49,22 @@ class TileSheet:
         rect = self.cell(column, row)
         if before:
             self._rows[row] ^= bit
+            self._shown.pop((column, row), None)
             self.surface.fill((0, 0, 0, 0), rect)
         if filled:
             self._rows[row] |= bit
             if not rect.colliderect(self.surface.get_rect()):
                 return
-            self.surface.blit(self.picture(self.key(column, row, tile), self.colour), rect)
+            key = self.key(column, row, tile)
+            self._shown[column, row] = key, rect
+            self.surface.blit(self.picture(key, self.colour), rect)
+
+    def in_colour(self, colour: pygame.Color) -> pygame.Surface:
+        """What it shows, in another colour."""
+        other = pygame.Surface(self.surface.size, pygame.SRCALPHA)
+        for key, rect in self._shown.values():
+            other.blit(self.picture(key, colour), rect)
+        return other
 
     def key(self, column: int, row: int, tile: int) -> TileKey:
         """What tells the picture of a tile in a cell from others."""

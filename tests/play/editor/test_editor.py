@@ -48,7 +48,9 @@ def test_keys_choose_draw_and_place_as_in_ned(room: Maker) -> None:
     tools = room.editor.session.tools
     room.press("4", "s")
     assert tools.tile == 7
-    room.press("e", "right", "down")
+    room.press("9")
+    assert tools.objects, "no tile has this key: it picks what it stands on"
+    room.press("grave", "e", "right", "down")
     before = tools.cell
     pygame.event.post(pygame.Event(pygame.KEYDOWN, key=0, scancode=SCANCODES["space"], mod=0, unicode=" "))
     room.press("right", "right")

@@ -26,7 +26,7 @@ def draw(maker: Player) -> None:
     """A floor, a wall with a locked door in it, its key and gold before it, the exit behind it."""
     maker.drag(at(1, 23), at(16, 23), at(31, 23))
     maker.drag(at(16, 1), at(16, 12), at(16, 21))
-    maker.press("grave", "9")
+    maker.press("9")
     maker.drag(at(3, 22))
     maker.press("o")
     maker.drag(at(15.6, 22))

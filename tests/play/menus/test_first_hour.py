@@ -9,7 +9,7 @@ import pytest
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.sayings import read_sayings
 from ninja_game.play.level.hud import IN_BORDER, Hud, cause_of_death, hud_view, solid_place
-from ninja_game.play.level.play import DEATH_PAUSE, STUCK_AFTER, Phase
+from ninja_game.play.level.play import DEATH_PAUSE, MUST, STUCK_AFTER, Phase
 from ninja_game.play.level.sayings import CLIMB, FALL_HELP, SHOWN_TICKS, START_TICKS, STILL_TICKS, Sayings
 from ninja_game.play.level.screen import LevelScreen, play_level
 from ninja_game.play.menus.browser import Browser
@@ -56,8 +56,17 @@ def test_what_a_text_names_is_pointed_at_until_it_is_done(driver: MenuDriver) ->
     }
     x, y = driver.app.canvas.point(places["switch"][0], places["switch"][1] - 20)
     assert driver.app.surface.get_at((x, y))[:3] == driver.app.theme.palette.accent[:3], "the arrow's tip is over it"
-    next(o for o in objects[1:] if o.kind == EXIT).is_open = True
-    assert [name for name, _, _ in hud_view(level.play).named] == ["exit"]
+    door = next(o for o in objects[1:] if o.kind == EXIT)
+    door.is_open = True
+    level.begin()
+    level.play.sayings.text = ""
+    assert [name for name, _, _ in hud_view(level.play).named] == ["exit"], "until it is used, however long that takes"
+    ninja = level.attempt.simulation.world.ninja
+    ninja.x, ninja.y = door.x, door.y - 30
+    assert not hud_view(level.play).named, "never over the ninja"
+    ninja.x -= 100
+    level.play.phase = Phase.PASSED
+    assert not hud_view(level.play).named
     driver.app.change_settings(level_texts=False)
     level.play.sayings = Sayings(level.context.sayings())
     assert not hud_view(level.play).named
@@ -90,9 +99,27 @@ def test_text_of_the_start_covers_what_is_solid_and_no_way() -> None:
     assert 13 * 24 <= x <= 31 * 24 - 360
     assert 12 * 24 <= y <= 15 * 24 - 59
     assert solid_place((0,) * 713, 300.0, 39.0)[1] > 2 * 24, "in the open it is not along a wall"
-    for thing in ((x + 10, y + 10), (x + 350, y - 8)):
+    for thing in ((x + 10, y + 10, MUST), (x + 350, y - 8, MUST)):
         left, top, _ = solid_place(block, 360.0, 59.0, (thing,))
         assert not (left < thing[0] < left + 360 and top < thing[1] < top + 59), "a thing is never covered"
+
+
+def test_text_of_the_start_hides_neither_a_thing_nor_gold_nor_the_way(driver: MenuDriver) -> None:
+    app, hidden = driver.app, []
+    for each in app.player.catalogue.ours.levels:
+        play = LevelScreen(app, LevelRun(app.player, each)).play
+        shown = hud_view(play).said
+        run = app.player.catalogue.author_run(each)
+        if shown is None or run is None:
+            continue
+        hud = Hud(app.theme)
+        card = hud.said(app.surface, hud.box(*shown))
+        way, places = Simulation(each.named.level), [(o.x, o.y) for o in play.attempt.simulation.world.objects[1:]]
+        for keys in run.inputs:
+            way.step_keys(keys)
+            places.append((way.world.ninja.x, way.world.ninja.y))
+        hidden += [(each.title, place) for place in places if card.collidepoint(app.canvas.point(*place))]
+    assert not hidden
 
 
 def test_goal_is_not_said_again_in_a_level_that_was_passed(driver: MenuDriver) -> None:

@@ -127,9 +127,10 @@ def test_a_palette_is_seen_in_a_level_beside_its_setting(driver: MenuDriver) -> 
     assert isinstance(screen, SettingsScreen)
 
     def sample() -> pygame.Color:
-        driver.frames(8)
+        driver.frames(1)
         return driver.app.surface.get_at(driver.app.canvas.point(LEFT + 2, TOP + 8 * STEP + 22))
 
     before = sample()
+    assert before == PALETTES["morning"].tile, "in the first picture already"
     driver.app.change_settings(palette="dusk")
     assert sample() == PALETTES["dusk"].tile != before

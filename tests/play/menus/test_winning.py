@@ -8,7 +8,7 @@ import pygame
 import pytest
 
 from ninja_game.formats.run_time import rounded_text
-from ninja_game.play.level.hud import hud_view
+from ninja_game.play.level.hud import PRIZE, Hud, hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, STAMP_TICKS, TRIES_FROM, TRIES_TICKS, Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.wipe import WIPE_MS
@@ -139,9 +139,31 @@ def test_cause_of_death_stands_large_at_once(driver: MenuDriver) -> None:
     assert level.phase is Phase.DEAD
     title, lines, _ = hud_view(level.play).message or ("", [], 0)
     assert (title, lines[0]) == ("Killed by a mine", "Mines never move: keep a body's width away.")
-    for passed, keys in ((1, ""), (DEATH_PAUSE + 1, "Space or Z: try again    V: watch it")):
-        level.play.after_end = passed
-        assert (hud_view(level.play).message or ("", [], 0))[1] == [lines[0], keys]
+    for level.play.after_end in (0, DEATH_PAUSE + 1):
+        message = hud_view(level.play).message or ("", [], 0)
+        assert message[1] == [lines[0], "Space or Z: try again    V: watch it"], "the panel has its size at once"
+
+
+def test_panel_of_an_end_fades_in_as_a_whole_and_its_medal_hides_no_word(driver: MenuDriver) -> None:
+    hud, empty = Hud(driver.app.theme), pygame.Surface((792, 600))
+
+    def drawn(stamp: float, seen: float) -> tuple[pygame.Surface, pygame.Rect]:
+        surface = empty.copy()
+        return surface, hud.message(surface, "Gold    9.8 s", ["Go on"], 34, medal="gold", stamp=stamp, seen=seen)
+
+    whole, box = drawn(1.0, 1.0)
+    assert pygame.image.tobytes(drawn(1.0, 0.0)[0], "RGB") == pygame.image.tobytes(empty, "RGB")
+    half = drawn(1.0, 0.5)[0]
+    assert abs(2 * half.get_at(box.center).r - whole.get_at(box.center).r) <= 2
+    words = box.move(int(PRIZE) + 30, 0).clip(box)
+    for k in range(1, 10):
+        surface, same = drawn(k / 10, 1.0)
+        assert same == box
+        assert pygame.image.tobytes(surface.subsurface(words), "RGB") == pygame.image.tobytes(
+            whole.subsurface(words), "RGB"
+        )
+        surface.fill("black", box)
+        assert pygame.image.tobytes(surface, "RGB") == pygame.image.tobytes(empty, "RGB"), "nothing sticks out of it"
 
 
 @pytest.mark.parametrize("shake", [0, 100])
