@@ -16,6 +16,7 @@ from ninja_game.files.reading import SUFFIXES
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.formats.run_time import seconds_text
+from ninja_game.sim.rules import LIFETIME
 from ninja_game.web.board.level_pages import FIRST, LevelPages
 from ninja_game.web.board.parts import UP, level_link, player_link, player_page
 from ninja_game.web.board.ranking import Record, Standing
@@ -244,6 +245,18 @@ class BoardPages(LevelPages):
                 ]
                 caption = f"Episode {number:02d}, {self.part_name(part)}: sum of the best of all its levels"
                 tables += [table(caption, ("Place", "Player", "Sum", "Levels"), rows)] if rows else []
+                whole = [
+                    (
+                        place,
+                        player_link(runs[0].player),
+                        part[1].text(total),
+                        seconds_text(sum(run.score - LIFETIME for run in runs) + LIFETIME),
+                        self.watch(runs, ""),
+                    )
+                    for place, (total, runs) in enumerate(self.ranking.whole(episode, part)[:FIRST], 1)
+                ]
+                caption = f"Episode {number:02d}, {self.part_name(part)}: one recording of the whole episode"
+                tables += [table(caption, ("Place", "Player", "Sum", "Score", "Watch"), whole)] if whole else []
             levels = [tag("li", level_link(each)) for each in episode.levels]
             nobody = tag("p", "No player yet.")
             listed = tag("ul", *levels, class_="facts")

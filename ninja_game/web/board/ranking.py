@@ -11,7 +11,7 @@ from functools import cached_property
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.player.catalogue import Episode
 from ninja_game.web.board.rules import USUAL, Category
-from ninja_game.web.board.runs import PLAYED, Run, ValidatedRuns
+from ninja_game.web.board.runs import ASSISTED, PLAYED, Run, ValidatedRuns
 from ninja_game.web.pages.published import PublishedLevels
 
 Part = tuple[str, Category]
@@ -169,6 +169,21 @@ class Ranking:
             if len(best) == len(tables):
                 found.append((player, sum(each.values[0] for each in best), [each.run for each in best]))
         return sorted(found, key=lambda each: (each[1], each[0]))
+
+    def whole(self, episode: Episode, part: Part) -> list[tuple[float, list[Run]]]:
+        """Each player's best run of a whole episode: the sum of its first numbers, and its runs; the best first.
+
+        One that has an assisted run is assisted.
+        """
+        ladder, category = part
+        best: dict[str, tuple[float, list[Run]]] = {}
+        for runs in self.judged.episodes.get(episode.key, ()):
+            values = [self.values(category, run) for run in runs]
+            if (ASSISTED if any(run.assisted for run in runs) else PLAYED) == ladder and None not in values:
+                total = sum(each[0] for each in values if each)
+                if runs[0].player not in best or total < best[runs[0].player][0]:
+                    best[runs[0].player] = total, runs
+        return sorted(best.values(), key=lambda each: (each[0], each[1][0].player))
 
     @cached_property
     def contested(self) -> list[str]:
