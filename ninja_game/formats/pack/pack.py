@@ -79,6 +79,6 @@ class Pack:
 
 
 def episodes_of(path: Path) -> set[str]:
-    """The keys of a pack's episodes; none of what is no pack. Raises as ``Pack`` does."""
+    """The keys of a pack's episodes; none of anything else. Raises as ``Pack`` does."""
     found = Pack(path).episodes.values() if is_pack(path) else ()
     return {episode_key(each.level for each in levels) for levels in found}
