@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Sequence
 from functools import partial
+from itertools import product
 from pathlib import Path
 from statistics import mean, median
 from typing import Any
@@ -57,6 +58,9 @@ def is_in(path: Path, folder: Path) -> bool:
     """Whether a path, of something that may not be there yet, is a folder or leads into it; links are followed."""
     place = path.resolve()
     return folder.exists() and any(each.exists() and each.samefile(folder) for each in (place, *place.parents))
+
+
+EPISODE_HEADS = ("Place", "Player", "Sum", "Score", "Levels", "Watch")
 
 
 class BoardPages(LevelPages):
@@ -231,32 +235,23 @@ class BoardPages(LevelPages):
     def _episodes(self) -> list[Content]:
         found: list[Content] = []
         parts = [(ladder, each) for ladder in self.ranking.ladders for each in self.ranking.categories if each.episodes]
+        kinds = ("sum of the best of all its levels", self.ranking.episode), ("in one recording", self.ranking.whole)
         for number, episode in sorted(self.ranking.shown.levels.episodes.items()):
             tables = []
-            for part in parts:
+            for part, (what, ranked) in product(parts, kinds):
                 rows = [
                     (
                         place,
                         player_link(player),
                         part[1].text(total),
+                        seconds_text(LIFETIME + sum(run.score - LIFETIME for run in runs)),
                         ", ".join(self.value(part[1], run) for run in runs),
-                    )
-                    for place, (player, total, runs) in enumerate(self.ranking.episode(episode, part)[:FIRST], 1)
-                ]
-                caption = f"Episode {number:02d}, {self.part_name(part)}: sum of the best of all its levels"
-                tables += [table(caption, ("Place", "Player", "Sum", "Levels"), rows)] if rows else []
-                whole = [
-                    (
-                        place,
-                        player_link(runs[0].player),
-                        part[1].text(total),
-                        seconds_text(sum(run.score - LIFETIME for run in runs) + LIFETIME),
                         self.watch(runs, ""),
                     )
-                    for place, (total, runs) in enumerate(self.ranking.whole(episode, part)[:FIRST], 1)
+                    for place, (player, total, runs) in enumerate(ranked(episode, part)[:FIRST], 1)
                 ]
-                caption = f"Episode {number:02d}, {self.part_name(part)}: one recording of the whole episode"
-                tables += [table(caption, ("Place", "Player", "Sum", "Score", "Watch"), whole)] if whole else []
+                caption = f"Episode {number:02d}, {self.part_name(part)}: {what}"
+                tables += [table(caption, EPISODE_HEADS, rows)] if rows else []
             levels = [tag("li", level_link(each)) for each in episode.levels]
             nobody = tag("p", "No player yet.")
             listed = tag("ul", *levels, class_="facts")

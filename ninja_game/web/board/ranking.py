@@ -7,11 +7,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime, timedelta
 from functools import cached_property
+from operator import itemgetter
 
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.player.catalogue import Episode
 from ninja_game.web.board.rules import USUAL, Category
-from ninja_game.web.board.runs import ASSISTED, PLAYED, Run, ValidatedRuns
+from ninja_game.web.board.runs import PLAYED, Run, ValidatedRuns
 from ninja_game.web.pages.published import PublishedLevels
 
 Part = tuple[str, Category]
@@ -168,22 +169,19 @@ class Ranking:
             best = [table[player] for table in tables if player in table]
             if len(best) == len(tables):
                 found.append((player, sum(each.values[0] for each in best), [each.run for each in best]))
-        return sorted(found, key=lambda each: (each[1], each[0]))
+        return sorted(found, key=itemgetter(1, 0))
 
-    def whole(self, episode: Episode, part: Part) -> list[tuple[float, list[Run]]]:
-        """Each player's best run of a whole episode: the sum of its first numbers, and its runs; the best first.
-
-        One that has an assisted run is assisted.
-        """
+    def whole(self, episode: Episode, part: Part) -> list[tuple[str, float, Sequence[Run]]]:
+        """The same of each player's best recording of the whole episode; with an assisted run in it, it is assisted."""
         ladder, category = part
-        best: dict[str, tuple[float, list[Run]]] = {}
+        best: dict[str, tuple[str, float, Sequence[Run]]] = {}
         for runs in self.judged.episodes.get(episode.key, ()):
-            values = [self.values(category, run) for run in runs]
-            if (ASSISTED if any(run.assisted for run in runs) else PLAYED) == ladder and None not in values:
-                total = sum(each[0] for each in values if each)
-                if runs[0].player not in best or total < best[runs[0].player][0]:
-                    best[runs[0].player] = total, runs
-        return sorted(best.values(), key=lambda each: (each[0], each[1][0].player))
+            values = [found[0] for run in runs if (found := self.values(category, run))]
+            player = runs[0].player
+            if max(run.ladder != PLAYED for run in runs) == (ladder != PLAYED) and len(values) == len(runs):
+                now = player, sum(values), runs
+                best[player] = min(best.get(player, now), now, key=itemgetter(1))
+        return sorted(best.values(), key=itemgetter(1, 0))
 
     @cached_property
     def contested(self) -> list[str]:
