@@ -93,13 +93,8 @@ def verify(
     totals = Totals()
     processes = None if workers is None else workers == "processes"
     with ExitStack() as stack:
-        results = verify_all(
-            files,
-            processes=processes,
-            levels=load_levels(level) if level else (),
-            episodes=episodes_of(level) if level else None,
-            **options,
-        )
+        options |= {"levels": load_levels(level), "episodes": episodes_of(level)} if level else {}
+        results = verify_all(files, processes=processes, **options)
         if report:
             own = [options["resume"]] if options["resume"] else []
             results = _reported(results, report, [*files, *own], stack)

@@ -11,6 +11,7 @@ from collections.abc import Container, Iterable, Iterator, Sequence
 from contextlib import nullcontext
 from dataclasses import asdict, dataclass, field, replace
 from hashlib import sha256
+from itertools import islice
 from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
@@ -20,13 +21,11 @@ from ninja_game.files.beside import Beside, known_files
 from ninja_game.formats.n14.level_file import LevelRecord
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.episode import is_episode
-from ninja_game.formats.replay.text import write_replay
 from ninja_game.levels.findings import RUN_RULES, RunProblem
 from ninja_game.runs.recording_reader import Unreadable, recording_of_text, recordings_of, records_of, texts_in
 from ninja_game.runs.verify import NOT_RUN, OutOfRangeError, Verdict, verify_recording
 from ninja_game.runs.workers import ClusterError
 from ninja_game.sim.level import Level
-from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.states import OUTCOME_NAMES
 
 RECORDS = 64
@@ -39,10 +38,10 @@ Result = Verdict | Unreadable
 class Chunk:
     """A file, records ``first`` … of one, or run ``first`` of an episode.
 
-    ``text``: of the whole file or the run, if ``records`` is empty; ``episode``, ``lifetime``: as of ``Recording``;
-    ``beside``: all files that it takes in, None while they are read where they are needed; ``problem``: why the file
-    cannot be read, '' if it can; ``named``: whether the caller named the file, or it was found in a folder; ``key``: by
-    which the checkpoint log knows it, ``done``: whether that has its results.
+    ``text``: of the whole file, if ``records`` is empty; ``beside``: all files that it takes in, None while they are
+    read where they are needed; ``problem``: why the file cannot be read, '' if it can;
+    ``named``: whether the caller named the file, or it was found in a folder; ``key``: by which the checkpoint log
+    knows it, ``done``: whether that has its results.
     """
 
     file: str
@@ -50,8 +49,6 @@ class Chunk:
     text: str = field(default="", repr=False)
     beside: dict[str, Beside] | None = field(default=None, repr=False)
     records: tuple[LevelRecord, ...] = field(default=(), repr=False)
-    episode: str = ""
-    lifetime: int = LIFETIME
     problem: str = ""
     named: bool = True
     key: str = ""
@@ -77,7 +74,8 @@ def chunks_in(paths: Iterable[Path], record: int | None = None) -> Iterator[Chun
         file, text, named = found
         if is_episode(text):
             runs = list(recording_of_text(text, file, named=named))
-            yield from (run_chunk(each, file) for each in (runs if record is None else runs[record : record + 1]))
+            chunks = [Chunk(file, number, text=text, named=named) for number in range(len(runs))]
+            yield from chunks if record is None else chunks[record : record + 1]
             continue
         records = records_of(text, file)
         if not records and not record:
@@ -86,14 +84,6 @@ def chunks_in(paths: Iterable[Path], record: int | None = None) -> Iterator[Chun
             yield Chunk(file, record, records=(records[record],), named=named)
         for first in range(0, len(records) if record is None else 0, RECORDS):
             yield Chunk(file, first, records=tuple(records[first : first + RECORDS]), named=named)
-
-
-def run_chunk(run: Recording | Unreadable, file: str) -> Chunk:
-    """A run of an episode, or why its file holds none, by itself."""
-    if isinstance(run, Unreadable):
-        return Chunk(file, problem=run.message)
-    text = write_replay(replace(run.replay, level=run.level, level_path="", level_record=0))
-    return Chunk(file, run.record, text, episode=run.episode, lifetime=run.lifetime)
 
 
 def self_contained(chunk: Chunk, level: Level | None = None) -> Chunk:
@@ -124,14 +114,9 @@ def verify_chunk(
             recordings = recordings_of(chunk.records, chunk.file, level)
         else:
             recordings = recording_of_text(chunk.text, chunk.file, level, named=chunk.named)
-        return [_result(_in_episode(each, chunk), memory, counting, budget) for each in recordings]
-
-
-def _in_episode(found: Recording | Unreadable, chunk: Chunk) -> Recording | Unreadable:
-    """What was found in a chunk, at its place in the episode that the chunk is of."""
-    if isinstance(found, Unreadable) or not chunk.episode:
-        return found
-    return replace(found, record=chunk.first, episode=chunk.episode, lifetime=chunk.lifetime)
+        if is_episode(chunk.text):
+            recordings = islice(recordings, chunk.first, chunk.first + 1)
+        return [_result(recording, memory, counting, budget) for recording in recordings]
 
 
 def _result(recording: Recording | Unreadable, memory: str, counting: Container[str] | None, budget: int) -> Result:

@@ -99,18 +99,14 @@ class Film:
 
 
 class _Panel:
-    """A run in a picture of its own, with the ghosts of others. ``told``: tick and text of each of its splits."""
+    """A run in a picture of its own. ``told``: tick and text of each of its splits."""
 
-    def __init__(
-        self, film: Film, run: Recording, ghosts: Sequence[Recording], told: Sequence[tuple[int, str]]
-    ) -> None:
+    def __init__(self, film: Film, run: Recording, told: Sequence[tuple[int, str]]) -> None:
         context = OffscreenContext(film.size, film.settings)
-        self.film, self.run, self.told = film, run, told
+        self.film, self.run, self.told, self.time = film, run, told, 0
         self.playback = Playback(Simulation(run.level, body=run.body), run.inputs, spacing=0)
         self.view = LevelView(context, self.playback.simulation)
-        self.view.ghosts = [Ghost(other.inputs, other.level, other.body) for other in ghosts]
         self.hud = Hud(context.theme)
-        self.time = 0
 
     def step(self) -> None:
         self.playback.step()
@@ -121,45 +117,44 @@ class _Panel:
     def draw(self, surface: pygame.Surface, *, whole: bool) -> None:
         """Title, or in an episode the time left; time and the last split below; the keys."""
         self.view.draw(surface, 1.0, whole=whole)
-        foot, world = "", self.playback.simulation
-        if self.run.episode:
-            left = self.run.lifetime + GOLD_BONUS * world.gold - self.time
-            covered, foot = [self.hud.time_bar(surface, left)], self.run.title
+        hud, run, world = self.hud, self.run, self.playback.simulation
+        if run.episode:
+            covered = [hud.time_bar(surface, run.lifetime + GOLD_BONUS * world.gold - self.time)]
         else:
-            covered = [self.hud.label(surface, self.run.title)]
+            covered = [hud.label(surface, run.title)]
+        words = [run.title] * bool(run.episode)
         if self.film.splits:
-            split = next((text for tick, text in reversed(self.told) if tick < world.tick), "")
-            foot = "; ".join(filter(None, (foot, f"{seconds_text(self.time)} s", split)))
-        if foot:
-            covered.append(self.hud.foot(surface, foot, ""))
+            words += [f"{seconds_text(self.time)} s", *[text for tick, text in self.told if tick < world.tick][-1:]]
+        covered.append(hud.foot(surface, "; ".join(words), ""))
         if self.film.keys:
-            covered.append(self.hud.keys(surface, self.playback.keys_at(world.tick - 1), 704))
+            covered.append(hud.keys(surface, self.playback.keys_at(world.tick - 1), 704))
         for each in covered:
             self.view.also_covered(each)
 
 
 def told_splits(own: RunSplits, others: Sequence[RunSplits]) -> list[tuple[int, str]]:
     """Tick and text of each split of a run: how many ticks later (+) or earlier (-) the others have it."""
-    named = [((each.recording.author or each.recording.name)[:20], each.by_key) for each in others]
-    behind = [
-        [f"{name} {its[each.key].tick - each.tick:+d}" if each.key in its else f"{name} never" for name, its in named]
-        for each in own.splits
-    ]
-    return [(each.tick, ", ".join([str(each), *words])) for each, words in zip(own.splits, behind, strict=True)]
+    found = []
+    for split in own.splits:
+        words = [str(split)]
+        for each in others:
+            there, name = each.by_key.get(split.key), (each.recording.author or each.recording.name)[:20]
+            words.append(f"{name} {there.tick - split.tick:+d}" if there else f"{name} never")
+        found.append((split.tick, ", ".join(words)))
+    return found
 
 
 def film_pictures(film: Film) -> Iterator[pygame.Surface]:
     """One picture a tick, always the same surface. Raises what ``Film.moments`` does."""
-    moments, (w, h) = film.moments, film.size
-    runs = film.run, *film.beside
-    told: list[list[tuple[int, str]]] = [[] for _ in runs]
+    moments, (w, h), runs = film.moments, film.size, (film.run, *film.beside)
+    told: list[list[tuple[int, str]]] = [[]] * len(runs)
     if film.splits:
         from ninja_game.runs.compare import run_splits
 
         first, *others = [run_splits(each, memory="auto") for each in (*runs, *film.ghosts)]
-        beside = others[: len(film.beside)]
-        told = [told_splits(first, others[len(beside) :]), *(told_splits(each, [first]) for each in beside)]
-    panels = [_Panel(film, run, () if number else film.ghosts, told[number]) for number, run in enumerate(runs)]
+        told = [told_splits(first, others), *(told_splits(each, [first]) for each in others[: len(film.beside)])]
+    panels = [_Panel(film, *each) for each in zip(runs, told, strict=True)]
+    panels[0].view.ghosts = [Ghost(other.inputs, other.level, other.body) for other in film.ghosts]
     surface = pygame.Surface(film.whole_size)
     places = [surface.subsurface((number % 2 * w, number // 2 * h, w, h)) for number in range(len(runs))]
     for tick in range(moments.stop):

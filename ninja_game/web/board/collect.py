@@ -10,10 +10,10 @@ from pathlib import Path
 from ninja_game.errors import FileError, NinjaGameError, ReplayError, reason
 from ninja_game.files.reading import LeftOut, decoded, files_below, read_bytes
 from ninja_game.formats.n14.demo import parse_demo
-from ninja_game.formats.recording import holds_recordings, parse_replays
+from ninja_game.formats.recording import holds_recordings
 from ninja_game.formats.replay.episode import is_episode, parse_episode, write_episode
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay, write_replay
-from ninja_game.runs.chunks import Chunk, run_chunk
+from ninja_game.runs.chunks import Chunk
 from ninja_game.runs.recording_reader import records_of
 from ninja_game.sim.level import Level
 
@@ -90,7 +90,8 @@ class RunFolder:
                 return [Sent(Chunk(name, text=text if whole is parsed else write_replay(whole)), whole)]
             if is_episode(text):
                 runs = [self._whole(each) for each in parse_episode(text)]
-                return [Sent(run_chunk(each, name), each.replay) for each in parse_replays(write_episode(runs))]
+                text = write_episode(runs)
+                return [Sent(Chunk(name, number, text), each) for number, each in enumerate(runs)]
             records = records_of(text, name)
             if not records and holds_recordings(text):
                 raise ReplayError("inputs without a level", hint="send a replay, or a record of N")
