@@ -107,7 +107,7 @@ class SearchLog:
     ``begun``: how many there were; ``spent``: seconds of them. Raises FileError for a file that is something else.
     """
 
-    HEAD = "ninja-game improve: seconds spent, and what was found"
+    HEAD = "# seconds spent, and what improve found"
 
     def __init__(self, path: Path, keep: Sequence[Path]) -> None:
         from ninja_game.errors import FileError

@@ -126,7 +126,7 @@ def test_improve_goes_on_from_its_best_run_and_says_so_in_its_log(tmp_path: Path
     assert again.exit_code == 0, again.output
     assert parse_replay(out.read_text("utf-8")).final_tick == WALK_END
     head, *lines = log.read_text().splitlines()
-    assert head == "ninja-game improve: seconds spent, and what was found"
+    assert head == "# seconds spent, and what improve found"
     found = [line.split(" s  ")[1] for line in lines]
     assert found.count("begins") == found.count("ended") == 2
     second = found[found.index("ended") + 1 :]
@@ -138,7 +138,7 @@ def test_improve_goes_on_from_its_best_run_and_says_so_in_its_log(tmp_path: Path
     assert "      90 s  begins" in log.read_text(), "the time of all of them"
 
 
-@pytest.mark.parametrize("text", ["my notes\n", "", "ninja-game improve: seconds spent, and what was found\nmine\n"])
+@pytest.mark.parametrize("text", ["my notes\n", "", "# seconds spent, and what improve found\nmine\n"])
 def test_a_file_that_is_no_log_of_improve_stays_as_it_is(tmp_path: Path, text: str) -> None:
     slow = write_records(tmp_path / "slow.txt", ("Slow", WALK, running(24)))
     log = tmp_path / "night.log"
