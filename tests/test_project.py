@@ -19,7 +19,7 @@ from tools import dev
 
 ROOT = Path(__file__).resolve().parent.parent
 FOLDERS = ("ninja_game", "tests", "tools", "benchmarks", "examples")
-FIRST_WORDS = {"level", "replay"}
+FIRST_WORDS = {"episode", "level", "replay"}
 """What follows "ninja-game" in the first line of our files."""
 
 

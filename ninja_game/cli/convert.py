@@ -23,11 +23,12 @@ if TYPE_CHECKING:
 RUN_FORMS = {"replay": ".replay.txt", "inputs": ".inputs.txt", "celeste": ".tas", "libtas": ".libtas.txt"}
 """The forms of recordings of which a file holds one, and how it is called."""
 
-FORMS = ("ascii", "string", "file", *RUN_FORMS)
+FORMS = ("ascii", "string", "file", *RUN_FORMS, "episode")
 STANDARD_STREAM = "-"
 
 FORM_OF_NAME = {
     **{suffix: form for form, suffix in RUN_FORMS.items()}, ".replay": "replay", ".demo": "file", ".nlevel": "string",
+    ".episode.txt": "episode",
 }  # fmt: skip
 """What is written where OUT ends so."""
 
@@ -53,11 +54,12 @@ def convert(
       string  levels as in-game strings of N, one a line
       file    a level file of N, $name#author#comment#level#, recordings with their demos behind the level
       replay  recordings as our replay texts, run once; several: one file each, in the folder OUT
+      episode the recordings, in the order of an episode's levels, as one text: the time is carried on
       inputs  the same, but not run and with all their inputs; celeste, libtas: in the notations of these tools
 
-    Without --to: replay where OUT ends in .replay.txt or .replay, inputs for .inputs.txt, celeste for .tas, file for
-    .demo, string for .nlevel; else levels of N become ascii and readable ones a level file. What the form cannot hold
-    is reported.
+    Without --to: replay where OUT ends in .replay.txt or .replay, episode for .episode.txt, inputs for .inputs.txt,
+    celeste for .tas, file for .demo, string for .nlevel; else levels of N become ascii and readable ones a level file.
+    What the form cannot hold is reported.
 
     \b
     Examples:
@@ -66,25 +68,28 @@ def convert(
       ninja-game convert first.txt second.txt pack.txt
       ninja-game convert my-levels/first.txt first.nlevel
       ninja-game convert demos.txt replays/ --to replay
+      ninja-game convert 0.replay.txt 1.replay.txt 2.replay.txt 3.replay.txt 4.replay.txt 00.episode.txt
       ninja-game convert run.replay.txt run.demo
       ninja-game convert first.nlevel -
     """
     from ninja_game.formats.load import load_levels, load_replays, texts_of
-    from ninja_game.runs.conversion import input_texts, left_out, level_file_text, replay_texts
+    from ninja_game.runs.conversion import episode_text, input_texts, left_out, level_file_text, replay_texts
 
     output = Output(target, sources, force=force)
     texts = [named for source in sources for named in texts_of(source)]
     level = level_given(level_path)
     form = form or next((form for suffix, form in FORM_OF_NAME.items() if target.lower().endswith(suffix)), "")
-    if level and form not in ("file", "", *RUN_FORMS):
+    if level and form in ("ascii", "string"):
         raise click.UsageError("--level is for recordings: add --to replay or --to file")
     found: Sequence[NamedLevel | Recording]
-    if form in RUN_FORMS or level:
+    if form in RUN_FORMS or form == "episode" or level:
         found = recordings = [recording for source in sources for recording in load_replays(source, level=level)]
         form = form or "file"
         if form in RUN_FORMS:
             written = replay_texts(recordings, budget) if form == "replay" else input_texts(recordings, form)
             output.write_each(list(with_progress(written, "recording")), recordings, RUN_FORMS[form])
+        elif form == "episode":
+            output.write(episode_text(recordings, budget))
     else:
         found = levels = [named for source in sources for named in load_levels(source)]
         form = form or ("file" if all(named.ascii for named in levels) else "ascii")

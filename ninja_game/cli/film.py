@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from dataclasses import replace
+from functools import reduce
 from pathlib import Path
 
 import click
@@ -14,13 +16,15 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.links.fragment import is_link
 
+MOST_BESIDE = 3
+
 
 @click.command()
 @click.argument("replay", type=InputPath(dir_okay=False))
 @click.option(
     "-o", "--output", type=click.Path(path_type=Path),
-    help="The film: NAME.gif, NAME.webm, or a folder for one PNG picture per tick. [default: a new file with the "
-    "replay's name and .gif]",
+    help="The film: NAME.gif, NAME.webm, NAME.mp4, or a folder for one PNG picture per tick. [default: a new file with "
+    "the replay's name and .gif]",
 )  # fmt: skip
 @click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")
 @click.option("--size", type=Pixels(), default="528x400", show_default=True, help="Size of the pictures in px.")
@@ -34,38 +38,51 @@ from ninja_game.formats.links.fragment import is_link
     "--ghost", "ghosts", multiple=True, metavar="FILE", type=InputPath(dir_okay=False),
     help="Show the runs of this file on the same level as ghosts; may be given several times.",
 )  # fmt: skip
+@click.option(
+    "--beside", multiple=True, metavar="FILE", type=InputPath(dir_okay=False),
+    help="Show the runs of this file, three at most, in pictures of their own beside the first.",
+)  # fmt: skip
 @click.option("--keys", is_flag=True, help="Show the keys that are down.")
+@click.option("--splits", is_flag=True, help="Show time and last split, and how many ticks later (+) others are there.")
 @level_option
 def film(
     replay: Path, output: Path | None, record: int | None, size: tuple[int, int], speed: float, first: int,
-    last: int | None, ghosts: Sequence[Path], keys: bool, level_path: Path | None,
+    last: int | None, ghosts: Sequence[Path], beside: Sequence[Path], keys: bool, splits: bool, level_path: Path | None,
 ) -> None:  # fmt: skip
-    """Write a film of a recording: a GIF, a WebM, or a folder of pictures.
+    """Write a film of a recording: a GIF, a WebM, an MP4, or a folder of pictures.
 
-    REPLAY is a replay of ours, a level file with demos, or a link. A GIF of more than 600 ticks shows every second one;
-    a WebM, which needs the extra `film`, shows 60 pictures a second at most.
+    REPLAY is a replay of ours, a level file with demos, or a link; all levels of an episode are shown, one after the
+    other. A GIF of more than 600 ticks shows every second one; a WebM or MP4, which need the extra `film`, show 60
+    pictures a second at most.
 
     \b
     Examples:
       ninja-game film run.replay.txt
       ninja-game film run.replay.txt -o slow.webm --speed 0.5 --size 792x600 --keys
       ninja-game film run.replay.txt --from 120 --to 200 --ghost best.replay.txt
+      ninja-game film ann.replay.txt --beside bob.replay.txt --keys --splits -o race.mp4
       ninja-game film userlevels.txt --record 17 -o pictures
     """
     from ninja_game.formats.load import load_replays
 
     level = level_given(level_path)
-    recording = choose(load_replays(replay, level=level), "recordings", replay, record)
+    found = load_replays(replay, level=level)
+    parts = found if found[0].episode and record is None else [choose(found, "recordings", replay, record)]
     path = output or free_path(Path(), "replay" if is_link(replay) else replay.name.partition(".")[0], ".gif")
-    if path.exists() and any(not is_link(each) and path.samefile(each) for each in (replay, *ghosts)):
+    if path.exists() and any(not is_link(each) and path.samefile(each) for each in (replay, *ghosts, *beside)):
         raise click.UsageError("the film would replace the replay")
-    others = [run for file in ghosts for run in load_replays(file, level=level)]
-    if any(run.level != recording.level for run in others):
-        raise click.UsageError("--ghost: a run of another level")
+    along, others = ([run for file in files for run in load_replays(file, level=level)] for files in (ghosts, beside))
+    if any(run.level != parts[0].level for run in (*along, *others)):
+        raise click.UsageError("--ghost, --beside: a run of another level")
+    if len(others) > MOST_BESIDE:
+        raise click.UsageError(f"--beside: {len(others)} runs; at most {MOST_BESIDE}")
+    if len(parts) > 1 and (along or others or first or last):
+        raise click.UsageError("an episode is shown whole and alone; choose a level of it with --record")
     os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
     from ninja_game.play.replay.film import Film, write_film
 
-    film = Film(recording, size, speed, ghosts=tuple(others), keys=keys, first=first, last=last)
+    films = [Film(run, size, speed, None, tuple(along), keys, first, last, tuple(others), splits) for run in parts]
+    film = reduce(lambda after, each: replace(each, then=after), films[::-1])
     progress = "looking for the end of the run"
 
     def report(made: int) -> bool:
@@ -75,7 +92,7 @@ def film(
 
     try:
         with heartbeat(lambda: progress):
-            count = len(film.moments)
+            count = film.length
             write_film(film, path, report)
     except OSError as error:
         raise NinjaGameError(f"{path}: the film cannot be written: {error.strerror}") from None

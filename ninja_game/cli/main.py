@@ -29,7 +29,7 @@ GROUPS = {
         "edit": "Make a level, or change one, in a window.",
         "lab": "Drag, paint and watch: ten figures about how the world works.",
         "player": "Export all data of a player to one file, or import such a file.",
-        "film": "Write a film of a recording: a GIF, a WebM, or a folder of pictures.",
+        "film": "Write a film of a recording: a GIF, a WebM, an MP4, or a folder of pictures.",
         "compile": "Compile the rules for this machine now, so that no other command waits for it.",
         "desktop": "Put the game into your menu of programs, with its icon and types of files.",
         "link": "Make a link that carries a level, a pack or replays.",

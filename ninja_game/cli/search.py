@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,6 +11,7 @@ import click
 
 from ninja_game.cli import solver_options as options
 from ninja_game.cli.run_options import InputPath, LevelPath, choose, choose_level, level_given, level_option
+from ninja_game.files.reading import keep_inputs
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
 
@@ -84,47 +86,81 @@ def solve(
 @options.search_jobs_option
 @options.smooth_option
 @click.option(
+    "--resume", metavar="LOG", type=click.Path(dir_okay=False, path_type=Path),
+    help="Log better runs in this file; where it is there, go on from the best one, for what is left of the time.",
+)  # fmt: skip
+@click.option(
     "-o", "--output", metavar="REPLAY", required=True, type=click.Path(dir_okay=False, path_type=Path),
     help="Where to keep the best run so far.",
 )  # fmt: skip
+@click.pass_context
 def improve(
+    ctx: click.Context,
+    /,
     replay: Path,
     record: int | None,
     level_path: Path | None,
     output: Path,
     jobs: int | None,
     smooth: int | None,
+    resume: Path | None,
     **task_options: Any,
 ) -> None:
     """Shorten a run that exists.
 
-    REPLAY is a replay of ours or a recording $name#author#comment#level#demo#. The run must reach the exit. The best
-    run so far is always in the output file; every run is played again from the start by the plain memory before it is
-    written. It needs Numba (the extra `fast`).
+    REPLAY is a replay of ours or a recording $name#author#comment#level#demo#. One that ends before the exit is first
+    led there, in half of the time: by the switch and what else the way needs. The best run so far is always in the
+    output file; every run is played again from the start by the plain memory before it is written. It needs Numba (the
+    extra `fast`).
+
+    Exit code 1: no way to the exit was found from a run that ends before it.
 
     \b
     Examples:
       ninja-game improve first.replay.txt -o shorter.replay.txt
       ninja-game improve demos.txt --record 3 --seconds 300 -o shorter.replay.txt
+      ninja-game improve first.replay.txt --seconds 28800 --resume night.log -o shorter.replay.txt
     """
     from ninja_game.formats.load import load_replays
+    from ninja_game.runs.run import run_level
+    from ninja_game.search.formula.methods import to_exit
     from ninja_game.search.solve import Task, solve
 
-    recordings = load_replays(replay, level=level_given(level_path))
-    recording = choose(recordings, "recordings", replay, record)
-    first = recording.inputs
-    task = Task(recording.level, body=recording.body, first=first, jobs=options.default_threads(jobs), **task_options)
+    earlier = load_replays(output) if resume and output.exists() else []
+    keep_inputs(on=True)  # what was read of the output may be replaced
+    recording = choose(load_replays(replay, level=level_given(level_path)), "recordings", replay, record)
+    threads = options.default_threads(jobs)
+    task = Task(recording.level, body=recording.body, first=recording.inputs, jobs=threads, **task_options)
     options.check_gold(task)
-    before: list[int] = []
     save = options.saver_of_better(output, recording, "improve")
+    log = options.SearchLog(resume, [replay, output]) if resume else None
+    if log and earlier:
+        others = tuple(each.inputs for each in earlier if each.level == task.level)
+        left = max(0.1, task.seconds - log.spent)
+        task = replace(task, others=others, seconds=left, seed=task.seed + log.begun)
+    played = run_level(task.level, task.first, body=task.body)
+    if played.outcome != "exit":
+        known = next(iter(task.others), None)
+        first = known or to_exit(
+            task.level, task.first[: played.ticks], task.seconds / 2, body=task.body, seed=task.seed, threads=threads
+        )
+        if first is None:
+            click.echo(f"{played.outcome} after {played.ticks} ticks, and no way to the exit found from there")
+            ctx.exit(options.NOT_FOUND)
+        task = replace(task, first=first, others=(), seconds=task.seconds if known else task.seconds / 2)
+    before: list[int] = []
 
     def keep(found: Replay) -> None:
         before.append(found.end_tick)
         save(found)
+        if log:
+            log.note(options.time_text(found.end_tick))
 
     with options.progress_line() as report:
         run = solve(task, report=report, on_better=keep)
     assert run is not None  # noqa: S101 - the first run is one
+    if log:
+        log.note("ended")
     if smooth is not None:
         run = options.smoothed_run(task.level, run, smooth)
         save(run)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 import sys
+import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -97,6 +99,36 @@ def check_gold(task: Task) -> None:
     there = replace(task, gold=-1).gold_wanted
     if task.gold > there:
         raise click.UsageError(f"--gold {task.gold}: the level holds {there} pieces of gold")
+
+
+class SearchLog:
+    """The log of a long search: what it found after how many seconds, a line each, over all commands that went on.
+
+    ``begun``: how many there were; ``spent``: seconds of them. Raises FileError for a file that is something else.
+    """
+
+    HEAD = "# seconds spent, and what improve found"
+
+    def __init__(self, path: Path, keep: Sequence[Path]) -> None:
+        from ninja_game.errors import FileError
+        from ninja_game.files.reading import read_utf8
+        from ninja_game.files.writing import check_output, write_atomically
+
+        check_output(path, keep=keep)
+        if not path.exists():
+            write_atomically(path, f"{self.HEAD}\n")
+        head, *lines = read_utf8(path, 2**20).splitlines() or [""]
+        found = [re.match(r" *(\d{1,9}) s  ", line) for line in lines]
+        if head != self.HEAD or None in found:
+            raise FileError("not the log of a search", str(path), hint="name another file")
+        self._path, self._began = path, time.monotonic()
+        self.begun = sum(line.endswith("begins") for line in lines)
+        self.spent = max((int(match[1]) for match in found if match), default=0)
+        self.note("begins")
+
+    def note(self, what: str) -> None:
+        with self._path.open("a", encoding="utf-8") as out:
+            out.write(f"{self.spent + time.monotonic() - self._began:8.0f} s  {what}\n")
 
 
 class ShownProgress:

@@ -15,6 +15,7 @@ from ninja_game.cli.run_options import InputPath, budget_option, jobs_option, wi
 from ninja_game.cli.terminal import BAD_INPUT
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.run_time import seconds_text
+from ninja_game.sim.rules import LIFETIME
 
 if TYPE_CHECKING:
     from ninja_game.runs.archive import Totals
@@ -85,13 +86,15 @@ def verify(
       ninja-game verify archive/ -q --cluster tcp://10.0.0.5:8786
     """
     from ninja_game.formats.load import load_levels
+    from ninja_game.formats.pack.pack import episodes_of
     from ninja_game.runs.archive import Totals, verify_all
     from ninja_game.runs.recording_reader import Unreadable
 
     totals = Totals()
     processes = None if workers is None else workers == "processes"
     with ExitStack() as stack:
-        results = verify_all(files, processes=processes, levels=load_levels(level) if level else (), **options)
+        options |= {"levels": load_levels(level), "episodes": episodes_of(level)} if level else {}
+        results = verify_all(files, processes=processes, **options)
         if report:
             own = [options["resume"]] if options["resume"] else []
             results = _reported(results, report, [*files, *own], stack)
@@ -145,6 +148,9 @@ def _row(verdict: Verdict) -> str:
     where = f"{shown_text(verdict.file)}:{verdict.record}"
     name = shown_text(verdict.name)
     made = f"  ({shown_text(verdict.made)})" * bool(verdict.made)
+    if verdict.episode and verdict.score_ticks is not None:
+        left = verdict.lifetime + verdict.score_ticks - LIFETIME
+        made += f"  (episode: {seconds_text(verdict.lifetime)} s left at its start, {seconds_text(left)} s at the exit)"
     row = f"{mark} {verdict.outcome:<7} {when:>11}  {verdict.gold:>3} gold  {score:>8}  {name}  {where}{made}"
     problems = [f"{shown_text(each.text)}. {each.hint} [{each.code}]" for each in verdict.problems]
     return "\n     ".join([row, *problems])

@@ -6,12 +6,13 @@ from typing import Literal
 
 from ninja_game.formats.ascii.reader import is_ascii_level
 from ninja_game.formats.n14.level_file import MARKER, is_demo
+from ninja_game.formats.replay.episode import is_episode
 from ninja_game.formats.replay.text import is_replay
 from ninja_game.formats.tas_lines import is_tas_text
 
-Form = Literal["replay", "ascii", "file", "demo", "inputs", "string"]
-"""A replay of ours, a readable level of ours, a file of N's records, a demo of N alone, inputs in another tool's
-notation, in-game strings of levels or anything else."""
+Form = Literal["replay", "episode", "ascii", "file", "demo", "inputs", "string"]
+"""A replay of ours, several that are an episode, a readable level of ours, a file of N's records, a demo of N alone,
+inputs in another tool's notation, in-game strings of levels or anything else."""
 
 
 def form_of(text: str) -> Form:
@@ -22,6 +23,8 @@ def form_of(text: str) -> Form:
     """
     if is_replay(text):
         return "replay"
+    if is_episode(text):
+        return "episode"
     if is_ascii_level(text):
         return "ascii"
     if MARKER in text or ("#" in text and "$" in text):

@@ -15,6 +15,7 @@ from ninja_game.formats.forms import Form, form_of
 from ninja_game.formats.lines import numbered_lines
 from ninja_game.formats.n14.level_file import LevelRecord, read_level_file
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, tidy_level_string
+from ninja_game.formats.replay.episode import is_episode, parse_episode
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay
 from ninja_game.sim.level import TILES, Level
 
@@ -51,10 +52,20 @@ class NamedLevel:
 def parse_levels(text: str, *, file: str = "") -> list[NamedLevel]:
     """All levels in a text of any format. Raises LevelError or ReplayError."""
     form = form_of(text)
-    if form == "replay":
-        replay = parse_replay(text, file=file)
-        level, name = level_of_replay(replay, file), replay.level_name or replay.name
-        return [NamedLevel(name, replay.level_author, "", level, file, form=form)]
+    if form in ("replay", "episode"):
+        replays = [parse_replay(text, file=file)] if form == "replay" else parse_episode(text, file=file)
+        return [
+            NamedLevel(
+                each.level_name or each.name,
+                each.level_author,
+                "",
+                level_of_replay(each, file),
+                file,
+                number,
+                form=form,
+            )
+            for number, each in enumerate(replays)
+        ]
     if form == "ascii":
         read = parse_ascii_level(text, file=file)
         name = read.name or Path(file).stem
@@ -139,7 +150,7 @@ def level_of_replay(replay: Replay, file: str, level: Level | None = None, *, ch
 
 def _level_in(text: str, place: str, record: int, file: str) -> Level:
     """One level of the text of a level file that a replay names."""
-    if is_replay(text):
+    if is_replay(text) or is_episode(text):
         raise ReplayError("a replay as the level of a replay", file, found=place, expected="a level file")
     for level in parse_levels(text, file=place):
         if level.record == record:

@@ -13,6 +13,7 @@ from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.n14.level_file import LevelRecord, read_level_file
 from ninja_game.formats.n14.level_string import parse_level_string, write_level_string
 from ninja_game.formats.named_level import level_of_replay
+from ninja_game.formats.replay.episode import episode_key, lifetimes, parse_episode
 from ninja_game.formats.replay.input_text import included_beside, read_inputs
 from ninja_game.formats.replay.made import with_made, without_made
 from ninja_game.formats.replay.text import Replay, parse_replay
@@ -20,6 +21,7 @@ from ninja_game.formats.tas_lines import in_our_notation
 from ninja_game.sim.inputs import Demo, fitted_demo
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import Body
+from ninja_game.sim.rules import LIFETIME
 
 MOST_LEGACY_TICKS = 20_000_000
 """Of one file: a demo of an older version is packed so that each character can be 400 ticks."""
@@ -31,6 +33,7 @@ class Recording:
 
     ``replay``: what its text says; demos of N and other tools' inputs are replays without claims. ``level``: the one
     inside, beside it, or given. ``record`` (from 0) and ``line`` (from 1): where in ``file``, '' for one from no file.
+    ``episode``: of a run in an episode, that one's key; ``lifetime``: ticks at its start.
     """
 
     level: Level
@@ -40,6 +43,8 @@ class Recording:
     record: int = 0
     line: int = 1
     form: Form = "replay"
+    episode: str = ""
+    lifetime: int = LIFETIME
 
     @property
     def name(self) -> str:
@@ -112,6 +117,15 @@ def parse_replays(text: str, *, file: str = "", level: Level | None = None, chan
         case "replay":
             replay = parse_replay(text, file=file, level=level)
             return [Recording(level_of_replay(replay, file, level, changed=changed), replay, file=file)]
+        case "episode":
+            replays = parse_episode(text, file=file)
+            levels = [level_of_replay(each, file, changed=changed) for each in replays]
+            key = episode_key(levels)
+            rows = zip(levels, replays, lifetimes(replays), strict=False)
+            return [
+                Recording(on, run, "", file, number, 1, "episode", key, lifetime)
+                for number, (on, run, lifetime) in enumerate(rows)
+            ]
         case "file":
             return _read_recordings(read_level_file(text, file=file), file, level)
         case "demo":

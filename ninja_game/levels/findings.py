@@ -153,6 +153,12 @@ RUN_RULES = {
     "other-level": Rule(
         "level_digest is {digest}, which is not one of the levels that count", "Name its level with `--level`."
     ),
+    "out-of-time": Rule(
+        "the time of the episode runs out: {lifetime} ticks at the start, {gold} gold", "Play its levels faster."
+    ),
+    "other-episode": Rule(
+        "its levels, in this order, are no episode that counts", "Put the runs of one episode in its order."
+    ),
     "not-strict": Rule(
         "{field} is {found}, --strict expects {expected}", "Play it again as a board wants it (docs/verification.md)."
     ),

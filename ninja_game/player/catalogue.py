@@ -22,8 +22,8 @@ from ninja_game.formats.pack.files import PackFiles, certificate_name, is_pack
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.pack.pars import Pars
+from ninja_game.formats.replay.episode import episode_key
 from ninja_game.formats.replay.text import Replay, parse_replay
-from ninja_game.player.records import episode_key
 from ninja_game.sim.level import Level
 
 OURS = "ninja-game"

@@ -18,6 +18,7 @@ from ninja_game.errors import LevelError
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pars import Pars
+from ninja_game.formats.replay.episode import lifetimes
 from ninja_game.formats.replay.text import Replay
 from ninja_game.formats.sayings import Saying, read_sayings
 from ninja_game.player.attempt import Attempt
@@ -29,7 +30,7 @@ from ninja_game.player.progress import LOCKED, UNLOCKED, Place, Progress, new_un
 from ninja_game.player.saving import EPISODE_BEST, count_of, replay_of, save_best, told
 from ninja_game.player.store import Work
 from ninja_game.sim.level import Level
-from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
+from ninja_game.sim.rules import LIFETIME
 from ninja_game.simulation import Body, Simulation
 
 
@@ -266,7 +267,7 @@ class EpisodeRun(LevelContext):
         self.replays = list(replays)
         self.position = len(replays)
         self.entry = self.episode.levels[self.position]
-        self.lifetime = LIFETIME + sum(GOLD_BONUS * run.gold - run.final_tick for run in replays)
+        self.lifetime = lifetimes(replays)[-1]
         self.score = self.lifetime
 
     def go_behind(self, beaten: Place) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import sqlite3
 from collections.abc import Iterable, Sequence
 from datetime import UTC, datetime
@@ -14,7 +13,6 @@ from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.replay.made import names_of_text, parse_made
 from ninja_game.formats.replay.text import OUTCOMES, Replay
 from ninja_game.player.store import Store
-from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import BODIES
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 
@@ -76,11 +74,6 @@ def has_words(words: Iterable[str], *texts: str) -> bool:
 def now_text() -> str:
     """The time, UTC, as the records have it."""
     return datetime.now(UTC).isoformat(timespec="seconds")
-
-
-def episode_key(levels: Iterable[Level]) -> str:
-    """What an episode is known by: a digest of its levels in their order."""
-    return hashlib.sha256(" ".join(level_digest(level) for level in levels).encode()).hexdigest()
 
 
 class Records:

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from concurrent.futures import CancelledError
 from contextlib import ExitStack
 from dataclasses import dataclass, field, replace
@@ -27,9 +27,10 @@ from ninja_game.backend.memories import choose_memory
 from ninja_game.batch.thread_pool import cores
 from ninja_game.budget import RUN_BUDGET
 from ninja_game.errors import NinjaGameError
-from ninja_game.files.user_folder import bundled_levels
+from ninja_game.files.user_folder import bundled_levels, data_folder
 from ninja_game.formats.load import NamedLevel, load_levels
 from ninja_game.formats.n14.level_string import level_digest
+from ninja_game.formats.pack.pack import episodes_of
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.checkpoint_log import CheckpointLog
 from ninja_game.runs.chunks import (
@@ -69,6 +70,7 @@ def verify_all(
     cluster: str = "",
     resume: Path | None = None,
     levels: Sequence[NamedLevel] = (),
+    episodes: Container[str] | None = None,
     strict: bool = False,
     chunks: Iterable[Chunk] = (),
     budget: int = RUN_BUDGET,
@@ -82,8 +84,9 @@ def verify_all(
     threads; by default where the interpreter's lock would be in the way, on the plain memory. ``cluster``: address of a
     Dask scheduler whose workers do it instead. ``resume``: a checkpoint log; what it has is not run again.
     ``levels``: those that count, by default the game's own where it matters; a single one is also the level of
-    recordings that do not hold theirs. ``strict``: what docs/verification.md demands must hold too.
-    ``budget``: of each run (``ninja_game.budget``). ``record``: only this one of each file.
+    recordings that do not hold theirs. ``episodes``: the keys of those that count, by default the game's own.
+    ``strict``: what docs/verification.md demands must hold too. ``budget``: of each run (``ninja_game.budget``).
+    ``record``: only this one of each file.
 
     Results never depend on who computed them, nor on workers that died meanwhile. Where only some levels count, runs on
     others are not simulated. Raises ClusterError, FormatError for a file that is not a checkpoint log, SelfTestError
@@ -98,7 +101,9 @@ def verify_all(
         if isinstance(result, Unreadable):
             yield result
         else:
-            yield with_demands(result, names, only_these=bool(levels), strict=strict)
+            if episodes is None and result.episode:
+                episodes = episodes_of(data_folder("levels"))
+            yield with_demands(result, names, episodes or (), only_these=bool(levels), strict=strict)
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from collections.abc import Container, Iterable, Iterator, Sequence
 from contextlib import nullcontext
 from dataclasses import asdict, dataclass, field, replace
 from hashlib import sha256
+from itertools import islice
 from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
@@ -19,6 +20,7 @@ from ninja_game.errors import DAMAGED, BudgetError, DemoError, LevelError, Repla
 from ninja_game.files.beside import Beside, known_files
 from ninja_game.formats.n14.level_file import LevelRecord
 from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.episode import is_episode
 from ninja_game.levels.findings import RUN_RULES, RunProblem
 from ninja_game.runs.recording_reader import Unreadable, recording_of_text, recordings_of, records_of, texts_in
 from ninja_game.runs.verify import NOT_RUN, OutOfRangeError, Verdict, verify_recording
@@ -34,7 +36,7 @@ Result = Verdict | Unreadable
 
 @dataclass(frozen=True)
 class Chunk:
-    """A file, or records ``first`` … of one.
+    """A file, records ``first`` … of one, or run ``first`` of an episode.
 
     ``text``: of the whole file, if ``records`` is empty; ``beside``: all files that it takes in, None while they are
     read where they are needed; ``problem``: why the file cannot be read, '' if it can;
@@ -70,6 +72,11 @@ def chunks_in(paths: Iterable[Path], record: int | None = None) -> Iterator[Chun
             yield Chunk("", problem=found.message)
             continue
         file, text, named = found
+        if is_episode(text):
+            runs = list(recording_of_text(text, file, named=named))
+            chunks = [Chunk(file, number, text=text, named=named) for number in range(len(runs))]
+            yield from chunks if record is None else chunks[record : record + 1]
+            continue
         records = records_of(text, file)
         if not records and not record:
             yield Chunk(file, text=text, named=named)
@@ -107,6 +114,8 @@ def verify_chunk(
             recordings = recordings_of(chunk.records, chunk.file, level)
         else:
             recordings = recording_of_text(chunk.text, chunk.file, level, named=chunk.named)
+        if is_episode(chunk.text):
+            recordings = islice(recordings, chunk.first, chunk.first + 1)
         return [_result(recording, memory, counting, budget) for recording in recordings]
 
 

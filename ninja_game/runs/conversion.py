@@ -16,10 +16,12 @@ from ninja_game.formats.n14.level_file import LevelRecord, read_level_file, writ
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
 from ninja_game.formats.named_level import NamedLevel, parse_levels
 from ninja_game.formats.recording import Recording, holds_recordings, parse_replays, record_of
+from ninja_game.formats.replay.episode import write_episode
 from ninja_game.formats.replay.text import RULES_VERSION, Replay, write_replay
 from ninja_game.formats.tas_lines import write_celeste, write_libtas
 from ninja_game.runs.recording_reader import named_errors
 from ninja_game.runs.run import record_replay
+from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.level import Level
 
 _COMMENT = re.compile(r"(?![^;]*:)[^|;]*;.*")
@@ -50,6 +52,18 @@ def recorded_again(recording: Recording, budget: int = RUN_BUDGET) -> Replay:
         new, level_name=old.level_name, level_author=old.level_author, markers=markers, co_authors=old.co_authors,
         made=old.made if old.unclaimed or told == found else old.made.edited(1),
     )  # fmt: skip
+
+
+def episode_text(recordings: Sequence[Recording], budget: int = RUN_BUDGET) -> str:
+    """Recordings, in the order of their levels, as the text of an episode: run again, with the time carried on.
+
+    Raises ReplayError for runs that are none together, and as ``replay_texts`` does.
+    """
+    text = write_episode([recorded_again(each, budget) for each in recordings])
+    for each, found in zip(recordings, parse_replays(text), strict=True):
+        if problem := next(iter(verify_recording(found, budget=budget).problems), None):
+            raise ReplayError(str(problem), each.file, each.line, hint=problem.hint)
+    return text
 
 
 def input_texts(recordings: Iterable[Recording], form: str) -> Iterator[str]:
@@ -121,7 +135,7 @@ def left_out(form: str, found: Sequence[NamedLevel | Recording], texts: Sequence
         lost.append("what levels teach and say")
     if form in ("celeste", "libtas"):
         lost.append("levels, names, authors and how runs were made")
-    if form in ("replay", "inputs") and any(recording.comment for recording in found):
+    if form in ("replay", "inputs", "episode") and any(recording.comment for recording in found):
         lost.append("comments of recordings")
     if any(map(_own_comments, filter(is_ascii_level, texts))):
         lost.append("comment lines")

@@ -43,7 +43,7 @@ class RunResult:
 
     ``outcome``: "exit", "dead" or "running"; ``end_tick``: the tick of that contact or death, -1 while running;
     ``places``: the ninja after each tick, x and y in turn as little-endian float64, px; ``state_numbers``: a byte each.
-    ``in_time``: the lifetime of a level that is played alone never ran out (game.md §1.1). ``digest``: of what the
+    ``in_time``: the lifetime never ran out (game.md §1.1). ``digest``: of what the
     world shows after the last tick, as replays have it, where it was asked for.
     """
 
@@ -145,8 +145,12 @@ def run_in_slices(
     digest: bool = False,
     budget: int = RUN_BUDGET,
     slice_work: int = RUN_BUDGET,
+    lifetime: int = LIFETIME,
 ) -> Generator[None, None, RunResult]:
-    """As ``run_level``, but a generator: it pauses after each ``slice_work`` of work, and its value is the result."""
+    """As ``run_level``, but a generator: it pauses after each ``slice_work`` of work, and its value is the result.
+
+    ``lifetime``: ticks at the start.
+    """
     check_inputs(inputs)
     most = min(len(inputs), affordable_ticks(level, budget))
     world = open_worlds(memory, level, box=is_box(body), at_once=True, ticks=most)
@@ -156,14 +160,14 @@ def run_in_slices(
     while world.tick() < most and not world.outcome():
         world = go_on(world, memory, most - world.tick())
         # Up to the tick at which the lifetime would run out without more gold; nothing else can be too late.
-        deadline = LIFETIME + GOLD_BONUS * world.gold()
+        deadline = lifetime + GOLD_BONUS * world.gold()
         in_time = in_time and world.tick() < deadline
         end = min(most, deadline) if in_time else most
         records.append(world.run(inputs[world.tick() : min(end, world.tick() + slice_ticks)]))
         yield
     if not world.outcome() and most < len(inputs):
         raise over_budget(level, len(inputs), budget)
-    in_time = in_time and world.tick() - bool(world.outcome()) < LIFETIME + GOLD_BONUS * world.gold()
+    in_time = in_time and world.tick() - bool(world.outcome()) < lifetime + GOLD_BONUS * world.gold()
     places = _little_endian(array("d", b"".join(_bytes(each.places) for each in records))).tobytes()
     states = b"".join(_bytes(each.states) for each in records)
     final_digest = replay_digest(world.world()) if digest else ""

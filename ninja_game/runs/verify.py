@@ -20,6 +20,7 @@ from ninja_game.levels.findings import RunProblem, in_run
 from ninja_game.runs.recording_reader import named_errors
 from ninja_game.runs.run import RunResult, drained, run_in_slices
 from ninja_game.sim.inputs import with_press_bits
+from ninja_game.sim.rules import LIFETIME
 from ninja_game.simulation import Simulation
 
 STRICT = {
@@ -53,8 +54,10 @@ class Verdict:
     ``score_ticks``: of a passed level, else None; ``ticks``: how many were run up to and including ``end_tick``, or all
     of the recording's; ``xy_sha256``: of the ninja's positions.
 
-    ``possible_by_keyboard``: the jump triggers exactly in the first tick of being held; ``in_time``: the lifetime of a
-    level that is played alone never ran out; ``complete``: the demo's text holds all frames that it claims.
+    ``episode``: of a run in one, that one's key; ``lifetime``: ticks at the start.
+
+    ``possible_by_keyboard``: the jump triggers exactly in the first tick of being held; ``in_time``: the lifetime never
+    ran out; ``complete``: the demo's text holds all frames that it claims.
     ``problems``: every claim that does not hold.
 
     A run whose level does not count is not simulated: its ``outcome`` is "not run", the first two of these are None.
@@ -82,6 +85,8 @@ class Verdict:
     made: str = ""
     assisted: bool | None = None
     co_authors: str = ""
+    episode: str = ""
+    lifetime: int = LIFETIME
 
     @property
     def good(self) -> bool:
@@ -128,6 +133,7 @@ def verify_in_slices(
         possible_by_keyboard=None, in_time=None,
         practice=recording.replay.practice, complete=not recording.missing, made=str(recording.replay.made),
         assisted=recording.replay.made.assisted, co_authors=", ".join(recording.replay.co_authors),
+        episode=recording.episode, lifetime=recording.lifetime,
     )  # fmt: skip
     if counting is not None and verdict.level_digest not in counting:
         return verdict
@@ -144,6 +150,7 @@ def verify_in_slices(
                 digest=bool(recording.replay.digest),
                 budget=budget,
                 slice_work=slice_work,
+                lifetime=recording.lifetime,
             )
         except IndexError as error:
             what = "the run leads out of its world's arrays and is not judged: a fault of this program, worth a report"
@@ -154,6 +161,8 @@ def verify_in_slices(
             problems += [in_run("memories-differ", what=difference)] if difference else []
     if not claimed and run.outcome != "exit":
         problems.append(in_run("not-passed", ending=_ending(recording, run)))
+    if recording.episode and not run.in_time:
+        problems.append(in_run("out-of-time", lifetime=recording.lifetime, gold=run.gold))
     sampled = run.ticks - 1 if run.outcome != "running" else min(run.ticks, len(recording.replay.inputs))
     return replace(
         verdict, outcome=run.outcome, end_tick=run.end_tick, gold=run.gold,
@@ -163,15 +172,20 @@ def verify_in_slices(
     )  # fmt: skip
 
 
-def with_demands(verdict: Verdict, levels: Mapping[str, str], *, only_these: bool, strict: bool) -> Verdict:
+def with_demands(
+    verdict: Verdict, levels: Mapping[str, str], episodes: Container[str] = (), *, only_these: bool, strict: bool
+) -> Verdict:
     """The verdict with the name of its level and with what is demanded of it beyond its own claims.
 
-    ``levels``: the names of the levels that count, by digest; ``only_these``: a run on any other level is a problem;
+    ``levels``: the names of the levels that count, by digest; ``episodes``: the keys of those that count;
+    ``only_these``: a run on any other level is a problem;
     ``strict``: so is each field that is not as STRICT has it.
     """
     demanded = []
     if (only_these or strict) and verdict.level_digest not in levels:
         demanded.append(in_run("other-level", digest=verdict.level_digest))
+    elif (only_these or strict) and verdict.episode and verdict.episode not in episodes:
+        demanded.append(in_run("other-episode"))
     unknown = (None, NOT_RUN) if demanded else ()
     for field, expected in STRICT.items() if strict else ():
         found = getattr(verdict, field)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -9,9 +10,13 @@ from click.testing import CliRunner, Result
 from PIL import Image, ImageSequence
 
 from ninja_game.cli.film import film as command
+from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.demo import write_demo
+from ninja_game.formats.replay.episode import write_episode
+from ninja_game.formats.replay.text import parse_replay
 from ninja_game.play.replay import film
 from ninja_game.play.replay.playback import Playback
+from ninja_game.runs.compare import run_splits
 from ninja_game.sim.inputs import Demo
 from tests.support.samples import SPIKED, WALK, WALK_END, replay_of_walk, running, write_records
 
@@ -27,8 +32,8 @@ def shown_ms(film: Path) -> int:
         return sum(frame.info["duration"] for frame in ImageSequence.Iterator(image))
 
 
-@pytest.fixture
-def replay(tmp_path: Path) -> Path:
+@pytest.fixture(name="replay")
+def replay_file(tmp_path: Path) -> Path:
     path = tmp_path / "walk.replay.txt"
     path.write_text(replay_of_walk())
     return path
@@ -77,8 +82,8 @@ def test_film_never_replaces_its_replay_and_needs_a_known_form(replay: Path, tmp
     text = replay.read_text()
     assert film_of(replay, "-o", replay).exit_code == 2
     assert replay.read_text() == text
-    assert ".gif" in str(film_of(replay, "-o", tmp_path / "film.mp4").exception)
-    assert not (tmp_path / "film.mp4").exists()
+    assert ".gif" in str(film_of(replay, "-o", tmp_path / "film.avi").exception)
+    assert not (tmp_path / "film.avi").exists()
 
 
 def test_section_ghosts_and_keys(replay: Path, tmp_path: Path) -> None:
@@ -97,9 +102,69 @@ def test_section_ghosts_and_keys(replay: Path, tmp_path: Path) -> None:
     assert "another level" in film_of(replay, "-o", tmp_path / "none", "--ghost", spiked).stderr
 
 
-def test_webm_has_the_size_and_the_speed_that_were_asked_for(replay: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize("count, size", [(2, (264, 100)), (3, (264, 200)), (4, (264, 200))])
+def test_runs_stand_beside_each_other_with_their_splits(
+    replay: Path, tmp_path: Path, count: int, size: tuple[int, int]
+) -> None:
+    late = write_demo(Demo(bytes(4) + bytes([2] * 24), 28.0))
+    others = write_records(tmp_path / "late.txt", *[("Late", WALK, late)] * (count - 1))
+    words = replay, "--beside", others, "--size", "132x100"
+    assert film_of(*words, "-o", tmp_path / "all").exit_code == 0
+    files = sorted((tmp_path / "all").iterdir())
+    assert len(files) == WALK_END + 4 + 1 + 40, "to the end of the last of them"
+    with Image.open(files[-1]) as last:
+        assert last.size == size
+        parts = [last.crop((x, 0, x + 132, 100)).tobytes() for x in (0, 132)]
+        assert parts[0] != parts[1]
+    assert film_of(*words, "--splits", "--from", 30, "--to", 30, "-o", tmp_path / "told").exit_code == 0
+    assert (tmp_path / "told" / "00000.png").read_bytes() != files[30].read_bytes()
+
+
+def test_splits_say_by_how_much_others_are_later(tmp_path: Path) -> None:
+    late = write_demo(Demo(bytes(4) + bytes([2] * 24), 28.0))
+    file = write_records(tmp_path / "two.txt", ("First", WALK, running(24)), ("Late", WALK, late))
+    first, second = (run_splits(replace(each, replay=replace(each.replay, author=""))) for each in load_replays(file))
+    texts = [text for _, text in film.told_splits(first, [second])]
+    assert texts[-1] == "won, Late +4"
+    assert [text for _, text in film.told_splits(second, [first])][-1] == "won, First -4"
+
+
+def test_films_that_are_too_much_are_refused(replay: Path, tmp_path: Path) -> None:
+    many = write_records(tmp_path / "four.txt", *[("Late", WALK, running(24))] * 4)
+    assert "4 runs; at most 3" in film_of(replay, "--beside", many, "-o", tmp_path / "a").output
+    spiked = write_records(tmp_path / "other.txt", ("Mine", SPIKED, running(9)))
+    assert "another level" in film_of(replay, "--beside", spiked, "-o", tmp_path / "a").output
+    assert "would replace" in film_of(replay, "--beside", many, "-o", many).output
+
+
+def test_a_film_of_an_episode_shows_all_its_levels_and_the_time_that_is_left(replay: Path, tmp_path: Path) -> None:
+    episode = tmp_path / "two.episode.txt"
+    run = parse_replay(replay.read_text())
+    episode.write_text(write_episode([run, run]))
+    assert film_of(episode, "-o", tmp_path / "all", "--size", "264x200").exit_code == 0
+    files = [each.read_bytes() for each in sorted((tmp_path / "all").iterdir())]
+    length = WALK_END + 1 + 40
+    assert len(files) == 2 * length
+    assert files[0] != files[length], "the second level begins with another time"
+    assert film_of(episode, "--record", 1, "-o", tmp_path / "one", "--size", "264x200").exit_code == 0
+    assert [each.read_bytes() for each in sorted((tmp_path / "one").iterdir())] == files[length:]
+    assert "an episode is shown whole" in film_of(episode, "--from", 3, "-o", tmp_path / "no").output
+
+
+def test_a_video_without_its_encoder_says_what_helps(
+    replay: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     av = pytest.importorskip("av")
-    film = tmp_path / "fast.webm"
+    monkeypatch.setattr(av, "codecs_available", frozenset({"gif"}))
+    found = film_of(replay, "-o", tmp_path / "film.mp4")
+    assert "no encoder libx264; write a .gif" in str(found.exception)
+    assert not (tmp_path / "film.mp4").exists()
+
+
+@pytest.mark.parametrize("suffix", [".webm", ".mp4"])
+def test_a_video_has_the_size_and_the_speed_that_were_asked_for(suffix: str, replay: Path, tmp_path: Path) -> None:
+    av = pytest.importorskip("av")
+    film = tmp_path / f"fast{suffix}"
     assert film_of(replay, "-o", film, "--size", "264x200", "--speed", 2).exit_code == 0
     with av.open(str(film)) as container:
         pictures = list(container.decode(video=0))
@@ -115,7 +180,6 @@ def test_film_that_cannot_be_written_names_its_place(replay: Path, tmp_path: Pat
 
 
 def test_failed_film_leaves_nothing(replay: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from ninja_game.formats.load import load_replays
     from ninja_game.play.replay.film import Film, write_film
 
     run = load_replays(replay)[0]

@@ -97,11 +97,57 @@ def test_improve_shortens_a_recording(tmp_path: Path) -> None:
     assert parse_replay(out.read_text("utf-8")).final_tick == WALK_END
 
 
-def test_improve_wants_a_run_to_the_exit(tmp_path: Path) -> None:
+def test_improve_says_where_no_way_leads_to_the_exit(tmp_path: Path) -> None:
     dead = write_records(tmp_path / "dead.txt", ("Dead", SPIKED, running(60)))
-    result = command("improve", dead, "-o", tmp_path / "out.txt")
-    assert result.exit_code == 2
-    assert "does not reach the exit: dead after" in result.stderr
+    result = command("improve", dead, "--seconds", "0.5", "-o", tmp_path / "out.txt")
+    assert result.exit_code == 1
+    assert "dead after" in result.stdout
+    assert "no way to the exit found from there" in result.stdout
+    assert not (tmp_path / "out.txt").exists()
+
+
+@pytest.mark.parametrize("demo", [running(9), f"40:{'0|' * 2}{'17895697|' * 4}"], ids=["cut", "the other way"])
+def test_improve_leads_a_run_that_ends_before_the_exit_there(tmp_path: Path, demo: str) -> None:
+    short = write_records(tmp_path / "short.txt", ("Short", WALK, demo))
+    out = tmp_path / "out.replay.txt"
+    result = command("improve", short, "--ticks", "300000", "--jobs", "1", "-o", out)
+    assert result.exit_code == 0, result.output
+    replay = parse_replay(out.read_text("utf-8"))
+    assert (replay.outcome, replay.final_tick <= WALK_END + 20) == ("exit", True)
+    assert replay.made.searches == ("improve",)
+
+
+def test_improve_goes_on_from_its_best_run_and_says_so_in_its_log(tmp_path: Path) -> None:
+    slow = write_records(tmp_path / "slow.txt", ("Slow", WALK, f"40:{'0|' * 2}{'35791394|' * 4}"))
+    out, log = tmp_path / "out.replay.txt", tmp_path / "night.log"
+    words = "improve", slow, "--jobs", "1", "--resume", log, "-o", out
+    assert command(*words, "--ticks", "300000").exit_code == 0
+    again = command(*words, "--ticks", "1")
+    assert again.exit_code == 0, again.output
+    assert parse_replay(out.read_text("utf-8")).final_tick == WALK_END
+    head, *lines = log.read_text().splitlines()
+    assert head == "# seconds spent, and what improve found"
+    found = [line.split(" s  ")[1] for line in lines]
+    assert found.count("begins") == found.count("ended") == 2
+    second = found[found.index("ended") + 1 :]
+    assert second[:2] == ["begins", f"{WALK_END + 14} ticks (0.925 s)"]
+    assert second[2] == f"{WALK_END} ticks (0.575 s)", "at once, without searching for it again"
+    log.write_text(log.read_text() + "       90 s  ended\n")
+    late = command(*words, "--seconds", "60")
+    assert late.exit_code == 0
+    assert "      90 s  begins" in log.read_text(), "the time of all of them"
+
+
+@pytest.mark.parametrize("text", ["my notes\n", "", "# seconds spent, and what improve found\nmine\n"])
+def test_a_file_that_is_no_log_of_improve_stays_as_it_is(tmp_path: Path, text: str) -> None:
+    slow = write_records(tmp_path / "slow.txt", ("Slow", WALK, running(24)))
+    log = tmp_path / "night.log"
+    log.write_text(text)
+    result = command("improve", slow, "--ticks", "1", "--jobs", "1", "--resume", log, "-o", tmp_path / "out.txt")
+    assert (result.exit_code, log.read_text()) == (2, text)
+    assert "not the log of a search" in result.stderr
+    kept = command("improve", slow, "--ticks", "1", "--resume", slow, "-o", tmp_path / "out.txt")
+    assert (kept.exit_code, "slow.txt" in kept.stderr) == (2, True)
 
 
 def test_check_certifies_and_keeps_replays(tmp_path: Path) -> None:

@@ -70,6 +70,8 @@ def test_json_has_the_fields_that_programs_read(walk: Path) -> None:
         "made": "",
         "assisted": None,
         "co_authors": "",
+        "episode": "",
+        "lifetime": 3600,
     }
 
 

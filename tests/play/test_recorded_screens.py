@@ -25,6 +25,7 @@ NOT_SHOWN = {
     "play/app.py: Screen.draw": "its screens do",
     "play/workspace/part.py: Part.paint": "its parts do",
     "ui/widgets.py: Widget.draw": "its widgets do",
+    "play/replay/film.py: _Panel.draw": "of films, which tests of their own make",
     "play/replay/paths.py: _draw_speeds": "of the pictures that `compare` writes",
     "tas_editor/roll/part.py: RollMouse._paint": "paints keys with the mouse, not a picture",
     "view/overlays.py: _paint_edges": "kept from the first picture on; test_pictures.py shows it",

@@ -14,6 +14,7 @@ from ninja_game.formats.links.fragment import Kind, Link, read_link, write_link
 from ninja_game.formats.n14.level_file import write_level_file
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording, parse_replays, record_of
+from ninja_game.formats.replay.episode import is_episode, parse_episode, write_episode
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay, write_replay
 from ninja_game.sim.level import Level
 
@@ -100,17 +101,19 @@ def recordings_of(texts: Iterable[str]) -> list[Recording]:
 
 
 def _whole(text: str) -> str:
-    """A text from elsewhere; a replay in a form in which nothing leads to a file. Raises LinkError, ReplayError.
+    """A text from elsewhere; replays in a form in which nothing leads to a file. Raises LinkError, ReplayError.
 
     Without the name of a file its inputs take in no other files, and with its level inside no path is tried.
     """
-    if not is_replay(text):
+    episode = is_episode(text)
+    if not episode and not is_replay(text):
         return text
     try:
-        replay = parse_replay(text)
+        replays = parse_episode(text) if episode else [parse_replay(text)]
     except FormatError as error:
         error.file = PLACE
         raise
-    if replay.level is None:
+    if any(replay.level is None for replay in replays):
         raise LinkError("a replay without its level", PLACE, hint="record it with its level inside")
-    return write_replay(replace(replay, level_path="", level_record=0))
+    whole = [replace(replay, level_path="", level_record=0) for replay in replays]
+    return write_episode(whole) if episode else write_replay(*whole)

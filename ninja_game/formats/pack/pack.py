@@ -8,9 +8,10 @@ from pathlib import Path
 from ninja_game.errors import NinjaGameError, PackError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel, parse_levels
-from ninja_game.formats.pack.files import INDEX, PARS, PackFiles, certificate_name
+from ninja_game.formats.pack.files import INDEX, PARS, PackFiles, certificate_name, is_pack
 from ninja_game.formats.pack.index import LEVELS_PER_EPISODE, EpisodeIndex, parse_index
 from ninja_game.formats.pack.pars import Pars, parse_pars
+from ninja_game.formats.replay.episode import episode_key
 
 
 class Pack:
@@ -75,3 +76,9 @@ class Pack:
         """The name of a level file's certificate, "exit" or "gold"; None where there is none."""
         name = certificate_name(file, kind)
         return name if name in self.files.names else None
+
+
+def episodes_of(path: Path) -> set[str]:
+    """The keys of a pack's episodes; none of anything else. Raises as ``Pack`` does."""
+    found = Pack(path).episodes.values() if is_pack(path) else ()
+    return {episode_key(each.level for each in levels) for levels in found}

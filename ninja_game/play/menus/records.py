@@ -7,12 +7,16 @@ from typing import NamedTuple
 
 import pygame
 
+from ninja_game.files.writing import write_atomically
+from ninja_game.formats.replay.episode import write_episode
+from ninja_game.formats.replay.text import write_replay
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.replays import watch
 from ninja_game.player.records import SavedReplay
 from ninja_game.sim.rules import TICK_MS
+from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Widget
@@ -78,10 +82,26 @@ class RecordsScreen(MenuScreen):
         """The hint of the selected row."""
         row = self.rows[index]
         missing = "No run of the whole episode yet" if row.head else "Not passed yet"
-        self.list.hint = "Enter: watch" if row.replays else missing
+        self.list.hint = "Enter: watch. E: save as a text file" if row.replays else missing
 
     def _watch(self, index: int) -> None:
         watch(self.app, [self.player.records.replay(number) for number in self.rows[index].replays])
+
+    def handle(self, event: InputEvent) -> None:
+        """The export key writes the selected record as a text file: an episode's runs as one."""
+        row = self.rows[self.list.index] if self.rows else None
+        if "export" in event.pressed and row and row.replays:
+            replays = list(filter(None, map(self.player.records.replay, row.replays)))
+            if len(replays) < len(row.replays):
+                self.app.notify("Not written: a run of it is damaged")
+            elif row.head:
+                self.app.write_export(
+                    row.text, ".episode.txt", lambda path: write_atomically(path, write_episode(replays))
+                )
+            else:
+                self.app.write_export(row.text, ".replay.txt", write_replay(*replays))
+        else:
+            super().handle(event)
 
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pygame
 
@@ -18,16 +18,20 @@ from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import export_path, how_to_install
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.replay.playback import Ghost, Playback
 from ninja_game.play.window import png_of
 from ninja_game.player.settings import Settings
 from ninja_game.runtime import require_desktop, run_in_background
-from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.sim.rules import GOLD_BONUS, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 from ninja_game.ui.theme import GROUND_ROLES, ROLES, Palette, mixed, palette_named
 from ninja_game.view.level_view import LevelView, OffscreenContext
 from ninja_game.view.sprites.light import EXIT_OPEN, LOOKS
+
+if TYPE_CHECKING:
+    from ninja_game.runs.compare import RunSplits
 
 _TAIL = TICKS_PER_SECOND
 """Ticks after the end that a film shows."""
@@ -44,9 +48,12 @@ class _StoppedError(Exception):
 class Film:
     """What a film shows: a run from the moment after ``first`` ticks to that after ``last`` (None: to its end and on).
 
-    ``size``: px. ``speed``: 1 is that of the game. ``ghosts``: runs on the same level that go along. ``keys``: whether
-    the keys that are down are shown. Raises ArgumentError for a section that is empty or begins after the end, and for
-    one without ``last`` that is longer than MOST_PICTURES.
+    ``size``: px of a run's picture. ``speed``: 1 is that of the game. ``ghosts``: runs on the same level that go along;
+    ``beside``: up to three more of it, each in a picture of its own. ``keys``, ``splits``: whether the keys that are
+    down are shown, and time and splits with how many ticks other runs are later. ``then``: the film that follows.
+
+    Raises ArgumentError for a section that is empty or begins after the end, and for one without ``last`` in which the
+    runs have more than MOST_PICTURES together.
     """
 
     run: Recording
@@ -57,15 +64,31 @@ class Film:
     keys: bool = False
     first: int = 0
     last: int | None = None
+    beside: tuple[Recording, ...] = ()
+    splits: bool = False
+    then: Film | None = None
+
+    @property
+    def whole_size(self) -> tuple[int, int]:
+        """Px: two pictures stand side by side, more in two lines."""
+        beside, (w, h) = len(self.beside), self.size
+        return w * min(2, 1 + beside), h * (1 + beside // 2)
+
+    @property
+    def length(self) -> int:
+        """How many pictures it has, with those of the films that follow."""
+        return len(self.moments) + (self.then.length if self.then else 0)
 
     @cached_property
     def moments(self) -> range:
         """The ticks after which there is a picture. Raises LevelError for a level that cannot be played."""
-        wanted = self.first + MOST_PICTURES if self.last is None else self.last
-        playback = Playback(Simulation(self.run.level, body=self.run.body), self.run.inputs, spacing=0)
+        runs = self.run, *self.beside
+        wanted = self.first + MOST_PICTURES // len(runs) if self.last is None else self.last
         # What comes after the last picture is not run.
-        found = playback.find_end(wanted + 1)
-        end = wanted + 1 if found is None else found + _TAIL
+        found = [
+            Playback(Simulation(run.level, body=run.body), run.inputs, spacing=0).find_end(wanted + 1) for run in runs
+        ]
+        end = max(wanted + 1 if each is None else each + _TAIL for each in found)
         if self.last is None and end > wanted:
             raise ArgumentError(f"the film has more than {MOST_PICTURES:,} pictures; name its last tick: --to")
         last = min(wanted, end)
@@ -74,29 +97,79 @@ class Film:
         return range(self.first, last + 1)
 
 
+class _Panel:
+    """A run in a picture of its own. ``told``: tick and text of each of its splits."""
+
+    def __init__(self, film: Film, run: Recording, told: Sequence[tuple[int, str]]) -> None:
+        context = OffscreenContext(film.size, film.settings)
+        self.film, self.run, self.told, self.time = film, run, told, 0
+        self.playback = Playback(Simulation(run.level, body=run.body), run.inputs, spacing=0)
+        self.view = LevelView(context, self.playback.simulation)
+        self.hud = Hud(context.theme)
+
+    def step(self) -> None:
+        self.playback.step()
+        self.view.on_tick()
+        world = self.playback.simulation
+        self.time = world.tick if world.outcome == "running" else self.time
+
+    def draw(self, surface: pygame.Surface, *, whole: bool) -> None:
+        """Title, or in an episode the time left; time and the last split below; the keys."""
+        self.view.draw(surface, 1.0, whole=whole)
+        hud, run, world = self.hud, self.run, self.playback.simulation
+        if run.episode:
+            covered = [hud.time_bar(surface, run.lifetime + GOLD_BONUS * world.gold - self.time)]
+        else:
+            covered = [hud.label(surface, run.title)]
+        words = [run.title] * bool(run.episode)
+        if self.film.splits:
+            words += [f"{seconds_text(self.time)} s", *[text for tick, text in self.told if tick < world.tick][-1:]]
+        covered.append(hud.foot(surface, "; ".join(words), ""))
+        if self.film.keys:
+            covered.append(hud.keys(surface, self.playback.keys_at(world.tick - 1), 704))
+        for each in covered:
+            self.view.also_covered(each)
+
+
+def told_splits(own: RunSplits, others: Sequence[RunSplits]) -> list[tuple[int, str]]:
+    """Tick and text of each split of a run: how many ticks later (+) or earlier (-) the others have it."""
+    found = []
+    for split in own.splits:
+        words = [str(split)]
+        for each in others:
+            there, name = each.by_key.get(split.key), (each.recording.author or each.recording.name)[:20]
+            words.append(f"{name} {there.tick - split.tick:+d}" if there else f"{name} never")
+        found.append((split.tick, ", ".join(words)))
+    return found
+
+
 def film_pictures(film: Film) -> Iterator[pygame.Surface]:
     """One picture a tick, always the same surface. Raises what ``Film.moments`` does."""
-    context = OffscreenContext(film.size, film.settings)
-    moments = film.moments
-    playback = Playback(Simulation(film.run.level, body=film.run.body), film.run.inputs, spacing=0)
-    view = LevelView(context, playback.simulation)
-    view.ghosts = [Ghost(other.inputs, other.level, other.body) for other in film.ghosts]
-    surface = pygame.Surface(film.size)
-    hud = Hud(context.theme)
+    moments, (w, h), runs = film.moments, film.size, (film.run, *film.beside)
+    told: list[list[tuple[int, str]]] = [[]] * len(runs)
+    if film.splits:
+        from ninja_game.runs.compare import run_splits
+
+        first, *others = [run_splits(each, memory="auto") for each in (*runs, *film.ghosts)]
+        told = [told_splits(first, others), *(told_splits(each, [first]) for each in others[: len(film.beside)])]
+    panels = [_Panel(film, *each) for each in zip(runs, told, strict=True)]
+    panels[0].view.ghosts = [Ghost(other.inputs, other.level, other.body) for other in film.ghosts]
+    surface = pygame.Surface(film.whole_size)
+    places = [surface.subsurface((number % 2 * w, number // 2 * h, w, h)) for number in range(len(runs))]
     for tick in range(moments.stop):
-        if tick:
-            playback.step()
-            view.on_tick()
+        for panel, place in zip(panels, places, strict=True):
+            if tick:
+                panel.step()
+            if tick in moments:
+                panel.draw(place, whole=tick == moments.start)
         if tick in moments:
-            view.draw(surface, 1.0, whole=tick == moments.start)
-            view.also_covered(hud.label(surface, film.run.title))
-            if film.keys:
-                view.also_covered(hud.keys(surface, playback.keys_at(tick - 1), 604))
             yield surface
+    if film.then:
+        yield from film_pictures(film.then)
 
 
 def write_film(film: Film, path: Path, report: Callable[[int], bool] = lambda _: True) -> bool:
-    """Write a film to ``path``: a .gif, a .webm, or for a path without suffix a folder of PNG pictures, one a tick.
+    """Write a film to ``path``: a .gif, .webm or .mp4, or for a path without suffix a folder of PNG pictures.
 
     ``report`` gets the number of pictures made so far; where it gives False, the film is given up: then this gives
     False and leaves no file. Raises NinjaGameError for another suffix, MissingExtraError, OSError, what
@@ -112,11 +185,11 @@ def write_film(film: Film, path: Path, report: Callable[[int], bool] = lambda _:
     try:
         if path.suffix == ".gif":
             palette = palette_named((film.settings or Settings()).palette)
-            write_gif(pictures(), len(film.moments), path, film.size, film.speed, palette)
-        elif path.suffix == ".webm":
-            write_webm(pictures(), path, film.size, film.speed)
+            write_gif(pictures(), film.length, path, film.whole_size, film.speed, palette)
+        elif path.suffix in _VIDEO:
+            write_video(pictures(), path, film.whole_size, film.speed)
         elif path.suffix:
-            raise NinjaGameError(f"{path}: a film is a .gif, a .webm, or a folder of pictures (a path without suffix)")
+            raise NinjaGameError(f"{path}: a film is a .gif, .webm, .mp4, or a folder of pictures (no suffix)")
         else:
             write_folder(pictures(), path)
     except _StoppedError:
@@ -129,7 +202,12 @@ _SHORTEST_MS = 20
 _LONG_FILM = 600
 """Ticks beyond which a GIF leaves every second one out."""
 _MOST_A_SECOND = 60
-"""Pictures a second of a WebM; a faster one leaves some out."""
+"""Pictures a second of a video; a faster one leaves some out."""
+_VIDEO: dict[str, tuple[str, dict[str, object]]] = {
+    ".webm": ("libvpx-vp9", {"crf": "24", "b:v": "0", "deadline": "good", "cpu-used": "5"}),
+    ".mp4": ("libx264", {"crf": "20"}),
+}
+"""By suffix the encoder of a video and its options, which lose little."""
 
 
 def write_gif(
@@ -163,26 +241,29 @@ def write_gif(
     write_atomically(path, film.getvalue())
 
 
-def write_webm(pictures: Iterator[pygame.Surface], path: Path, size: tuple[int, int], speed: float) -> None:
-    """Write pictures of ``size`` px, one a tick, as a WebM (VP9), losing little.
+def write_video(pictures: Iterator[pygame.Surface], path: Path, size: tuple[int, int], speed: float) -> None:
+    """Write pictures of ``size`` px, one a tick, as a WebM (VP9) or MP4 (H.264).
 
-    Raises MissingExtraError without PyAV, ArgumentError for a size in odd px, OSError.
+    Raises MissingExtraError without PyAV or its encoder, ArgumentError for a size in odd px, OSError.
     """
+    codec, options = _VIDEO[path.suffix]
     try:
         import av
         import numpy as np
     except ImportError:
-        raise MissingExtraError(f"a WebM needs PyAV; {how_to_install('film')}") from None
+        raise MissingExtraError(f"a {path.suffix} needs PyAV; {how_to_install('film')}") from None
+    if codec not in av.codecs_available:
+        raise MissingExtraError(f"this PyAV has no encoder {codec}; write a .gif, or install a build with it")
     if size[0] % 2 or size[1] % 2:
-        raise ArgumentError(f"a WebM has a size in even px; found {size[0]}x{size[1]}")
+        raise ArgumentError(f"a {path.suffix} has a size in even px; found {size[0]}x{size[1]}")
     rate = Fraction(TICKS_PER_SECOND) * Fraction(speed).limit_denominator(1000)
     every = -(-rate // _MOST_A_SECOND)
     film = io.BytesIO()
-    with av.open(film, "w", format="webm") as container:
-        stream = container.add_stream("libvpx-vp9", rate=rate / every)
+    with av.open(film, "w", format=path.suffix[1:]) as container:
+        stream: av.VideoStream = container.add_stream(codec, rate=rate / every)  # type: ignore[assignment]
         stream.width, stream.height = size
         stream.pix_fmt = "yuv420p"
-        stream.options = {"crf": "24", "b:v": "0", "deadline": "good", "cpu-used": "5"}
+        stream.options = options
         for number, picture in enumerate(pictures):
             if number % every == 0:
                 shape = size[1], size[0], 3
@@ -252,7 +333,7 @@ class FilmJob:
 
     def _make(self) -> None:
         film = Film(self._run, settings=self._settings)
-        self._count = len(film.moments)
+        self._count = film.length
         path = export_path(self._folder, self._run.title, ".gif")
         if write_film(film, path, self._report):
             self.result = f"Saved: {path}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 
 import numpy as np
@@ -13,8 +14,10 @@ from ninja_game.errors import ArgumentError
 from ninja_game.search.formula.task import Found, Keys, Report, SpanTask, SpanWorlds, Trials
 from ninja_game.search.local_search import mutate
 from ninja_game.search.nodes import RandomState, random_below, zeroed
+from ninja_game.sim.level import Level
 from ninja_game.sim.memory.declare import entry_point
 from ninja_game.sim.states import OUTCOME_RUNNING
+from ninja_game.simulation import Body
 
 METHODS = ("local", "beam", "exhaustive")
 
@@ -102,6 +105,31 @@ def search_span(
             change(task, mutated, results, rng, rounds=40)
         turn += 1
     return results.best
+
+
+CUTS, AHEAD = (20, 60, 180, 540), 600
+"""Last ticks of a run that are left out, one after the other; ticks in which the exit is looked for behind them."""
+
+
+def to_exit(
+    level: Level, inputs: bytes, seconds: float, *, body: Body = "circle", seed: int = 1, threads: int | None = None
+) -> bytes | None:
+    """A run to the exit that begins as one that ends before it: its last ticks are searched, then ever more of them.
+
+    None where none is found in the time.
+    """
+    for cut in CUTS:
+        first = max(0, len(inputs) - cut)
+        began: list[float] = []
+
+        def report(_: int, found: tuple[Found, ...], began: list[float] = began) -> bool:
+            began.append(time.monotonic())
+            return not found and began[-1] - began[0] < seconds / len(CUTS)
+
+        task = SpanTask(level, inputs, first, first + AHEAD, goal="won", body=body)
+        if found := search_span(task, report, seed=seed, threads=threads):
+            return found[0].inputs
+    return None
 
 
 def count_ways(task: SpanTask, every: int) -> int:

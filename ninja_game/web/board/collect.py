@@ -11,6 +11,7 @@ from ninja_game.errors import FileError, NinjaGameError, ReplayError, reason
 from ninja_game.files.reading import LeftOut, decoded, files_below, read_bytes
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.recording import holds_recordings
+from ninja_game.formats.replay.episode import is_episode, parse_episode, write_episode
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay, write_replay
 from ninja_game.runs.chunks import Chunk
 from ninja_game.runs.recording_reader import records_of
@@ -87,6 +88,10 @@ class RunFolder:
                 parsed = parse_replay(text)
                 whole = self._whole(parsed)
                 return [Sent(Chunk(name, text=text if whole is parsed else write_replay(whole)), whole)]
+            if is_episode(text):
+                runs = [self._whole(each) for each in parse_episode(text)]
+                text = write_episode(runs)
+                return [Sent(Chunk(name, number, text), each) for number, each in enumerate(runs)]
             records = records_of(text, name)
             if not records and holds_recordings(text):
                 raise ReplayError("inputs without a level", hint="send a replay, or a record of N")

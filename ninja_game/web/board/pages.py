@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Sequence
 from functools import partial
+from itertools import product
 from pathlib import Path
 from statistics import mean, median
 from typing import Any
@@ -16,6 +17,7 @@ from ninja_game.files.reading import SUFFIXES
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.formats.run_time import seconds_text
+from ninja_game.sim.rules import LIFETIME
 from ninja_game.web.board.level_pages import FIRST, LevelPages
 from ninja_game.web.board.parts import UP, level_link, player_link, player_page
 from ninja_game.web.board.ranking import Record, Standing
@@ -56,6 +58,9 @@ def is_in(path: Path, folder: Path) -> bool:
     """Whether a path, of something that may not be there yet, is a folder or leads into it; links are followed."""
     place = path.resolve()
     return folder.exists() and any(each.exists() and each.samefile(folder) for each in (place, *place.parents))
+
+
+EPISODE_HEADS = ("Place", "Player", "Sum", "Score", "Levels", "Watch")
 
 
 class BoardPages(LevelPages):
@@ -230,20 +235,23 @@ class BoardPages(LevelPages):
     def _episodes(self) -> list[Content]:
         found: list[Content] = []
         parts = [(ladder, each) for ladder in self.ranking.ladders for each in self.ranking.categories if each.episodes]
+        kinds = ("sum of the best of all its levels", self.ranking.episode), ("in one recording", self.ranking.whole)
         for number, episode in sorted(self.ranking.shown.levels.episodes.items()):
             tables = []
-            for part in parts:
+            for part, (what, ranked) in product(parts, kinds):
                 rows = [
                     (
                         place,
                         player_link(player),
                         part[1].text(total),
+                        seconds_text(LIFETIME + sum(run.score - LIFETIME for run in runs)),
                         ", ".join(self.value(part[1], run) for run in runs),
+                        self.watch(runs, ""),
                     )
-                    for place, (player, total, runs) in enumerate(self.ranking.episode(episode, part)[:FIRST], 1)
+                    for place, (player, total, runs) in enumerate(ranked(episode, part)[:FIRST], 1)
                 ]
-                caption = f"Episode {number:02d}, {self.part_name(part)}: sum of the best of all its levels"
-                tables += [table(caption, ("Place", "Player", "Sum", "Levels"), rows)] if rows else []
+                caption = f"Episode {number:02d}, {self.part_name(part)}: {what}"
+                tables += [table(caption, EPISODE_HEADS, rows)] if rows else []
             levels = [tag("li", level_link(each)) for each in episode.levels]
             nobody = tag("p", "No player yet.")
             listed = tag("ul", *levels, class_="facts")

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime, timedelta
 from functools import cached_property
+from operator import itemgetter
 
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.player.catalogue import Episode
@@ -168,7 +169,19 @@ class Ranking:
             best = [table[player] for table in tables if player in table]
             if len(best) == len(tables):
                 found.append((player, sum(each.values[0] for each in best), [each.run for each in best]))
-        return sorted(found, key=lambda each: (each[1], each[0]))
+        return sorted(found, key=itemgetter(1, 0))
+
+    def whole(self, episode: Episode, part: Part) -> list[tuple[str, float, Sequence[Run]]]:
+        """The same of each player's best recording of the whole episode; with an assisted run in it, it is assisted."""
+        ladder, category = part
+        best: dict[str, tuple[str, float, Sequence[Run]]] = {}
+        for runs in self.judged.episodes.get(episode.key, ()):
+            values = [found[0] for run in runs if (found := self.values(category, run))]
+            player = runs[0].player
+            if max(run.ladder != PLAYED for run in runs) == (ladder != PLAYED) and len(values) == len(runs):
+                now = player, sum(values), runs
+                best[player] = min(best.get(player, now), now, key=itemgetter(1))
+        return sorted(best.values(), key=itemgetter(1, 0))
 
     @cached_property
     def contested(self) -> list[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import defaultdict, deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from heapq import nsmallest
@@ -68,6 +68,7 @@ class Judged(NamedTuple):
     made: str = ""
     assisted: bool | None = None
     co_authors: str = ""
+    episode: str = ""
 
 
 _TYPES = tuple(get_type_hints(Judged).values())
@@ -95,6 +96,7 @@ class Run:
     made: str
     assisted: bool | None
     co_authors: str
+    episode: str
     digest: str = field(repr=False)
     folder: RunFolder = field(repr=False, compare=False)
     remark: str = ""
@@ -149,10 +151,14 @@ class Rejected:
 
 @dataclass(frozen=True)
 class ValidatedRuns:
-    """All of a folder: ``runs`` in the order in which they were added, ``rejected`` by file."""
+    """All of a folder: ``runs`` in the order in which they were added, ``rejected`` by file.
+
+    ``episodes``: by key the runs of whole episodes, each a run for each of its levels.
+    """
 
     runs: tuple[Run, ...]
     rejected: tuple[Rejected, ...]
+    episodes: Mapping[str, list[list[Run]]] = field(default_factory=dict)
 
 
 def judge(
@@ -177,8 +183,25 @@ def judge(
                 continue
             added = dates((name, found.record), found.way) if dates else ""
             runs.append(_run(name, digest, found, entry, sent, added))
-    counted, copies = _without_copies(_of_players(sorted(runs, key=_first)), memo)
-    return ValidatedRuns(tuple(counted), tuple(sorted([*rejected, *copies], key=lambda each: (each.file, each.record))))
+    told = _of_players(sorted(runs, key=_first))
+    counted, copies = _without_copies(told, memo)
+    refused = tuple(sorted([*rejected, *copies], key=lambda each: (each.file, each.record)))
+    return ValidatedRuns(tuple(counted), refused, _episodes(told, counted, shown))
+
+
+def _episodes(runs: list[Run], counted: list[Run], shown: PublishedLevels) -> dict[str, list[list[Run]]]:
+    """By key the runs of whole episodes: every level's counts, or does what another run by the same player does."""
+    lengths = {each.key: len(each.levels) for each in shown.levels.episodes.values()}
+    ways = {(run.player, run.entry.digest, run.way): run for run in counted}
+    files: dict[tuple[str, str], list[Run]] = defaultdict(list)
+    for run in sorted(runs, key=lambda each: each.key):
+        if run.episode and (own := ways.get((run.player, run.entry.digest, run.way))):
+            files[run.episode, run.file].append(own)
+    found: dict[str, list[list[Run]]] = defaultdict(list)
+    for (key, _), whole in files.items():
+        if len(whole) == lengths[key] and len({run.player for run in whole}) == 1:
+            found[key].append(whole)
+    return found
 
 
 def _judged(
@@ -186,11 +209,14 @@ def _judged(
 ) -> Iterator[tuple[str, str, list[Judged]]]:
     """Name, digest and recordings of each file, simulated where the memo does not know them."""
     # Twice as long as a run can be that is in time.
+    episodes = {each.key: each.levels for each in shown.levels.episodes.values()}
     longest = [
-        2 * (LIFETIME + GOLD_BONUS * each.all_gold) * tick_cost(each.named.level) for each in shown.entries.values()
+        2 * (LIFETIME + GOLD_BONUS * sum(each.all_gold for each in row)) * tick_cost(entry.named.level)
+        for row in [*episodes.values(), *([each] for each in shown.entries.values())]
+        for entry in row
     ]
     budget = min(RUN_BUDGET, max(longest, default=RUN_BUDGET))
-    context = digest_of([program(), budget, sorted(shown.entries)])
+    context = digest_of([program(), budget, sorted(shown.entries), sorted(episodes)])
     files: deque[tuple[str, str, str, list[Sent], list[Judged]]] = deque()
 
     def chunks() -> Iterator[Chunk]:
@@ -204,7 +230,9 @@ def _judged(
     levels = [entry.named for entry in shown.entries.values()]
     found: list[Judged] = []
     certain = True
-    for result in verify_all((), chunks=chunks(), levels=levels, strict=True, jobs=jobs, budget=budget):
+    for result in verify_all(
+        (), chunks=chunks(), levels=levels, episodes=episodes, strict=True, jobs=jobs, budget=budget
+    ):
         yield from _remembered(files)
         name, digest, key, sent, _ = files[0]
         row = _row(sent[len(found)], result, folder)
@@ -274,7 +302,7 @@ def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
     return Judged(
         result.record, "", "", result.author, result.level_digest, result.end_tick, result.gold,
         result.score_ticks or 0, result.xy_sha256, sum(map(int.bit_count, pressed)), jumps,
-        result.made, result.assisted, result.co_authors,
+        result.made, result.assisted, result.co_authors, result.episode,
     )  # fmt: skip
 
 

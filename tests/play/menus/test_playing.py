@@ -6,6 +6,7 @@ from pathlib import Path
 
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
+from ninja_game.formats.replay.episode import lifetimes
 from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
@@ -17,6 +18,7 @@ from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.progress import UNLOCKED
 from ninja_game.player.saving import EPISODE_BEST, OF_A_LEVEL
 from tests.support.draw_log import DrawLog
+from ninja_game.runs.verify import verify_recording
 from tests.support.menu_driver import MenuDriver
 
 
@@ -52,6 +54,15 @@ def test_first_episode_is_played_to_its_end(driver: MenuDriver) -> None:
     assert following.context.title.startswith("Episode 2, level 1: ")
     driver.press("q")
     assert isinstance(driver.top(), EpisodeGrid)
+    driver.press("escape")
+    driver.open("Records")
+    driver.press("e")
+    (file,) = (driver.player.folder / "exports").iterdir()
+    runs = load_replays(file)
+    assert file.name.endswith(".episode.txt")
+    assert [run.level for run in runs] == [each.named.level for each in passed.run.episode.levels]
+    assert lifetimes([run.replay for run in runs])[-1] == passed.run.score
+    assert all(verify_recording(run).good and str(run.replay.made) == "played" for run in runs)
 
 
 def test_runs_that_are_begun_anew_count_with_their_gold(driver: MenuDriver) -> None:

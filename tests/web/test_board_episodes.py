@@ -1,0 +1,101 @@
+"""Whole episodes on a board: ranked for who played all of their levels, refused where they are none."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from ninja_game.cli.main import cli
+from ninja_game.formats.load import load_replays
+from ninja_game.formats.replay.text import write_replay
+from ninja_game.runs.run import record_replay
+from ninja_game.web.board.ranking import Ranking
+from ninja_game.web.board.rules import FASTEST
+from ninja_game.web.board.runs import PLAYED, ValidatedRuns, judge
+from ninja_game.web.pages.memo import Memo
+from ninja_game.web.pages.published import published_levels
+from tests.support.own_pack import PACK
+from tests.web.test_board_memo import board
+
+RUNS = sorted((PACK / "certificates").glob("0*.exit.replay.txt"))[:5]
+SHOWN = published_levels(PACK)
+
+
+def episode(folder: Path, author: str, runs: list[Path], name: str = "") -> Path:
+    """An episode of these runs under an author's name."""
+    path = folder / f"{name or author}.episode.txt"
+    assert CliRunner().invoke(cli, ["convert", *map(str, runs), str(path)]).exit_code == 0
+    lines = path.read_text().splitlines()
+    path.write_text("\n".join(f"author: {author}" if line.startswith("author:") else line for line in lines) + "\n")
+    return path
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    found = tmp_path / "runs"
+    found.mkdir()
+    return found
+
+
+def judged(folder: Path, memo: Memo | None = None) -> ValidatedRuns:
+    return judge(folder, SHOWN, jobs=1, memo=memo, dates=lambda key, _: f"2026-01-0{1 + (key[0] > 'b')}T00:00:00Z")
+
+
+def whole(folder: Path) -> list[tuple[float, list[str]]]:
+    """Sum of the ticks and players of the whole runs of the first episode."""
+    ranking = Ranking(judged(folder), SHOWN)
+    ladder = next(iter(sorted(ranking.ladders, key=lambda each: each == PLAYED)))
+    found = ranking.whole(SHOWN.levels.episodes[0], (ladder, FASTEST))
+    return [(total, [run.player for run in runs]) for _, total, runs in found]
+
+
+def test_a_whole_episode_is_ranked_and_its_levels_count_too(folder: Path, tmp_path: Path) -> None:
+    path = episode(folder, "Ann", RUNS)
+    later = load_replays(RUNS[2])[0]
+    slower = tmp_path / "later.replay.txt"
+    slower.write_text(write_replay(record_replay(later.level, b"\0" + later.inputs)))
+    episode(folder, "Ann", [*RUNS[:2], slower, *RUNS[3:]], "ann-slower")
+    runs = load_replays(path)
+    ticks = sum(each.replay.final_tick for each in runs)
+    assert whole(folder) == [(ticks, ["Ann"] * 5)]
+    assert {run.entry.digest for run in judged(folder).runs} == {each.replay.level_digest for each in runs}
+    board(folder, PACK, "--site", str(tmp_path / "site"))
+    page = (tmp_path / "site" / "board" / "episodes.html").read_text("utf-8")
+    assert "in one recording" in page
+    assert f"{(runs[4].lifetime + 80 * runs[4].replay.gold - runs[4].replay.final_tick) / 40:.3f}" in page
+
+
+def test_an_episode_of_runs_that_were_sent_before_counts_for_who_sent_them(folder: Path) -> None:
+    for each in RUNS:
+        (folder / each.name).write_text(each.read_text())
+    author = load_replays(RUNS[0])[0].author
+    episode(folder, author, RUNS, "whole")
+    assert [players for _, players in whole(folder)] == [[author] * 5]
+
+
+def test_one_run_of_another_player_makes_no_episode(folder: Path) -> None:
+    (folder / "ann.txt").write_text(RUNS[2].read_text())
+    episode(folder, "bob", RUNS)
+    found = judged(folder)
+    assert [(each.kind, each.record) for each in found.rejected] == [("copy", 2)]
+    assert whole(folder) == []
+
+
+@pytest.mark.parametrize("chosen", [RUNS[:4], [*RUNS[:4], RUNS[3]], RUNS[::-1]], ids=["four", "twice", "backwards"])
+def test_levels_that_are_no_episode_are_refused(chosen: list[Path], folder: Path) -> None:
+    episode(folder, "Ann", chosen)
+    found = judged(folder)
+    assert not found.runs
+    assert {each.why for each in found.rejected} == {"its levels, in this order, are no episode that counts"}
+
+
+def test_what_is_remembered_is_what_was_judged(folder: Path, tmp_path: Path) -> None:
+    episode(folder, "Ann", RUNS)
+    memo = Memo(tmp_path / "memo.json")
+    first = judged(folder, memo)
+    memo.save()
+    again = judged(folder, Memo(tmp_path / "memo.json"))
+    assert [run.key for each in again.episodes.values() for runs in each for run in runs]
+    assert again.episodes == first.episodes
