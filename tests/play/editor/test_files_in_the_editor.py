@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
@@ -26,6 +27,7 @@ from ninja_game.play.menus.panels import FormPanel, Menu
 from ninja_game.player.backup import read_backup, write_backup
 from ninja_game.signals import Terminated
 from tests.support.level_maker import ROOM, Maker
+from tests.support.own_pack import PACK
 
 
 def test_saved_levels_are_in_the_browser_at_once(room: Maker, tmp_path: Path) -> None:
@@ -55,6 +57,27 @@ def test_a_level_of_the_browser_is_edited_and_played_as_it_is_then(room: Maker) 
     room.choose_in_menu("Leave the editor")
     assert room.top() is browser
     assert browser.entries[0].named.level.tile(12, 12) == 1
+
+
+@pytest.mark.parametrize("zipped", [False, True])
+def test_a_level_of_the_players_own_pack_is_saved_into_the_pack(maker: Maker, tmp_path: Path, *, zipped: bool) -> None:
+    folder = tmp_path / "levels" / "laundry"
+    shutil.copytree(PACK, folder)
+    index = folder / "pack.toml"
+    index.write_text(index.read_text("utf-8").replace("test pack", "Laundry"), "utf-8")
+    if zipped:
+        shutil.make_archive(str(folder), "zip", folder)
+        shutil.rmtree(folder)
+    maker.open("Levels")
+    maker.press("up")
+    maker.type("laundry first")
+    maker.choose("Edit")
+    maker.drag((300, 300))
+    maker.chord("s", pygame.KMOD_LCTRL)
+    files = sorted(path.name for path in (tmp_path / "levels").iterdir())
+    assert files == (["first-steps.txt", "laundry.zip"] if zipped else ["laundry"])
+    saved = tmp_path / "levels" / "first-steps.txt" if zipped else folder / "00-0-first-steps.txt"
+    assert load_levels(saved)[0].level == maker.draft.level
 
 
 def test_a_name_is_asked_for_where_there_is_none(maker: Maker, tmp_path: Path) -> None:
