@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from ninja_game.cli.run_options import with_progress
-from ninja_game.files.shown_text import shown_text
+from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.run_time import seconds_text
+
+if TYPE_CHECKING:
+    from ninja_game.formats.pack.pack import Pack
 
 
 @click.command(name="lint")
@@ -35,10 +39,16 @@ def lint(ctx: click.Context, pack: Path, design: bool) -> None:
     found = list(lint(opened, with_design=design))
     for finding in found:
         click.echo(f"{shown_text(str(finding), 500)}. {finding.hint} [{finding.code}]")
-    episodes = len(opened.episodes)
-    counted = f"{shown_text(opened.name)}: {episodes} episodes, {len(opened.levels)} levels"
-    click.echo(f"{counted}, {len(found)} findings" if found else f"{counted}, nothing odd")
+    click.echo(_summary(opened, len(found)))
     ctx.exit(1 if found else 0)
+
+
+def _summary(pack: Pack, found: int) -> str:
+    """What a pack holds, and how much of it is odd."""
+    parts = [counted(len(pack.episodes), "episode"), counted(len(pack.levels), "level")]
+    parts.append(counted(found, "finding") if found else "nothing odd")
+    accepted = len(pack.index.accepted)
+    return f"{shown_text(pack.name)}: {', '.join(parts)}{f', {accepted} accepted' if accepted else ''}"
 
 
 @click.command(name="pars")
@@ -67,7 +77,8 @@ def pars(pack: Path) -> None:
         click.echo(f"{times}  difficulty {pars.difficulty or 0:6.2f}  {shown_text(file)}")
     Tree(pack).write(PARS, write_pars(made))
     without = len(opened.levels) - len(made)
-    click.echo(f"{len(made)} levels with pars, {without} without a sound certificate; wrote {pack / PARS}")
+    with_pars = f"{counted(len(made), 'level')} with pars"
+    click.echo(f"{with_pars}, {without} without a sound certificate; wrote {pack / PARS}")
 
 
 @click.group(commands={"pars": pars, "lint": lint})

@@ -89,6 +89,16 @@ def test_names_in_a_zip_that_lead_elsewhere_are_passed_by(tmp_path: Path) -> Non
     assert pack.files.names == ("good.txt", "pack.toml")
 
 
+def test_what_a_zip_hides_is_told(tmp_path: Path) -> None:
+    entries = {"a/pack.toml": INDEX, "a/x.txt": LEVEL, "a/X.txt": LEVEL, "b/pack.toml": INDEX}
+    problems = Pack(zip_pack(tmp_path / "odd.zip", entries)).problems
+    assert [problem.removeprefix(f"{tmp_path}/odd.zip/") for problem in problems] == [
+        "b/pack.toml: a second index; a/pack.toml is the one that is read",
+        "a/X.txt: more than one file has this name on some system",
+        "a/x.txt: more than one file has this name on some system",
+    ]
+
+
 def test_file_without_a_name_in_a_zip_is_passed_by(tmp_path: Path) -> None:
     path = zip_pack(tmp_path / "odd.zip", {"pack.toml": INDEX, "good.txt": LEVEL, "x": LEVEL})
     data = bytearray(path.read_bytes())

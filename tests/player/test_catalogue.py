@@ -127,7 +127,8 @@ def test_packs_of_one_name_stand_side_by_side_with_author_and_version(tmp_path: 
     catalogue = Catalogue(tmp_path)
     _, *packs = catalogue.packs()
     assert [(pack.key, pack.name) for pack in packs] == [
-        ("Same", "Same by Ann (a)"), ("Same (b)", "Same by Ann, 2"), ("Same (c)", "Same by Ann (c)"), ("Other", "Other"),
+        ("Same", "Same by Ann (a)"), ("Same (b)", "Same by Ann, 2"), ("Same (c)", "Same by Ann (c)"),
+        ("Other", "Other"),
     ]  # fmt: skip
     assert {entry.source for entry in packs[1].levels} == {"Same (b)"}
     catalogue.more.append(tmp_path / "a")

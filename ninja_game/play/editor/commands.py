@@ -211,7 +211,7 @@ class EditorCommands(DocumentCommands):
         self.unless_unsaved(lambda: self.app.push(LevelChoice(self.app, self.edit_entry)))
 
     def edit_entry(self, entry: Entry) -> None:
-        """Edit a level of the browser: the player's, in a pack too, in its file; one of the game or a zip as a new one."""
+        """Edit a level of the browser: the player's in its file, in a pack too; the game's or a zip's as a new one."""
         try:
             own = entry.source != "game" and entry.named.ascii and Path(entry.named.file).is_file()
             self.session.begin(open_source(Path(entry.named.file)) if own else Source(draft_of(entry.named)))
