@@ -168,6 +168,11 @@ class Catalogue:
         """The episodes of the game's own pack that have levels, by number."""
         return self.ours.episodes
 
+    @property
+    def told(self) -> list[str]:
+        """The problems, each once, with paths below the player's folder."""
+        return list(dict.fromkeys(problem.replace(f"{self.folder}{os.sep}", "") for problem in self.problems))
+
     def packs(self) -> list[EpisodeSet]:
         """The game's own pack, then the player's as they are now; what is wrong with them becomes ``problems``.
 

@@ -28,7 +28,7 @@ from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.editor.view import EditorView
 from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.panels import FormPanel, Menu, nothing
+from ninja_game.play.menus.panels import FormPanel, Menu, Row, nothing
 from ninja_game.play.workspace.document import Action, DocumentCommands
 from ninja_game.player.catalogue import Entry
 from ninja_game.ui.widgets import following
@@ -172,6 +172,12 @@ class EditorCommands(DocumentCommands):
             return None
         return self.session.source.path or free_path(self._levels, file_stem(self.session.draft.name, "level"), SUFFIX)
 
+    def reload_rows(self, path: Path) -> list[Row]:
+        """Load the file anew."""
+        if path != self.session.source.path or not path.exists():
+            return []
+        return [("Load it anew", lambda: self.open_file(path), "What you changed is lost")]
+
     def saved_text(self, path: Path) -> str:
         """Where it is, and whether the menu shows it."""
         return f"Saved{', and in the menu Levels' * path.is_relative_to(self._levels)}: {path}"
@@ -212,9 +218,16 @@ class EditorCommands(DocumentCommands):
 
     def edit_entry(self, entry: Entry) -> None:
         """Edit a level of the browser: the player's in its file, in a pack too; the game's or a zip's as a new one."""
+        path = Path(entry.named.file)
+        if entry.source != "game" and entry.named.ascii and path.is_file():
+            self.open_file(path)
+        else:
+            self.session.begin(Source(draft_of(entry.named)))
+
+    def open_file(self, path: Path) -> None:
+        """Edit the level of a file."""
         try:
-            own = entry.source != "game" and entry.named.ascii and Path(entry.named.file).is_file()
-            self.session.begin(open_source(Path(entry.named.file)) if own else Source(draft_of(entry.named)))
+            self.session.begin(open_source(path))
         except (NinjaGameError, OSError) as error:
             self.app.notify(reason(error))
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from os import sep
 from pathlib import Path
 
 import pygame
 
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.reading import read_bytes
-from ninja_game.files.shown_text import name_problem, unreadable
+from ninja_game.files.shown_text import name_problem
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.load import load_levels
@@ -19,6 +18,7 @@ from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.episodes import draw_look
+from ninja_game.play.menus.problems import Problem, of_files, problems_button
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text, where_from
@@ -57,6 +57,7 @@ class Browser(ThumbnailScreen):
         self.search = ""
         self.sort: object = "listed"
         self.message = ""
+        self.problems: list[Problem] = []
         self.entries: list[Entry] = []
         self.shown: list[Entry] = []
         self.bests: dict[str, SavedReplay] = {}
@@ -80,14 +81,16 @@ class Browser(ThumbnailScreen):
         self.entries = catalogue.singles()
         self.bests = self.player.records.level_bests()
         self.marks = self.player.marks.all()
-        self.message = unreadable([problem.removeprefix(f"{catalogue.folder}{sep}") for problem in catalogue.problems])
+        self.problems = of_files(catalogue.told)
+        self.message = ""
         self._arrange()
         super().enter()
 
     def choosers(self) -> list[Widget]:
         """What a level is found and selected with."""
         sort = Choice((288, 66, 132, 32), "", SORT_ORDERS, lambda: self.sort, self._sort, hint="How the list is sorted")
-        return [self.list, self.entry_field, sort]
+        problems = problems_button(self.app, (150, 546, 270, 18), lambda: self.problems)
+        return [self.list, self.entry_field, sort, *problems]
 
     def build(self) -> Sequence[Widget]:
         """The list first, then what can be done with the selected level."""

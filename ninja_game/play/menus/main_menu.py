@@ -8,6 +8,7 @@ from random import Random
 import pygame
 
 from ninja_game import __version__
+from ninja_game.editor.files import recovered
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import bundled_replays
@@ -56,6 +57,7 @@ class MainMenu(MenuScreen):
         super().__init__(app)
         self.attract = Attract(app)
         self.run: EpisodeRun | None = None
+        self._lost = ""
 
     @property
     def column(self) -> int:
@@ -63,7 +65,9 @@ class MainMenu(MenuScreen):
         return self.run.entry.column if self.run else 0
 
     def enter(self) -> None:
-        """Look where play goes on."""
+        """Look where play goes on, and whether a level waits that was not saved."""
+        found = next(recovered(self.player.folder), None)
+        self._lost = f"A level was not saved last time: {shown_text(found.draft.name, 40)}" if found else ""
         self.run = next_run(self.player, practice_mode=self.player.settings.practice)
         super().enter()
 
@@ -92,7 +96,7 @@ class MainMenu(MenuScreen):
             ("Records", self._opener(RecordsScreen), "Your best runs, and what killed you"),
             ("Replays", self._opener(ReplaysScreen), "Watch your runs, and those of the levels' authors"),
             ("Physics", self._opener(LabScreen), "How the ninja and the walls meet, in ten moving figures"),
-            ("Editor", self._opener(EditorScreen), "Make levels of your own"),
+            ("Editor", self._opener(EditorScreen), self._lost or "Make levels of your own"),
             ("Help", self._opener(HelpScreen), "How to move, and what everything does"),
             ("Settings", self._opener(SettingsScreen), "Keys, sound, colours, comfort"),
             ("Quit", self.back, "Leave the game"),
@@ -102,7 +106,7 @@ class MainMenu(MenuScreen):
         """The levels, which can be opened in the editor from there."""
 
         def edit(entry: Entry) -> None:
-            screen = EditorScreen(app)
+            screen = EditorScreen(app, offers_recovered=False)
             app.push(screen)
             screen.commands.edit_entry(entry)
 

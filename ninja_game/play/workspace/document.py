@@ -51,6 +51,10 @@ class DocumentCommands:
         """Ask for a name, save under it, and do ``then``."""
         raise NotImplementedError
 
+    def reload_rows(self, path: Path) -> list[Row]:
+        """What else to offer where the document's file was changed by another program."""
+        return []
+
     def saved_text(self, path: Path) -> str:
         """What to say of a document that was saved."""
         raise NotImplementedError
@@ -73,6 +77,7 @@ class DocumentCommands:
             text, replace_it = str(error), partial(self.save_to, path, then, save=save, replacing=True)
             rows: list[Row] = [
                 ("Save under another name", lambda: self.save_as(then), ""),
+                *self.reload_rows(path),
                 ("Replace it", replace_it, "What it holds now is lost"),
                 CANCEL,
             ]

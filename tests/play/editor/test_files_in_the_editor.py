@@ -140,7 +140,7 @@ def test_saving_first_stays_where_it_was_not_saved(room: Maker, tmp_path: Path) 
     room.drag((300, 300))
     room.choose_in_menu("Leave the editor")
     room.choose("Save")
-    assert "changed by another program" in room.top().title  # type: ignore[attr-defined]
+    assert room.top().title == "Another program has changed room.txt"  # type: ignore[attr-defined]
     room.choose("Cancel")
     assert isinstance(room.top(), EditorScreen)
     assert (path.read_text("utf-8")[-10:], room.editor.session.is_saved) == ("; by hand\n", False)
@@ -151,6 +151,16 @@ def test_saving_first_stays_where_it_was_not_saved(room: Maker, tmp_path: Path) 
     assert load_levels(path)[0].level.tile(12, 12) == 1
 
 
+def test_a_file_that_another_program_changed_is_loaded_anew(room: Maker, tmp_path: Path) -> None:
+    room.chord("s", pygame.KMOD_LCTRL)
+    path = tmp_path / "levels" / "room.txt"
+    path.write_text(path.read_text("utf-8").replace("name: Room", "name: Hall"), "utf-8")
+    room.drag((300, 300))
+    room.chord("s", pygame.KMOD_LCTRL)
+    room.choose("Load it anew")
+    assert (room.draft.name, room.draft.level, room.editor.session.is_saved) == ("Hall", ROOM.level, True)
+
+
 def test_what_was_not_saved_when_the_program_died_is_offered(room: Maker, tmp_path: Path) -> None:
     room.drag((300, 300))
     session = room.editor.session
@@ -159,6 +169,12 @@ def test_what_was_not_saved_when_the_program_died_is_offered(room: Maker, tmp_pa
     session.autosave.close(keep=True)
     room.app.stack.clear()
     room.app.push(MainMenu(room.app))
+    assert room.button("Editor").hint == "A level was not saved last time: Room"
+    room.open("Levels")
+    room.choose("Edit")
+    assert isinstance(room.top(), EditorScreen), "nothing lies over a level that was just chosen"
+    room.choose_in_menu("Leave the editor")
+    room.press("escape")
     room.open("Editor")
     assert isinstance(room.top(), Menu)
     assert "Not saved last time: Room" in room.top().title  # type: ignore[attr-defined]
