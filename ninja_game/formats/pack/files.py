@@ -6,7 +6,7 @@ import re
 from collections import Counter
 from io import BytesIO
 from pathlib import Path, PurePosixPath
-from zipfile import ZipFile, ZipInfo
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from ninja_game.errors import FileError
 from ninja_game.files.beside import PLACE
@@ -92,6 +92,22 @@ class PackFiles:
         """The names of the level files."""
         return [name for name in self.names if LEVEL_FILES.fullmatch(name)]
 
+    @property
+    def own_names(self) -> list[str]:
+        """The names of what makes a pack: index, par times, levels, certificates."""
+        replays = [name for name in self.names if name.startswith(f"{CERTIFICATES}/") and name.endswith(".replay.txt")]
+        return [name for name in (INDEX, PARS) if name in self.names] + self.levels + replays
+
+    def zipped(self) -> bytes:
+        """The pack as a zip, the same bytes for the same files."""
+        data, folder = BytesIO(), self.path.resolve().name.removesuffix(".zip")
+        with ZipFile(data, "w", ZIP_DEFLATED) as file:
+            for name in self.own_names:
+                about = ZipInfo(f"{folder}/{name}")
+                about.compress_type = ZIP_DEFLATED
+                file.writestr(about, self.text(name))
+        return data.getvalue()
+
     def place(self, name: str) -> str:
         """The path of a file, as errors name it; a file's own path in a folder."""
         return str(self.path / name)
@@ -104,7 +120,7 @@ class PackFiles:
 
     def link(self) -> str:
         """The pack as a link, without its certificates. Raises LinkError for one that is too large."""
-        wanted = [name for name in (INDEX, PARS) if name in self.names] + self.levels
+        wanted = [name for name in self.own_names if not name.startswith(CERTIFICATES)]
         return pack_link({name: self.text(name) for name in wanted})
 
     def _bytes(self, name: str) -> bytes:
