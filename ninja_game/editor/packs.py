@@ -44,7 +44,7 @@ def toml_value(value: str | int | Sequence[str]) -> str:
 
 
 def with_value(block: str, key: str, value: str | int | Sequence[str]) -> str:
-    r"""A table of an index with an entry in its old place, else behind the first line; comments beside it stay.
+    r"""A table of an index with an entry in its old place, else behind the others; comments beside it stay.
 
     >>> with_value('name = "a"\nlevels = [\n  "b",\n]\n# why\n', "levels", [])
     'name = "a"\nlevels = []\n# why\n'
@@ -53,8 +53,8 @@ def with_value(block: str, key: str, value: str | int | Sequence[str]) -> str:
     entry = re.compile(rf"\s*[\"']?{key}[\"']?\s*=")
     first = next((number for number, line in enumerate(lines) if entry.match(line)), None)
     if first is None:
-        head = next((number for number, line in enumerate(lines) if re.match(r"\s*(\[\[|name\s*=)", line)), -1)
-        first = last = head + 1
+        entries = [number for number, line in enumerate(lines) if line.strip() and not line.lstrip().startswith("#")]
+        first = last = max(entries, default=-1) + 1
     else:
         last = next(end for end in range(first + 1, len(lines) + 1) if _is_toml("\n".join(lines[first:end])))
     return "\n".join([*lines[:first], f"{key} = {toml_value(value)}", *lines[last:]]) + "\n"

@@ -102,7 +102,7 @@ class Episode:
 class EpisodeSet(NamedTuple):
     """A pack as it is played. ``key``: "" for the game's own, else its name; ``singles``: levels in no episode.
 
-    ``files``: where its texts are; None where there is no pack.
+    ``pack``: what it was read from; None where there is none.
     """
 
     key: str
@@ -110,7 +110,12 @@ class EpisodeSet(NamedTuple):
     columns: tuple[str, ...]
     episodes: dict[int, Episode]
     singles: tuple[Entry, ...]
-    files: PackFiles | None = None
+    pack: Pack | None = None
+
+    @property
+    def files(self) -> PackFiles | None:
+        """Where its texts are."""
+        return self.pack.files if self.pack else None
 
     @property
     def levels(self) -> list[Entry]:
@@ -141,7 +146,7 @@ def episode_set(pack: Pack, key: str, name: str = "") -> EpisodeSet:
     placed = {level.file for levels in pack.episodes.values() for level in levels}
     singles = [level for level in pack.levels.values() if level.file not in placed]
     rest = tuple(Entry(level, source, pars=pars.get(level.file)) for level in singles)
-    return EpisodeSet(key, name or pack.name, pack.index.columns, episodes, rest, pack.files)
+    return EpisodeSet(key, name or pack.name, pack.index.columns, episodes, rest, pack)
 
 
 class Catalogue:

@@ -19,6 +19,7 @@ from ninja_game.files.user_folder import LEVELS, free_path
 from ninja_game.formats.ascii.writer import HEADER_KEYS
 from ninja_game.formats.lines import MOST_NAME
 from ninja_game.formats.sayings import read_sayings
+from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
 from ninja_game.play.editor.controls import COMMANDS
 from ninja_game.play.editor.palette_view import PaletteView
@@ -28,8 +29,8 @@ from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.editor.view import EditorView
 from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.panels import FormPanel, Menu, Row, nothing
-from ninja_game.play.workspace.document import Action, DocumentCommands
+from ninja_game.play.menus.panels import Action, FormPanel, Menu, Row, nothing
+from ninja_game.play.workspace.document import DocumentCommands
 from ninja_game.player.catalogue import Entry
 from ninja_game.ui.widgets import following
 
@@ -101,13 +102,17 @@ class EditorCommands(DocumentCommands):
         tools.tool, tools.selection = "select", everything(tools.draft)
 
     def go_to_finding(self, index: int) -> None:
-        """Put the pointer at a problem and select what it is about."""
-        findings, tools = self.session.findings, self.session.tools
+        """Show one of the problems."""
+        findings = self.session.findings
         if not findings:
             self.app.notify("No problems found")
             return
         self._finding = index % len(findings)
-        finding = findings[self._finding]
+        self.show_finding(findings[self._finding])
+
+    def show_finding(self, finding: Finding) -> None:
+        """Put the pointer at a problem and select what it is about."""
+        tools = self.session.tools
         places = finding_points(tools.draft.level, finding)
         records = [number for number in finding.records if number < len(tools.draft.objects)]
         tools.choose(frozenset((n, part) for n in records for part in points(tools.draft.objects[n])))

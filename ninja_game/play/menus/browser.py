@@ -18,6 +18,7 @@ from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.episodes import draw_look
+from ninja_game.play.menus.panels import Action, nothing
 from ninja_game.play.menus.problems import Problem, of_files, problems_button
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import PRACTICE_HINT
@@ -46,13 +47,14 @@ SORT_ORDERS: list[tuple[str, object]] = [
 class Browser(ThumbnailScreen):
     """A list at the left, the selected level at the right. The list is read again whenever the screen is entered.
 
-    ``edit``: opens a level in the editor.
+    ``edit``: opens a level in the editor; ``packs``: the screen of the player's packs.
     """
 
     title = "Levels"
 
-    def __init__(self, app: App, edit: Callable[[Entry], object] | None = None) -> None:
+    def __init__(self, app: App, edit: Callable[[Entry], object] | None = None, packs: Action = nothing) -> None:
         super().__init__(app)
+        self._packs = packs
         self._edit = edit
         self.search = ""
         self.sort: object = "listed"
@@ -72,7 +74,7 @@ class Browser(ThumbnailScreen):
         )
         self.watch_best = Button((SIDE, 510, 98, 32), "Watch best", self._watch)
         self.watch_author = Button((SIDE + 104, 510, 98, 32), "Author's run", self._watch_author)
-        self.entry_field = TextEntry((44, 66, 236, 32), "Search name or author", "", self._search)
+        self.entry_field = TextEntry((44, 66, 168, 32), "Search name or author", "", self._search)
 
     def enter(self) -> None:
         """Read the player's folder as it is now."""
@@ -88,7 +90,7 @@ class Browser(ThumbnailScreen):
 
     def choosers(self) -> list[Widget]:
         """What a level is found and selected with."""
-        sort = Choice((288, 66, 132, 32), "", SORT_ORDERS, lambda: self.sort, self._sort, hint="How the list is sorted")
+        sort = Choice((220, 66, 130, 32), "", SORT_ORDERS, lambda: self.sort, self._sort, hint="How the list is sorted")
         problems = problems_button(self.app, (150, 546, 270, 18), lambda: self.problems)
         return [self.list, self.entry_field, sort, *problems]
 
@@ -97,7 +99,9 @@ class Browser(ThumbnailScreen):
         change = Button((SIDE + 208, 510, 46, 32), "Edit", self._change, hint="Open it in the editor")
         link = Button((SIDE + 260, 510, 60, 32), "Link", self._copy_link, hint="Copy a link that plays this level")
         watch = self.watch_best, self.watch_author
-        return [*self.choosers(), self.play_it, self.practice, *watch, *([change] * bool(self._edit)), link]
+        packs = Button((358, 66, 62, 32), "Packs", self._packs, hint="Put your levels together into packs")
+        more = [change, packs] if self._edit else []
+        return [*self.choosers(), self.play_it, self.practice, *watch, *more, link]
 
     def handle(self, event: InputEvent) -> None:
         """A file dropped on the window is copied into the player's folder; coming back to the window looks again."""

@@ -14,6 +14,7 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
+from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App, Screen
 from ninja_game.play.clock import RunClock
 from ninja_game.play.editor.screen import EditorScreen
@@ -24,6 +25,7 @@ from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.panels import Question, Row
 from ninja_game.play.menus.records import RecordsScreen
 from ninja_game.play.menus.replays import ReplaysScreen
@@ -105,12 +107,14 @@ class MainMenu(MenuScreen):
     def _browser(self, app: App) -> Browser:
         """The levels, which can be opened in the editor from there."""
 
-        def edit(entry: Entry) -> None:
+        def edit(entry: Entry, finding: Finding | None = None) -> None:
             screen = EditorScreen(app, offers_recovered=False)
             app.push(screen)
             screen.commands.edit_entry(entry)
+            if finding:
+                screen.commands.show_finding(finding)
 
-        return Browser(app, edit)
+        return Browser(app, edit, lambda: app.push(PackScreen(app, edit)))
 
     def _opener(self, screen: Callable[[App], Screen]) -> Callable[[], None]:
         return lambda: self.app.push(screen(self.app))

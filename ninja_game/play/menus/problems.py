@@ -14,7 +14,7 @@ from ninja_game.ui.list_view import ListView
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Widget
 
-ROW = 38
+ROW = 33
 LONGEST = 900
 """Characters of a problem that are shown, more than any message of the program has."""
 
@@ -38,7 +38,7 @@ class ProblemsScreen(MenuScreen):
         self._find = find
         self.problems: Sequence[Problem] = ()
         self.list = ListView(
-            (44, 66, 704, 9 * ROW), ROW, self._draw_row, lambda _: self._go(), empty="There are no problems",
+            (44, 66, 704, 10 * ROW), ROW, self._draw_row, lambda _: self._go(), empty="There are no problems",
             selected=lambda _: self._offer(), opens=True,
         )  # fmt: skip
         self.go = Button((464, 530, 136, 28), "Go there", self._go)
@@ -78,7 +78,7 @@ class ProblemsScreen(MenuScreen):
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         x, y, w, h = area
         theme.row(surface, (x, y + 1, w, h - 2), chosen=index == self.list.index, focused=focused)
-        theme.paragraph(surface, [shown_text(self.problems[index].text)], (x + 10, y + 5, w - 20, h - 8), 10, 13)
+        theme.paragraph(surface, [shown_text(self.problems[index].text)], (x + 10, y + 4, w - 20, h - 6), 10, 13)
 
 
 def of_files(texts: Sequence[str]) -> list[Problem]:

@@ -10,9 +10,7 @@ from typing import Protocol
 from ninja_game.document import OccupiedError
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.play.app import App
-from ninja_game.play.menus.panels import CANCEL, Menu, Row, nothing
-
-Action = Callable[[], object]
+from ninja_game.play.menus.panels import CANCEL, Action, Menu, Row, nothing
 
 
 class Document(Protocol):
