@@ -19,6 +19,7 @@ from ninja_game.files.writing import write_atomically
 from ninja_game.formats.pack.files import INDEX, PARS
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, EpisodeIndex
 from ninja_game.formats.run_time import seconds_text
+from ninja_game.generator.daily import FOLDER as DAILY
 from ninja_game.levels.findings import Finding, PackFinding
 from ninja_game.levels.warnings import level_findings
 from ninja_game.play.app import App
@@ -134,7 +135,10 @@ class PackScreen(ThumbnailScreen):
         before, catalogue = self.path, self.player.catalogue
         catalogue.problems.clear()
         self.sets = catalogue.packs()
-        self.mine = [each for each in self.sets if each.key and each.files and each.files.path.is_dir()]
+        self.mine = [
+            each for each in self.sets
+            if each.key and each.files and each.files.path.is_dir() and each.files.path.name != DAILY
+        ]  # fmt: skip
         self._show(next((each for each in self.mine if each.files and each.files.path == before), None))
 
     def _show(self, pack: EpisodeSet | None) -> None:
@@ -468,7 +472,8 @@ class PackScreen(ThumbnailScreen):
         levels = self.pack.levels
         to_do = sum(entry.pars is None for entry in levels)
         alone = f", {len(self.pack.singles)} in none" if self.pack.singles else ""
-        where = f"{counted(len(levels), 'level')} in {counted(len(self.pack.episodes), 'episode')}{alone}"
+        episodes = sum(cell.head for cell in self.cells) - 1
+        where = f"{counted(len(levels), 'level')} in {counted(episodes, 'episode')}{alone}"
         return f"{where}; {f'{to_do} to certify' if to_do else 'all certified'}" if levels else "Drag levels here"
 
     def draw_widgets(self, surface: pygame.Surface) -> None:
