@@ -118,6 +118,11 @@ class EpisodeSet(NamedTuple):
         return self.pack.files if self.pack else None
 
     @property
+    def path(self) -> Path | None:
+        """Its folder or zip."""
+        return self.pack.files.path if self.pack else None
+
+    @property
     def levels(self) -> list[Entry]:
         """Every level, those of the episodes first, in their order."""
         return [entry for number in sorted(self.episodes) for entry in self.episodes[number].levels] + [*self.singles]

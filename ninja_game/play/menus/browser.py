@@ -74,7 +74,7 @@ class Browser(ThumbnailScreen):
         )
         self.watch_best = Button((SIDE, 510, 98, 32), "Watch best", self._watch)
         self.watch_author = Button((SIDE + 104, 510, 98, 32), "Author's run", self._watch_author)
-        self.entry_field = TextEntry((44, 66, 168, 32), "Search name or author", "", self._search)
+        self.entry_field = TextEntry((44, 66, 194, 32), "Search name or author", "", self._search)
 
     def enter(self) -> None:
         """Read the player's folder as it is now."""
@@ -90,7 +90,7 @@ class Browser(ThumbnailScreen):
 
     def choosers(self) -> list[Widget]:
         """What a level is found and selected with."""
-        sort = Choice((220, 66, 130, 32), "", SORT_ORDERS, lambda: self.sort, self._sort, hint="How the list is sorted")
+        sort = Choice((244, 66, 118, 32), "", SORT_ORDERS, lambda: self.sort, self._sort, hint="How the list is sorted")
         problems = problems_button(self.app, (150, 546, 270, 18), lambda: self.problems)
         return [self.list, self.entry_field, sort, *problems]
 
@@ -99,7 +99,7 @@ class Browser(ThumbnailScreen):
         change = Button((SIDE + 208, 510, 46, 32), "Edit", self._change, hint="Open it in the editor")
         link = Button((SIDE + 260, 510, 60, 32), "Link", self._copy_link, hint="Copy a link that plays this level")
         watch = self.watch_best, self.watch_author
-        packs = Button((358, 66, 62, 32), "Packs", self._packs, hint="Put your levels together into packs")
+        packs = Button((368, 66, 52, 32), "Packs", self._packs, hint="Put your levels together into packs")
         more = [change, packs] if self._edit else []
         return [*self.choosers(), self.play_it, self.practice, *watch, *more, link]
 

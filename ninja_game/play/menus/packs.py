@@ -18,6 +18,7 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.pack.files import INDEX, PARS
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, EpisodeIndex
+from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.generator.daily import FOLDER as DAILY
 from ninja_game.levels.findings import Finding, PackFinding
@@ -121,7 +122,7 @@ class PackScreen(ThumbnailScreen):
     @property
     def path(self) -> Path:
         """The folder of the pack on the shelves."""
-        return self.pack.files.path if self.pack and self.pack.files else self.folder
+        return (self.pack and self.pack.path) or self.folder
 
     @property
     def folder(self) -> Path:
@@ -135,11 +136,9 @@ class PackScreen(ThumbnailScreen):
         before, catalogue = self.path, self.player.catalogue
         catalogue.problems.clear()
         self.sets = catalogue.packs()
-        self.mine = [
-            each for each in self.sets
-            if each.key and each.files and each.files.path.is_dir() and each.files.path.name != DAILY
-        ]  # fmt: skip
-        self._show(next((each for each in self.mine if each.files and each.files.path == before), None))
+        own = [each for each in self.sets if each.key and each.path and each.path.is_dir()]
+        self.mine = [each for each in own if each.path and each.path.name != DAILY]
+        self._show(next((each for each in self.mine if each.path == before), None))
 
     def _show(self, pack: EpisodeSet | None) -> None:
         """Put a pack on the shelves, else the first one."""
@@ -147,11 +146,9 @@ class PackScreen(ThumbnailScreen):
         self.cells, self.measured = [], ""
         if pack and pack.pack:
             for episode in pack.pack.index.episodes:
-                found = pack.episodes.get(episode.number)
-                levels = [*(found.levels if found else ())]
-                free = LEVELS_PER_EPISODE - len(levels)
+                levels = pack.episodes[episode.number].levels if episode.number in pack.episodes else ()
                 self.cells += [Cell(episode, head=True), *(Cell(episode, each) for each in levels)]
-                self.cells += [Cell(episode)] * free
+                self.cells += [Cell(episode)] * (LEVELS_PER_EPISODE - len(levels))
             self.cells += [Cell(None, head=True), *[Cell(None)] * LEVELS_PER_EPISODE]
             self.measured = pack.pack.files.text(PARS) if PARS in pack.pack.files.names else ""
         entries: Sequence[Entry] = pack.singles if pack else ()
@@ -174,19 +171,15 @@ class PackScreen(ThumbnailScreen):
         have = bool(self.pack)
         tray = [("In no episode", "none"), ("Your folder", "yours")]
         tray += [(each.name if each.key else "The game's own", each.key) for each in self.sets if each is not self.pack]
-        beside = Choice(
-            (622, 96, 134, 26), "", tray, lambda: self.beside, self._choose_tray, hint="Levels to take from"
-        )
+        beside = Choice((622, 96, 134, 26), "", tray, lambda: self.beside, self._choose_tray)
         self.shelves.hint = self.tray.hint = "Drag a level or an episode; Enter or a second click: what can be done"
         ready = "Stop" if not self._job.idle else "Make ready"
         hint = "Certify all, measure par times, look for problems; zip and link. Only what changed is done again"
-        buttons: list[Widget] = [Button((478, 60, 94, 28), "Problems", self._show_problems)] * have
-        buttons += [Button((580, 60, 176, 28), ready, self._ready_or_stop, hint=hint)] * have
-        buttons += [Button((364, 60, 106, 28), "About it...", self._about, hint="Name, author, version")] * have
-        return [
-            *[self.shelves, chosen] * have, Button((248, 60, 108, 28), "New pack...", self._new_pack), *buttons,
-            *[beside, self.tray] * have,
-        ]  # fmt: skip
+        new = Button((248, 60, 108, 28), "New pack...", self._new_pack)
+        about = Button((364, 60, 106, 28), "About it...", self._about, hint="Name, author, version")
+        problems = Button((478, 60, 94, 28), "Problems", lambda: self.app.push(ProblemsScreen(self.app, self.problems)))
+        make = Button((580, 60, 176, 28), ready, self._ready_or_stop, hint=hint)
+        return [self.shelves, chosen, new, about, problems, make, beside, self.tray] if have else [new]
 
     def _choose_pack(self, key: str) -> None:
         self._show(next(each for each in self.mine if each.key == key))
@@ -206,34 +199,33 @@ class PackScreen(ThumbnailScreen):
         self._read()
         self.app.top.enter()
 
-    def ask(self, title: str, prompt: str, text: str, action: Callable[[str], object]) -> None:
+    def ask(self, title: str, text: str, action: Callable[[str], object]) -> None:
         """Do something with a text that is typed."""
-        form = FormPanel(self.app, title, [(prompt, text, 60)], "OK", lambda texts: self.do(lambda: action(texts[0])))
-        self.app.push(form)
+        fields = [("", text, 60)]
+        self.app.push(FormPanel(self.app, title, fields, "OK", lambda texts: self.do(lambda: action(texts[0]))))
 
     def _new_pack(self) -> None:
         def make(name: str) -> None:
             path = packs.new_pack(self.folder, name, self.player.settings.name)
             self._read()
-            self._show(next(each for each in self.mine if each.files and each.files.path == path))
+            self._show(next(each for each in self.mine if each.path == path))
 
-        self.ask("A new pack", "Its name", "My pack", make)
+        self.ask("Name of the pack", "My pack", make)
 
     def _about(self) -> None:
-        if self.pack is None or self.pack.pack is None:
-            return
-        index, copied = self.pack.pack.index, self.pack.pack
+        copied = Pack(self.path)
+        index = copied.index
         keys = ("name", "author", "version", "comment")
         fields = [(key.capitalize(), getattr(index, key), 200) for key in keys]
 
         def describe(texts: list[str]) -> None:
             self.do(lambda: packs.describe(self.path, dict(zip(keys, texts, strict=True))))
 
+        copy = partial(packs.copy_pack, copied, self.folder)
         form = FormPanel(self.app, "About the pack", fields, "OK", describe)
         rows: list[Row] = [
             ("Name, author, version...", lambda: self.app.push(form), ""),
-            ("Copy of the pack...", lambda: self.ask("A copy", "Its name", f"{index.name} copy",
-                lambda name: packs.copy_pack(copied, self.folder, name)), ""),
+            ("Copy of the pack...", lambda: self.ask("Name of the copy", f"{index.name} copy", copy), ""),
             ("Copy link", lambda: copy_link(self.app, copied.files.link, title=index.name), "Plays the pack"),
             CANCEL,
         ]  # fmt: skip
@@ -246,12 +238,7 @@ class PackScreen(ThumbnailScreen):
         elif cell.level:
             self._level_menu(cell)
         elif cell.episode is None:
-            self.ask(
-                "A new episode",
-                "Its name",
-                "New episode",
-                lambda name: packs.new_episode(self.path, name, self._column()),
-            )
+            self.ask("Name of the episode", "New episode", partial(self._new_episode, self._column()))
         else:
             self._episode_menu(cell.episode)
 
@@ -261,33 +248,30 @@ class PackScreen(ThumbnailScreen):
         else:
             self._level_menu(self.side[index])
 
+    def _new_episode(self, column: int, name: str) -> None:
+        packs.new_episode(self.path, name, column)
+
     def _column(self) -> int:
         """The last column that has episodes."""
         return max((cell.episode.number for cell in self.cells if cell.episode), default=0) // EPISODES_PER_COLUMN
 
     def _level_menu(self, cell: Cell) -> None:
-        level = cell.level
+        level, episode = cell.level, cell.episode
         if level is None:
             return
-        here = Path(level.named.file).parent == self.path
-        rows: list[Row] = [("Edit", lambda: self._edit(level, None), ""), ("Move...", lambda: self._hold(cell), "")]
-        if here:
-            file = Path(level.named.file)
-            rename = partial(packs.rename_level, file)
-            rows += [
-                ("Rename...", lambda: self.ask("Another name", "Name", level.named.name, rename), ""),
-                ("Copy", lambda: self.do(partial(self._duplicate, cell)), "Another level like it, behind it"),
-            ]  # fmt: skip
-        if cell.episode:
-            rows.append(
-                ("Take out", lambda: self.do(partial(packs.place, self.path, file.name, None)), "Into no episode")
-            )
-        self.app.push(Menu(self.app, level.title, [*rows, CANCEL]))
+        file = Path(level.named.file)
+        rename, take_out = partial(packs.rename_level, file), partial(packs.place, self.path, file.name, None)
 
-    def _duplicate(self, cell: Cell) -> None:
-        if cell.level:
-            new = packs.duplicate(self.path, cell.level.named)
-            packs.place(self.path, new, cell.episode.number if cell.episode else None)
+        def copy() -> None:
+            new = packs.duplicate(self.path, level.named)
+            packs.place(self.path, new, episode.number if episode else None)
+
+        rows: list[Row] = [("Edit", lambda: self._edit(level, None), ""), ("Move...", lambda: self._hold(cell), "")]
+        if file.parent == self.path:
+            rows += [("Rename...", lambda: self.ask("Another name", level.named.name, rename), "")]
+            rows += [("Copy", lambda: self.do(copy), "Another level like it")]
+            rows += [("Take out", lambda: self.do(take_out), "Into no episode")] * bool(episode)
+        self.app.push(Menu(self.app, level.title, [*rows, CANCEL]))
 
     def _episode_menu(self, episode: EpisodeIndex) -> None:
         number, path = episode.number, self.path
@@ -301,14 +285,13 @@ class PackScreen(ThumbnailScreen):
         def name_column(name: str) -> None:
             packs.describe(path, {"columns": [*columns[:column], name, *columns[column + 1 :]]})
 
-        rename = partial(packs.rename_episode, path, number)
+        rename, begin = partial(packs.rename_episode, path, number), partial(self._new_episode, self._column() + 1)
         rows: list[Row] = [
-            ("New level...", lambda: self.ask("A new level", "Its name", "New level", level), "An empty one"),
-            ("Rename...", lambda: self.ask("Another name", "Name", episode.name, rename), ""),
+            ("New level...", lambda: self.ask("Name of the level", "New level", level), "An empty one"),
+            ("Rename...", lambda: self.ask("Another name", episode.name, rename), ""),
             ("Move...", lambda: self._hold(Cell(episode, head=True)), ""),
-            ("Name of the column...", lambda: self.ask("The column", "Name", columns[column], name_column), ""),
-            ("Begin a column...", lambda: self.ask("A new column", "Its first episode", "New episode",
-                lambda name: packs.new_episode(path, name, self._column() + 1)), "Columns stand side by side"),
+            ("Name of the column...", lambda: self.ask("Name of the column", columns[column], name_column), ""),
+            ("Begin a column...", lambda: self.ask("Its first episode", "New episode", begin), "Beside the others"),
             ("Remove the episode", lambda: self.do(partial(packs.remove_episode, path, number)), "Its levels stay"),
             CANCEL,
         ]  # fmt: skip
@@ -347,10 +330,8 @@ class PackScreen(ThumbnailScreen):
     def _put_level(self, level: Entry, goal: Cell | None) -> None:
         file, target = Path(level.named.file), self.path
         if goal is None and self.beside != "none":
-            target = next(
-                (each.files.path for each in self.sets if each.key == self.beside and each.files), self.folder
-            )
-        if not (target == self.folder or any(each.files and each.files.path == target for each in self.mine)):
+            target = next((each.path for each in self.sets if each.key == self.beside and each.path), self.folder)
+        if target != self.folder and target not in [each.path for each in self.mine]:
             raise NinjaGameError("that pack cannot be changed: it is the game's own, or a zip")
         name = file.name
         if file.parent != target:
@@ -377,20 +358,14 @@ class PackScreen(ThumbnailScreen):
 
     # --- problems, and what takes time ---
 
-    def _show_problems(self) -> None:
-        self.app.push(ProblemsScreen(self.app, self.problems))
-
     def problems(self) -> list[Problem]:
         """What is odd about the pack."""
-        pack = self.pack.pack if self.pack else None
-        return [self._problem(each, file_of(pack, each)) for each in lint(pack)] if pack else []
+        pack = Pack(self.path)
+        return [self._problem(each, file_of(pack, each)) for each in lint(pack)]
 
     def _problem(self, finding: PackFinding, file: str) -> Problem:
-        entry = (
-            next((each for each in self.pack.levels if each.named.file == str(self.path / file)), None)
-            if self.pack
-            else None
-        )
+        levels = self.pack.levels if self.pack else []
+        entry = next((each for each in levels if each.named.file == str(self.path / file)), None)
         go: Callable[[], object] | None = self._about if file == INDEX else None
         if entry:
             found = next((each for each in level_findings(entry.named.level) if each.code == finding.code), None)
@@ -400,7 +375,7 @@ class PackScreen(ThumbnailScreen):
             packs.accept(self.path, file, finding.code, why)
 
         may = bool(file) and finding.code != "unreadable"
-        asked = partial(self.ask, "Accept it", "Why it is meant so", "", accept) if may else None
+        asked = partial(self.ask, "Accepted: why is it meant so?", "", accept) if may else None
         hint = "The button Make ready does that." if "`ninja-game" in finding.hint else finding.hint
         return Problem(str(finding).replace(f"{self.path}{os.sep}", ""), hint, go, asked)
 
@@ -483,8 +458,8 @@ class PackScreen(ThumbnailScreen):
             x, y = self.pointer
             if self.held.level:
                 self.thumbnails.draw(surface, self.held.level, x + 6, y + 6, 60)
-            elif self.held.episode:
-                self._draw_head(surface, self.theme, self.held, (x + 6, y + 6, WIDE - 6, HIGH / 2))
+            else:
+                self.theme.row(surface, (x + 6, y + 6, 2 * WIDE, HIGH / 4), chosen=True, focused=True)
 
     def draw_cell(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         """A level with what is known about it, an episode's name, or a free place."""
@@ -528,12 +503,6 @@ class PackScreen(ThumbnailScreen):
         names = self.pack.columns if self.pack else ()
         theme.text(surface, f"Episode {number + 1}", x + 6, y + 6, size=9, colour=theme.palette.faint, width=w - 12)
         theme.paragraph(surface, [shown_text(cell.episode.name)], (x + 6, y + 21, w - 12, 42), 11, 14)
-        if h > HIGH / 2 and column < len(names):
-            theme.paragraph(
-                surface,
-                [f"in {shown_text(names[column])}"],
-                (x + 6, y + 72, w - 12, 26),
-                9,
-                12,
-                colour=theme.palette.faint,
-            )
+        if column < len(names):
+            place, faint = (x + 6, y + 72, w - 12, 26), theme.palette.faint
+            theme.paragraph(surface, [f"in {shown_text(names[column])}"], place, 9, 12, colour=faint)
