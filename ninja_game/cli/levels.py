@@ -125,7 +125,7 @@ def pack_up(ctx: click.Context, pack: Path, seconds: float, jobs: int | None, zi
 
 @click.group(commands={"pack": pack_up, "pars": pars, "lint": lint})
 def levels() -> None:
-    """Make packs of levels ready to share: check them, make their tables of par times, their zips and links.
+    """Make packs of levels ready to share: check them, make their par times, zips and links.
 
     A pack is a folder or zip with an index, pack.toml.
 

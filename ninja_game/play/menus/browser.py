@@ -18,7 +18,7 @@ from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.episodes import draw_look
-from ninja_game.play.menus.panels import Action, nothing
+from ninja_game.play.menus.panels import Action
 from ninja_game.play.menus.problems import Problem, of_files, problems_button
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import PRACTICE_HINT
@@ -52,7 +52,7 @@ class Browser(ThumbnailScreen):
 
     title = "Levels"
 
-    def __init__(self, app: App, edit: Callable[[Entry], object] | None = None, packs: Action = nothing) -> None:
+    def __init__(self, app: App, edit: Callable[[Entry], object] | None = None, packs: Action | None = None) -> None:
         super().__init__(app)
         self._packs = packs
         self._edit = edit
@@ -99,8 +99,9 @@ class Browser(ThumbnailScreen):
         change = Button((SIDE + 208, 510, 46, 32), "Edit", self._change, hint="Open it in the editor")
         link = Button((SIDE + 260, 510, 60, 32), "Link", self._copy_link, hint="Copy a link that plays this level")
         watch = self.watch_best, self.watch_author
-        packs = Button((368, 66, 52, 32), "Packs", self._packs, hint="Put your levels together into packs")
-        more = [change, packs] if self._edit else []
+        more = [change] * bool(self._edit)
+        if self._packs:
+            more.append(Button((368, 66, 52, 32), "Packs", self._packs, hint="Put your levels together into packs"))
         return [*self.choosers(), self.play_it, self.practice, *watch, *more, link]
 
     def handle(self, event: InputEvent) -> None:

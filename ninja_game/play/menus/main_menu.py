@@ -25,7 +25,6 @@ from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.panels import Question, Row
 from ninja_game.play.menus.records import RecordsScreen
 from ninja_game.play.menus.replays import ReplaysScreen
@@ -34,6 +33,7 @@ from ninja_game.play.replay.playback import Playback
 from ninja_game.play.window import LOGO
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import EpisodeRun, next_run
+from ninja_game.runtime import IN_PAGE
 from ninja_game.simulation import Simulation
 from ninja_game.ui.audio.music import MENU
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Point
@@ -114,7 +114,12 @@ class MainMenu(MenuScreen):
             if finding:
                 screen.commands.show_finding(finding)
 
-        return Browser(app, edit, lambda: app.push(PackScreen(app, edit)))
+        def packs() -> None:
+            from ninja_game.play.menus.packs import PackScreen  # it needs NumPy, which takes a moment
+
+            app.push(PackScreen(app, edit))
+
+        return Browser(app, edit, None if IN_PAGE else packs)
 
     def _opener(self, screen: Callable[[App], Screen]) -> Callable[[], None]:
         return lambda: self.app.push(screen(self.app))

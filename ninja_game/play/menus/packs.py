@@ -228,7 +228,7 @@ class PackScreen(ThumbnailScreen):
             ("Copy of the pack...", lambda: self.ask("Name of the copy", f"{index.name} copy", copy), ""),
             ("Copy link", lambda: copy_link(self.app, copied.files.link, title=index.name), "Plays the pack"),
             CANCEL,
-        ]  # fmt: skip
+        ]
         self.app.push(Menu(self.app, index.name, rows))
 
     def _choose(self, index: int) -> None:
@@ -294,7 +294,7 @@ class PackScreen(ThumbnailScreen):
             ("Begin a column...", lambda: self.ask("Its first episode", "New episode", begin), "Beside the others"),
             ("Remove the episode", lambda: self.do(partial(packs.remove_episode, path, number)), "Its levels stay"),
             CANCEL,
-        ]  # fmt: skip
+        ]
         self.app.push(Menu(self.app, episode.name or f"Episode {number + 1}", rows))
 
     # --- moving ---
