@@ -66,7 +66,7 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Callable[[s
     done = 0
 
     def report(name: str, progress: Progress) -> None:
-        say(f"Certifying, {done} of {len(files)} levels done. {name}: {progress.worlds // 1000} thousand moments tried")
+        say(f"Certifying, {done} of {len(files)} levels done. {name}: {progress.seconds:.0f} s")
 
     say("Certifying; the first time the solver is compiled, for a minute")
     for _ in certify_all(list(pack.levels.values()), files, wanted, jobs=jobs, report=report):

@@ -104,6 +104,12 @@ class Browser(ThumbnailScreen):
             more.append(Button((368, 66, 52, 32), "Packs", self._packs, hint="Put your levels together into packs"))
         return [*self.choosers(), self.play_it, self.practice, *watch, *more, link]
 
+    def capture(self, event: InputEvent) -> bool:
+        """What is typed is searched for, wherever the focus is."""
+        if event.raw.type == pygame.TEXTINPUT and event.raw.text.strip():
+            self.focus_on(self.entry_field)
+        return super().capture(event)
+
     def handle(self, event: InputEvent) -> None:
         """A file dropped on the window is copied into the player's folder; coming back to the window looks again."""
         if event.raw.type == pygame.DROPFILE:

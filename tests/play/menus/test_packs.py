@@ -161,3 +161,11 @@ def test_all_problems_of_files_are_shown_whole(driver: MenuDriver) -> None:
     driver.open("Episodes")
     driver.choose("1 problem: show it")
     driver.shown(ProblemsScreen)
+
+
+def test_what_is_typed_is_searched_for_without_a_click_on_the_field(driver: MenuDriver) -> None:
+    browser = driver.open("Levels")
+    assert isinstance(browser, Browser)
+    driver.press("down")
+    driver.type("gap")
+    assert [entry.title for entry in browser.shown] == ["Mind the Gap"]
