@@ -178,10 +178,10 @@ class EditorCommands(DocumentCommands):
         return self.session.source.path or free_path(self._levels, file_stem(self.session.draft.name, "level"), SUFFIX)
 
     def reload_rows(self, path: Path) -> list[Row]:
-        """Load the file anew."""
+        """Load the file again."""
         if path != self.session.source.path or not path.exists():
             return []
-        return [("Load it anew", lambda: self.open_file(path), "What you changed is lost")]
+        return [("Load it again", lambda: self.open_file(path), "What you changed is lost")]
 
     def saved_text(self, path: Path) -> str:
         """Where it is, and whether the menu shows it."""

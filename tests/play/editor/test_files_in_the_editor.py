@@ -151,13 +151,13 @@ def test_saving_first_stays_where_it_was_not_saved(room: Maker, tmp_path: Path) 
     assert load_levels(path)[0].level.tile(12, 12) == 1
 
 
-def test_a_file_that_another_program_changed_is_loaded_anew(room: Maker, tmp_path: Path) -> None:
+def test_a_file_that_another_program_changed_is_loaded_again(room: Maker, tmp_path: Path) -> None:
     room.chord("s", pygame.KMOD_LCTRL)
     path = tmp_path / "levels" / "room.txt"
     path.write_text(path.read_text("utf-8").replace("name: Room", "name: Hall"), "utf-8")
     room.drag((300, 300))
     room.chord("s", pygame.KMOD_LCTRL)
-    room.choose("Load it anew")
+    room.choose("Load it again")
     assert (room.draft.name, room.draft.level, room.editor.session.is_saved) == ("Hall", ROOM.level, True)
 
 

@@ -127,7 +127,7 @@ def test_a_level_of_the_players_folder_goes_into_the_pack_and_one_of_the_game_is
     assert "cannot be changed: it is the game's own" in driver.app.notice
 
 
-def test_everything_about_a_pack_is_named_anew(driver: MenuDriver, path: Path) -> None:
+def test_everything_about_a_pack_is_named_again(driver: MenuDriver, path: Path) -> None:
     screen = opened(driver)
     for index, entry, text in ((1, "Rename...", "Early steps"), (0, "Rename...", "Falls"), (0, "New level...", "New")):
         driver.mouse(*(value + 20 for value in screen.shelves.row_area(index)[:2]))
