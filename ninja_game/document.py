@@ -42,7 +42,7 @@ def check_free(path: Path, there: str, known: str | None, *, replacing: bool) ->
         return
     if known is None:
         raise OccupiedError(f"a file named {path.name} already exists")
-    raise OccupiedError(f"{path.name} was {'changed' if there else 'removed'} by another program")
+    raise OccupiedError(f"another program has {'changed' if there else 'removed'} {path.name}")
 
 
 class RecoveryFile:

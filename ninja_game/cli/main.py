@@ -37,7 +37,7 @@ GROUPS = {
     "levels": {
         "info": "Show what is in level and replay files.",
         "check": "Certify levels: whether they can be passed, how fast, and what is odd.",
-        "levels": "Check packs of levels, and make their tables of par times.",
+        "levels": "Make packs of levels ready to share: check them, make their par times, zips and links.",
         "generate": "Make a new level, certified by the solver.",
         "convert": "Turn levels and recordings from one format into the other.",
     },

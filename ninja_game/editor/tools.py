@@ -91,9 +91,8 @@ class EditorTools:
 
     @property
     def effective_tool(self) -> str:
-        """The tool that a press uses: objects are not filled in, and some are put one at a time."""
-        one_by_one = self.tool == "rectangle" and self.draws_one
-        return "brush" if one_by_one or (self.tool == "fill" and self.objects) else self.tool
+        """The tool that a press uses: some objects are put one at a time."""
+        return "brush" if self.draws_one and self.tool in ("rectangle", "fill") else self.tool
 
     @property
     def dragging(self) -> bool:
@@ -143,7 +142,10 @@ class EditorTools:
 
     def _begin_to_draw(self, *, erase: bool) -> None:
         if self.effective_tool == "fill" and not erase:
-            self._change(Stamp(dict.fromkeys(filled(self.draft, self.cell), self.tile)))
+            cells = filled(self.draft, self.cell)
+            middles = [(24.0 * column + 12, 24.0 * row + 12) for column, row in cells if self.objects]
+            objects = tuple(placed(self.spec, *middle, "cell") for middle in middles)
+            self._change(Stamp({} if self.objects else dict.fromkeys(cells, self.tile), objects))
             return
         many = not self.objects or self.spec.kind in (GOLD, MINE)
         drawn = "rectangle" if self.effective_tool == "rectangle" else "draw" if many else "drop"

@@ -108,6 +108,7 @@ PACK_RULES = {
         "no certificate, so nobody knows whether it can be passed", "Find one with `ninja-game check --replays`."
     ),
     "certificate": Rule("{why}", "Make it again with `ninja-game check --replays`."),
+    "accepted-in-vain": Rule("accepts {finding} of {file}, which is not found there", "Take it out of the index."),
     "no-pars": Rule("no table of par times", _MAKE_PARS),
     "old-pars": Rule("made from other levels or certificates", _MAKE_PARS),
 }

@@ -5,6 +5,8 @@ Levels of a pack that no episode has are single levels.
 
 from __future__ import annotations
 
+import os
+from collections import Counter
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -101,7 +103,7 @@ class Episode:
 class EpisodeSet(NamedTuple):
     """A pack as it is played. ``key``: "" for the game's own, else its name; ``singles``: levels in no episode.
 
-    ``files``: where its texts are; None where there is no pack.
+    ``pack``: what it was read from; None where there is none.
     """
 
     key: str
@@ -109,7 +111,17 @@ class EpisodeSet(NamedTuple):
     columns: tuple[str, ...]
     episodes: dict[int, Episode]
     singles: tuple[Entry, ...]
-    files: PackFiles | None = None
+    pack: Pack | None = None
+
+    @property
+    def files(self) -> PackFiles | None:
+        """Where its texts are."""
+        return self.pack.files if self.pack else None
+
+    @property
+    def path(self) -> Path | None:
+        """Its folder or zip."""
+        return self.pack.files.path if self.pack else None
 
     @property
     def levels(self) -> list[Entry]:
@@ -126,8 +138,8 @@ def author_name(author: str) -> str:
     return OURS if OURS in author else author
 
 
-def episode_set(pack: Pack, key: str) -> EpisodeSet:
-    """A pack's episodes and single levels as they are played."""
+def episode_set(pack: Pack, key: str, name: str = "") -> EpisodeSet:
+    """A pack's episodes and single levels as they are played; ``name``: what it is called, if not by its own."""
     source = key or "game"
     pars = {pack.files.place(file): each for file, each in pack.pars.items()}
     episodes = {}
@@ -140,7 +152,7 @@ def episode_set(pack: Pack, key: str) -> EpisodeSet:
     placed = {level.file for levels in pack.episodes.values() for level in levels}
     singles = [level for level in pack.levels.values() if level.file not in placed]
     rest = tuple(Entry(level, source, pars=pars.get(level.file)) for level in singles)
-    return EpisodeSet(key, pack.name, pack.index.columns, episodes, rest, pack.files)
+    return EpisodeSet(key, name or pack.name, pack.index.columns, episodes, rest, pack)
 
 
 class Catalogue:
@@ -152,28 +164,42 @@ class Catalogue:
         self.problems: list[str] = []
         self._read: dict[Path, _ReadFile] = {}
         self._known: dict[str, EpisodeSet] = {}
-        self._packs: dict[Path, tuple[object, EpisodeSet | None, list[str]]] = {}
+        self._packs: dict[Path, tuple[object, Pack | None, str]] = {}
+        self._sets: dict[Path, tuple[Pack, EpisodeSet]] = {}
 
     @cached_property
     def ours(self) -> EpisodeSet:
         """The game's own pack; empty, and a problem, where it cannot be read."""
-        found = self._pack_at(data_folder("levels"), "")
-        return found or EpisodeSet("", "", (), {}, ())
+        path = data_folder("levels")
+        pack = self._pack_at(path)
+        return self._set_of(path, pack, "", pack.name) if pack else EpisodeSet("", "", (), {}, ())
 
     @property
     def episodes(self) -> dict[int, Episode]:
         """The episodes of the game's own pack that have levels, by number."""
         return self.ours.episodes
 
+    @property
+    def told(self) -> list[str]:
+        """The problems, each once, with paths below the player's folder."""
+        return list(dict.fromkeys(problem.replace(f"{self.folder}{os.sep}", "") for problem in self.problems))
+
     def packs(self) -> list[EpisodeSet]:
-        """The game's own pack, then the player's as they are now; what is wrong with them becomes ``problems``."""
+        """The game's own pack, then the player's as they are now; what is wrong with them becomes ``problems``.
+
+        Of several packs of one name the first has the key that it would have alone; each is called by its author and
+        version too, and by its file where these are the same.
+        """
+        read = {os.path.realpath(path): path for path in [*self.more, *self._pack_paths()]}
+        packs = [(path, pack) for path in read.values() if (pack := self._pack_at(path))]
+        names = Counter(pack.name for _, pack in packs)
+        titles = Counter(pack.index.title for _, pack in packs)
         found = {"": self.ours}
-        for path in [*self.more, *self._pack_paths()]:
-            pack = self._pack_at(path)
-            if pack and pack.key in found:
-                self.problems.append(f"{path.name}: there is a pack {pack.name} already")
-            elif pack:
-                found[pack.key] = pack
+        for path, pack in packs:
+            name = pack.index.title if names[pack.name] > 1 else pack.name
+            name += f" ({path.name})" * (name != pack.name and titles[name] > 1)
+            key = f"{pack.name} ({path.name})" if pack.name in found else pack.name
+            found[key] = self._set_of(path, pack, key, name)
         self._known = found
         return list(found.values())
 
@@ -222,19 +248,26 @@ class Catalogue:
             return
         yield from (path for path in inside if not path.name.startswith(".") and is_pack(path))
 
-    def _pack_at(self, path: Path, key: str | None = None) -> EpisodeSet | None:
-        """A pack, read again when its files have changed; None, and problems, where it cannot be read."""
+    def _set_of(self, path: Path, pack: Pack, key: str, name: str) -> EpisodeSet:
+        """A pack as it is played, the same one as long as nothing has changed."""
+        before, known = self._sets.get(path, (None, None))
+        if known is None or before is not pack or (known.key, known.name) != (key, name):
+            known = episode_set(pack, key, name)
+            self._sets[path] = pack, known
+        self.problems += pack.problems
+        return known
+
+    def _pack_at(self, path: Path) -> Pack | None:
+        """A pack, read again when its files have changed; None, and a problem, where it cannot be read."""
         stamp = _stamp(path)
         if path not in self._packs or self._packs[path][0] != stamp:
             try:
-                pack = Pack(path)
-                read: EpisodeSet | None = episode_set(pack, pack.name if key is None else key)
-                problems = pack.problems
+                self._packs[path] = stamp, Pack(path), ""
             except (NinjaGameError, OSError) as error:
-                read, problems = None, [str(error)]
-            self._packs[path] = stamp, read, problems
-        self.problems += self._packs[path][2]
-        return self._packs[path][1]
+                self._packs[path] = stamp, None, str(error)
+        _, pack, problem = self._packs[path]
+        self.problems += [problem] if problem else []
+        return pack
 
     def singles(self) -> list[Entry]:
         """Every level as a single one: the player's, the game's, then those of other packs."""

@@ -15,7 +15,7 @@ from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.pack.pars import DIGITS, Pars, parse_pars
 from ninja_game.formats.recording import Recording, parse_replays
-from ninja_game.levels.findings import PackFinding, in_pack
+from ninja_game.levels.findings import DESIGN_RULES, PackFinding, in_pack
 from ninja_game.levels.warnings import level_findings
 from ninja_game.runs.level_design import design, design_findings
 from ninja_game.runs.verify import Verdict, verify_recording, with_demands
@@ -96,8 +96,31 @@ def make_pars(pack: Pack, *, tries: int = TRIES) -> Iterator[tuple[str, Pars]]:
 KINDS = ("exit", "gold")
 
 
+def file_of(pack: Pack, finding: PackFinding) -> str:
+    """The file that a finding is about; "" for the pack as a whole."""
+    text = str(finding)
+    return next((name for name in pack.files.names if text.startswith(f"{pack.files.place(name)}:")), "")
+
+
 def lint(pack: Pack, *, with_design: bool = False) -> Iterator[PackFinding]:
-    """Every finding; none for a proper pack. ``with_design``: what its levels lack, too (docs/good-levels.md)."""
+    """Every finding that the pack does not accept; none for a proper pack.
+
+    ``with_design``: what its levels lack, too (docs/good-levels.md).
+    """
+    open_ones = {(each.file, each.code): each for each in pack.index.accepted}
+    accepted = set(open_ones)
+    for finding in _findings(pack, with_design=with_design):
+        key = file_of(pack, finding), finding.code
+        open_ones.pop(key, None)
+        if key not in accepted or finding.code == "unreadable":
+            yield finding
+    for stale in open_ones.values():
+        if with_design or stale.code not in DESIGN_RULES:
+            place = f"{pack.files.place(INDEX)}:{stale.line}"
+            yield in_pack("accepted-in-vain", place, file=stale.file, finding=stale.code)
+
+
+def _findings(pack: Pack, *, with_design: bool) -> Iterator[PackFinding]:
     in_episodes = {level.file for levels in pack.episodes.values() for level in levels}
     yield from (in_pack("unreadable", why=problem) for problem in pack.problems)
     yield from _about_index(pack)
@@ -167,7 +190,7 @@ def _about_levels(pack: Pack) -> Iterator[PackFinding]:
 
 
 def _about_certificates(pack: Pack) -> Iterator[PackFinding]:
-    named = {pack.certificate(file, kind) for file in pack.levels for kind in KINDS}
+    named = {pack.certificate(file, kind) for file in pack.files.levels for kind in KINDS}
     for name in pack.files.names:
         if name.startswith(CERTIFICATES) and name not in named:
             yield in_pack("stray-certificate", pack.files.place(name))

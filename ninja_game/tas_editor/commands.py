@@ -16,9 +16,9 @@ from ninja_game.formats.links.making import replay_link
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.panels import FormPanel, Menu, Row, nothing
+from ninja_game.play.menus.panels import Action, FormPanel, Menu, Row, nothing
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.play.workspace.document import Action, DocumentCommands
+from ninja_game.play.workspace.document import DocumentCommands
 from ninja_game.play.workspace.part import Commands
 from ninja_game.player.saving import keep_replay
 from ninja_game.tas.files import SUFFIX, branches_path, replay_of_track, same_level

@@ -161,7 +161,7 @@ def test_nobodys_file_is_replaced_without_asking(tmp_path: Path) -> None:
     source = open_source(path)
     draft = source.draft.with_tiles({(9, 9): 1})
     path.write_text(HAND_WRITTEN.replace("somebody", "me"), "utf-8")
-    with pytest.raises(OccupiedError, match=r"cave.txt was changed by another program"):
+    with pytest.raises(OccupiedError, match=r"another program has changed cave.txt"):
         save(source, draft, path)
     other = tmp_path / "other.txt"
     other.write_text("mine")
@@ -243,7 +243,7 @@ def test_an_autosave_knows_no_file_but_a_level_that_is_there(tmp_path: Path) -> 
     kept(tmp_path, path, "0" * 64)
     (found,) = recovered(tmp_path)
     assert found.source.path == path
-    with pytest.raises(OccupiedError, match="changed by another program"):
+    with pytest.raises(OccupiedError, match="another program has changed"):
         save(found.source, found.draft, path)
 
 
@@ -251,7 +251,7 @@ def test_a_file_that_has_gone_meanwhile_is_not_made_again_without_asking(tmp_pat
     path = hand_written(tmp_path)
     source = open_source(path)
     path.unlink()
-    with pytest.raises(OccupiedError, match=r"cave\.txt was removed by another program"):
+    with pytest.raises(OccupiedError, match=r"another program has removed cave\.txt"):
         save(source, source.draft.with_tiles({(9, 9): 1}), path)
     assert save(source, source.draft, path, replacing=True).path == path
     link = tmp_path / "link.txt"

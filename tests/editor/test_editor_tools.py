@@ -77,7 +77,21 @@ def test_fill_takes_one_press(tools: EditorTools) -> None:
     assert set(tools.draft.level.tiles) == {1}
 
 
-@pytest.mark.parametrize("tool", ["brush", "rectangle"])
+def test_fill_puts_an_object_into_each_cell_that_is_joined_and_alike(tools: EditorTools) -> None:
+    tools.tool = "rectangle"
+    drag(tools, (24, 24), (96, 96))
+    tools.pick_up(0)
+    drag(tools, (48, 48), (72, 72))
+    tools.tool = "fill"
+    tools.pick_up(object_of_type("gold"))
+    drag(tools, (60, 60))
+    assert len(tools.draft.objects) == 4
+    assert {spec.values[:2] for spec in tools.draft.objects} == {(x, y) for x in (60.0, 84.0) for y in (60.0, 84.0)}
+    tools.undo()
+    assert not tools.draft.objects
+
+
+@pytest.mark.parametrize("tool", ["brush", "rectangle", "fill"])
 @pytest.mark.parametrize("name", ["locked door", "trap door", "exit"])
 def test_what_has_a_switch_takes_two_presses_or_one_drag(tools: EditorTools, name: str, tool: str) -> None:
     tools.tool = tool

@@ -89,6 +89,16 @@ def test_names_in_a_zip_that_lead_elsewhere_are_passed_by(tmp_path: Path) -> Non
     assert pack.files.names == ("good.txt", "pack.toml")
 
 
+def test_what_a_zip_hides_is_told(tmp_path: Path) -> None:
+    entries = {"a/pack.toml": INDEX, "a/x.txt": LEVEL, "a/X.txt": LEVEL, "b/pack.toml": INDEX}
+    problems = Pack(zip_pack(tmp_path / "odd.zip", entries)).problems
+    assert [problem.removeprefix(f"{tmp_path}/odd.zip/") for problem in problems] == [
+        "b/pack.toml: a second index; a/pack.toml is the one that is read",
+        "a/X.txt: more than one file has this name on some system",
+        "a/x.txt: more than one file has this name on some system",
+    ]
+
+
 def test_file_without_a_name_in_a_zip_is_passed_by(tmp_path: Path) -> None:
     path = zip_pack(tmp_path / "odd.zip", {"pack.toml": INDEX, "good.txt": LEVEL, "x": LEVEL})
     data = bytearray(path.read_bytes())
@@ -128,22 +138,26 @@ def test_pack_without_index_says_so(tmp_path: Path) -> None:
     "text, message",
     [
         ("name = 'x'\nnot [ toml", r"p\.toml:2:\d+: no TOML"),
+        ("name = My pack", r"p\.toml:1:8: no TOML: Invalid value; found 'name = My pack'; a text stands in double"),
         ("a = " + "[" * 5000, "p.toml: no TOML"),
         ("name = 'x'\na" + ".a" * 5000 + " = 1", "p.toml:2:1: no TOML: A key of more than 50 parts"),
         ("name = 0x" + "f" * 5000, "p.toml: no TOML: A whole number of more than 64 bits"),
         ("", "without a name"),
         ("name = 5", "name is not text; found 5"),
-        ("name = 'x'\nepisodes = []", "unknown entry; found 'episodes'; expected author, columns"),
+        ("name = 'x'\nepisodes = []", r"p\.toml:2: an unknown entry; found 'episodes'; .*did you mean 'episode'\?"),
+        ("name = 'x'\n[[episode]]\nnumber = 0\n\nlevel = ['a']", r"p\.toml:5: .* 'level'; .*did you mean 'levels'\?"),
+        ("version = '2'\n[[episode]]\nnumber = 0\nname = 'x'", r"p\.toml: a pack without a name"),
+        ("name = 'x'\n[[accept]]\nfile = 'a.txt'\ncode = 'same-name'", r"p\.toml:2: accept without its reason"),
         ("name = 'x'\ncolumns = 'y'", "columns is not a list of texts"),
-        ("name = 'x'\nepisode = 5", "not a list of episodes"),
-        ("name = 'x'\nepisode = [5]", "not a list of episodes"),
-        ("name = 'x'\n\n[[episode]]\nnumber = 100", r"p\.toml:3: an episode's number; found 100"),
+        ("name = 'x'\nepisode = 5", r"p\.toml:2: not a list of tables: episode"),
+        ("name = 'x'\nepisode = [5]", r"p\.toml:2: not a list of tables: episode"),
+        ("name = 'x'\n\n[[episode]]\nnumber = 100", r"p\.toml:4: an episode's number; found 100"),
         ("name = 'x'\n[[episode]]\nlevels = ['a.txt']", r"p\.toml:2: an episode's number; found None"),
-        ("name = 'x'\n[[episode]]\nnumber = true", r"p\.toml:2: an episode's number; found True"),
+        ("name = 'x'\n[[episode]]\nnumber = true", r"p\.toml:3: an episode's number; found True"),
         ("name = 'x'\n[[episode]]\nnumber = 3\n[[episode]]\nnumber = 3", r"p\.toml:4: episode 3 is there twice"),
-        ("name = 'x'\n[[episode]]\nnumber = 0\nlevels = [[]]", r"p\.toml:2: levels is not a list of texts"),
-        ("name = 'x'\n[[episode]]\nnumber = 0\nlevels = ['a','a','a','a','a','a']", r"toml:2: the levels of episode"),
-        ("name = 'x'\n[[episode]]\nnumber = 0\ntitle = 'y'", r"p\.toml:2: an unknown entry; found 'title'"),
+        ("name = 'x'\n[[episode]]\nnumber = 0\nlevels = [[]]", r"p\.toml:4: levels is not a list of texts"),
+        ("name = 'x'\n[[episode]]\nnumber = 0\nlevels = ['a','a','a','a','a','a']", r"toml:4: the levels of episode"),
+        ("name = 'x'\n[[episode]]\nnumber = 0\ntitle = 'y'", r"p\.toml:4: an unknown entry; found 'title'"),
     ],
 )
 def test_wrong_index_is_an_error_with_its_line(text: str, message: str) -> None:

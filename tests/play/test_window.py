@@ -147,12 +147,14 @@ def test_the_canvas_letterboxes_and_neighbours_share_edges() -> None:
         assert canvas.rect(24 * column, 0, 24, 24).right == canvas.rect(24 * column + 24, 0, 24, 24).left
 
 
-def test_the_first_size_is_a_whole_multiple() -> None:
-    pygame.display.init()
-    width, height = fitting_size()
-    assert width % 792 == 0
-    assert height % 600 == 0
-    pygame.display.quit()
+@pytest.mark.parametrize(
+    "desktop, first", [((1366, 768), (792, 600)), ((1920, 1080), (1188, 900)), ((2560, 1440), (1584, 1200))]
+)
+def test_the_first_size_is_a_multiple_of_half_the_stage(
+    desktop: tuple[int, int], first: tuple[int, int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(pygame.display, "get_desktop_sizes", lambda: [desktop])
+    assert fitting_size() == first
 
 
 def test_the_window_opens_as_large_as_it_was(tmp_path: Path) -> None:

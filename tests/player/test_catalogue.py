@@ -110,16 +110,30 @@ def test_packs_are_read_again_when_their_files_change(tmp_path: Path) -> None:
 
 
 def test_odd_packs_are_named_and_stop_nothing(tmp_path: Path) -> None:
-    pack_of(tmp_path / "a", "Same")
-    pack_of(tmp_path / "b", "Same")
     (tmp_path / "c.zip").write_text("no zip")
     (pack_of(tmp_path / "d", "Torn") / "pack.toml").write_text("name = [,")
     catalogue = Catalogue(tmp_path)
-    assert [pack.key for pack in catalogue.packs()] == ["", "Same"]
-    same, no_zip, torn = catalogue.problems
-    assert same == "b: there is a pack Same already"
+    assert [pack.key for pack in catalogue.packs()] == [""]
+    no_zip, torn = catalogue.problems
     assert "c.zip: neither a folder nor a zip" in no_zip
     assert "pack.toml:1:" in torn
+
+
+def test_packs_of_one_name_stand_side_by_side_with_author_and_version(tmp_path: Path) -> None:
+    for file, more in (("a", 'author = "Ann"'), ("b", 'author = "Ann"\nversion = "2"'), ("c", 'author = "Ann"')):
+        index = pack_of(tmp_path / file, "Same") / "pack.toml"
+        index.write_text(f"{more}\n{index.read_text('utf-8')}", "utf-8")
+    pack_of(tmp_path / "d", "Other")
+    catalogue = Catalogue(tmp_path)
+    _, *packs = catalogue.packs()
+    assert [(pack.key, pack.name) for pack in packs] == [
+        ("Same", "Same by Ann (a)"), ("Same (b)", "Same by Ann, 2"), ("Same (c)", "Same by Ann (c)"),
+        ("Other", "Other"),
+    ]  # fmt: skip
+    assert {entry.source for entry in packs[1].levels} == {"Same (b)"}
+    catalogue.more.append(tmp_path / "a")
+    assert len(catalogue.packs()) == 5, "a pack of the folder that the command line names is there once"
+    assert catalogue.problems == []
 
 
 def test_next_episode_is_the_next_one_that_there_is(tmp_path: Path) -> None:

@@ -79,6 +79,23 @@ def test_levels_are_looked_at(pack: Path) -> None:
     assert any(finding.startswith("00-3-rolling-hills.txt:2:") for finding in found)
 
 
+def test_certificates_of_a_level_that_cannot_be_read_are_not_strays(pack: Path) -> None:
+    (pack / f"{FIRST}.txt").write_text("ninja game level 1\nnonsense")
+    found = findings(pack)
+    assert not [each for each in found if "of no level here" in each]
+    assert any("expected 'ninja-game level 1' in the first line" in each for each in found)
+
+
+def test_findings_are_accepted_with_a_reason(pack: Path) -> None:
+    change(pack / "00-2-the-chimney.txt", "author: the ninja-game team\n", "")
+    accept = '[[accept]]\nfile = "{}"\ncode = "no-author"\nreason = "found on the street"\n'
+    with (pack / "pack.toml").open("a", encoding="utf-8") as index:
+        index.write(accept.format("00-2-the-chimney.txt") + accept.format("00-0-first-steps.txt"))
+    assert findings(pack) == ["pack.toml:20: accepts no-author of 00-0-first-steps.txt, which is not found there"]
+    result = CliRunner().invoke(cli, ["levels", "lint", str(pack)])
+    assert "2 episodes, 8 levels, 1 finding, 2 accepted" in result.output
+
+
 def test_two_levels_of_one_place_are_named(pack: Path) -> None:
     (pack / "00-4-other.txt").write_text((pack / "01-0-springtime.txt").read_text().replace("...o", "....", 1))
     assert "00-4-other.txt: the place 00-4 is that of 00-4-locksmith.txt too" in findings(pack)

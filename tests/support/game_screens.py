@@ -3,6 +3,7 @@ the recorded screens of the tests."""
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from dataclasses import replace
@@ -30,6 +31,7 @@ from ninja_game.play.level.screen import LevelScreen, PausePanel
 from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.replays import ReplaysScreen
 from ninja_game.play.menus.settings import PAGES
 from ninja_game.play.replay.screen import ReplayScreen
@@ -102,6 +104,7 @@ def tour(driver: MenuDriver) -> Iterator[str]:
     yield from _editor(driver)
     yield from _daily(driver)
     yield from _film(driver)
+    yield from _packs(driver)
 
 
 def home(driver: MenuDriver) -> None:
@@ -380,6 +383,50 @@ def _editor_states(driver: MenuDriver) -> Iterator[str]:
     driver.press("escape")
     screen.session.close()
     driver.app.pop()
+
+
+def _packs(driver: MenuDriver) -> Iterator[str]:
+    """No pack of the player's; then one with a changed level, something dragged, its problems."""
+    home(driver)
+    driver.open("Levels")
+    driver.choose("Packs")
+    driver.frames(3)
+    yield "packs-none"
+    folder = driver.player.folder / "levels" / "laundry"
+    shutil.copytree(PACK, folder, ignore=shutil.ignore_patterns("gallery", "README.md"))
+    index, level = folder / "pack.toml", folder / "00-1-mind-the-gap.txt"
+    index.write_text(
+        index.read_text("utf-8").replace("test pack", "Laundry").replace('-shift.txt", "', '", "'), "utf-8"
+    )
+    level.write_text(level.read_text("utf-8").replace("@", ".@", 1).replace(".@.", ".@", 1), "utf-8")
+    screen = driver.shown(PackScreen)
+    screen.enter()
+    driver.frames(30)
+    yield "packs"
+    driver.carry(screen.shelves.row_area(2), screen.shelves.row_area(9), drop=False)
+    yield "packs-dragging"
+    driver.press("escape")
+    driver.mouse_up()
+    driver.carry(screen.shelves.row_area(0), screen.shelves.row_area(6), drop=False)
+    yield "packs-dragging-an-episode"
+    driver.press("escape")
+    driver.mouse_up()
+    screen._said = "Certifying, 3 of 8 levels done"
+    with patch.object(type(screen._job), "idle", False):
+        driver.frames(2)
+    yield "packs-making-ready"
+    screen._said = screen.status = ""
+    driver.mouse(*screen.shelves.row_area(1)[:2], click=False)
+    driver.press("right", "return")
+    yield "packs-level-menu"
+    driver.press("escape")
+    driver.choose("Problems")
+    yield "packs-problems"
+    driver.choose("Accept it...")
+    yield "packs-accept"
+    driver.press("escape")
+    home(driver)
+    shutil.rmtree(folder)
 
 
 def _daily(driver: MenuDriver) -> Iterator[str]:

@@ -20,6 +20,7 @@ from ninja_game.player.player_data import PlayerData
 from ninja_game.tas_editor.opening import open_tas_editor
 from ninja_game.ui.input.bindings import Bindings
 from ninja_game.ui.input.keys import SCANCODES
+from ninja_game.ui.theme import Area
 from ninja_game.ui.widgets import Widget
 from tests.support.waiting import LONGEST
 
@@ -131,6 +132,25 @@ class MenuDriver:
         if click:
             for kind in (pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP):
                 pygame.event.post(pygame.Event(kind, pos=place, button=1, touch=False))
+        self.frames(1)
+
+    def carry(self, start: Area, goal: Area, *, drop: bool = True) -> None:
+        """Drag from the middle of one place to that of another, and let go there."""
+        for kind, (x, y, w, h) in (
+            (pygame.MOUSEMOTION, start), (pygame.MOUSEBUTTONDOWN, start), (pygame.MOUSEMOTION, goal),
+        ):  # fmt: skip
+            place = self.top().theme.canvas.point(x + w / 2, y + h / 2)
+            more = {"button": 1} if kind == pygame.MOUSEBUTTONDOWN else {"rel": (0, 0), "buttons": (1, 0, 0)}
+            pygame.event.post(pygame.Event(kind, pos=place, touch=False, **more))
+            self.frames(1)
+        if drop:
+            self.mouse_up(goal)
+
+    def mouse_up(self, place: Area = (0, 0, 0, 0)) -> None:
+        """Let the button go over a place."""
+        x, y, w, h = place
+        pos = self.top().theme.canvas.point(x + w / 2, y + h / 2)
+        pygame.event.post(pygame.Event(pygame.MOUSEBUTTONUP, pos=pos, button=1, touch=False))
         self.frames(1)
 
     def wheel(self, notches: int, x: float, y: float) -> None:

@@ -120,7 +120,7 @@ def test_other_files_are_never_replaced_unasked(tmp_path: Path) -> None:
     with pytest.raises(OccupiedError, match=r"a file named other\.replay\.txt already exists"):
         session.save(other)
     path.write_text(replay_of_walk(gold=0), "utf-8")
-    with pytest.raises(OccupiedError, match="changed by another program"):
+    with pytest.raises(OccupiedError, match="another program has changed"):
         session.save(path)
     session.save(path, replacing=True)
     assert session.is_saved
@@ -128,7 +128,7 @@ def test_other_files_are_never_replaced_unasked(tmp_path: Path) -> None:
     session.save(path)
     session.keep_branch("one")
     branches_path(path).write_text("somebody's", "utf-8")
-    with pytest.raises(OccupiedError, match=r"walk\.replay\.txt\.branches\.json was changed"):
+    with pytest.raises(OccupiedError, match=r"another program has changed walk\.replay\.txt\.branches\.json"):
         session.save(path)
     assert other.read_text("utf-8") == branches_path(path).read_text("utf-8") == "somebody's"
     session.close()
@@ -159,7 +159,7 @@ def test_a_journal_knows_no_file_but_a_run_that_is_there(tmp_path: Path) -> None
     session = Session(found.opened, tmp_path, memory="plain")
     session.recover(found)
     path.unlink()
-    with pytest.raises(OccupiedError, match=r"walk\.replay\.txt was removed by another program"):
+    with pytest.raises(OccupiedError, match=r"another program has removed walk\.replay\.txt"):
         session.save(path)
     session.close()
 

@@ -32,9 +32,9 @@ class AsciiLevel:
 
 
 def is_ascii_level(text: str) -> bool:
-    """Whether a text begins as an ASCII level does (after blank and comment lines)."""
+    """Whether a text begins as an ASCII level does, or nearly so (after blank and comment lines)."""
     _, first = next(numbered_lines(text, UNCOMMENTED), (1, ""))
-    return first.split(None, 2)[:2] == MAGIC.split()
+    return "".join(filter(str.isalpha, first[:80].lower())).startswith("ninjagamelevel")
 
 
 def parse_ascii_level(text: str, *, file: str = "") -> AsciiLevel:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from io import BytesIO
 from pathlib import Path, PurePosixPath
-from zipfile import ZipFile, ZipInfo
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from ninja_game.errors import FileError
 from ninja_game.files.beside import PLACE
 from ninja_game.files.reading import MAX_BYTES, decoded, files_in, read_bytes
+from ninja_game.files.shown_text import name_key
 from ninja_game.files.zips import open_zip, unpacked
 from ninja_game.formats.links.fragment import is_link, link_kind
 from ninja_game.formats.links.making import pack_link, pack_texts
@@ -38,6 +40,8 @@ def certificate_name(file: str, kind: str) -> str:
 class PackFiles:
     """What lies in a pack: ``names``, as "pack.toml" or "certificates/a.exit.replay.txt", sorted.
 
+    ``problems``: of a zip in which files hide others.
+
     Raises FileError for what is not a zip, or a zip beyond the limits, LinkError for a broken link; OSError as it
     comes.
     """
@@ -47,6 +51,7 @@ class PackFiles:
         self._zip: ZipFile | None = None
         self._entries: dict[str, ZipInfo] = {}
         self._texts: dict[str, str] = {}
+        self.problems: list[str] = []
         if is_link(path):
             self.path = Path(PLACE)
             self._texts = pack_texts(path)
@@ -70,6 +75,11 @@ class PackFiles:
         # Zips are often made of the folder, not of what is in it.
         indexes = [name for entry in entries if PurePosixPath(name := entry.filename).name == INDEX]
         top = min(indexes, key=lambda name: name.count("/"), default=INDEX).removesuffix(INDEX)
+        if others := [name for name in sorted(set(indexes)) if name != top + INDEX]:
+            self.problems.append(f"{self.place(others[0])}: a second index; {top + INDEX} is the one that is read")
+        keys = Counter(name_key(entry.filename) for entry in entries)
+        twice = sorted({entry.filename for entry in entries if keys[name_key(entry.filename)] > 1})
+        self.problems += [f"{self.place(name)}: more than one file has this name on some system" for name in twice]
         for entry in entries:
             name = entry.filename.removeprefix(top)
             parts = PurePosixPath(name).parts
@@ -81,6 +91,22 @@ class PackFiles:
     def levels(self) -> list[str]:
         """The names of the level files."""
         return [name for name in self.names if LEVEL_FILES.fullmatch(name)]
+
+    @property
+    def own_names(self) -> list[str]:
+        """The names of what makes a pack: index, par times, levels, certificates."""
+        replays = [name for name in self.names if name.startswith(f"{CERTIFICATES}/") and name.endswith(".replay.txt")]
+        return [name for name in (INDEX, PARS) if name in self.names] + self.levels + replays
+
+    def zipped(self) -> bytes:
+        """The pack as a zip, the same bytes for the same files."""
+        data, folder = BytesIO(), self.path.resolve().name.removesuffix(".zip")
+        with ZipFile(data, "w", ZIP_DEFLATED) as file:
+            for name in self.own_names:
+                about = ZipInfo(f"{folder}/{name}")
+                about.compress_type = ZIP_DEFLATED
+                file.writestr(about, self.text(name))
+        return data.getvalue()
 
     def place(self, name: str) -> str:
         """The path of a file, as errors name it; a file's own path in a folder."""
@@ -94,7 +120,7 @@ class PackFiles:
 
     def link(self) -> str:
         """The pack as a link, without its certificates. Raises LinkError for one that is too large."""
-        wanted = [name for name in (INDEX, PARS) if name in self.names] + self.levels
+        wanted = [name for name in self.own_names if not name.startswith(CERTIFICATES)]
         return pack_link({name: self.text(name) for name in wanted})
 
     def _bytes(self, name: str) -> bytes:

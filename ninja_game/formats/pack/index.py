@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from difflib import get_close_matches
 from typing import Any
 
 from ninja_game.errors import PackError
@@ -12,30 +13,43 @@ from ninja_game.files.toml import parse_toml
 MOST_EPISODES, EPISODES_PER_COLUMN, LEVELS_PER_EPISODE = 100, 10, 5
 
 _LINE = re.compile(r"\(at line (\d+), column (\d+)\)")
-_KEYS = {"name", "author", "comment", "columns", "episode"}
-_EPISODE_KEYS = {"number", "name", "levels"}
+_KEYS = ("name", "author", "comment", "version", "columns", "episode", "accept")
+_EPISODE_KEYS = ("number", "name", "levels")
+_ACCEPT_KEYS = ("file", "code", "reason")
 
 
 @dataclass(frozen=True)
 class EpisodeIndex:
     """An episode: ``number`` (0 to 99, its tens are its column), ``name``, and the files of its levels.
 
-    ``levels``: the files that the index lists; empty where it lists none, then those called "NN-…" belong to it.
+    ``levels``: the files that the index lists; None where it has no list, then those called "NN-…" belong to it.
     ``line``: where it begins in the index.
     """
 
     number: int
     name: str
-    levels: tuple[str, ...]
+    levels: tuple[str, ...] | None
     line: int
 
     def files(self, names: list[str]) -> tuple[str, ...]:
         """Its level files: those listed, or else those of ``names`` that begin with its number.
 
-        >>> EpisodeIndex(3, "", (), 1).files(["03-0-a.txt", "03-1-b.txt", "13-0-c.txt"])
+        >>> EpisodeIndex(3, "", None, 1).files(["03-0-a.txt", "03-1-b.txt", "13-0-c.txt"])
         ('03-0-a.txt', '03-1-b.txt')
         """
-        return self.levels or tuple(sorted(name for name in names if name.startswith(f"{self.number:02d}-")))
+        if self.levels is not None:
+            return self.levels
+        return tuple(sorted(name for name in names if name.startswith(f"{self.number:02d}-")))
+
+
+@dataclass(frozen=True)
+class Accepted:
+    """A finding about a file of the pack that its maker accepts, and why. ``line``: where it stands in the index."""
+
+    file: str
+    code: str
+    reason: str
+    line: int = 0
 
 
 @dataclass(frozen=True)
@@ -47,6 +61,18 @@ class PackIndex:
     comment: str
     columns: tuple[str, ...]
     episodes: tuple[EpisodeIndex, ...]
+    version: str = ""
+    accepted: tuple[Accepted, ...] = ()
+
+    @property
+    def title(self) -> str:
+        """Its name with author and version, by which packs of one name are told apart.
+
+        >>> PackIndex("Walls", "Ann", "", (), (), "2").title, PackIndex("Walls", "", "", (), ()).title
+        ('Walls by Ann, 2', 'Walls')
+        """
+        by = f" by {self.author}" if self.author else ""
+        return f"{self.name}{by}{', ' if self.version else ''}{self.version}"
 
 
 def parse_index(text: str, *, file: str = "") -> PackIndex:
@@ -56,57 +82,103 @@ def parse_index(text: str, *, file: str = "") -> PackIndex:
     except ValueError as error:
         place = _LINE.search(str(error))
         line, column = (int(place[1]), int(place[2])) if place else (0, 0)
-        raise PackError(f"no TOML: {_LINE.sub('', str(error)).strip()}", file, line, column) from None
-    _known(table, _KEYS, file, 0)
-    name = _text(table, "name", file, 0)
+        found = repr(text.splitlines()[line - 1].strip()[:40]) if 0 < line <= text.count("\n") + 1 and text else ""
+        hint = 'a text stands in double quotes: name = "…"'
+        raise PackError(f"no TOML: {_LINE.sub('', str(error)).strip()}", file, line, column, found, hint=hint) from None
+    whole = _Table(table, file, text, 0)
+    whole.check(_KEYS)
+    name = whole.text("name")
     if not name:
-        raise PackError("a pack without a name", file, expected='name = "…"')
-    columns = _list_of_texts(table, "columns", file, 0)
+        raise PackError("a pack without a name", file, whole.line("name"), expected='name = "…"')
+    columns = whole.texts("columns") or ()
     most = MOST_EPISODES // EPISODES_PER_COLUMN
     if len(columns) > most:
-        raise PackError("too many columns", file, found=str(len(columns)), expected=f"at most {most}")
-    episodes = _episodes(table, text, file)
-    return PackIndex(name, _text(table, "author", file, 0), _text(table, "comment", file, 0), columns, episodes)
+        raise PackError("too many columns", file, whole.line("columns"), 0, str(len(columns)), f"at most {most}")
+    accepted = []
+    for each in whole.tables("accept"):
+        each.check(_ACCEPT_KEYS)
+        values = {key: each.text(key) for key in ("file", "code", "reason")}
+        if missing := next((key for key, value in values.items() if not value), ""):
+            raise PackError(f"accept without its {missing}", file, each.start, expected=f'{missing} = "…"')
+        accepted.append(Accepted(**values, line=each.start))
+    return PackIndex(
+        name, whole.text("author"), whole.text("comment"), columns, _episodes(whole), whole.text("version"),
+        tuple(accepted),
+    )  # fmt: skip
 
 
-def _episodes(table: dict[str, Any], text: str, file: str) -> tuple[EpisodeIndex, ...]:
-    tables = table.get("episode", [])
-    if not isinstance(tables, list) or not all(isinstance(each, dict) for each in tables):
-        raise PackError("not a list of episodes", file, expected="a table [[episode]] for each")
-    heads = [n for n, line in enumerate(text.splitlines(), 1) if re.match(r"\s*\[\[\s*episode\s*\]\]", line)]
+def _episodes(whole: _Table) -> tuple[EpisodeIndex, ...]:
     found: dict[int, EpisodeIndex] = {}
-    for place, each in enumerate(tables):
-        line = heads[place] if len(heads) == len(tables) else 0
-        _known(each, _EPISODE_KEYS, file, line)
-        number = each.get("number")
+    for each in whole.tables("episode"):
+        each.check(_EPISODE_KEYS)
+        number, file = each.table.get("number"), whole.file
         if type(number) is not int or not 0 <= number < MOST_EPISODES:
-            raise PackError(
-                "an episode's number", file, line, found=repr(number)[:40], expected="a number from 0 to 99"
-            )
+            place, given = each.line("number") or each.start, repr(number)[:40]
+            raise PackError("an episode's number", file, place, found=given, expected="a number from 0 to 99")
         if number in found:
-            raise PackError(f"episode {number} is there twice", file, line, found=f"line {found[number].line} too")
-        levels = _list_of_texts(each, "levels", file, line)
-        if len(levels) > LEVELS_PER_EPISODE:
-            raise PackError(f"the levels of episode {number}", file, line, 0, str(len(levels)), "at most five files")
-        found[number] = EpisodeIndex(number, _text(each, "name", file, line), levels, line)
+            other = f"line {found[number].line} too"
+            raise PackError(f"episode {number} is there twice", file, each.start, found=other)
+        levels = each.texts("levels")
+        if levels and len(levels) > LEVELS_PER_EPISODE:
+            what, given = f"the levels of episode {number}", str(len(levels))
+            raise PackError(what, file, each.line("levels"), 0, given, "at most five files")
+        found[number] = EpisodeIndex(number, each.text("name"), levels, each.start)
     return tuple(found[number] for number in sorted(found))
 
 
-def _known(table: dict[str, Any], keys: set[str], file: str, line: int) -> None:
-    unknown = sorted(table.keys() - keys)
-    if unknown:
-        raise PackError("an unknown entry", file, line, 0, ascii(unknown[0]), ", ".join(sorted(keys)))
+@dataclass(frozen=True)
+class _Table:
+    """A table of the index and where it begins: behind the line ``start`` of ``whole``, 0 for the first one."""
 
+    table: dict[str, Any]
+    file: str
+    whole: str
+    start: int
 
-def _text(table: dict[str, Any], key: str, file: str, line: int) -> str:
-    value = table.get(key, "")
-    if not isinstance(value, str):
-        raise PackError(f"{key} is not text", file, line, found=repr(value)[:40], expected=f'{key} = "…"')
-    return value
+    def line(self, key: str) -> int:
+        """The line of an entry; 0 where it is not found."""
+        named = re.compile(rf"\s*\[*[\s\"']*{re.escape(key)}[\s\"']*[=\].]")
+        for number, line in enumerate(self.whole.splitlines()[self.start :], self.start + 1):
+            if named.match(line):
+                return number
+            if line.startswith("["):
+                break
+        return 0
 
+    def check(self, keys: tuple[str, ...]) -> None:
+        """Raise PackError for an entry that is none of these."""
+        if unknown := sorted(self.table.keys() - set(keys)):
+            near = get_close_matches(unknown[0], keys, 1)
+            hint = f"did you mean '{near[0]}'?" if near else ""
+            expected = ", ".join(sorted(keys))
+            raise PackError(
+                "an unknown entry", self.file, self.line(unknown[0]) or self.start, 0, ascii(unknown[0]), expected, hint
+            )
 
-def _list_of_texts(table: dict[str, Any], key: str, file: str, line: int) -> tuple[str, ...]:
-    value = table.get(key, [])
-    if not isinstance(value, list) or not all(isinstance(each, str) for each in value):
-        raise PackError(f"{key} is not a list of texts", file, line, 0, repr(value)[:40], f'{key} = ["…", "…"]')
-    return tuple(value)
+    def tables(self, key: str) -> list[_Table]:
+        """The tables [[key]]."""
+        tables = self.table.get(key, [])
+        if not isinstance(tables, list) or not all(isinstance(each, dict) for each in tables):
+            raise PackError(
+                f"not a list of tables: {key}", self.file, self.line(key), 0, "", f"a table [[{key}]] for each"
+            )
+        head = re.compile(rf"\s*\[\[\s*{key}\s*\]\]")
+        heads = [n for n, line in enumerate(self.whole.splitlines(), 1) if head.match(line)]
+        starts = heads if len(heads) == len(tables) else [0] * len(tables)
+        return [_Table(each, self.file, self.whole, start) for each, start in zip(tables, starts, strict=True)]
+
+    def text(self, key: str) -> str:
+        value = self.table.get(key, "")
+        if not isinstance(value, str):
+            raise PackError(f"{key} is not text", self.file, self.line(key), 0, repr(value)[:40], f'{key} = "…"')
+        return value
+
+    def texts(self, key: str) -> tuple[str, ...] | None:
+        """A list of texts; None where there is none."""
+        value = self.table.get(key)
+        if value is None:
+            return None
+        if not isinstance(value, list) or not all(isinstance(each, str) for each in value):
+            what, expected = f"{key} is not a list of texts", f'{key} = ["…", "…"]'
+            raise PackError(what, self.file, self.line(key), 0, repr(value)[:40], expected)
+        return tuple(value)

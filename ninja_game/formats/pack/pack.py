@@ -22,7 +22,7 @@ class Pack:
 
     def __init__(self, path: Path) -> None:
         self.files = PackFiles(path)
-        self.problems: list[str] = []
+        self.problems = list(self.files.problems)
         if INDEX not in self.files.names:
             raise PackError("a pack without its index", str(path), expected=f"a file {INDEX} in it")
         self.index = parse_index(self.files.text(INDEX), file=self.files.place(INDEX))

@@ -19,6 +19,7 @@ from ninja_game.files.user_folder import LEVELS, free_path
 from ninja_game.formats.ascii.writer import HEADER_KEYS
 from ninja_game.formats.lines import MOST_NAME
 from ninja_game.formats.sayings import read_sayings
+from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
 from ninja_game.play.editor.controls import COMMANDS
 from ninja_game.play.editor.palette_view import PaletteView
@@ -28,8 +29,8 @@ from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.editor.view import EditorView
 from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.panels import FormPanel, Menu, nothing
-from ninja_game.play.workspace.document import Action, DocumentCommands
+from ninja_game.play.menus.panels import Action, FormPanel, Menu, Row, nothing
+from ninja_game.play.workspace.document import DocumentCommands
 from ninja_game.player.catalogue import Entry
 from ninja_game.ui.widgets import following
 
@@ -101,13 +102,17 @@ class EditorCommands(DocumentCommands):
         tools.tool, tools.selection = "select", everything(tools.draft)
 
     def go_to_finding(self, index: int) -> None:
-        """Put the pointer at a problem and select what it is about."""
-        findings, tools = self.session.findings, self.session.tools
+        """Show one of the problems."""
+        findings = self.session.findings
         if not findings:
             self.app.notify("No problems found")
             return
         self._finding = index % len(findings)
-        finding = findings[self._finding]
+        self.show_finding(findings[self._finding])
+
+    def show_finding(self, finding: Finding) -> None:
+        """Put the pointer at a problem and select what it is about."""
+        tools = self.session.tools
         places = finding_points(tools.draft.level, finding)
         records = [number for number in finding.records if number < len(tools.draft.objects)]
         tools.choose(frozenset((n, part) for n in records for part in points(tools.draft.objects[n])))
@@ -172,6 +177,12 @@ class EditorCommands(DocumentCommands):
             return None
         return self.session.source.path or free_path(self._levels, file_stem(self.session.draft.name, "level"), SUFFIX)
 
+    def reload_rows(self, path: Path) -> list[Row]:
+        """Load the file again."""
+        if path != self.session.source.path or not path.exists():
+            return []
+        return [("Load it again", lambda: self.open_file(path), "What you changed is lost")]
+
     def saved_text(self, path: Path) -> str:
         """Where it is, and whether the menu shows it."""
         return f"Saved{', and in the menu Levels' * path.is_relative_to(self._levels)}: {path}"
@@ -211,10 +222,17 @@ class EditorCommands(DocumentCommands):
         self.unless_unsaved(lambda: self.app.push(LevelChoice(self.app, self.edit_entry)))
 
     def edit_entry(self, entry: Entry) -> None:
-        """Edit a level of the browser: the player's in its file, the game's as a new one."""
+        """Edit a level of the browser: the player's in its file, in a pack too; the game's or a zip's as a new one."""
+        path = Path(entry.named.file)
+        if entry.source != "game" and entry.named.ascii and path.is_file():
+            self.open_file(path)
+        else:
+            self.session.begin(Source(draft_of(entry.named)))
+
+    def open_file(self, path: Path) -> None:
+        """Edit the level of a file."""
         try:
-            own = entry.source == "yours" and entry.named.ascii
-            self.session.begin(open_source(Path(entry.named.file)) if own else Source(draft_of(entry.named)))
+            self.session.begin(open_source(path))
         except (NinjaGameError, OSError) as error:
             self.app.notify(reason(error))
 

@@ -25,7 +25,7 @@ COMMANDS = (
     Command("delete", "Delete what is selected, or nearest", ("delete", "backspace"), "x"),
     Command("brush", "Brush", ("b",)),
     Command("rectangle", "Box: fill a rectangle", ("r",)),
-    Command("fill", "Fill with a tile", ("f",)),
+    Command("fill", "Fill with a tile or objects", ("f",)),
     Command("select", "Select and move", ("v",)),
     Command("pick", "Pick: draw with what is there", ("k",), "y"),
     Command("next_tool", "Next tool", (), "rightstick"),

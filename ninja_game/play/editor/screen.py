@@ -29,7 +29,7 @@ class EditorScreen(WorkspaceScreen):
 
     table = TABLE
 
-    def __init__(self, app: App, source: Source | None = None) -> None:
+    def __init__(self, app: App, source: Source | None = None, *, offers_recovered: bool = True) -> None:
         super().__init__(app)
         self.session = EditorSession(app, source)
         x, y, w, h = LAYOUT.palette
@@ -42,7 +42,7 @@ class EditorScreen(WorkspaceScreen):
             Findings(self.view, self.commands.go_to_finding), FilePart(self.view), StatusLine(self.view),
         ]  # fmt: skip
         self._dragged_to: InputEvent | None = None
-        self._entered = False
+        self._entered = not offers_recovered
 
     @property
     def parts(self) -> Sequence[Part]:
@@ -61,7 +61,7 @@ class EditorScreen(WorkspaceScreen):
         super().follow_parts()
 
     def enter(self) -> None:
-        """The first time, ask about what was not saved."""
+        """The first time, ask about what was not saved, unless a level was just chosen."""
         super().enter()
         self.follow_parts()
         if not self._entered:

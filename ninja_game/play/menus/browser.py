@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from os import sep
 from pathlib import Path
 
 import pygame
 
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.reading import read_bytes
-from ninja_game.files.shown_text import name_problem, unreadable
+from ninja_game.files.shown_text import name_problem
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.load import load_levels
@@ -19,6 +18,8 @@ from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.episodes import draw_look
+from ninja_game.play.menus.panels import Action
+from ninja_game.play.menus.problems import Problem, of_files, problems_button
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text, where_from
@@ -46,17 +47,19 @@ SORT_ORDERS: list[tuple[str, object]] = [
 class Browser(ThumbnailScreen):
     """A list at the left, the selected level at the right. The list is read again whenever the screen is entered.
 
-    ``edit``: opens a level in the editor.
+    ``edit``: opens a level in the editor; ``packs``: the screen of the player's packs.
     """
 
     title = "Levels"
 
-    def __init__(self, app: App, edit: Callable[[Entry], object] | None = None) -> None:
+    def __init__(self, app: App, edit: Callable[[Entry], object] | None = None, packs: Action | None = None) -> None:
         super().__init__(app)
+        self._packs = packs
         self._edit = edit
         self.search = ""
         self.sort: object = "listed"
         self.message = ""
+        self.problems: list[Problem] = []
         self.entries: list[Entry] = []
         self.shown: list[Entry] = []
         self.bests: dict[str, SavedReplay] = {}
@@ -71,7 +74,7 @@ class Browser(ThumbnailScreen):
         )
         self.watch_best = Button((SIDE, 510, 98, 32), "Watch best", self._watch)
         self.watch_author = Button((SIDE + 104, 510, 98, 32), "Author's run", self._watch_author)
-        self.entry_field = TextEntry((44, 66, 236, 32), "Search name or author", "", self._search)
+        self.entry_field = TextEntry((44, 66, 194, 32), "Search name or author", "", self._search)
 
     def enter(self) -> None:
         """Read the player's folder as it is now."""
@@ -80,21 +83,32 @@ class Browser(ThumbnailScreen):
         self.entries = catalogue.singles()
         self.bests = self.player.records.level_bests()
         self.marks = self.player.marks.all()
-        self.message = unreadable([problem.removeprefix(f"{catalogue.folder}{sep}") for problem in catalogue.problems])
+        self.problems = of_files(catalogue.told)
+        self.message = ""
         self._arrange()
         super().enter()
 
     def choosers(self) -> list[Widget]:
         """What a level is found and selected with."""
-        sort = Choice((288, 66, 132, 32), "", SORT_ORDERS, lambda: self.sort, self._sort, hint="How the list is sorted")
-        return [self.list, self.entry_field, sort]
+        sort = Choice((244, 66, 118, 32), "", SORT_ORDERS, lambda: self.sort, self._sort, hint="How the list is sorted")
+        problems = problems_button(self.app, (150, 546, 270, 18), lambda: self.problems)
+        return [self.list, self.entry_field, sort, *problems]
 
     def build(self) -> Sequence[Widget]:
         """The list first, then what can be done with the selected level."""
         change = Button((SIDE + 208, 510, 46, 32), "Edit", self._change, hint="Open it in the editor")
         link = Button((SIDE + 260, 510, 60, 32), "Link", self._copy_link, hint="Copy a link that plays this level")
         watch = self.watch_best, self.watch_author
-        return [*self.choosers(), self.play_it, self.practice, *watch, *([change] * bool(self._edit)), link]
+        more = [change] * bool(self._edit)
+        if self._packs:
+            more.append(Button((368, 66, 52, 32), "Packs", self._packs, hint="Put your levels together into packs"))
+        return [*self.choosers(), self.play_it, self.practice, *watch, *more, link]
+
+    def capture(self, event: InputEvent) -> bool:
+        """What is typed is searched for, wherever the focus is."""
+        if event.raw.type == pygame.TEXTINPUT and event.raw.text.strip():
+            self.focus_on(self.entry_field)
+        return super().capture(event)
 
     def handle(self, event: InputEvent) -> None:
         """A file dropped on the window is copied into the player's folder; coming back to the window looks again."""

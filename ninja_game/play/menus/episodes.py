@@ -6,13 +6,13 @@ from collections.abc import Iterable, Sequence
 
 import pygame
 
-from ninja_game.files.shown_text import unreadable
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.level.screen import LevelScreen, play_level
 from ninja_game.play.menus.panels import CANCEL, Menu, Row
+from ninja_game.play.menus.problems import of_files, problems_button
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, tries_text
 from ninja_game.player.catalogue import Episode, EpisodeSet
@@ -118,7 +118,6 @@ class EpisodeGrid(ThumbnailScreen):
         self.packs: list[EpisodeSet] = []
         self.pack = self.player.catalogue.ours
         self.marks: dict[str, Mark] = {}
-        self.problem = ""
         self.grid = Cells((LEFT, TOP, WIDE, MOST_HIGH), 1, self._draw_cell, self._play, opens=True)
         self.grid.selected = self._selected
         self.play = Button((SIDE + 274, 64, 90, 30), "Play", lambda: self._play(self.grid.index))
@@ -132,7 +131,7 @@ class EpisodeGrid(ThumbnailScreen):
         catalogue = self.player.catalogue
         catalogue.problems.clear()
         self.packs = [pack for pack in catalogue.packs() if pack.episodes]
-        self.problem = unreadable(catalogue.problems) if catalogue.problems else ""
+        self.problems = of_files(catalogue.told)
         self.pack = next((pack for pack in self.packs if pack.key == key), catalogue.ours)
 
     # --- which ---
@@ -185,14 +184,15 @@ class EpisodeGrid(ThumbnailScreen):
             lambda: self.player.settings.practice, self._set_practice,
             hint=PRACTICE_HINT,
         )  # fmt: skip
+        problems = problems_button(self.app, (LEFT, 546, WIDE, 18), lambda: self.problems)
         if len(self.packs) < 2:
-            return [self.grid, self.play, self.practice, self.rows]
+            return [self.grid, self.play, self.practice, self.rows, *problems]
         names = [("The game's own" if not pack.key else pack.name, pack.key) for pack in self.packs]
         choice = Choice(
             (LEFT, 62, WIDE, 26), "", names, lambda: self.pack.key, self._set_pack,
             hint="Level pack; put packs into the folder levels of your player folder",
         )  # fmt: skip
-        return [self.grid, self.play, choice, self.practice, self.rows]
+        return [self.grid, self.play, choice, self.practice, self.rows, *problems]
 
     def _set_practice(self, value: object) -> None:
         self.app.change_settings(practice=value)
@@ -230,7 +230,8 @@ class EpisodeGrid(ThumbnailScreen):
     def _trial(self, index: int) -> None:
         if self.episode is not None:
             entry, *following = self.episode.levels[index:]
-            self.problem = play_level(self.app, entry, following=following) or self.problem
+            if problem := play_level(self.app, entry, following=following):
+                self.app.notify(problem)
 
     # --- picture ---
 
@@ -249,8 +250,6 @@ class EpisodeGrid(ThumbnailScreen):
             draw_look(surface, theme, look, (x, y, 18, 18))
             theme.text(surface, text, x + 25, y + 4, size=9.5)
         self._draw_total(surface, theme, self._below + 92)
-        if self.problem:
-            theme.text(surface, self.problem, LEFT, 549, size=9, colour=palette.bad, width=WIDE)
         episode = self.episode
         if episode is None:
             theme.text(surface, "No episodes", SIDE, 66, size=16, colour=palette.faint, bold=True)

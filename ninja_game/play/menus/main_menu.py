@@ -8,11 +8,13 @@ from random import Random
 import pygame
 
 from ninja_game import __version__
+from ninja_game.editor.files import recovered
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
+from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App, Screen
 from ninja_game.play.clock import RunClock
 from ninja_game.play.editor.screen import EditorScreen
@@ -31,6 +33,7 @@ from ninja_game.play.replay.playback import Playback
 from ninja_game.play.window import LOGO
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import EpisodeRun, next_run
+from ninja_game.runtime import IN_PAGE
 from ninja_game.simulation import Simulation
 from ninja_game.ui.audio.music import MENU
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Point
@@ -56,6 +59,7 @@ class MainMenu(MenuScreen):
         super().__init__(app)
         self.attract = Attract(app)
         self.run: EpisodeRun | None = None
+        self._lost = ""
 
     @property
     def mood(self) -> int:
@@ -63,7 +67,9 @@ class MainMenu(MenuScreen):
         return self.attract.mood
 
     def enter(self) -> None:
-        """Look where play goes on."""
+        """Look where play goes on, and whether a level waits that was not saved."""
+        found = next(recovered(self.player.folder), None)
+        self._lost = f"A level was not saved last time: {shown_text(found.draft.name, 40)}" if found else ""
         self.run = next_run(self.player, practice_mode=self.player.settings.practice)
         super().enter()
 
@@ -91,7 +97,7 @@ class MainMenu(MenuScreen):
             ("Daily", self._opener(DailyScreen), "A new level every day, the same for everybody"),
             ("Records", self._opener(RecordsScreen), "Your best runs, and what killed you"),
             ("Replays", self._opener(ReplaysScreen), "Watch your runs, and those of the levels' authors"),
-            ("Editor", self._opener(EditorScreen), "Make levels of your own"),
+            ("Editor", self._opener(EditorScreen), self._lost or "Make levels of your own"),
             ("Help", self._opener(HelpScreen), "How to move, and what everything does"),
             ("Settings", self._opener(SettingsScreen), "Keys, sound, colours, comfort"),
             ("Extras", self._opener(LabScreen), "For the curious: how ninja and walls meet, in ten moving figures"),
@@ -101,12 +107,19 @@ class MainMenu(MenuScreen):
     def _browser(self, app: App) -> Browser:
         """The levels, which can be opened in the editor from there."""
 
-        def edit(entry: Entry) -> None:
-            screen = EditorScreen(app)
+        def edit(entry: Entry, finding: Finding | None = None) -> None:
+            screen = EditorScreen(app, offers_recovered=False)
             app.push(screen)
             screen.commands.edit_entry(entry)
+            if finding:
+                screen.commands.show_finding(finding)
 
-        return Browser(app, edit)
+        def packs() -> None:
+            from ninja_game.play.menus.packs import PackScreen  # it needs NumPy, which takes a moment
+
+            app.push(PackScreen(app, edit))
+
+        return Browser(app, edit, None if IN_PAGE else packs)
 
     def _opener(self, screen: Callable[[App], Screen]) -> Callable[[], None]:
         return lambda: self.app.push(screen(self.app))

@@ -16,6 +16,7 @@ from ninja_game.ui.widgets import Button, Widget
 PANEL_WIDTH = 300
 ROW = 40
 
+Action = Callable[[], object]
 Row = tuple[str, Callable[[], object], str]
 """Text, action, hint."""
 

@@ -10,9 +10,7 @@ from typing import Protocol
 from ninja_game.document import OccupiedError
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.play.app import App
-from ninja_game.play.menus.panels import CANCEL, Menu, Row, nothing
-
-Action = Callable[[], object]
+from ninja_game.play.menus.panels import CANCEL, Action, Menu, Row, nothing
 
 
 class Document(Protocol):
@@ -51,6 +49,10 @@ class DocumentCommands:
         """Ask for a name, save under it, and do ``then``."""
         raise NotImplementedError
 
+    def reload_rows(self, path: Path) -> list[Row]:
+        """What else to offer where the document's file was changed by another program."""
+        return []
+
     def saved_text(self, path: Path) -> str:
         """What to say of a document that was saved."""
         raise NotImplementedError
@@ -73,6 +75,7 @@ class DocumentCommands:
             text, replace_it = str(error), partial(self.save_to, path, then, save=save, replacing=True)
             rows: list[Row] = [
                 ("Save under another name", lambda: self.save_as(then), ""),
+                *self.reload_rows(path),
                 ("Replace it", replace_it, "What it holds now is lost"),
                 CANCEL,
             ]

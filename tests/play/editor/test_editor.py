@@ -287,12 +287,13 @@ def test_a_ninja_far_away_leaves_no_route(room: Maker) -> None:
     assert isinstance(room.app.top, EditorScreen)
 
 
-def test_objects_are_not_filled_in(room: Maker) -> None:
+def test_what_has_a_switch_is_not_filled_in(room: Maker) -> None:
     tools = room.editor.session.tools
     tools.tool, tools.objects = "fill", False
     assert tools.effective_tool == "fill"
     before = len(room.draft.objects)
-    tools.pick_up(object_of_type("gold"))
+    tools.pick_up(object_of_type("locked door"))
     assert tools.effective_tool == "brush"
     room.drag((204, 204))
+    room.drag((252, 204))
     assert len(room.draft.objects) == before + 1

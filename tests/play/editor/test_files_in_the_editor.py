@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
@@ -26,6 +27,7 @@ from ninja_game.play.menus.panels import FormPanel, Menu
 from ninja_game.player.backup import read_backup, write_backup
 from ninja_game.signals import Terminated
 from tests.support.level_maker import ROOM, Maker
+from tests.support.own_pack import PACK
 
 
 def test_saved_levels_are_in_the_browser_at_once(room: Maker, tmp_path: Path) -> None:
@@ -55,6 +57,27 @@ def test_a_level_of_the_browser_is_edited_and_played_as_it_is_then(room: Maker) 
     room.choose_in_menu("Leave the editor")
     assert room.top() is browser
     assert browser.entries[0].named.level.tile(12, 12) == 1
+
+
+@pytest.mark.parametrize("zipped", [False, True])
+def test_a_level_of_the_players_own_pack_is_saved_into_the_pack(maker: Maker, tmp_path: Path, *, zipped: bool) -> None:
+    folder = tmp_path / "levels" / "laundry"
+    shutil.copytree(PACK, folder)
+    index = folder / "pack.toml"
+    index.write_text(index.read_text("utf-8").replace("test pack", "Laundry"), "utf-8")
+    if zipped:
+        shutil.make_archive(str(folder), "zip", folder)
+        shutil.rmtree(folder)
+    maker.open("Levels")
+    maker.press("up")
+    maker.type("laundry first")
+    maker.choose("Edit")
+    maker.drag((300, 300))
+    maker.chord("s", pygame.KMOD_LCTRL)
+    files = sorted(path.name for path in (tmp_path / "levels").iterdir())
+    assert files == (["first-steps.txt", "laundry.zip"] if zipped else ["laundry"])
+    saved = tmp_path / "levels" / "first-steps.txt" if zipped else folder / "00-0-first-steps.txt"
+    assert load_levels(saved)[0].level == maker.draft.level
 
 
 def test_a_name_is_asked_for_where_there_is_none(maker: Maker, tmp_path: Path) -> None:
@@ -117,7 +140,7 @@ def test_saving_first_stays_where_it_was_not_saved(room: Maker, tmp_path: Path) 
     room.drag((300, 300))
     room.choose_in_menu("Leave the editor")
     room.choose("Save")
-    assert "changed by another program" in room.top().title  # type: ignore[attr-defined]
+    assert room.top().title == "Another program has changed room.txt"  # type: ignore[attr-defined]
     room.choose("Cancel")
     assert isinstance(room.top(), EditorScreen)
     assert (path.read_text("utf-8")[-10:], room.editor.session.is_saved) == ("; by hand\n", False)
@@ -128,6 +151,16 @@ def test_saving_first_stays_where_it_was_not_saved(room: Maker, tmp_path: Path) 
     assert load_levels(path)[0].level.tile(12, 12) == 1
 
 
+def test_a_file_that_another_program_changed_is_loaded_again(room: Maker, tmp_path: Path) -> None:
+    room.chord("s", pygame.KMOD_LCTRL)
+    path = tmp_path / "levels" / "room.txt"
+    path.write_text(path.read_text("utf-8").replace("name: Room", "name: Hall"), "utf-8")
+    room.drag((300, 300))
+    room.chord("s", pygame.KMOD_LCTRL)
+    room.choose("Load it again")
+    assert (room.draft.name, room.draft.level, room.editor.session.is_saved) == ("Hall", ROOM.level, True)
+
+
 def test_what_was_not_saved_when_the_program_died_is_offered(room: Maker, tmp_path: Path) -> None:
     room.drag((300, 300))
     session = room.editor.session
@@ -136,6 +169,12 @@ def test_what_was_not_saved_when_the_program_died_is_offered(room: Maker, tmp_pa
     session.autosave.close(keep=True)
     room.app.stack.clear()
     room.app.push(MainMenu(room.app))
+    assert room.button("Editor").hint == "A level was not saved last time: Room"
+    room.open("Levels")
+    room.choose("Edit")
+    assert isinstance(room.top(), EditorScreen), "nothing lies over a level that was just chosen"
+    room.choose_in_menu("Leave the editor")
+    room.press("escape")
     room.open("Editor")
     assert isinstance(room.top(), Menu)
     assert "Not saved last time: Room" in room.top().title  # type: ignore[attr-defined]

@@ -108,7 +108,7 @@ def test_file_that_cannot_be_read_is_named(driver: MenuDriver) -> None:
     (driver.player.replay_folder / "torn.replay.txt").write_text("ninja-game replay 1\nnonsense")
     browser = driver.open("Levels")
     assert isinstance(browser, Browser)
-    assert "broken.txt" in browser.message
+    assert "broken.txt" in browser.problems[0].text
     driver.press("escape")
     replays = driver.open("Replays")
     assert isinstance(replays, ReplaysScreen)

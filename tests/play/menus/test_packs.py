@@ -15,6 +15,7 @@ from ninja_game.play.main import first_screen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import NAMED, Cells, EpisodeGrid
 from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.menus.problems import ProblemsScreen
 from ninja_game.player.marks import Mark, next_par, reached
 from tests.support.draw_log import DrawLog
 from tests.support.menu_driver import MenuDriver
@@ -143,3 +144,30 @@ def test_grids_of_every_size_keep_inside_their_place(numbers: list[int]) -> None
     assert sorted(number for number in cells.numbers if number >= 0) == sorted(numbers)
     assert cells.numbers[cells.index] >= 0
     assert (cells.cell_height >= NAMED) == (len(numbers) == 20), "names stand where there is room"
+
+
+def test_all_problems_of_files_are_shown_whole(driver: MenuDriver) -> None:
+    for name in ("broken", "worse"):
+        (driver.player.folder / "levels" / f"{name}.txt").write_text("ninja-game level 1\nnonsense")
+    (driver.player.folder / "levels" / "torn").mkdir()
+    (driver.player.folder / "levels" / "torn" / "pack.toml").write_text("name = My pack")
+    driver.open("Levels")
+    driver.choose("3 problems: show them")
+    text = shown(driver)
+    for place in ("broken.txt:2:1: not a header line", "worse.txt:2:1:", "torn/pack.toml:1:8: no TOML"):
+        assert place in text
+    assert str(driver.player.folder) not in text
+    driver.press("down", "down")
+    assert "Mend the file as the message says" in shown(driver)
+    driver.press("escape", "escape")
+    driver.open("Episodes")
+    driver.choose("1 problem: show it")
+    driver.shown(ProblemsScreen)
+
+
+def test_what_is_typed_is_searched_for_without_a_click_on_the_field(driver: MenuDriver) -> None:
+    browser = driver.open("Levels")
+    assert isinstance(browser, Browser)
+    driver.press("down")
+    driver.type("gap")
+    assert [entry.title for entry in browser.shown] == ["Mind the Gap"]

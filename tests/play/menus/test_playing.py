@@ -17,8 +17,8 @@ from ninja_game.play.menus.replays import ReplaysScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.progress import UNLOCKED
 from ninja_game.player.saving import EPISODE_BEST, OF_A_LEVEL
-from tests.support.draw_log import DrawLog
 from ninja_game.runs.verify import verify_recording
+from tests.support.draw_log import DrawLog
 from tests.support.menu_driver import MenuDriver
 
 

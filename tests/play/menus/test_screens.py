@@ -186,7 +186,7 @@ def test_dropped_file_is_there_when_the_browser_opens(driver: MenuDriver) -> Non
     browser = driver.open("Levels")
     assert isinstance(browser, Browser)
     assert "mine" in [entry.title for entry in browser.shown]
-    assert browser.message
+    assert [problem.text[:13] for problem in browser.problems] == ["broken.txt:2:"]
 
 
 def test_level_without_a_ninja_is_refused_with_a_message(driver: MenuDriver) -> None:

@@ -83,7 +83,7 @@ def test_it_is_saved_under_another_name_and_asks_before_it_replaces(at: TasDrive
     assert taken.read_text("utf-8") == "somebody's"
     path.write_text(path.read_text("utf-8") + "\n", "utf-8")
     at.chord("s", CTRL)
-    assert "changed by another program" in at.top().title  # type: ignore[attr-defined]
+    assert "nother program has changed" in at.top().title  # type: ignore[attr-defined]
     at.choose("Save under another name")
     at.fill("nowhere/b")
     assert "there is no folder" in at.app.notice

@@ -1,0 +1,508 @@
+"""The player's packs: episodes as shelves of levels, which are dragged and made; a pack is made ready to share."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from functools import partial
+from math import dist
+from pathlib import Path
+from typing import NamedTuple
+
+import pygame
+
+from ninja_game.editor import packs
+from ninja_game.editor.packing import ReadyPack, make_ready
+from ninja_game.errors import NinjaGameError, reason
+from ninja_game.files.shown_text import counted, shown_text
+from ninja_game.files.writing import write_atomically
+from ninja_game.formats.pack.files import INDEX, PARS
+from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, EpisodeIndex
+from ninja_game.formats.pack.pack import Pack
+from ninja_game.formats.run_time import seconds_text
+from ninja_game.generator.daily import FOLDER as DAILY
+from ninja_game.levels.findings import Finding, PackFinding
+from ninja_game.levels.warnings import level_findings
+from ninja_game.play.app import App
+from ninja_game.play.clipboard import copy_link
+from ninja_game.play.menus.panels import CANCEL, FormPanel, Menu, Row
+from ninja_game.play.menus.problems import Problem, ProblemsScreen
+from ninja_game.play.menus.thumbnails import ThumbnailScreen
+from ninja_game.player.catalogue import Entry, EpisodeSet
+from ninja_game.runs.packs import file_of, lint
+from ninja_game.runtime import NewestJob
+from ninja_game.ui.list_view import BAR, ListView
+from ninja_game.ui.theme import Area, Theme
+from ninja_game.ui.widgets import Button, Choice, Widget, draw_all_gold
+
+WIDE, HIGH = 93, 106
+"""Of a cell, px."""
+
+SECONDS = 20.0
+"""For each search of a run."""
+
+PULL = 6
+"""px that the mouse moves with its button down before it takes something along."""
+
+Edit = Callable[[Entry, Finding | None], object]
+
+
+class Cell(NamedTuple):
+    """A place on the shelves or beside them. ``episode``: None in the row for a new one; ``level``: None if free."""
+
+    episode: EpisodeIndex | None
+    level: Entry | None = None
+    head: bool = False
+
+
+class Rack(ListView):
+    """Cells that the mouse can take along: ``pull`` gets the number of one. A second click that pulls none chooses."""
+
+    def __init__(self, area: Area, columns: int, screen: PackScreen, choose: Callable[[int], object]) -> None:
+        super().__init__(area, HIGH, screen.draw_cell, choose, opens=True)
+        self.columns = columns
+        self.pull = screen.pull
+        self._pressed = (0.0, 0.0)
+        self._again = False
+
+    def click(self, x: float, y: float) -> bool:
+        index = self._index_at(x, y)
+        self._again = index is not None and index == self._clicked
+        self._clicked, self._pressed = -1, (x, y)
+        return super().click(x, y)
+
+    def drag(self, x: float, y: float) -> bool:
+        index = self._index_at(*self._pressed)
+        if index is None or self._pressed[0] >= self.area[0] + self.area[2] - BAR - 4:
+            return super().drag(x, y)
+        if dist((x, y), self._pressed) > PULL:
+            self._again = False
+            self.pull(self, index, (x, y))
+        return True
+
+    def release(self) -> None:
+        """The button goes up where nothing was taken along."""
+        again, self._again = self._again, False
+        if again:
+            self.choose(self.index)
+
+    def at(self, x: float, y: float) -> int | None:
+        """The cell at a point of the list."""
+        return self._index_at(x, y) if self.contains(x, y) else None
+
+
+class PackScreen(ThumbnailScreen):
+    """``pack``: the one on the shelves. ``held``: what is being moved; ``pointer``: where the mouse has it, else None.
+
+    ``edit``: opens a level in the editor, at a finding.
+    """
+
+    title = "Packs"
+
+    def __init__(self, app: App, edit: Edit) -> None:
+        super().__init__(app)
+        self._edit = edit
+        self.pack: EpisodeSet | None = None
+        self.mine: list[EpisodeSet] = []
+        self.sets: list[EpisodeSet] = []
+        self.beside = "none"
+        self.cells: list[Cell] = []
+        self.side: list[Cell] = []
+        self.measured = ""
+        self.held: Cell | None = None
+        self.pointer: tuple[float, float] | None = None
+        self.status = ""
+        self.shelves = Rack((36, 96, 6 * WIDE + BAR + 4, 4 * HIGH), 6, self, self._choose)
+        self.tray = Rack((622, 126, WIDE + BAR + 24, 4 * HIGH - 28), 1, self, self._choose_beside)
+        self._stop = False
+        self._job: NewestJob[Path, ReadyPack] = NewestJob(self._make_ready)
+        self._seen: ReadyPack | None = None
+        self._said = ""
+
+    @property
+    def path(self) -> Path:
+        """The folder of the pack on the shelves."""
+        return (self.pack and self.pack.path) or self.folder
+
+    @property
+    def folder(self) -> Path:
+        """That of the player's levels."""
+        return self.player.folder / "levels"
+
+    # --- what there is ---
+
+    def _read(self) -> None:
+        """All packs as they are now."""
+        before, catalogue = self.path, self.player.catalogue
+        catalogue.problems.clear()
+        self.sets = catalogue.packs()
+        own = [each for each in self.sets if each.key and each.path and each.path.is_dir()]
+        self.mine = [each for each in own if each.path and each.path.name != DAILY]
+        self._show(next((each for each in self.mine if each.path == before), None))
+
+    def _show(self, pack: EpisodeSet | None) -> None:
+        """Put a pack on the shelves, else the first one."""
+        self.pack = pack = pack or next(iter(self.mine), None)
+        self.cells, self.measured = [], ""
+        if pack and pack.pack:
+            for episode in pack.pack.index.episodes:
+                levels = pack.episodes[episode.number].levels if episode.number in pack.episodes else ()
+                self.cells += [Cell(episode, head=True), *(Cell(episode, each) for each in levels)]
+                self.cells += [Cell(episode)] * (LEVELS_PER_EPISODE - len(levels))
+            self.cells += [Cell(None, head=True), *[Cell(None)] * LEVELS_PER_EPISODE]
+            self.measured = pack.pack.files.text(PARS) if PARS in pack.pack.files.names else ""
+        entries: Sequence[Entry] = pack.singles if pack else ()
+        if self.beside == "yours":
+            entries = self.player.catalogue.own()
+        elif self.beside != "none":
+            entries = [entry for each in self.sets if each.key == self.beside for entry in each.levels]
+        self.side = [Cell(None, entry) for entry in entries]
+        self.shelves.fill(self.cells)
+        self.tray.fill(self.side)
+        self.redraw = True
+
+    def enter(self) -> None:
+        self._read()
+        super().enter()
+
+    def build(self) -> Sequence[Widget]:
+        names = [(each.name, each.key) for each in self.mine]
+        chosen = Choice((36, 60, 204, 28), "", names, lambda: self.pack.key if self.pack else "", self._choose_pack)
+        have = bool(self.pack)
+        tray = [("In no episode", "none"), ("Your folder", "yours")]
+        tray += [(each.name if each.key else "The game's own", each.key) for each in self.sets if each is not self.pack]
+        beside = Choice((622, 96, 134, 26), "", tray, lambda: self.beside, self._choose_tray)
+        self.shelves.hint = self.tray.hint = "Drag a level or an episode; Enter or a second click: what can be done"
+        ready = "Stop" if not self._job.idle else "Make ready"
+        hint = "Certify all, measure par times, look for problems; zip and link. Only what changed is done again"
+        new = Button((248, 60, 108, 28), "New pack...", self._new_pack)
+        about = Button((364, 60, 106, 28), "About it...", self._about, hint="Name, author, version")
+        problems = Button((478, 60, 94, 28), "Problems", lambda: self.app.push(ProblemsScreen(self.app, self.problems)))
+        make = Button((580, 60, 176, 28), ready, self._ready_or_stop, hint=hint)
+        return [self.shelves, chosen, new, about, problems, make, beside, self.tray] if have else [new]
+
+    def _choose_pack(self, key: str) -> None:
+        self._show(next(each for each in self.mine if each.key == key))
+
+    def _choose_tray(self, key: str) -> None:
+        self.beside = key
+        self._show(self.pack)
+
+    # --- what can be done ---
+
+    def do(self, action: Callable[[], object]) -> None:
+        """Change something on the disk, and show all as it is then."""
+        try:
+            action()
+        except (NinjaGameError, OSError) as error:
+            self.app.notify(reason(error))
+        self._read()
+        self.app.top.enter()
+
+    def ask(self, title: str, text: str, action: Callable[[str], object]) -> None:
+        """Do something with a text that is typed."""
+        fields = [("", text, 60)]
+        self.app.push(FormPanel(self.app, title, fields, "OK", lambda texts: self.do(lambda: action(texts[0]))))
+
+    def _new_pack(self) -> None:
+        def make(name: str) -> None:
+            path = packs.new_pack(self.folder, name, self.player.settings.name)
+            self._read()
+            self._show(next(each for each in self.mine if each.path == path))
+
+        self.ask("Name of the pack", "My pack", make)
+
+    def _about(self) -> None:
+        copied = Pack(self.path)
+        index = copied.index
+        keys = ("name", "author", "version", "comment")
+        fields = [(key.capitalize(), getattr(index, key), 200) for key in keys]
+
+        def describe(texts: list[str]) -> None:
+            self.do(lambda: packs.describe(self.path, dict(zip(keys, texts, strict=True))))
+
+        copy = partial(packs.copy_pack, copied, self.folder)
+        form = FormPanel(self.app, "About the pack", fields, "OK", describe)
+        rows: list[Row] = [
+            ("Name, author, version...", lambda: self.app.push(form), ""),
+            ("Copy of the pack...", lambda: self.ask("Name of the copy", f"{index.name} copy", copy), ""),
+            ("Copy link", lambda: copy_link(self.app, copied.files.link, title=index.name), "Plays the pack"),
+            CANCEL,
+        ]
+        self.app.push(Menu(self.app, index.name, rows))
+
+    def _choose(self, index: int) -> None:
+        cell = self.cells[index]
+        if self.held:
+            self._drop(cell)
+        elif cell.level:
+            self._level_menu(cell)
+        elif cell.episode is None:
+            self.ask("Name of the episode", "New episode", partial(self._new_episode, self._column()))
+        else:
+            self._episode_menu(cell.episode)
+
+    def _choose_beside(self, index: int) -> None:
+        if self.held:
+            self._drop(None)
+        else:
+            self._level_menu(self.side[index])
+
+    def _new_episode(self, column: int, name: str) -> None:
+        packs.new_episode(self.path, name, column)
+
+    def _column(self) -> int:
+        """The last column that has episodes."""
+        return max((cell.episode.number for cell in self.cells if cell.episode), default=0) // EPISODES_PER_COLUMN
+
+    def _level_menu(self, cell: Cell) -> None:
+        level, episode = cell.level, cell.episode
+        if level is None:
+            return
+        file = Path(level.named.file)
+        rename, take_out = partial(packs.rename_level, file), partial(packs.place, self.path, file.name, None)
+
+        def copy() -> None:
+            new = packs.duplicate(self.path, level.named)
+            packs.place(self.path, new, episode.number if episode else None)
+
+        rows: list[Row] = [("Edit", lambda: self._edit(level, None), ""), ("Move...", lambda: self._hold(cell), "")]
+        if file.parent == self.path:
+            rows += [("Rename...", lambda: self.ask("Another name", level.named.name, rename), "")]
+            rows += [("Copy", lambda: self.do(copy), "Another level like it")]
+            rows += [("Take out", lambda: self.do(take_out), "Into no episode")] * bool(episode)
+        self.app.push(Menu(self.app, level.title, [*rows, CANCEL]))
+
+    def _episode_menu(self, episode: EpisodeIndex) -> None:
+        number, path = episode.number, self.path
+        column = number // EPISODES_PER_COLUMN
+        columns = list(self.pack.columns if self.pack else ())
+        columns += [""] * (column + 1 - len(columns))
+
+        def level(name: str) -> None:
+            packs.place(path, packs.new_level(path, name, self.player.settings.name), number)
+
+        def name_column(name: str) -> None:
+            packs.describe(path, {"columns": [*columns[:column], name, *columns[column + 1 :]]})
+
+        rename, begin = partial(packs.rename_episode, path, number), partial(self._new_episode, self._column() + 1)
+        rows: list[Row] = [
+            ("New level...", lambda: self.ask("Name of the level", "New level", level), "An empty one"),
+            ("Rename...", lambda: self.ask("Another name", episode.name, rename), ""),
+            ("Move...", lambda: self._hold(Cell(episode, head=True)), ""),
+            ("Name of the column...", lambda: self.ask("Name of the column", columns[column], name_column), ""),
+            ("Begin a column...", lambda: self.ask("Its first episode", "New episode", begin), "Beside the others"),
+            ("Remove the episode", lambda: self.do(partial(packs.remove_episode, path, number)), "Its levels stay"),
+            CANCEL,
+        ]
+        self.app.push(Menu(self.app, episode.name or f"Episode {number + 1}", rows))
+
+    # --- moving ---
+
+    def pull(self, rack: Rack, index: int, pointer: tuple[float, float]) -> None:
+        """The mouse takes a cell along, or moves on with it."""
+        cell = (self.cells if rack is self.shelves else self.side)[index]
+        if self.held is None and (cell.level or (cell.head and cell.episode)):
+            self.held = cell
+        self.pointer = pointer if self.held else None
+        over = self.shelves.at(*pointer)
+        self.shelves.index = self.shelves.index if over is None else over
+
+    def _hold(self, cell: Cell) -> None:
+        self.held = cell
+        self.app.notify("Choose its new place; Enter or a click puts it there, Esc leaves it where it is")
+
+    def back(self) -> None:
+        """First give up what is being moved."""
+        if self.held:
+            self.held = self.pointer = None
+        else:
+            super().back()
+
+    def _drop(self, goal: Cell | None) -> None:
+        """Put what is held on a place of the shelves, or beside them (None)."""
+        held, self.held, self.pointer = self.held, None, None
+        if held and held.level:
+            self.do(partial(self._put_level, held.level, goal))
+        elif held and held.episode and goal and goal.episode:
+            self.do(partial(packs.move_episode, self.path, held.episode.number, goal.episode.number))
+
+    def _put_level(self, level: Entry, goal: Cell | None) -> None:
+        file, target = Path(level.named.file), self.path
+        if goal is None and self.beside != "none":
+            target = next((each.path for each in self.sets if each.key == self.beside and each.path), self.folder)
+        if target != self.folder and target not in [each.path for each in self.mine]:
+            raise NinjaGameError("that pack cannot be changed: it is the game's own, or a zip")
+        name = file.name
+        if file.parent != target:
+            name = packs.transfer(level.named, target, keep=level.source == "game" or self.folder not in file.parents)
+        if (target / INDEX).is_file():
+            number = goal.episode.number if goal and goal.episode else None
+            if goal and number is None:
+                number = packs.new_episode(target, "New episode", self._column())
+            packs.place(target, name, number, Path(goal.level.named.file).name if goal and goal.level else "")
+
+    def _handle_mouse(self, event: pygame.Event) -> None:
+        dragged = self._dragged
+        super()._handle_mouse(event)
+        if event.type == pygame.MOUSEBUTTONUP and isinstance(dragged, Rack):
+            x, y = self.theme.canvas.logical(event.pos)
+            if self.pointer is None:
+                dragged.release()
+            elif (index := self.shelves.at(x, y)) is not None:
+                self._drop(self.cells[index])
+            elif self.tray.contains(x, y):
+                self._drop(None)
+            self.held, self.pointer = (self.held if self.pointer is None else None), None
+            self.redraw = True
+
+    # --- problems, and what takes time ---
+
+    def problems(self) -> list[Problem]:
+        """What is odd about the pack."""
+        pack = Pack(self.path)
+        return [self._problem(each, file_of(pack, each)) for each in lint(pack)]
+
+    def _problem(self, finding: PackFinding, file: str) -> Problem:
+        levels = self.pack.levels if self.pack else []
+        entry = next((each for each in levels if each.named.file == str(self.path / file)), None)
+        go: Callable[[], object] | None = self._about if file == INDEX else None
+        if entry:
+            found = next((each for each in level_findings(entry.named.level) if each.code == finding.code), None)
+            go = partial(self._edit, entry, found)
+
+        def accept(why: str) -> None:
+            packs.accept(self.path, file, finding.code, why)
+
+        may = bool(file) and finding.code != "unreadable"
+        asked = partial(self.ask, "Accepted: why is it meant so?", "", accept) if may else None
+        hint = "The button Make ready does that." if "`ninja-game" in finding.hint else finding.hint
+        return Problem(str(finding).replace(f"{self.path}{os.sep}", ""), hint, go, asked)
+
+    def _ready_or_stop(self) -> None:
+        if self._job.idle:
+            self._stop, self._said = False, "Beginning"
+            self._job.ask(self.path)
+        else:
+            self._stop = True
+        super().enter()
+
+    def _make_ready(self, path: Path) -> ReadyPack:
+        def say(text: str) -> None:
+            if self._stop:
+                raise NinjaGameError("Stopped; what was found is kept")
+            self._said = text
+
+        return make_ready(path, seconds=SECONDS, jobs=max(1, (os.cpu_count() or 2) - 1), say=say)
+
+    def update(self, real_ms: int) -> None:
+        super().update(real_ms)
+        ready, idle = self._job.result, self._job.idle
+        if idle and self._said:
+            self._said = ""
+            self.status = self._job.problem
+            if ready and ready is not self._seen and not self._job.problem:
+                self._share(ready)
+            self._seen = ready
+            self.enter()
+        elif self._said and self._said != self.status:
+            self.status, self.redraw = self._said, True
+
+    def _share(self, ready: ReadyPack) -> None:
+        """Write the zip, and put the link into the clipboard."""
+        name = ready.pack.name
+        self.app.write_export(name, ".zip", lambda path: write_atomically(path, ready.zipped))
+        notes = [self.app.notice, *ready.notes]
+        if ready.link:
+            copy_link(self.app, lambda: ready.link, title=name)
+            notes.insert(1, "the link is in the clipboard")
+        self.app.notify("; ".join(notes))
+        self.status = f"{counted(len(ready.pack.levels), 'level')}, {counted(len(ready.findings), 'problem')}"
+
+    def leave(self) -> None:
+        super().leave()
+        self.held = self.pointer = None
+
+    def close(self) -> None:
+        self._stop = True
+        super().close()
+
+    # --- picture ---
+
+    def draw_frame(self, surface: pygame.Surface) -> None:
+        super().draw_frame(surface)
+        theme, faint = self.theme, self.theme.palette.faint
+        if self.pack is None:
+            texts = [
+                "A pack is a folder with your levels in episodes.",
+                "New pack makes one; levels that you have made can be dragged into it then.",
+            ]
+            theme.paragraph(surface, texts, (36, 200, 720, 80), 13, 20, align="centre")
+        theme.text(surface, self.status or self._counts(), 36, 530, size=10, colour=faint, width=720)
+
+    def _counts(self) -> str:
+        """What the pack holds."""
+        if self.pack is None:
+            return ""
+        levels = self.pack.levels
+        to_do = sum(entry.pars is None for entry in levels)
+        alone = f", {len(self.pack.singles)} in none" if self.pack.singles else ""
+        episodes = sum(cell.head for cell in self.cells) - 1
+        where = f"{counted(len(levels), 'level')} in {counted(episodes, 'episode')}{alone}"
+        return f"{where}; {f'{to_do} to certify' if to_do else 'all certified'}" if levels else "Drag levels here"
+
+    def draw_widgets(self, surface: pygame.Surface) -> None:
+        """What the mouse takes along lies over all."""
+        super().draw_widgets(surface)
+        if self.held and self.pointer:
+            x, y = self.pointer
+            if self.held.level:
+                self.thumbnails.draw(surface, self.held.level, x + 6, y + 6, 60)
+            else:
+                self.theme.row(surface, (x + 6, y + 6, 2 * WIDE, HIGH / 4), chosen=True, focused=True)
+
+    def draw_cell(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        """A level with what is known about it, an episode's name, or a free place."""
+        rack = self.tray if area[0] >= self.tray.area[0] else self.shelves
+        cell = (self.side if rack is self.tray else self.cells)[index]
+        x, y, w, h = area
+        inner = (x + 2, y + 2, w - 4, h - 4)
+        chosen = index == rack.index
+        focused = focused or (chosen and rack is self.shelves and self.pointer is not None)
+        if cell.head:
+            self._draw_head(surface, theme, cell, inner)
+        elif cell.level:
+            theme.row(surface, inner, chosen=chosen and focused, focused=focused)
+            self.thumbnails.draw(surface, cell.level, x + 6, y + 6, WIDE - 12)
+            theme.text(surface, shown_text(cell.level.title), x + 6, y + 73, size=9.5, width=w - 12)
+            self._draw_state(surface, theme, cell.level, x + 6, y + 88, w - 12)
+        if chosen and focused:
+            theme.canvas.frame_rect(surface, theme.palette.accent, *inner, 2.5, 4)
+        elif not (cell.head or cell.level):
+            theme.canvas.frame_rect(surface, theme.palette.panel_edge, *inner, 1, 4)
+
+    def _draw_state(self, surface: pygame.Surface, theme: Theme, level: Entry, x: float, y: float, w: float) -> None:
+        palette = theme.palette
+        if level.pars is None:
+            changed = f'"{Path(level.named.file).name}"' in self.measured and level.source != "yours"
+            text, colour = ("changed", palette.bad) if changed else ("no run yet", palette.faint)
+            theme.text(surface, text, x, y, size=8.5, colour=colour, width=w)
+            return
+        theme.text(surface, f"{seconds_text(level.pars.exit)} s", x, y, size=8.5, colour=palette.good, width=w - 14)
+        if level.pars.gold is not None:
+            draw_all_gold(surface, theme, x + w - 5, y + 5, 8)
+
+    def _draw_head(self, surface: pygame.Surface, theme: Theme, cell: Cell, area: Area) -> None:
+        x, y, w, h = area
+        theme.panel(surface, *area)
+        if cell.episode is None:
+            theme.paragraph(surface, ["New episode..."], (x + 6, y + h / 2 - 8, w - 12, 24), 10.5, 13)
+            return
+        number = cell.episode.number
+        column = number // EPISODES_PER_COLUMN
+        names = self.pack.columns if self.pack else ()
+        theme.text(surface, f"Episode {number + 1}", x + 6, y + 6, size=9, colour=theme.palette.faint, width=w - 12)
+        theme.paragraph(surface, [shown_text(cell.episode.name)], (x + 6, y + 21, w - 12, 42), 11, 14)
+        if column < len(names):
+            place, faint = (x + 6, y + 72, w - 12, 26), theme.palette.faint
+            theme.paragraph(surface, [f"in {shown_text(names[column])}"], place, 9, 12, colour=faint)

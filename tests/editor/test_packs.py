@@ -1,0 +1,120 @@
+"""Packs under edit: levels and episodes are moved in the index, comments stay; what is right is not done again."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from ninja_game.cli.main import cli
+from ninja_game.editor import packs
+from ninja_game.editor.packing import make_ready
+from ninja_game.errors import NinjaGameError, PackError
+from ninja_game.formats.pack.files import PackFiles
+from ninja_game.formats.pack.pack import Pack
+from tests.support.own_pack import PACK
+
+FIRST, LAST = "00-0-first-steps.txt", "01-2-the-works.txt"
+
+
+@pytest.fixture(name="pack")
+def copy_of_the_pack(tmp_path: Path) -> Path:
+    return Path(shutil.copytree(PACK, tmp_path / "pack", ignore=shutil.ignore_patterns("gallery", "README.md")))
+
+
+def layout(path: Path) -> dict[int, list[str]]:
+    """The files of each episode, as their numbers."""
+    pack = Pack(path)
+    return {each.number: [file[:4] for file in each.files(pack.files.levels)] for each in pack.index.episodes}
+
+
+def test_levels_are_moved_between_episodes_and_out_of_them(pack: Path) -> None:
+    packs.place(pack, LAST, 1, before="01-0-springtime.txt")
+    packs.place(pack, FIRST, 1)
+    assert layout(pack) == {0: ["00-1", "00-2", "00-3", "00-4"], 1: ["01-2", "01-0", "01-1", "00-0"]}
+    packs.place(pack, FIRST, None)
+    packs.place(pack, "00-4-locksmith.txt", None)
+    assert layout(pack) == {0: ["00-1", "00-2", "00-3"], 1: ["01-2", "01-0", "01-1"]}
+    assert (pack / "pack.toml").read_text("utf-8").startswith("# A pack for the tests, which stays")
+    for file in (FIRST, "00-1-mind-the-gap.txt"):
+        packs.place(pack, file, 1)
+    with pytest.raises(PackError, match="episode 2 is full"):
+        packs.place(pack, "00-2-the-chimney.txt", 1)
+
+
+def test_episodes_are_made_moved_renamed_and_removed(pack: Path) -> None:
+    assert packs.new_episode(pack, "Late", 0) == 2
+    assert packs.new_episode(pack, "Right", 1) == 10
+    packs.move_episode(pack, 2, 0)
+    assert layout(pack) == {0: [], 1: ["00-0", "00-1", "00-2", "00-3", "00-4"], 2: ["01-0", "01-1", "01-2"], 10: []}
+    packs.move_episode(pack, 1, 10)
+    packs.rename_episode(pack, 10, 'The "first"')
+    assert [(each.number, each.name) for each in Pack(pack).index.episodes] == [
+        (0, "Late"), (2, "Things that hum"), (10, 'The "first"'), (11, "Right"),
+    ]  # fmt: skip
+    packs.remove_episode(pack, 2)
+    assert list(layout(pack)) == [0, 10, 11]
+    assert len(Pack(pack).levels) == 8
+
+
+def test_a_column_takes_ten_episodes(pack: Path) -> None:
+    for _ in range(8):
+        packs.new_episode(pack, "One more", 0)
+    with pytest.raises(PackError, match="column 1 is full"):
+        packs.new_episode(pack, "Too many", 0)
+
+
+def test_a_pack_is_made_described_and_copied(pack: Path, tmp_path: Path) -> None:
+    made = packs.new_pack(tmp_path, "Wände", "me")
+    file = packs.new_level(made, "Erste", "me")
+    packs.place(made, file, 0)
+    packs.describe(made, {"version": "2", "columns": ["Left"], "author": "you"})
+    index = Pack(made).index
+    assert (index.title, index.columns, layout(made)) == ("Wände by you, 2", ("Left",), {0: ["erst"]})
+    copied = packs.copy_pack(Pack(pack), tmp_path, "Wände")
+    assert copied.name == "wände-2"
+    assert Pack(copied).files.names == Pack(pack).files.names
+    with pytest.raises(NinjaGameError):
+        packs.describe(made, {"name": ""})
+    assert Pack(made).name == "Wände"
+
+
+def test_levels_go_to_another_pack_with_their_certificates(pack: Path, tmp_path: Path) -> None:
+    other = packs.new_pack(tmp_path, "Other", "me")
+    level = Pack(pack).levels[LAST]
+    assert packs.transfer(level, other, keep=True) == LAST
+    assert LAST in Pack(pack).levels
+    assert packs.transfer(level, other, keep=False) == "01-2-the-works-2.txt"
+    assert LAST not in Pack(pack).levels
+    assert Pack(pack).problems == []
+    assert f"certificates/{LAST[:-4]}-2.exit.replay.txt" in Pack(other).files.names
+    packs.rename_level(other / LAST, "Factory")
+    copied = packs.duplicate(other, Pack(other).levels[LAST])
+    assert [level.name for level in Pack(other).levels.values()] == ["The Works", "Factory", "Factory copy"]
+    assert copied == "factory-copy.txt"
+
+
+def test_a_pack_is_made_ready_and_only_what_changed_is_done_again(pack: Path, tmp_path: Path) -> None:
+    certificate = pack / "certificates" / "00-0-first-steps.exit.replay.txt"
+    other = pack / "certificates" / "00-1-mind-the-gap.exit.replay.txt"
+    kept = other.stat().st_mtime_ns
+    certificate.unlink()
+    said: list[str] = []
+    ready = make_ready(pack, seconds=1.0, jobs=1, say=said.append)
+    assert certificate.exists()
+    assert other.stat().st_mtime_ns == kept
+    assert "Par times: 8 of 8 levels" in said
+    assert (ready.findings, ready.notes, ready.link[:6]) == ([], [], "#pack=")
+    (tmp_path / "pack.zip").write_bytes(ready.zipped)
+    assert PackFiles(tmp_path / "pack.zip").names == Pack(pack).files.names
+    assert ready.zipped == Pack(pack).files.zipped()
+
+
+def test_the_command_makes_a_pack_ready(pack: Path, tmp_path: Path) -> None:
+    (pack / "00-0-first-steps.txt").unlink()
+    result = CliRunner().invoke(cli, ["levels", "pack", str(pack), "--seconds", "1"])
+    assert result.exit_code == 1
+    assert "of no level here" in result.output
+    assert f"wrote {tmp_path / 'pack.zip'}\n#pack=" in result.output
