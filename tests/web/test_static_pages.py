@@ -65,7 +65,7 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with the hostile board and a gallery of a few levels of ours."""
     folder = board_of_hostile_names(tmp_path_factory.mktemp("pages"))
     write_gallery(folder, published_levels(data_folder("levels")))
-    (folder / "index.html").write_text("<!doctype html><title>the game</title>", "utf-8")
+    (folder / "play.html").write_text("<!doctype html><title>the game</title>", "utf-8")
     return folder
 
 
@@ -174,9 +174,7 @@ def test_gallery_is_searched_and_sorted_by_keyboard(open_page: Callable[..., Any
     page.keyboard.press("Tab")
     page.keyboard.press("Enter")
     page.wait_for_url("**/levels/*.html")
-    assert (
-        page.get_by_role("link", name="Play this level").get_attribute("href").startswith("../../index.html#level=1.")
-    )
+    assert page.get_by_role("link", name="Play this level").get_attribute("href").startswith("../../play.html#level=1.")
 
 
 def test_everything_is_read_without_a_script(open_page: Callable[..., Any]) -> None:
