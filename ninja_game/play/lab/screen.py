@@ -188,11 +188,15 @@ class FigurePicture:
         self.surface = pygame.Surface(context.canvas.window)
         self.area = context.canvas.rect(*FIGURE)
 
-    def draw(self) -> pygame.Surface:
-        """The figure as it is now."""
+    def draw(self) -> None:
+        """Put the figure as it is now into ``area`` of the surface."""
         sheet = Sheet(self.surface, self.theme, self.figure.view)
         self.figure.draw(sheet)
         sheet.close()
+
+    def drawn(self) -> pygame.Surface:
+        """The figure as it is now."""
+        self.draw()
         return self.surface.subsurface(self.area)
 
     def demonstrate(self, tick: int) -> None:
@@ -205,7 +209,7 @@ def figure_pictures(name: str, *, scale: float = 1.0, ticks: int = FILM_TICKS) -
     picture = FigurePicture(name, scale)
     for tick in range(ticks):
         picture.demonstrate(tick)
-        yield picture.draw()
+        yield picture.drawn()
 
 
 def figure_picture(name: str, *, scale: float = 1.0, palette: str = "classic") -> pygame.Surface:
@@ -213,7 +217,7 @@ def figure_picture(name: str, *, scale: float = 1.0, palette: str = "classic") -
     picture = FigurePicture(name, scale, palette)
     for tick in range(PICTURE_TICK):
         picture.demonstrate(tick)
-    return picture.draw()
+    return picture.drawn()
 
 
 def export_figure(name: str, path: Path, *, scale: float = 1.0) -> None:
