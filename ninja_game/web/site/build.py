@@ -78,6 +78,8 @@ def build_site(out: Path, pyodide: Path | None, cache: Path) -> list[SiteFile]:
     site.write(MARK, json.dumps({"version": __version__, "files": sorted(files)}, indent=1) + "\n")
     for name in before - set(files):
         site.remove(name)
+        with suppress(OSError):
+            (out / name).parent.rmdir()  # of an earlier version, if nothing else is in it
     return [SiteFile(name, len(data), len(gzip.compress(data, 9))) for name, data in sorted(files.items())]
 
 
