@@ -140,7 +140,8 @@ def _stamped(
     app["build.js"] = f"export const build = {json.dumps(build)};\n".encode()
     files = {f"{folder}/{name}": content for name, content in app.items()} | above
     small = sorted(name for name in files if not name.endswith(LARGE))
-    modules = [name for name in files if name.endswith(("js", ".mjs"))]
+    # Without pyodide.asm.mjs: where that comes before all else, Chromium's start hangs.
+    modules = [name for name in files if name.endswith((".js", "/pyodide.mjs")) and "figures" not in name]
     stamps = {
         FOLDER: folder,
         "{{kept}}": json.dumps(
