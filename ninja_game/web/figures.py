@@ -51,7 +51,10 @@ class PageFigure:
             self.figure.tick()
         self._picture.draw()
         display.flip()
-        values = [(each.get(), each.show(each.get())) if isinstance(each, Slider) else (each.index, "") for each in self.controls]
+        values = [
+            (each.get(), each.show(each.get())) if isinstance(each, Slider) else (each.index, "")
+            for each in self.controls
+        ]
         return json.dumps({"numbers": self.figure.numbers(), "values": values})
 
     def set(self, control: int, value: float) -> None:

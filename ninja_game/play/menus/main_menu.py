@@ -95,7 +95,7 @@ class MainMenu(MenuScreen):
             ("Editor", self._opener(EditorScreen), "Make levels of your own"),
             ("Help", self._opener(HelpScreen), "How to move, and what everything does"),
             ("Settings", self._opener(SettingsScreen), "Keys, sound, colours, comfort"),
-            ("Quit", self.back, "Leave the game"),
+            *([] if IN_PAGE else [("Quit", self.back, "Leave the game")]),
         ]
 
     def _browser(self, app: App) -> Browser:

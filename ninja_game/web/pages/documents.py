@@ -10,7 +10,6 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from functools import cached_property
 from html import escape
 from io import BytesIO
 from pathlib import Path
@@ -25,27 +24,8 @@ from pygments.lexers import PythonLexer, TextLexer
 from ninja_game.files.user_folder import PACKAGE, data_folder
 from ninja_game.play.lab.screen import FIGURES, figure_picture
 from ninja_game.play.window import png_of
-from ninja_game.web.pages.frame import (
-    COMPETE,
-    GAME,
-    HOME,
-    ICON,
-    MAKE,
-    NAVIGATION,
-    SCRIPT,
-    SEARCH,
-    STYLE,
-    Content,
-    Markup,
-    colours,
-    joined,
-    page,
-    page_icon,
-    tag,
-)  # fmt: skip
-
-SECTIONS = {MAKE: ("Make", "For level makers"), COMPETE: ("Compete", "For speedrunners")}
-"""Pages that are parts of the index of documents, with the headings of those parts there."""
+from ninja_game.web.pages import frame
+from ninja_game.web.pages.frame import GAME, HOME, NAVIGATION, SEARCH, Content, Markup, joined, tag  # fmt: skip
 
 FILM, STILL = "pictures/ninja-game.webp", "pictures/ninja-game.png"
 """The moving picture of the first page, and one for who wants no motion."""
@@ -97,13 +77,15 @@ class Documents:
     """``files``: content by name in the site, once ``build`` was called."""
 
     def __init__(self) -> None:
-        self.markdown = markdown_files()
-        self.files: dict[str, bytes] = {}
-        self.searched: list[Markup] = []
-        self._sources: set[str] = set()
         self._reader = MarkdownIt("commonmark", {"html": False, "highlight": _coloured}).enable("table")
         self._reader.add_render_rule("table_open", lambda *_: '<div class="wide" tabindex="0"><table>')
         self._reader.add_render_rule("table_close", lambda *_: "</table></div>")
+        self.markdown = {
+            name: _titled(self._reader.parse(path.read_text("utf-8")), name) for name, path in markdown_files().items()
+        }
+        self.files: dict[str, bytes] = {}
+        self.searched: list[Markup] = []
+        self._sources: set[str] = set()
 
     def build(self) -> dict[str, bytes]:
         """All pages, with their pictures, style and search."""
@@ -113,45 +95,34 @@ class Documents:
         while missing := {name for name in self._sources if page_of(name) not in self.files}:
             for name in missing:
                 self._source(name)
-        for name, (title, heading) in SECTIONS.items():
-            self._part(name, title, heading)
         results = tag("ul", *self.searched, class_="results")
         words = tag("label", "Words ", tag("input", type="search", name="words", autocomplete="off"))
         form = tag("form", words, tag("p", role="status", class_="found"), class_="search", role="search", hidden=True)
         self._write(SEARCH, "Search", [form, results])
-        formatter = HtmlFormatter(style="default"), HtmlFormatter(style="github-dark")
-        light, dark = (each.get_style_defs(".code") for each in formatter)
-        style = [
-            colours(),
-            (here / STYLE).read_text("utf-8"),
-            light,
-            f"@media (prefers-color-scheme: dark) {{ {dark} }}",
-        ]
-        self.files[f"docs/{STYLE}"] = "\n".join(style).encode()
-        self.files |= {f"docs/{SCRIPT}": (here / SCRIPT).read_bytes(), f"docs/{ICON}": page_icon()}
+        light, dark = (HtmlFormatter(style=name).get_style_defs(".code") for name in ("default", "github-dark"))
+        dark = f"@media (prefers-color-scheme: dark) {{ {dark} }}"
+        style = [frame.colours(), (here / frame.STYLE).read_text("utf-8"), light, dark]
+        self.files[f"docs/{frame.STYLE}"] = "\n".join(style).encode()
+        self.files |= {
+            f"docs/{frame.SCRIPT}": (here / frame.SCRIPT).read_bytes(),
+            f"docs/{frame.ICON}": frame.page_icon(),
+        }
         return self.files
 
     def _write(self, name: str, title: str, contents: Iterable[Content], *, figures: bool = False) -> None:
         """A page in the frame of the site."""
         up = "../" * name.count("/")
         links = [(up + address, text) for address, text in NAVIGATION]
-        current = next((address for address, _ in NAVIGATION if address == name), "")
-        text = page(
-            title,
-            *contents,
-            up=f"{up}docs/",
-            links=links,
-            current=up + current,
-            figures=up + FIGURES_SCRIPT if figures else "",
-        )
-        self.files[name] = text.encode()
+        script = up + FIGURES_SCRIPT if figures else ""
+        self.files[name] = frame.page(
+            title, *contents, up=f"{up}docs/", links=links, current=up + name, figures=script
+        ).encode()
 
     # --- documents ---
 
     def _document(self, name: str) -> None:
-        tokens = self._reader.parse(self.markdown[name].read_text("utf-8"))
+        title, tokens = self.markdown[name]
         page_name = page_of(name)
-        title, tokens = _titled(tokens, name)
         headings = list(_anchored(tokens))
         self._note(page_name, title, tokens)
         figures = self._prepare(name, tokens)
@@ -171,25 +142,8 @@ class Documents:
             return []
         at = chapters.index(name)
         near = (("Before: ", chapters[at - 1] if at else ""), ("Next: ", (*chapters[at + 1 :], "")[0]))
-        links = [tag("a", word + self._title(each), href=Path(page_of(each)).name) for word, each in near if each]
+        links = [tag("a", word + self.markdown[each][0], href=Path(page_of(each)).name) for word, each in near if each]
         return [tag("nav", *links, class_="near", aria_label="Chapters")]
-
-    def _title(self, name: str) -> str:
-        return _titled(self._reader.parse(self.markdown[name].read_text("utf-8")), name)[0]
-
-    def _part(self, name: str, title: str, heading: str) -> None:
-        """A page of one part of the index of documents."""
-        index = "docs/README.md"
-        _, tokens = _titled(self._reader.parse(self.markdown[index].read_text("utf-8")), index)
-        starts = [at for at, token in enumerate(tokens) if token.type == "heading_open"]
-        start = next(at for at in starts if tokens[at + 1].content == heading)
-        tokens = tokens[start + 3 : next((at for at in starts if at > start), len(tokens))]
-        self._prepare(index, tokens, name)
-        body = Markup(self._reader.renderer.render(tokens, self._reader.options, {}))
-        gallery = tag(
-            "p", tag("a", "All levels, with their best known runs", href="gallery/index.html", class_="button")
-        )
-        self._write(name, title, [gallery, body])
 
     def _note(self, page_name: str, title: str, tokens: list[Token]) -> None:
         """Let a page be found by its words, each of its parts by itself."""
@@ -209,88 +163,57 @@ class Documents:
 
     # --- what leads elsewhere ---
 
-    def _prepare(self, name: str, tokens: list[Token], page_name: str = "") -> bool:
-        """Turn links and pictures into those of the site, and paragraphs into what they stand for; whether a figure is.
-
-        ``page_name``: the page on which the tokens of the document ``name`` stand.
-        """
-        page_name = page_name or page_of(name)
+    def _prepare(self, name: str, tokens: list[Token]) -> bool:
+        """Turn links, pictures and paragraphs into what they are in the site; whether a figure is among them."""
         found = False
         for at, token in enumerate(tokens):
+            opened = ""
+            sources = []
             for child in token.children or ():
                 if child.type == "link_open":
-                    child.attrs["href"] = self._address(str(child.attrs["href"]), name, page_name)
-                    if not child.attrs["href"]:
-                        child.tag = "span"
-                        child.attrs.clear()
+                    link = str(child.attrs["href"])
+                    child.attrs["href"] = address = self._address(link, name)
+                    opened = child.tag = "a" if address else "span"
+                    sources.append((link, address))
+                elif child.type == "link_close":
+                    child.tag = opened
                 elif child.type == "image":
-                    found |= self._picture(child, name, page_name)
+                    found |= self._picture(child, name)
             if token.type == "inline" and tokens[at - 1].type == "paragraph_open":
-                self._stands_for(tokens, at, page_name)
-        _close_spans(tokens)
+                _stands_for(tokens[at - 1], token, tokens[at + 1], sources, Path(name).parent)
         return found
 
-    def _stands_for(self, tokens: list[Token], at: int, page_name: str) -> None:
-        """Turn a paragraph of sources or an answer into what opens at a click, and one of a picture into the picture."""
-        before, token, after = tokens[at - 1 : at + 2]
-        children = token.children or []
-        links = [str(each.attrs["href"]) for each in children if each.type == "link_open"]
-        if len(children) == 1 and children[0].type in ("image", "html_inline"):
-            before.hidden = after.hidden = True
-        elif token.content.startswith("Code: ") and all("#L-" in link for link in links):
-            before.hidden = after.hidden = True
-            names = [each.content for each in children if each.type == "code_inline"]
-            shown = [self._function(link, each, page_name) for link, each in zip(links, names, strict=True)]
-            summary = tag("summary", "Show me the code: ", ", ".join(names))
-            token.children = [_html(tag("details", summary, *shown))]
-        elif token.content.startswith("**Answer.**"):
-            before.type = after.type = "html_block"
-            before.content, after.content = "<details><summary>Answer</summary><p>", "</p></details>"
-            end = next(place for place, each in enumerate(children) if each.type == "strong_close")
-            token.children = children[end + 1 :]
-
-    def _function(self, link: str, name: str, page_name: str) -> Markup:
-        """The source of a function, and where it stands in its file."""
-        address, _, line = link.partition("#L-")
-        target = normpath(f"{Path(page_name).parent.as_posix()}/{address}")
-        source = next(each for each in self._sources if page_of(each) == target)
-        text = (PACKAGE.parent / source).read_text("utf-8")
-        node = _definitions(text)[name]
-        lines = text.splitlines()[node.lineno - 1 : node.end_lineno]
-        first = tag("p", tag("a", f"{source}, line {line}", href=link), class_="faint")
-        return joined(Markup(_coloured("\n".join(lines), "python")), first)
-
-    def _address(self, link: str, name: str, page_name: str) -> str:
+    def _address(self, link: str, name: str) -> str:
         """Where a link of a document leads in the site; "" for what is not here."""
         target, _, anchor = link.partition("#")
         if "://" in link or not target:
             return link
         path = normpath(f"{Path(name).parent.as_posix()}/{target}")
-        way = relpath(page_of(path), Path(page_name).parent.as_posix())
+        way = relpath(page_of(path), Path(page_of(name)).parent.as_posix())
         if path in self.markdown:
             return way + (anchor and f"#{anchor}")
         whole = PACKAGE.parent / path if path.startswith(PACKAGE.name) else data_folder("docs").parent / path
         if whole.suffix in (".png", ".gif", ".svg"):
-            return self._copied(whole, path, page_name)
+            return self._copied(whole, path, name)
         if not whole.exists():
             return ""
         self._sources.add(path)
-        if anchor and not anchor.startswith("L-"):
+        if anchor:
             anchor = f"L-{_definitions(whole.read_text('utf-8'))[anchor].lineno}"
         return way + (anchor and f"#{anchor}")
 
-    def _copied(self, whole: Path, path: str, page_name: str) -> str:
+    def _copied(self, whole: Path, path: str, name: str) -> str:
         """The address of a picture, which comes along."""
         if not whole.is_file():
             return ""
         self.files[path] = whole.read_bytes()
-        return relpath(path, Path(page_name).parent.as_posix())
+        return relpath(path, Path(page_of(name)).parent.as_posix())
 
-    def _picture(self, image: Token, name: str, page_name: str) -> bool:
+    def _picture(self, image: Token, name: str) -> bool:
         """Turn a picture into one of the site; whether it is a figure."""
         path = normpath(f"{Path(name).parent.as_posix()}/{image.attrs['src']}")
         whole, alt = data_folder("docs").parent / path, image.content
-        up = "../" * page_name.count("/")
+        up = "../" * page_of(name).count("/")
         figure = whole.stem.removeprefix(LAB) if whole.stem.startswith(LAB) else ""
         if figure in FIGURES:
             dark, light = (self._figure(figure, palette) for palette in ("dark", "classic"))
@@ -298,12 +221,12 @@ class Documents:
             img = tag("img", src=up + light, alt=alt, width=540, height=324, loading="lazy")
             start = tag("button", "Touch to try it", type="button", hidden=True)
             picture = tag("figure", tag("picture", source, img), start, class_="lab", data_figure=figure)
-        elif page_name == HOME and path.endswith(".gif"):
-            self.files |= {FILM: self._film[0], STILL: self._film[1]}
+        elif page_of(name) == HOME and path.endswith(".gif"):
+            self.files |= _film(whole)
             source = tag("source", srcset=STILL, media="(prefers-reduced-motion: reduce)")
             picture = tag("picture", source, tag("img", src=FILM, alt=alt, width=528, height=400))
         else:
-            picture = tag("img", src=self._copied(whole, path, page_name), alt=alt, loading="lazy")
+            picture = tag("img", src=self._copied(whole, path, name), alt=alt, loading="lazy")
         image.type, image.content = "html_inline", picture
         return figure in FIGURES
 
@@ -313,19 +236,6 @@ class Documents:
         if name not in self.files:
             self.files[name] = png_of(figure_picture(figure, scale=2.0, palette=palette))
         return name
-
-    @cached_property
-    def _film(self) -> tuple[bytes, bytes]:
-        """The moving picture of the first page, every second picture of it, as WebP; and its middle as PNG."""
-        from PIL import Image, ImageSequence
-
-        film, still = BytesIO(), BytesIO()
-        with Image.open(data_folder("docs") / "pictures" / "ninja-game.gif") as gif:
-            first, *others = [each.convert("RGB") for each in ImageSequence.Iterator(gif)][::2]
-            pace = 2 * gif.info["duration"]
-        first.save(film, "webp", save_all=True, append_images=others, duration=pace, loop=0, quality=30, method=4)
-        others[len(others) // 2].quantize(64).save(still, "png")
-        return film.getvalue(), still.getvalue()
 
     # --- sources ---
 
@@ -371,21 +281,51 @@ def _anchored(tokens: list[Token]) -> Iterator[tuple[str, str]]:
                 yield str(token.attrs["id"]), text
 
 
-def _close_spans(tokens: list[Token]) -> None:
-    """End what began as a link and became text."""
-    for token in tokens:
-        opened = ""
-        for child in token.children or ():
-            if child.type == "link_open":
-                opened = child.tag
-            elif child.type == "link_close":
-                child.tag = opened
+def _film(path: Path) -> dict[str, bytes]:
+    """The moving picture of the first page, every second picture of it, as WebP; and its middle as PNG."""
+    from PIL import Image, ImageSequence
+
+    film, still = BytesIO(), BytesIO()
+    with Image.open(path) as gif:
+        first, *others = [each.convert("RGB") for each in ImageSequence.Iterator(gif)][::2]
+        pace = 2 * gif.info["duration"]
+    first.save(film, "webp", save_all=True, append_images=others, duration=pace, loop=0, quality=30, method=4)
+    others[len(others) // 2].quantize(64).save(still, "png")
+    return {FILM: film.getvalue(), STILL: still.getvalue()}
 
 
-def _html(markup: Markup) -> Token:
-    token = Token("html_inline", "", 0)
-    token.content = markup
-    return token
+def _stands_for(before: Token, token: Token, after: Token, links: Iterable[tuple[str, str]], folder: Path) -> None:
+    """Turn a paragraph of sources or an answer into what opens at a click, and one of a picture into the picture.
+
+    ``links``: those in it, as they are written, seen from ``folder``, and where they lead in the site.
+    """
+    children = token.children or []
+    if len(children) == 1 and children[0].type == "html_inline":
+        before.hidden = after.hidden = True
+    elif token.content.startswith("Code: "):
+        before.hidden = after.hidden = True
+        names = ", ".join(link.partition("#")[2] for link, _ in links)
+        shown = [_function(folder, link, address) for link, address in links]
+        children[0].type, children[0].content = (
+            "html_inline",
+            tag("details", tag("summary", "Show me the code: ", names), *shown),
+        )
+        del children[1:]
+    elif token.content.startswith("**Answer.**"):
+        before.type = after.type = "html_block"
+        before.content, after.content = "<details><summary>Answer</summary><p>", "</p></details>"
+        del children[: next(place for place, each in enumerate(children) if each.type == "strong_close") + 1]
+
+
+def _function(folder: Path, link: str, address: str) -> Markup:
+    """The source of a function, and where it stands in its file."""
+    path, _, name = link.partition("#")
+    source = normpath((folder / path).as_posix())
+    text = (PACKAGE.parent / source).read_text("utf-8")
+    node = _definitions(text)[name]
+    lines = text.splitlines()[node.lineno - 1 : node.end_lineno]
+    first = tag("p", tag("a", f"{source}, line {node.lineno}", href=address), class_="faint")
+    return joined(Markup(_coloured("\n".join(lines), "python")), first)
 
 
 def _coloured(text: str, lang: str, _: str = "") -> str:
@@ -397,7 +337,7 @@ def _coloured(text: str, lang: str, _: str = "") -> str:
 
 
 def _definitions(text: str) -> Mapping[str, ast.FunctionDef | ast.ClassDef]:
-    """The functions and classes of a file; methods as ``Class.method`` and by their name alone."""
+    """The functions and classes of a file; methods too, by their names."""
     found: dict[str, ast.FunctionDef | ast.ClassDef] = {}
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, (ast.FunctionDef, ast.ClassDef)):

@@ -80,10 +80,10 @@ POLICY = "default-src 'none'; img-src 'self'; style-src 'self'; script-src 'self
 POLICY_OF_FIGURES = POLICY.replace("script-src 'self'", "connect-src 'self'; script-src 'self' 'wasm-unsafe-eval'")
 """Of pages with figures, which run Python."""
 
-HOME, GAME, MAKE, COMPETE, SEARCH = "index.html", "play.html", "make.html", "compete.html", "search.html"
+HOME, GAME, SEARCH = "index.html", "play.html", "search.html"
 NAVIGATION = (
-    (HOME, "Home"), ("learn/index.html", "Learn"), (GAME, "Play"), (MAKE, "Make"), (COMPETE, "Compete"),
-    ("docs/index.html", "Reference"), (SEARCH, "Search"),
+    (HOME, "Home"), ("learn/index.html", "Learn"), (GAME, "Play"), ("docs/making-levels.html", "Make"),
+    ("gallery/index.html", "Compete"), ("docs/index.html", "Reference"), (SEARCH, "Search"),
 )  # fmt: skip
 """Pages in the folder of a site, and what leads to its parts."""
 
