@@ -19,7 +19,7 @@ export function onProgress(listener) {
   progress(2, "Loading the game");
 }
 
-// A step of the start begins. It is told only when all bytes are there: until then they are what is waited for.
+// A step of the start begins. It is shown only when all bytes are there: until then they are what is waited for.
 function progress(share, words) {
   step = [share, words];
   count(0);

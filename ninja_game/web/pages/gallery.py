@@ -79,7 +79,7 @@ def level_page(
         section("Certificates", table("Runs that prove the level", ("Run", "Time", ""), runs)) if runs else None,
         more,
     ]
-    return page(entry.title, *contents, up=UP, links=links), texts
+    return page(entry.title, *contents, up=UP, links=links, picture=UP + picture_name(entry.digest)), texts
 
 
 def level_image(entry: Entry, up: str = "", *, lazy: bool = False) -> Markup:
