@@ -333,6 +333,7 @@ def _coloured(text: str, lang: str, _: str = "") -> str:
     python = lang.split(" ", maxsplit=1)[0].endswith(("python", "py"))
     shape = HtmlFormatter(cssclass="code", lineanchors="L" if "/" in lang else "")
     shown = str(highlight(text, PythonLexer(stripnl=False) if python else TextLexer(stripnl=False), shape)).rstrip()
+    shown = re.sub(r'<a (id="L-\d+")[^>]*></a>', r"<span \1></span>", shown)
     return shown.removesuffix("</div>").replace('<div class="code"><pre>', '<pre class="code" tabindex="0">', 1)
 
 
