@@ -226,7 +226,8 @@ class Documents:
             source = tag("source", srcset=STILL, media="(prefers-reduced-motion: reduce)")
             picture = tag("picture", source, tag("img", src=FILM, alt=alt, width=528, height=400))
         else:
-            picture = tag("img", src=self._copied(whole, path, name), alt=alt, loading="lazy")
+            address = self._copied(whole, path, name)
+            picture = tag("img", src=address, alt=alt, loading="lazy") if address else joined(alt)
         image.type, image.content = "html_inline", picture
         return figure in FIGURES
 

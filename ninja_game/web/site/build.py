@@ -39,14 +39,9 @@ FOLDER = "app-folder"
 """What templates and documents call the folder of the version."""
 
 PAGES = (
-    "index.html",
-    "docs/style.css",
-    "docs/search.js",
-    "gallery/index.html",
-    "gallery/style.css",
-    "gallery/search.js",
-    "gallery/icon.png",
-)
+    "index.html", "docs/style.css", "docs/search.js",
+    *(f"gallery/{name}" for name in ("index.html", "style.css", "search.js", "icon.png")),
+)  # fmt: skip
 """What is kept for visits without a network beside the game; other pages are kept as they are visited."""
 
 
@@ -142,16 +137,12 @@ def _stamped(
     small = sorted(name for name in files if not name.endswith(LARGE))
     # Without pyodide.asm.mjs: where that comes before all else, Chromium's start hangs.
     modules = [name for name in files if name.endswith((".js", "/pyodide.mjs")) and "figures" not in name]
+    taught = sorted(name for name in documents if name.startswith(("learn/", "lab/")))
+    large = sorted({*files} - {*small})
+    kept = {"id": known, "small": [GAME, *small], "pages": [*PAGES, *taught], "large": large}
     stamps = {
         FOLDER: folder,
-        "{{kept}}": json.dumps(
-            {
-                "id": known,
-                "small": [GAME, *small],
-                "pages": [*PAGES, *sorted(name for name in documents if name.startswith(("learn/", "lab/")))],
-                "large": sorted({*files} - {*small}),
-            }
-        ),
+        "{{kept}}": json.dumps(kept),
         "{{preloads}}": "\n".join(f'<link rel="modulepreload" href="{name}">' for name in modules),
     }
     for key, text in stamps.items():
