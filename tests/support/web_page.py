@@ -34,7 +34,7 @@ async ([width, height]) => {
   document.body.style.margin = 0;
   const canvas = document.querySelector("canvas");
   Object.assign(canvas.style, { width: `${width}px`, height: `${height}px`, display: "block" });
-  const [folder] = (await (await fetch("/play.html")).text()).match(/app-\\w+/);
+  const [folder] = (await (await fetch("/play.html")).text()).match(/app-[0-9a-f]{16}/);
   const { build } = await import(`/${folder}/build.js`);
   const { loadPyodide } = await import(`/${folder}/pyodide/pyodide.mjs`);
   const { createHost } = await import(`/${folder}/host.js`);
