@@ -45,7 +45,7 @@ async ([width, height]) => {
   python.runPython("import sys; sys.path[:0] = ['/game/ninja_game/web/shim', '/game']");
   const host = createHost(canvas);
   host.attach(python);
-  Object.assign(window, { python, host, canvas });
+  Object.assign(window, { python, host, canvas, app: `/${folder}/` });
 }
 """
 
@@ -105,7 +105,7 @@ def browser() -> Iterator[Any]:
 
 @contextmanager
 def python_page(chromium: Any, address: str, size: tuple[int, int] = SIZE) -> Iterator[Any]:
-    """An empty page with the site's Python, the game importable, and a host: its `python`, `host`, `canvas`."""
+    """An empty page with the site's Python, the game importable, and a host: its `python`, `host`, `canvas`, `app` (folder)."""
     page = chromium.new_page(viewport={"width": size[0], "height": size[1]})
     try:
         page.goto(address + EMPTY_PAGE)
