@@ -105,7 +105,7 @@ def browser() -> Iterator[Any]:
 
 @contextmanager
 def python_page(chromium: Any, address: str, size: tuple[int, int] = SIZE) -> Iterator[Any]:
-    """An empty page with the site's Python, the game importable, and a host: its `python`, `host`, `canvas`, `app` (folder)."""
+    """An empty page with the site's Python, the game importable, and a host: `python`, `host`, `canvas`, `app`."""
     page = chromium.new_page(viewport={"width": size[0], "height": size[1]})
     try:
         page.goto(address + EMPTY_PAGE)
