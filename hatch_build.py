@@ -1,8 +1,9 @@
-"""Puts the compiled kernels of one system into its wheel, where ``NINJA_GAME_KERNELS`` names their folder."""
+"""Puts the documents into a wheel, and the compiled kernels of one system, where ``NINJA_GAME_KERNELS`` names them."""
 
 import os
 import sys
 import sysconfig
+from pathlib import Path
 from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
@@ -13,6 +14,12 @@ class KernelsHook(BuildHookInterface):
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Add the folder and name the wheel; an editable one has none."""
+        if version == "standard":
+            # Of their pictures those that are small, and the first page's.
+            for path in Path(self.root, "docs").rglob("*.*"):
+                if path.suffix in {".md", ".svg"} or path.name.startswith(("lab-", "ninja-game.")):
+                    name = path.relative_to(self.root).as_posix()
+                    build_data["force_include"][str(path)] = f"ninja_game/data/{name}"
         folder = os.environ.get("NINJA_GAME_KERNELS")
         if folder and version == "standard":
             build_data["force_include"][folder] = "ninja_game/data/kernels"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import inspect
 import re
 from functools import cache
@@ -16,6 +17,7 @@ from ninja_game.files.reading import MAX_BYTES
 from ninja_game.sim.inputs import MAX_TICKS
 from ninja_game.sim.memory.schema import CAPACITY
 
+DEFINITIONS = (ast.FunctionDef, ast.ClassDef)
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), *ROOT.glob("tests/**/*.md"), *ROOT.glob("benchmarks/**/*.md")]
 SOURCES = [path for folder in ("ninja_game", "tests", "tools", "benchmarks") for path in (ROOT / folder).rglob("*.py")]
@@ -53,6 +55,9 @@ def slug(heading: str) -> str:
 
 @cache
 def anchors(page: Path) -> set[str]:
+    """Of a document its headings, of a source file what it defines."""
+    if page.suffix == ".py":
+        return {node.name for node in ast.walk(ast.parse(page.read_text("utf-8"))) if isinstance(node, DEFINITIONS)}
     text = re.sub(r"^```.*?^```", "", page.read_text("utf-8"), flags=re.MULTILINE | re.DOTALL)
     return {slug(heading) for heading in re.findall(r"^#+ (.+)$", text, re.MULTILINE)}
 
@@ -68,7 +73,7 @@ def test_links_lead_somewhere(page: Path) -> None:
     dead = []
     for target, anchor in re.findall(r"\]\(([^)#\s]*)(?:#([^)\s]*))?\)", page.read_text("utf-8")):
         other = (page.parent / target).resolve() if target else page
-        missing = anchor and (other.suffix != ".md" or not other.exists() or anchor not in anchors(other))
+        missing = anchor and (not other.exists() or anchor not in anchors(other))
         if "://" not in target and (missing or not other.exists()):
             dead.append(f"{target}#{anchor}")
     assert not dead

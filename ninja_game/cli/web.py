@@ -126,6 +126,7 @@ def board(
     from ninja_game.web.board.report import board_text, changes, dates_of, plain, read_board, summary
     from ninja_game.web.board.rules import USUAL, read_categories
     from ninja_game.web.board.runs import judge
+    from ninja_game.web.pages.frame import GAME
     from ninja_game.web.pages.published import published_levels
 
     if site:
@@ -144,7 +145,7 @@ def board(
     ranking = Ranking(judged, shown, categories)
     if site:
         BoardPages(site, ranking, memo=memo_of("pages", site, folder, again=again)).write()
-        if not (site / "index.html").exists():
+        if not (site / GAME).exists():
             click.echo(f"{site} has no page with the game yet: ninja-game site {site}", err=True)
     if data:
         write_atomically(data, board_text(judged, before), keep=[folder])

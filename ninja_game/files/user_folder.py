@@ -97,12 +97,12 @@ def export_path(folder: Path, title: str, suffix: str) -> Path:
 
 
 PACKAGE = Path(__file__).resolve().parent.parent
-CHECKOUT = {name: PACKAGE.parent / name for name in ("levels", "assets")}
+CHECKOUT = {name: PACKAGE.parent / name for name in ("levels", "assets", "docs")}
 """Where a checkout has what an installed package has in its folder ``data``."""
 
 
 def data_folder(name: str) -> Path:
-    """The folder of the bundled ``levels`` or ``assets``."""
+    """The folder of the bundled ``levels``, ``assets`` or ``docs``."""
     inside = PACKAGE / "data" / name
     return inside if inside.is_dir() else CHECKOUT[name]
 

@@ -50,7 +50,7 @@ class Visitor:
 
     def visit(self, fragment: str = "") -> None:
         """Open the page, and wait until the game runs or a message says why it does not."""
-        self.page.goto(self.address + fragment)
+        self.page.goto(f"{self.address}play.html{fragment}")
         self.page.locator("#trouble[open], body[data-state]").first.wait_for(state="attached")
 
     def until(self, state: str) -> None:

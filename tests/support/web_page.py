@@ -25,7 +25,7 @@ PYODIDE = CACHE / f"pyodide-{VERSION}"
 
 SIZE = (1584, 1200)
 
-EMPTY_PAGE = "style.css"
+EMPTY_PAGE = "licences/NOTICE.txt"
 """A file of the site without scripts of its own and without rules about those of others."""
 
 START = """
@@ -34,18 +34,18 @@ async ([width, height]) => {
   document.body.style.margin = 0;
   const canvas = document.querySelector("canvas");
   Object.assign(canvas.style, { width: `${width}px`, height: `${height}px`, display: "block" });
-  const about = new DOMParser().parseFromString(await (await fetch("index.html")).text(), "text/html");
-  const build = JSON.parse(about.getElementById("build").textContent);
-  const { loadPyodide } = await import("./pyodide/pyodide.mjs");
-  const { createHost } = await import("./host.js");
-  const indexURL = new URL("pyodide/", location.href).href;
+  const [folder] = (await (await fetch("/play.html")).text()).match(/app-[0-9a-f]{16}/);
+  const { build } = await import(`/${folder}/build.js`);
+  const { loadPyodide } = await import(`/${folder}/pyodide/pyodide.mjs`);
+  const { createHost } = await import(`/${folder}/host.js`);
+  const indexURL = new URL(`/${folder}/pyodide/`, location.href).href;
   const python = await loadPyodide({ indexURL, lockFileContents: { info: build.pyodide, packages: {} } });
-  const archive = await (await fetch("game.tar.gz")).arrayBuffer();
+  const archive = await (await fetch(`/${folder}/game.tar.gz`)).arrayBuffer();
   python.unpackArchive(archive, "gztar", { extractDir: "/game" });
   python.runPython("import sys; sys.path[:0] = ['/game/ninja_game/web/shim', '/game']");
   const host = createHost(canvas);
   host.attach(python);
-  Object.assign(window, { python, host, canvas });
+  Object.assign(window, { python, host, canvas, app: `/${folder}/` });
 }
 """
 
@@ -105,7 +105,7 @@ def browser() -> Iterator[Any]:
 
 @contextmanager
 def python_page(chromium: Any, address: str, size: tuple[int, int] = SIZE) -> Iterator[Any]:
-    """An empty page with the site's Python, the game importable, and a host: its `python`, `host`, `canvas`."""
+    """An empty page with the site's Python, the game importable, and a host: `python`, `host`, `canvas`, `app`."""
     page = chromium.new_page(viewport={"width": size[0], "height": size[1]})
     try:
         page.goto(address + EMPTY_PAGE)

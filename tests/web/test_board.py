@@ -298,7 +298,7 @@ def test_no_address_leads_out_of_the_pages(address: str) -> None:
 
 
 def test_every_link_of_the_board_leads_to_a_file(hostile: Path) -> None:
-    (hostile.parent / "index.html").write_text("the page with the game")
+    (hostile.parent / "play.html").write_text("the page with the game")
     watched = set()
     for path in hostile.rglob("*.html"):
         for _, attributes in Tags(path.read_text("utf-8")).found:

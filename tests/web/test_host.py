@@ -99,7 +99,7 @@ def test_places_on_the_keyboard_have_the_names_of_the_settings(code: str, name: 
 
 
 def test_every_key_of_the_page_has_a_name(page: Any) -> None:
-    codes = page.evaluate("async () => { const { codeOf } = await import('./input.js');"
+    codes = page.evaluate("async () => { const { codeOf } = await import(app + 'input.js');"
                           " return [...Array(512).keys()].filter((number) => codeOf(number)); }")  # fmt: skip
     assert len(codes) > 90
     assert not [code for code in codes if key_name(code).startswith("scancode")]

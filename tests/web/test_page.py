@@ -63,8 +63,8 @@ def test_a_level_is_passed_with_keys_and_the_record_is_there_offline(new_visitor
     def answer_later(request: Any) -> None:
         waiting.append(request)
 
-    visitor.page.route("**/python_stdlib.zip?*", answer_later)
-    visitor.page.goto(visitor.address, wait_until="commit")
+    visitor.page.route("**/python_stdlib.zip", answer_later)
+    visitor.page.goto(visitor.address + "play.html", wait_until="commit")
     visitor.page.locator("progress").wait_for()
     visitor.page.get_by_text("Loading the game: ").wait_for()
     eventually(visitor.page, lambda: waiting, "no download of the library")
@@ -205,7 +205,7 @@ def test_one_tab_at_a_time_writes_the_records(new_visitor: NewVisitor) -> None:
     visitor = new_visitor()
     visitor.visit()
     second = visitor.new_page()
-    second.goto(visitor.address)
+    second.goto(visitor.address + "play.html")
     second.get_by_role("button", name="Play here instead").click()
     second.locator("body[data-state=menu]").wait_for(state="attached")
     assert "opened in another tab" in visitor.page.locator("#trouble[open]").inner_text()
@@ -239,8 +239,10 @@ def test_a_new_version_takes_over_on_the_next_visit(new_visitor: NewVisitor, sit
         visitor.address = address
         visitor.visit()
         visitor.page.evaluate("() => navigator.serviceWorker.ready.then(() => ninjaGame.kept)")
-        before = json.loads(visitor.page.locator("#build").text_content())["id"]
-        for name in ("index.html", "sw.js"):
+        (app,) = folder.glob("app-*")
+        before = app.name.removeprefix("app-")
+        app.rename(folder / "app-a-new-version")
+        for name in ("play.html", "sw.js", "app-a-new-version/build.js"):
             (folder / name).write_text((folder / name).read_text("utf-8").replace(before, "a-new-version"), "utf-8")
         # The page that is open stays as it is, while the new version is fetched.
         visitor.page.evaluate(
@@ -249,6 +251,6 @@ def test_a_new_version_takes_over_on_the_next_visit(new_visitor: NewVisitor, sit
             " await new Promise(done => setTimeout(done, 50)); }"
         )
         visitor.visit()
-        assert "a-new-version" in visitor.page.locator("#build").text_content()
+        assert "a-new-version" in visitor.page.locator("script[src$='start.js']").get_attribute("src")
         assert visitor.page.evaluate("caches.keys().then(names => names.length)") == 1
         assert visitor.problems == []

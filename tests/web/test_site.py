@@ -51,7 +51,9 @@ def test_the_same_files_give_the_same_site_and_old_ones_go(pyodide: Path, tmp_pa
     first = build.build_site(out, pyodide, tmp_path)
     names = names_in(out)
     assert {file.name for file in first} | {build.MARK} == names
-    assert {"index.html", "sw.js", "manifest.webmanifest", "start.js", "game.tar.gz", "licences/MPL-2.0.txt"} <= names
+    assert {"index.html", "play.html", "sw.js", "manifest.webmanifest", "licences/MPL-2.0.txt"} <= names
+    (app,) = {name.split("/")[0] for name in names if name.startswith("app-")}
+    assert {f"{app}/start.js", f"{app}/game.tar.gz", f"{app}/pyodide/pyodide.mjs"} <= names
     before = {name: (out / name).read_bytes() for name in names}
     (out / "mine.txt").write_text("not of the site")
     mark = json.loads((out / build.MARK).read_text())
@@ -65,7 +67,7 @@ def test_the_same_files_give_the_same_site_and_old_ones_go(pyodide: Path, tmp_pa
     assert (tmp_path / "outside.txt").exists()
 
 
-@pytest.mark.parametrize("place", the_rest_is_slow(["index.html", "licences/MPL-2.0.txt", "pyodide", build.MARK], 1))
+@pytest.mark.parametrize("place", the_rest_is_slow(["index.html", "licences/MPL-2.0.txt", "learn", build.MARK], 1))
 def test_nothing_is_written_or_removed_through_a_link(place: str, pyodide: Path, tmp_path: Path) -> None:
     out, outside = tmp_path / "out", tmp_path / "outside"
     build.build_site(out, pyodide, tmp_path)
@@ -84,28 +86,52 @@ def test_a_mark_that_is_nested_too_deep_is_no_mark(pyodide: Path, tmp_path: Path
         build.build_site(tmp_path / "out", pyodide, tmp_path)
 
 
+def app_folder(site: Path) -> Path:
+    (app,) = site.glob("app-*")
+    return app
+
+
 def test_the_page_knows_its_version_and_sizes(pyodide: Path, tmp_path: Path) -> None:
     build.build_site(tmp_path / "out", pyodide, tmp_path)
-    page = (tmp_path / "out" / "index.html").read_text()
-    about = json.loads(page.split('id="build">')[1].split("</script>")[0])
+    app = app_folder(tmp_path / "out")
+    about = json.loads((app / "build.js").read_text().removeprefix("export const build = ").removesuffix(";\n"))
     assert about["pyodide"] == {"abi_version": "1<"}
-    assert "1<" not in page
-    assert about["sizes"] == {name: (tmp_path / "out" / name).stat().st_size for name in build.LARGE}
-    assert {"index.html", "start.js", "icons/192.png", "manifest.webmanifest"} <= set(about["small"])
-    assert "{{" not in page + (tmp_path / "out" / "sw.js").read_text()
+    assert app.name == f"app-{about['id']}"
+    assert about["sizes"] == {name: (app / name).stat().st_size for name in build.LARGE}
+    page, worker = ((tmp_path / "out" / name).read_text() for name in ("play.html", "sw.js"))
+    kept = json.loads(worker.split("const kept = ")[1].split(";\n")[0])
+    assert {"play.html", f"{app.name}/start.js", "icons/192.png", "manifest.webmanifest"} <= set(kept["small"])
+    assert all((tmp_path / "out" / name).is_file() for name in kept["small"] + kept["large"])
+    texts = [path.read_text() for path in (tmp_path / "out").rglob("*") if path.suffix in {".html", ".js"}]
+    assert "{{" not in page + worker
+    assert not [text for text in texts if build.FOLDER in text]
     for icon in json.loads((tmp_path / "out" / "manifest.webmanifest").read_text())["icons"]:
         assert (tmp_path / "out" / icon["src"]).read_bytes().startswith(b"\x89PNG")
 
 
+def test_all_files_of_the_game_have_another_address_when_one_of_them_is_another_one(
+    pyodide: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    build.build_site(tmp_path / "out", pyodide, tmp_path)
+    before = app_folder(tmp_path / "out")
+    icons = build._icons()
+    monkeypatch.setattr(build, "_icons", lambda: icons | {"icons/64.png": b"\x89PNG"})
+    build.build_site(tmp_path / "out", pyodide, tmp_path)
+    after = app_folder(tmp_path / "out")
+    assert after.name != before.name
+    assert {path.name for path in after.glob("*.js")} >= {"start.js", "host.js", "painter.js"}
+
+
 def test_the_archive_holds_the_game_and_nothing_that_the_page_cannot_use(pyodide: Path, tmp_path: Path) -> None:
     build.build_site(tmp_path / "out", pyodide, tmp_path)
-    packed = gzip.decompress((tmp_path / "out" / "game.tar.gz").read_bytes())
+    app = app_folder(tmp_path / "out")
+    packed = gzip.decompress((app / "game.tar.gz").read_bytes())
     with tarfile.open(fileobj=io.BytesIO(packed)) as archive:
         names = set(archive.getnames())
     wanted = {"boot.py", "ninja_game/play/main.py", "ninja_game/web/shim/pygame/__init__.py", "tomlkit/__init__.py"}
     assert wanted | {"ninja_game/data/levels/00-0-first-steps.txt", "ninja_game/data/assets/sounds/jump-1.ogg"} <= names
     assert not [name for name in names if "/cli/" in name or "/learn/" in name or name.endswith((".pyc", ".md"))]
-    with ZipFile(tmp_path / "out" / "pyodide" / "python_stdlib.zip") as library:
+    with ZipFile(app / "pyodide" / "python_stdlib.zip") as library:
         assert library.namelist() == ["encodings/utf_8.py", "json/__init__.py"]
 
 

@@ -17,7 +17,7 @@ from tools.sounds.music import TRACKS
 
 START = """
 async (text) => {
-  const { Sounds } = await import("./sound.js");
+  const { Sounds } = await import(app + "sound.js");
   window.sounds = new Sounds();
   sounds.unlock();
   return sounds.add(Uint8Array.from(atob(text), (char) => char.charCodeAt(0)));

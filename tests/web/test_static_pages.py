@@ -22,6 +22,7 @@ from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.web.board.pages import BoardPages
 from ninja_game.web.board.ranking import Ranking
 from ninja_game.web.board.runs import judge
+from ninja_game.web.pages.documents import Documents
 from ninja_game.web.pages.gallery import SORT_ORDERS, write_gallery
 from ninja_game.web.pages.published import published_levels
 from tests.support.forgeries import WALKING, replay
@@ -65,7 +66,11 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with the hostile board and a gallery of a few levels of ours."""
     folder = board_of_hostile_names(tmp_path_factory.mktemp("pages"))
     write_gallery(folder, published_levels(data_folder("levels")))
-    (folder / "index.html").write_text("<!doctype html><title>the game</title>", "utf-8")
+    # Nobody touches a figure here.
+    for name, content in (Documents().build() | {"app-folder/figures.js": b""}).items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_bytes(content)
+    (folder / "play.html").write_text("<!doctype html><title>the game</title>", "utf-8")
     return folder
 
 
@@ -136,11 +141,16 @@ def test_the_policy_lets_nothing_else_run(open_page: Callable[..., Any], chromiu
 
 
 @pytest.mark.parametrize("size", [PHONE, NARROWEST, {"width": 1280, "height": 900}], ids=["phone", "narrow", "desk"])
-def test_no_page_is_wider_than_the_window(site: Path, size: dict[str, int], open_page: Callable[..., Any]) -> None:
+def test_no_page_is_wider_than_the_window(
+    site: Path, address: str, size: dict[str, int], open_page: Callable[..., Any]
+) -> None:
     page = open_page("gallery/index.html", viewport=size)
     level = next(site.glob("gallery/levels/*.html")).name
-    for name in ("gallery/index.html", f"gallery/levels/{level}", *all_pages(site)[:10]):
-        page.goto(page.url.split("/gallery/")[0].split("/board/")[0] + "/" + name)
+    documents = [
+        path.relative_to(site).as_posix() for folder in ("learn", "docs") for path in site.rglob(f"{folder}/*.html")
+    ]
+    for name in ("gallery/index.html", f"gallery/levels/{level}", *all_pages(site)[:10], "index.html", *documents):
+        page.goto(address + name)
         assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), name
 
 
@@ -174,9 +184,7 @@ def test_gallery_is_searched_and_sorted_by_keyboard(open_page: Callable[..., Any
     page.keyboard.press("Tab")
     page.keyboard.press("Enter")
     page.wait_for_url("**/levels/*.html")
-    assert (
-        page.get_by_role("link", name="Play this level").get_attribute("href").startswith("../../index.html#level=1.")
-    )
+    assert page.get_by_role("link", name="Play this level").get_attribute("href").startswith("../../play.html#level=1.")
 
 
 def test_everything_is_read_without_a_script(open_page: Callable[..., Any]) -> None:
@@ -284,6 +292,7 @@ def test_axe_has_no_serious_finding(site: Path, scheme: str, axe: str, open_page
     address = page.url.split("/board/")[0]
     names = [name for name in all_pages(site) if "/levels/" in name][:4]
     names += [name for name in all_pages(site) if "/players/" in name][:4]
+    names += ["index.html", "search.html", "learn/05-edges.html", "docs/learning.html", "code/ninja_game/sim/grid.html"]
     names += ["board/index.html", *(f"board/{each}.html" for each in ("players", "levels", "episodes", "rejected"))]
     for name in names:
         page.goto(f"{address}/{name}")

@@ -13,7 +13,18 @@ from tools import ROOT
 PICTURES = ROOT / "docs" / "pictures"
 CLASSES = ("45°", "concave", "convex", "22° thin", "22° thick", "67° thin", "67° thick", "half")
 
-FIGURES = ("cells.png", "edges.png", "nine-cells.png", "rays.png", "drones.png", "pairs.gif", "tick.gif")
+FIGURES = (
+    "cells.png",
+    "edges.png",
+    "projection.png",
+    "grids.png",
+    "nine-cells.png",
+    "bullets.png",
+    "rays.png",
+    "drones.png",
+    "pairs.gif",
+    "tick.gif",
+)
 """Figures of the lab, and films of them."""
 
 Point = tuple[float, float]

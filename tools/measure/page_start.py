@@ -11,6 +11,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from ninja_game.web.pages.frame import GAME
 from ninja_game.web.site.build import build_site
 from tests.support.web_page import CACHE, browser, missing, served
 
@@ -20,7 +21,7 @@ RUNS = "#trouble[open], body[data-state]"
 
 def visit(page: Any, address: str) -> tuple[float, float]:
     """Seconds until the bar is seen and until the menu is there."""
-    page.goto(address, wait_until="commit")
+    page.goto(address + GAME, wait_until="commit")
     page.locator(RUNS).first.wait_for(state="attached", timeout=120_000)
     assert not page.locator("#trouble[open]").count(), page.locator("#trouble").inner_text()
     menu = page.evaluate("() => performance.getEntriesByName('ninja-game: menu')[0].startTime")

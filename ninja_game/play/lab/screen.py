@@ -21,6 +21,7 @@ from ninja_game.play.lab.figures.rays import RayCast
 from ninja_game.play.menus.menu_screen import DIRECTIONS, MenuScreen
 from ninja_game.play.replay.film import write_gif
 from ninja_game.play.window import save_picture
+from ninja_game.player.settings import Settings
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.theme import Area, Theme
@@ -176,26 +177,53 @@ PICTURE_TICK = 100
 """Where in its demonstration a figure is photographed."""
 
 
-def figure_pictures(name: str, *, scale: float = 1.0, ticks: int = FILM_TICKS) -> Iterator[pygame.Surface]:
-    """The figure after each tick of its demonstration, without anything around it."""
-    pygame.font.init()
-    context = OffscreenContext((round(WIDTH * scale), round(HEIGHT * scale)))
-    surface = pygame.Surface(context.canvas.window)
-    figure = FIGURES[name]()
-    for tick in range(ticks):
-        figure.demonstrate(tick)
-        figure.tick()
-        sheet = Sheet(surface, context.theme, figure.view)
-        figure.draw(sheet)
+class FigurePicture:
+    """A picture of a figure without anything around it. ``scale``: px of the picture per logical px."""
+
+    def __init__(self, name: str, scale: float, palette: str = "classic") -> None:
+        pygame.font.init()
+        context = OffscreenContext((round(WIDTH * scale), round(HEIGHT * scale)), Settings().changed(palette=palette))
+        self.figure = FIGURES[name]()
+        self.theme = context.theme
+        self.surface = pygame.Surface(context.canvas.window)
+        self.area = context.canvas.rect(*FIGURE)
+
+    def draw(self) -> None:
+        """Put the figure as it is now into ``area`` of the surface."""
+        sheet = Sheet(self.surface, self.theme, self.figure.view)
+        self.figure.draw(sheet)
         sheet.close()
-        yield surface.subsurface(context.canvas.rect(*FIGURE))
+
+    def drawn(self) -> pygame.Surface:
+        """The figure as it is now."""
+        self.draw()
+        return self.surface.subsurface(self.area)
+
+    def demonstrate(self, tick: int) -> None:
+        self.figure.demonstrate(tick)
+        self.figure.tick()
+
+
+def figure_pictures(name: str, *, scale: float = 1.0, ticks: int = FILM_TICKS) -> Iterator[pygame.Surface]:
+    """The figure after each tick of its demonstration."""
+    picture = FigurePicture(name, scale)
+    for tick in range(ticks):
+        picture.demonstrate(tick)
+        yield picture.drawn()
+
+
+def figure_picture(name: str, *, scale: float = 1.0, palette: str = "classic") -> pygame.Surface:
+    """The figure at one moment of its demonstration."""
+    picture = FigurePicture(name, scale, palette)
+    for tick in range(PICTURE_TICK):
+        picture.demonstrate(tick)
+    return picture.drawn()
 
 
 def export_figure(name: str, path: Path, *, scale: float = 1.0) -> None:
     """Write a figure as PNG, or its demonstration as GIF. Raises NinjaGameError for another suffix, OSError."""
     if path.suffix == ".png":
-        *_, last = figure_pictures(name, scale=scale, ticks=PICTURE_TICK)
-        save_picture(last, path)
+        save_picture(figure_picture(name, scale=scale), path)
     elif path.suffix == ".gif":
         pictures = figure_pictures(name, scale=scale)
         context = OffscreenContext((round(WIDTH * scale), round(HEIGHT * scale)))

@@ -33,7 +33,7 @@ from ninja_game.play.replay.playback import Playback
 from ninja_game.play.window import LOGO
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import EpisodeRun, next_run
-from ninja_game.runtime import IN_PAGE
+from ninja_game.runtime import IN_PAGE, in_page_or_not
 from ninja_game.simulation import Simulation
 from ninja_game.ui.audio.music import MENU
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Point
@@ -101,7 +101,7 @@ class MainMenu(MenuScreen):
             ("Help", self._opener(HelpScreen), "How to move, and what everything does"),
             ("Settings", self._opener(SettingsScreen), "Keys, sound, colours, comfort"),
             ("Extras", self._opener(LabScreen), "For the curious: how ninja and walls meet, in ten moving figures"),
-            ("Quit", self.back, "Leave the game"),
+            *in_page_or_not([], [("Quit", self.back, "Leave the game")]),
         ]
 
     def _browser(self, app: App) -> Browser:

@@ -13,7 +13,7 @@ from ninja_game.player.catalogue import Entry
 from ninja_game.web.board.ranking import Part, Ranking
 from ninja_game.web.board.rules import Category
 from ninja_game.web.board.runs import Run
-from ninja_game.web.pages.frame import REPLAYS, Content, Markup, Pages, joined, page, table, tag
+from ninja_game.web.pages.frame import GAME, REPLAYS, Content, Markup, Pages, joined, page, table, tag
 from ninja_game.web.pages.gallery import BOARD, medal_mark
 from ninja_game.web.pages.memo import Memo
 from ninja_game.web.pages.published import page_name, watch_address
@@ -35,7 +35,7 @@ LINKS = [
 class Parts:
     """A board that is written into ``out/board/``. ``up``: the way from a page to that folder, "" or UP."""
 
-    def __init__(self, out: Path, ranking: Ranking, game: str = "index.html", memo: Memo | None = None) -> None:
+    def __init__(self, out: Path, ranking: Ranking, game: str = GAME, memo: Memo | None = None) -> None:
         self.pages = Pages(out, BOARD, memo)
         self.ranking = ranking
         self.entries = ranking.shown.entries

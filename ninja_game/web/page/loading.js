@@ -1,28 +1,40 @@
 // What the game is made of: fetched with progress, kept for the next visit, and started, from the files or from a
 // picture of Python's memory that an earlier visit has kept.
 
-export const build = JSON.parse(document.getElementById("build").textContent);
-const PREFIX = `ninja-game ${new URL(".", location.href).pathname} `;
+import { build } from "./build.js";
+
+const SITE = new URL("..", import.meta.url);
+const PREFIX = `ninja-game ${SITE.pathname} `;
 const MEMORY = "memory.bin";
 const TRYING = "ninja-game: starting from memory";
-const bar = document.getElementById("start-bar");
-const text = document.getElementById("start-text");
+const DOWNLOADED = 80; // how much of the bar is the download: the steps after it take about a fifth of a first visit
+let tell = () => {};
 let received = 0;
-let lowest = 1;
+let furthest = 0;
+let step = [0, ""];
 
-export function progress(share, words) {
-  lowest = Math.max(lowest, share);
-  bar.value = lowest;
-  text.textContent = words;
+// Told a share of the start, 0 to 100, and words for it, each time that one of them is another one.
+export function onProgress(listener) {
+  tell = listener;
+  progress(2, "Loading the game");
+}
+
+// A step of the start begins. It is shown only when all bytes are there: until then they are what is waited for.
+function progress(share, words) {
+  step = [share, words];
+  count(0);
 }
 
 function count(bytes) {
   received += bytes;
   const total = Object.values(build.sizes).reduce((a, b) => a + b, 0);
-  progress(2 + Math.min(1, received / total) * 58, `Loading the game: ${Math.min(100, Math.round((100 * received) / total))} %`);
+  const part = received / total;
+  const [share, words] = part < 1 ? [2 + part * (DOWNLOADED - 2), `Loading the game: ${Math.floor(100 * part)} %`] : step;
+  furthest = Math.max(furthest, share);
+  tell(furthest, words);
 }
 
-const address = (name) => new URL(`${name}?v=${build.id}`, location.href).href;
+const address = (name) => new URL(name, import.meta.url).href;
 
 async function openCache() {
   try {
@@ -114,15 +126,14 @@ async function begin(cache, picture) {
     import("./pyodide/pyodide.asm.mjs"),
   ]);
   if (picture) sessionStorage.setItem(TRYING, "1");
-  await library;
-  progress(62, "Starting Python");
+  progress(DOWNLOADED, "Starting Python");
   const answers = { "pyodide.asm.wasm": wasm, "python_stdlib.zip": library };
   const plainFetch = globalThis.fetch;
   globalThis.fetch = (what, ...more) => answers[String(what).split("/").pop()] ?? plainFetch(what, ...more);
   let python;
   try {
     python = await loadPyodide({
-      indexURL: new URL("pyodide/", location.href).href,
+      indexURL: address("pyodide/"),
       createPyodideModule,
       lockFileContents: { info: build.pyodide, packages: {} },
       env: { HOME: "/home", NINJA_GAME_HOME: "/ninja-game-player" },
@@ -131,12 +142,12 @@ async function begin(cache, picture) {
   } finally {
     globalThis.fetch = plainFetch;
   }
-  progress(picture ? 90 : 75, "Loading the game");
+  progress(picture ? 95 : 90, "Unpacking the game");
   await unpack(python.FS, await archive);
   if (!picture) python.runPython(`import gc, sys\ngc.disable()  # boot.py decides when\nsys.path[:0] = ["/game/ninja_game/web/shim", "/game"]`);
   const boot = python.pyimport("boot");
   const services = python.pyimport("ninja_game.web.services");
-  progress(95, "Opening the menu");
+  progress(98, "Opening the menu");
   sessionStorage.removeItem(TRYING);
   const taken = picture || !cache ? null : takeMemory(python);
   return { python, boot, services, fromMemory: picture !== null, keep: () => taken && cache.put(address(MEMORY), new Response(taken)).catch(() => {}) };
@@ -153,5 +164,5 @@ function takeMemory(python) {
 
 // For visits without a network.
 export function keepForLater() {
-  return navigator.serviceWorker?.register("sw.js").catch(() => {}); // offline, or no secure page
+  return navigator.serviceWorker?.register(new URL("sw.js", SITE)).catch(() => {}); // offline, or no secure page
 }

@@ -1,5 +1,5 @@
 // The page's own menu: full screen, the player's data as a file, verdicts on recordings.
-import { build } from "./loading.js";
+import { build } from "./build.js";
 import { download } from "./storage.js";
 import { button, element, lastLine } from "./trouble.js";
 

@@ -1,5 +1,5 @@
 // The page: loads the game, runs it turn by turn, keeps the player's folder, and says what went wrong.
-import { keepForLater, progress, startPython } from "./loading.js";
+import { keepForLater, onProgress, startPython } from "./loading.js";
 import { createHost } from "./host.js";
 import { codeOf } from "./input.js";
 import { Panel } from "./panel.js";
@@ -180,5 +180,8 @@ function failed(error) {
 
 addEventListener("error", (event) => event.error && failed(event.error));
 addEventListener("unhandledrejection", (event) => failed(event.reason));
-progress(2, "Loading the game");
+onProgress((share, words) => {
+  document.getElementById("start-bar").value = share;
+  document.getElementById("start-text").textContent = words;
+});
 page.start().catch(failed);

@@ -1,5 +1,5 @@
 // A message when something went wrong: what, with buttons that copy it and that load the page again.
-import { build } from "./loading.js";
+import { build } from "./build.js";
 
 const dialog = document.getElementById("trouble");
 

@@ -22,7 +22,7 @@ from ninja_game.web.pages.memo import Memo, digest_of, program
 LONGEST = 400
 """Characters of a text that are shown."""
 
-_EMPTY = frozenset({"img", "input", "link", "meta"})
+_EMPTY = frozenset({"img", "input", "link", "meta", "source"})
 """Elements without an end tag."""
 
 _ADDRESS = re.compile(r"(?:https?://[\w.:-]+/)?(?!//)[\w./#=&,-]*")
@@ -77,6 +77,16 @@ def tag(name: str, /, *contents: Content, **attributes: str | int | bool | None)
 POLICY = "default-src 'none'; img-src 'self'; style-src 'self'; script-src 'self'; base-uri 'none'; form-action 'none'"
 """The content security policy of every page: nothing from elsewhere, no script or style within the page."""
 
+POLICY_OF_FIGURES = POLICY.replace("script-src 'self'", "connect-src 'self'; script-src 'self' 'wasm-unsafe-eval'")
+"""Of pages with figures, which run Python."""
+
+HOME, GAME, SEARCH = "index.html", "play.html", "search.html"
+NAVIGATION = (
+    (HOME, "Home"), ("learn/index.html", "Learn"), (GAME, "Play"), ("docs/making-levels.html", "Make"),
+    ("gallery/index.html", "Compete"), ("docs/index.html", "Reference"), (SEARCH, "Search"),
+)  # fmt: skip
+"""Pages in the folder of a site, and what leads to its parts."""
+
 STYLE, SCRIPT, ICON = "style.css", "search.js", "icon.png"
 REPLAYS = "replays"
 """The folder of a site with the replays that pages lead to."""
@@ -112,9 +122,9 @@ class Pages:
             raise FileError("not a folder of pages made here", str(self.folder), hint="empty it, or choose another one")
         here = Path(__file__).parent
         self.write(MARK, "made by ninja-game\n")
-        self.write(STYLE, "\n".join((_colours(), (here / STYLE).read_text("utf-8"))))
+        self.write(STYLE, "\n".join((colours(), (here / STYLE).read_text("utf-8"))))
         self.write(SCRIPT, (here / SCRIPT).read_text("utf-8"))
-        self.write(ICON, _icon())
+        self.write(ICON, page_icon())
 
     def write(self, name: str, content: str | bytes) -> None:
         """A file of the folder, or below it; what was there is replaced: pages can always be made again."""
@@ -161,20 +171,37 @@ class Pages:
         self._site.remove_others(f"{self.folder.name}/{below}", now)
 
 
-def page(title: str, *contents: Content, up: str = "", links: Iterable[tuple[str, str]] = ()) -> str:
-    """A whole page. ``up``: the way to the folder of the pages; ``links``: addresses and names that stand above."""
+DESCRIPTION = "A platform game in the style of N, in a page: play it, see how it works, make levels, compare runs."
+
+
+def page(
+    title: str, *contents: Content, up: str = "", links: Iterable[tuple[str, str]] = (), current: str = "",
+    figures: str = "", picture: str = "",
+) -> str:  # fmt: skip
+    """A whole page. ``up``: the way to the folder of the pages; ``links``: addresses and names that stand above.
+
+    ``current``: the address of the link that leads to the page itself; ``figures``: that of the script for figures;
+    ``picture``: that of what shows the page where somebody names it.
+    """
+    about = {"og:title": title, "og:description": DESCRIPTION, "og:type": "website", "og:image": picture}
     head = tag(
         "head",
         tag("meta", charset="utf-8"),
-        tag("meta", http_equiv="Content-Security-Policy", content=POLICY),
+        tag("meta", http_equiv="Content-Security-Policy", content=POLICY_OF_FIGURES if figures else POLICY),
         tag("meta", name="viewport", content="width=device-width, initial-scale=1"),
         tag("meta", name="referrer", content="no-referrer"),
+        tag("meta", name="description", content=DESCRIPTION),
+        *(tag("meta", property=name, content=content) for name, content in about.items() if content),
         tag("title", f"{title} - ninja-game"),
         tag("link", rel="stylesheet", href=f"{up}{STYLE}"),
         tag("link", rel="icon", href=f"{up}{ICON}"),
         tag("script", src=f"{up}{SCRIPT}", defer=True),
+        tag("script", src=figures, type="module") if figures else None,
     )
-    entries = [tag("li", tag("a", name, href=address)) for address, name in links]
+    entries = [
+        tag("li", tag("a", name, href=address, aria_current="page" if address == current else None))
+        for address, name in links
+    ]
     body = tag(
         "body",
         tag("a", "To the content", href="#content", class_="skip"),
@@ -203,12 +230,12 @@ def heading(text: str) -> Markup:
     return tag("h1", picture, tag("span", shown, class_="hidden"))
 
 
-def _icon() -> bytes:
+def page_icon() -> bytes:
     """The game's icon as a PNG."""
     return png_of(icon(_ICON_SIZE))
 
 
-def _colours() -> str:
+def colours() -> str:
     """The palettes as custom properties: the classic one, and the dark one for who prefers it."""
     dark = f"@media (prefers-color-scheme: dark) {{ {_root(PALETTES['dark'])} }}"
     return f"{_root(PALETTES['classic'])}\n{dark}"

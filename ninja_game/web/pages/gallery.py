@@ -15,7 +15,20 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.player.catalogue import Entry
 from ninja_game.sim.kinds import KIND_NAMES
 from ninja_game.sim.level import makes_object
-from ninja_game.web.pages.frame import Content, Markup, Pages, definitions, joined, page, section, table, tag
+from ninja_game.web.pages.frame import (
+    GAME,
+    HOME,
+    NAVIGATION,
+    Content,
+    Markup,
+    Pages,
+    definitions,
+    joined,
+    page,
+    section,
+    table,
+    tag,
+)  # fmt: skip
 from ninja_game.web.pages.published import (
     PICTURE_WIDTH,
     PublishedLevels,
@@ -66,7 +79,7 @@ def level_page(
         section("Certificates", table("Runs that prove the level", ("Run", "Time", ""), runs)) if runs else None,
         more,
     ]
-    return page(entry.title, *contents, up=UP, links=links), texts
+    return page(entry.title, *contents, up=UP, links=links, picture=UP + picture_name(entry.digest)), texts
 
 
 def level_image(entry: Entry, up: str = "", *, lazy: bool = False) -> Markup:
@@ -114,13 +127,14 @@ LONGEST_NAME = 60
 Links = Sequence[tuple[str, str]]
 
 
-def write_gallery(out: Path, shown: PublishedLevels, *, game: str = "index.html") -> Path:
+def write_gallery(out: Path, shown: PublishedLevels, *, game: str = GAME) -> Path:
     """Write ``out/gallery/`` and the certificates into ``out/replays/``; the gallery's first page.
 
     ``game``: name of the page with the game in ``out``. Raises FileError where ``out/gallery`` holds something else.
     """
     pages = Pages(out, FOLDER)
-    links = [(f"../{game}", "Play")]
+    whole = (out / HOME).is_file()
+    links = [(f"../{address}", title) for address, title in NAVIGATION] if whole else [(f"../{game}", "Play")]
     if (out / BOARD / "index.html").is_file():
         links.append((f"../{BOARD}/index.html", "Board"))
     write_levels(pages, shown, f"../{game}", "index.html", links)

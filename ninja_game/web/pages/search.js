@@ -1,6 +1,10 @@
 // The search above a list: shows what has all the words, and sorts. Without it the list is whole.
 "use strict";
 
+// The game was the first page of a site once: links from that time lead there still.
+const play = document.querySelector("main > p:first-child > a[href='play.html']");
+if (play && /^#(level|pack|replay|watch)=/.test(location.hash)) location.replace(play.href + location.hash);
+
 for (const form of document.querySelectorAll("form.search")) {
   const list = form.nextElementSibling;
   const items = Array.from(list.children);

@@ -17,6 +17,8 @@ from ninja_game.errors import DAMAGED, FileError, NinjaGameError
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.tree import Tree, leads_below
 from ninja_game.files.user_folder import PACKAGE, data_folder
+from ninja_game.web.pages.documents import Documents
+from ninja_game.web.pages.frame import GAME
 from ninja_game.web.site.game_archive import compiled, game_archive, game_files, licence_of
 from ninja_game.web.site.pyodide_files import library_files, library_of, pyodide_files
 
@@ -30,8 +32,17 @@ MASKABLE = "icons/maskable-512.png"
 LARGE = ("pyodide/pyodide.asm.wasm", "pyodide/python_stdlib.zip", "game.tar.gz")
 """What the page fetches with progress and keeps itself; the service worker keeps the rest."""
 
-TEMPLATES = ("index.html", "sw.js")
-"""Files of the page that know the version."""
+TEMPLATES = (GAME, "sw.js")
+"""Files of the page that know the version; they lie above the folder of what has one."""
+
+FOLDER = "app-folder"
+"""What templates and documents call the folder of the version."""
+
+PAGES = (
+    "index.html", "docs/style.css", "docs/search.js",
+    *(f"gallery/{name}" for name in ("index.html", "style.css", "search.js", "icon.png")),
+)  # fmt: skip
+"""What is kept for visits without a network beside the game; other pages are kept as they are visited."""
 
 
 class SiteFile(NamedTuple):
@@ -53,15 +64,17 @@ def build_site(out: Path, pyodide: Path | None, cache: Path) -> list[SiteFile]:
     about = json.loads(python["pyodide-lock.json"])["info"]
     library, game = compiled(library_files(python["python_stdlib.zip"]), dict(game_files()), python)
     python["python_stdlib.zip"] = library_of(library)
-    files = {f"pyodide/{name}": content for name, content in python.items() if not name.endswith(".json")}
-    files |= {"game.tar.gz": game_archive(game)} | _page() | _icons() | _licences() | _music()
-    files |= _stamped(files, about)
+    app = {f"pyodide/{name}": content for name, content in python.items() if not name.endswith(".json")}
+    app |= {"game.tar.gz": game_archive(game)} | _page()
+    files = _stamped(app, _icons(), about, Documents().build()) | _licences() | _music()
     site = Tree(out)
     for name, content in files.items():
         site.write(name, content)
     site.write(MARK, json.dumps({"version": __version__, "files": sorted(files)}, indent=1) + "\n")
     for name in before - set(files):
         site.remove(name)
+        with suppress(OSError):
+            (out / name).parent.rmdir()  # of an earlier version, if nothing else is in it
     return [SiteFile(name, len(data), len(gzip.compress(data, 9))) for name, data in sorted(files.items())]
 
 
@@ -107,23 +120,34 @@ def _music() -> dict[str, bytes]:
     return {f"music/{path.name}": path.read_bytes() for path in sorted(folder.glob("*.ogg"))}
 
 
-def _stamped(files: dict[str, bytes], about: dict[str, str]) -> dict[str, bytes]:
-    """The manifest, and what knows the version: index.html and the service worker. ``about``: Pyodide's."""
-    manifest = json.dumps(_manifest(), indent=1).encode()
-    everything = files | {"manifest.webmanifest": manifest}
-    build = {
-        "version": __version__,
-        "id": _digest(everything.items()),
-        "pyodide": about,
-        "sizes": {name: len(files[name]) for name in LARGE},
-        "small": sorted(
-            name for name in everything if name not in LARGE and not name.startswith(("licences/", "music/", "sw.js"))
-        ),
+def _stamped(
+    app: dict[str, bytes], icons: dict[str, bytes], about: dict[str, str], documents: dict[str, bytes]
+) -> dict[str, bytes]:
+    """What the page is made of: ``app`` in a folder with a digest in its name, so that no two versions are ever mixed.
+
+    Above it icons, the manifest, and what knows the version. ``about``: Pyodide's.
+    """
+    above = icons | {"manifest.webmanifest": json.dumps(_manifest(), indent=1).encode()}
+    known = _digest({**app, **above}.items())
+    folder = f"app-{known}"
+    build = {"version": __version__, "id": known, "pyodide": about, "sizes": {name: len(app[name]) for name in LARGE}}
+    templates = {name: app.pop(name) for name in TEMPLATES} | documents
+    app["build.js"] = f"export const build = {json.dumps(build)};\n".encode()
+    files = {f"{folder}/{name}": content for name, content in app.items()} | above
+    small = sorted(name for name in files if not name.endswith(LARGE))
+    # Without pyodide.asm.mjs: where that comes before all else, Chromium's start hangs.
+    modules = [name for name in files if name.endswith((".js", "/pyodide.mjs")) and "figures" not in name]
+    taught = sorted(name for name in documents if name.startswith(("learn/", "lab/")))
+    large = sorted({*files} - {*small})
+    kept = {"id": known, "small": [GAME, *small], "pages": [*PAGES, *taught], "large": large}
+    stamps = {
+        FOLDER: folder,
+        "{{kept}}": json.dumps(kept),
+        "{{preloads}}": "\n".join(f'<link rel="modulepreload" href="{name}">' for name in modules),
     }
-    # Within a script element; no "<" may stand in it.
-    text = json.dumps(build).replace("<", "\\u003c").encode()
-    stamped = {name: files[name].replace(b"{{build}}", text) for name in TEMPLATES}
-    return stamped | {"manifest.webmanifest": manifest}
+    for key, text in stamps.items():
+        templates |= {name: content.replace(key.encode(), text.encode()) for name, content in templates.items()}
+    return files | templates
 
 
 def _digest(files: Iterable[tuple[str, bytes]]) -> str:
@@ -143,7 +167,7 @@ def _manifest() -> dict[str, object]:
         "name": "ninja-game",
         "short_name": "ninja-game",
         "description": "A platform game in the style of N: run, jump, collect gold, reach the exit.",
-        "start_url": "./",
+        "start_url": GAME,
         "scope": "./",
         "display": "standalone",
         "orientation": "any",

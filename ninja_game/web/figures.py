@@ -1,0 +1,79 @@
+"""A figure of the lab in the text of a page, as figures.js asks for it: no screen, no player, no records."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from pygame import display
+from pygame.host import LINK  # type: ignore[import-not-found]
+
+from ninja_game.play.clock import RunClock
+from ninja_game.play.lab.figure import FIGURE
+from ninja_game.play.lab.screen import FigurePicture
+from ninja_game.ui.widgets import Choice, Slider
+
+
+class PageFigure:
+    """A figure ``width`` px wide. ``page``: the host that paints, as host.js; ``area``: where the figure is painted."""
+
+    def __init__(self, page: Any, name: str, width: int, palette: str) -> None:
+        LINK.page = page
+        self._picture = FigurePicture(name, width / FIGURE[2], palette)
+        self.figure = self._picture.figure
+        self.area = tuple(self._picture.area)
+        self._clock = RunClock()
+        self._tick = -1
+        made = [make((0, 0, 1, 1)) for make in self.figure.controls()]
+        self.controls = [each for each in made if isinstance(each, (Choice, Slider))]
+
+    @property
+    def sheet(self) -> int:
+        """The number of the canvas that ``turn`` paints on."""
+        return int(self._picture.surface.settle())  # type: ignore[attr-defined] # the page's own surface
+
+    def about(self) -> str:
+        """Title and controls, as JSON."""
+        controls = [
+            {"text": each.text, "span": [each.low, each.high, each.step]}
+            if isinstance(each, Slider)
+            else {"text": each.text, "options": [text for text, _ in each.options]}
+            for each in self.controls
+        ]
+        return json.dumps({"title": self.figure.title, "controls": controls})
+
+    def turn(self, real_ms: float) -> str:
+        """Let time pass and paint; the numbers, and what the controls show and stand at, as JSON."""
+        for _ in range(min(4, self._clock.ticks_due(round(real_ms)))):
+            if self._tick >= 0:
+                self.figure.demonstrate(self._tick)
+                self._tick += 1
+            self.figure.tick()
+        self._picture.draw()
+        display.flip()
+        values = [
+            (each.get(), each.show(each.get())) if isinstance(each, Slider) else (each.index, "")
+            for each in self.controls
+        ]
+        return json.dumps({"numbers": self.figure.numbers(), "values": values})
+
+    def set(self, control: int, value: float) -> None:
+        """Change a control: a slider to a number, a choice to one of its options."""
+        self._tick = -1
+        widget = self.controls[control]
+        widget.put(value if isinstance(widget, Slider) else widget.options[int(value)][1])
+
+    def touch(self, what: str, x: float, y: float) -> None:
+        """``press`` or ``drag`` at a place, shares of the figure's width and height; ``nudge`` by -1, 0 or 1."""
+        self._tick = -1
+        if what == "nudge":
+            self.figure.nudge(int(x), int(y))
+            return
+        left, top, zoom = self.figure.view
+        act = self.figure.press if what == "press" else self.figure.drag
+        act(left + x * FIGURE[2] / zoom, top + y * FIGURE[3] / zoom)
+
+    def reset(self, *, demonstrate: bool) -> None:
+        """The figure as it was at first; it shows itself if that is wanted."""
+        self.figure.reset()
+        self._tick = 0 if demonstrate else -1

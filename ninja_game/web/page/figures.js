@@ -1,0 +1,128 @@
+// Figures of the lab in the text of a page: a still picture until it is touched, then drawn by the game's own code.
+// All figures of a page share one Python, which knows nothing of a player: no lock, no records.
+
+const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+const KEEP_AFTER_MS = 3000; // then what the next visit needs is put aside
+const live = [];
+let engine = null;
+
+const element = (name, about, ...inside) => {
+  const made = Object.assign(document.createElement(name), about);
+  made.append(...inside);
+  return made;
+};
+
+async function start() {
+  const [{ keepForLater, onProgress, startPython }, { createHost }] = await Promise.all([import("./loading.js"), import("./host.js")]);
+  onProgress((share, words) => {
+    for (const each of document.querySelectorAll(".lab.waiting button")) each.textContent = `${words} (${Math.round(share)} %)`;
+  });
+  const { python, keep } = await startPython();
+  const host = createHost(element("canvas"));
+  host.memory = python._module; // it paints, and hears nothing: the page's keys are the reader's
+  const figures = python.pyimport("ninja_game.web.figures");
+  requestAnimationFrame(turn);
+  setTimeout(() => Promise.all([keep(), keepForLater()]), KEEP_AFTER_MS);
+  return { host, figures };
+}
+
+class Live {
+  constructor(place, { host, figures }) {
+    this.host = host;
+    const image = place.querySelector("img");
+    const ratio = Math.min(3, devicePixelRatio || 1);
+    const palette = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "classic";
+    this.figure = figures.PageFigure(host, place.dataset.figure, Math.round(image.clientWidth * ratio), palette);
+    this.area = this.figure.area.toJs();
+    this.canvas = element("canvas", { width: this.area[2], height: this.area[3], tabIndex: 0 });
+    this.canvas.setAttribute("role", "img");
+    this.canvas.setAttribute("aria-label", `${image.alt} Arrow keys move it.`);
+    this.numbers = element("dl");
+    const { title, controls } = JSON.parse(this.figure.about());
+    this.controls = controls.map((about, at) => this.control(about, at));
+    this.buttons = element("p", {},
+      this.button("Show me", () => this.figure.reset.callKwargs({ demonstrate: true })),
+      this.button("Reset", () => this.figure.reset.callKwargs({ demonstrate: false })));
+    const panel = element("div", { className: "panel" }, ...this.controls.map((each) => each.label), this.buttons, this.numbers);
+    panel.setAttribute("role", "group");
+    panel.setAttribute("aria-label", title);
+    this.listen();
+    place.replaceChildren(this.canvas, panel);
+    new IntersectionObserver(([entry]) => (this.seen = entry.isIntersecting)).observe(this.canvas);
+    this.seen = true;
+    this.last = performance.now();
+    this.turn(this.last);
+  }
+
+  button(text, act) {
+    return element("button", { type: "button", textContent: text, onclick: act });
+  }
+
+  control({ text, span, options }, at) {
+    const [min, max, step] = span ?? [];
+    const field = span ? element("input", { type: "range", min, max, step }) : element("select", {}, ...options.map((each) => element("option", { textContent: each })));
+    field.addEventListener("input", () => this.figure.set(at, span ? field.valueAsNumber : field.selectedIndex));
+    const shown = element("output");
+    return { field, shown, label: element("label", {}, text, " ", field, " ", shown) };
+  }
+
+  listen() {
+    const { canvas } = this;
+    const touch = (what, event) => this.figure.touch(what, event.offsetX / canvas.clientWidth, event.offsetY / canvas.clientHeight);
+    canvas.addEventListener("pointerdown", (event) => {
+      canvas.setPointerCapture(event.pointerId);
+      touch("press", event);
+    });
+    canvas.addEventListener("pointermove", (event) => event.buttons && touch("drag", event));
+    canvas.addEventListener("keydown", (event) => {
+      const way = KEYS[event.code];
+      if (!way || event.ctrlKey || event.altKey || event.metaKey) return;
+      event.preventDefault();
+      this.figure.touch("nudge", ...way);
+    });
+  }
+
+  turn(now) {
+    const state = this.figure.turn(now - this.last);
+    this.last = now;
+    const { canvas } = this.host.painter.sheets[this.figure.sheet];
+    this.canvas.getContext("2d").drawImage(canvas, ...this.area, 0, 0, this.area[2], this.area[3]);
+    if (state === this.state) return;
+    this.state = state;
+    const { numbers, values } = JSON.parse(state);
+    this.numbers.replaceChildren(...numbers.map(([name, value]) => element("div", {}, element("dt", { textContent: name }), element("dd", { textContent: value }))));
+    values.forEach(([value, text], at) => {
+      const { field, shown } = this.controls[at];
+      if (field.options) field.selectedIndex = value;
+      else field.value = value;
+      shown.textContent = text;
+    });
+  }
+}
+
+function turn(now) {
+  requestAnimationFrame(turn);
+  for (const each of live) if (each.seen) each.turn(now);
+}
+
+for (const place of document.querySelectorAll("figure.lab")) {
+  const button = place.querySelector("button");
+  button.hidden = false;
+  const wake = async () => {
+    if (place.classList.contains("waiting")) return;
+    place.classList.add("waiting");
+    try {
+      engine ??= start();
+      const made = new Live(place, await engine);
+      live.push(made);
+      made.canvas.focus({ preventScroll: true });
+    } catch (error) {
+      engine = null;
+      console.error(error);
+      button.textContent = `It cannot be started: ${String(error.message).trim().split("\n").pop()}`;
+    }
+    place.classList.remove("waiting");
+  };
+  place.querySelector("picture").addEventListener("click", wake);
+  button.addEventListener("click", wake);
+}

@@ -1,0 +1,347 @@
+"""The documents as pages of the site: every Markdown file of the project, and the source files that they lead to.
+
+Markdown stays what it is elsewhere too. A picture ``lab-NAME.png`` becomes the figure of that name, alive at a touch;
+a paragraph of links to functions that begins with "Code:" shows their sources; one that begins with **Answer.** opens
+at a click. What a link leads to and is not here (a wheel holds fewer documents than a checkout) becomes plain text.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from html import escape
+from io import BytesIO
+from pathlib import Path
+from posixpath import normpath, relpath
+
+from markdown_it import MarkdownIt
+from markdown_it.token import Token
+from pygments import highlight
+from pygments.formatters import HtmlFormatter
+from pygments.lexers import PythonLexer, TextLexer
+
+from ninja_game.files.user_folder import PACKAGE, data_folder
+from ninja_game.play.lab.screen import FIGURES, figure_picture
+from ninja_game.play.window import png_of
+from ninja_game.web.pages import frame
+from ninja_game.web.pages.frame import GAME, HOME, NAVIGATION, SEARCH, Content, Markup, joined, tag  # fmt: skip
+
+FILM, STILL = "pictures/ninja-game.webp", "pictures/ninja-game.png"
+"""The moving picture of the first page, and one for who wants no motion."""
+
+FIGURES_SCRIPT = "app-folder/figures.js"
+"""Where the build puts what makes figures move."""
+
+LAB = "lab-"
+"""How the name of a figure's picture begins."""
+
+LEFT_OUT = (".", "build/", "dist/")
+"""Folders whose Markdown is not the project's, or not meant for readers."""
+
+
+def slug(heading: str) -> str:
+    """The anchor that a heading gets: lower case, no punctuation, blanks as hyphens.
+
+    >>> slug("Nine cells: a `loose` grid")
+    'nine-cells-a-loose-grid'
+    """
+    return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
+
+
+def markdown_files() -> dict[str, Path]:
+    """All documents of the project by their names in it."""
+    root = data_folder("docs").parent
+    files = {path.relative_to(root).as_posix(): path for path in root.rglob("*.md")}
+    return {name: path for name, path in sorted(files.items()) if not name.startswith(LEFT_OUT)}
+
+
+def page_of(name: str) -> str:
+    """The page of a document or of a source file, by its name in the project.
+
+    >>> [page_of(name) for name in ("docs/home.md", "README.md", "docs/learn/README.md", "ninja_game/sim/grid.py")]
+    ['index.html', 'docs/about.html', 'learn/index.html', 'code/ninja_game/sim/grid.html']
+    """
+    if name in ("docs/home.md", "README.md"):
+        return HOME if name.startswith("docs") else "docs/about.html"
+    path = Path(name)
+    if path.suffix != ".md":
+        return f"code/{path.with_suffix('').as_posix()}.html" if path.suffix else f"code/{name}/index.html"
+    stem = "index" if path.stem == "README" else path.stem
+    place = path.parent.as_posix().removeprefix("docs/learn").removeprefix("docs").strip("/.")
+    folder = "learn" if name.startswith("docs/learn/") else "docs"
+    return normpath(f"{folder}/{place}/{stem}.html")
+
+
+class Documents:
+    """``files``: content by name in the site, once ``build`` was called."""
+
+    def __init__(self) -> None:
+        self._reader = MarkdownIt("commonmark", {"html": False, "highlight": _coloured}).enable("table")
+        self._reader.add_render_rule("table_open", lambda *_: '<div class="wide" tabindex="0"><table>')
+        self._reader.add_render_rule("table_close", lambda *_: "</table></div>")
+        self.markdown = {
+            name: _titled(self._reader.parse(path.read_text("utf-8")), name) for name, path in markdown_files().items()
+        }
+        self.files: dict[str, bytes] = {}
+        self.searched: list[Markup] = []
+        self._sources: set[str] = set()
+
+    def build(self) -> dict[str, bytes]:
+        """All pages, with their pictures, style and search."""
+        here = Path(__file__).parent
+        for name in self.markdown:
+            self._document(name)
+        while missing := {name for name in self._sources if page_of(name) not in self.files}:
+            for name in missing:
+                self._source(name)
+        results = tag("ul", *self.searched, class_="results")
+        words = tag("label", "Words ", tag("input", type="search", name="words", autocomplete="off"))
+        form = tag("form", words, tag("p", role="status", class_="found"), class_="search", role="search", hidden=True)
+        self._write(SEARCH, "Search", [form, results])
+        light, dark = (HtmlFormatter(style=name).get_style_defs(".code") for name in ("default", "github-dark"))
+        dark = f"@media (prefers-color-scheme: dark) {{ {dark} }}"
+        style = [frame.colours(), (here / frame.STYLE).read_text("utf-8"), light, dark]
+        self.files[f"docs/{frame.STYLE}"] = "\n".join(style).encode()
+        self.files |= {
+            f"docs/{frame.SCRIPT}": (here / frame.SCRIPT).read_bytes(),
+            f"docs/{frame.ICON}": frame.page_icon(),
+        }
+        return self.files
+
+    def _write(self, name: str, title: str, contents: Iterable[Content], *, figures: bool = False) -> None:
+        """A page in the frame of the site."""
+        up = "../" * name.count("/")
+        links = [(up + address, text) for address, text in NAVIGATION]
+        script = up + FIGURES_SCRIPT if figures else ""
+        self.files[name] = frame.page(
+            title, *contents, up=f"{up}docs/", links=links, current=up + name, figures=script
+        ).encode()
+
+    # --- documents ---
+
+    def _document(self, name: str) -> None:
+        title, tokens = self.markdown[name]
+        page_name = page_of(name)
+        headings = list(_anchored(tokens))
+        self._note(page_name, title, tokens)
+        figures = self._prepare(name, tokens)
+        top: list[Content] = []
+        if page_name == HOME:
+            top = [tag("p", tag("a", "Play now", href=GAME, class_="button"))]
+        elif len(headings) > 3 and not page_name.startswith("learn/"):
+            entries = [tag("li", tag("a", text, href=f"#{anchor}")) for anchor, text in headings]
+            top = [tag("nav", tag("ul", *entries), class_="contents", aria_label="On this page")]
+        body = Markup(self._reader.renderer.render(tokens, self._reader.options, {}))
+        self._write(page_name, title, [*top, body, *self._neighbours(name)], figures=figures)
+
+    def _neighbours(self, name: str) -> list[Content]:
+        """Links to the chapters before and after one."""
+        chapters = [each for each in self.markdown if each.startswith("docs/learn/") and not each.endswith("README.md")]
+        if name not in chapters:
+            return []
+        at = chapters.index(name)
+        near = (("Before: ", chapters[at - 1] if at else ""), ("Next: ", (*chapters[at + 1 :], "")[0]))
+        links = [tag("a", word + self.markdown[each][0], href=Path(page_of(each)).name) for word, each in near if each]
+        return [tag("nav", *links, class_="near", aria_label="Chapters")]
+
+    def _note(self, page_name: str, title: str, tokens: list[Token]) -> None:
+        """Let a page be found by its words, each of its parts by itself."""
+        parts: list[tuple[str, str, list[str]]] = [("", "", [])]
+        for at, token in enumerate(tokens):
+            if token.type == "heading_open" and token.tag in ("h2", "h3"):
+                parts.append((str(token.attrs["id"]), _plain(tokens[at + 1]), []))
+            elif token.type in ("inline", "fence"):
+                parts[-1][2].append(_plain(token))
+        for anchor, heading, texts in parts:
+            words = " ".join(" ".join([title, heading, *texts]).split())
+            link = tag("a", f"{title}: {heading}" if heading else title, href=page_name + (anchor and f"#{anchor}"))
+            start = " ".join(texts)[:160]
+            entry = tag("li", link, tag("p", start, class_="faint"), data_place=len(self.searched))
+            # All words, past what ``tag`` lets through of a text.
+            self.searched.append(Markup(entry.replace("<li", f'<li data-words="{escape(words.casefold())}"', 1)))
+
+    # --- what leads elsewhere ---
+
+    def _prepare(self, name: str, tokens: list[Token]) -> bool:
+        """Turn links, pictures and paragraphs into what they are in the site; whether a figure is among them."""
+        found = False
+        for at, token in enumerate(tokens):
+            opened = ""
+            sources = []
+            for child in token.children or ():
+                if child.type == "link_open":
+                    link = str(child.attrs["href"])
+                    child.attrs["href"] = address = self._address(link, name)
+                    opened = child.tag = "a" if address else "span"
+                    sources.append((link, address))
+                elif child.type == "link_close":
+                    child.tag = opened
+                elif child.type == "image":
+                    found |= self._picture(child, name)
+            if token.type == "inline" and tokens[at - 1].type == "paragraph_open":
+                _stands_for(tokens[at - 1], token, tokens[at + 1], sources, Path(name).parent)
+        return found
+
+    def _address(self, link: str, name: str) -> str:
+        """Where a link of a document leads in the site; "" for what is not here."""
+        target, _, anchor = link.partition("#")
+        if "://" in link or not target:
+            return link
+        path = normpath(f"{Path(name).parent.as_posix()}/{target}")
+        way = relpath(page_of(path), Path(page_of(name)).parent.as_posix())
+        if path in self.markdown:
+            return way + (anchor and f"#{anchor}")
+        whole = PACKAGE.parent / path if path.startswith(PACKAGE.name) else data_folder("docs").parent / path
+        if whole.suffix in (".png", ".gif", ".svg"):
+            return self._copied(whole, path, name)
+        if not whole.exists():
+            return ""
+        self._sources.add(path)
+        if anchor:
+            anchor = f"L-{_definitions(whole.read_text('utf-8'))[anchor].lineno}"
+        return way + (anchor and f"#{anchor}")
+
+    def _copied(self, whole: Path, path: str, name: str) -> str:
+        """The address of a picture, which comes along."""
+        if not whole.is_file():
+            return ""
+        self.files[path] = whole.read_bytes()
+        return relpath(path, Path(page_of(name)).parent.as_posix())
+
+    def _picture(self, image: Token, name: str) -> bool:
+        """Turn a picture into one of the site; whether it is a figure."""
+        path = normpath(f"{Path(name).parent.as_posix()}/{image.attrs['src']}")
+        whole, alt = data_folder("docs").parent / path, image.content
+        up = "../" * page_of(name).count("/")
+        figure = whole.stem.removeprefix(LAB) if whole.stem.startswith(LAB) else ""
+        if figure in FIGURES:
+            dark, light = (self._figure(figure, palette) for palette in ("dark", "classic"))
+            source = tag("source", srcset=up + dark, media="(prefers-color-scheme: dark)")
+            img = tag("img", src=up + light, alt=alt, width=540, height=324, loading="lazy")
+            start = tag("button", "Touch to try it", type="button", hidden=True)
+            picture = tag("figure", tag("picture", source, img), start, class_="lab", data_figure=figure)
+        elif page_of(name) == HOME and path.endswith(".gif"):
+            self.files |= _film(whole)
+            source = tag("source", srcset=STILL, media="(prefers-reduced-motion: reduce)")
+            picture = tag("picture", source, tag("img", src=FILM, alt=alt, width=528, height=400))
+        else:
+            address = self._copied(whole, path, name)
+            picture = tag("img", src=address, alt=alt, loading="lazy") if address else joined(alt)
+        image.type, image.content = "html_inline", picture
+        return figure in FIGURES
+
+    def _figure(self, figure: str, palette: str) -> str:
+        """The name of the still picture of a figure, drawn by the very code that moves it."""
+        name = f"lab/{figure}-{palette}.png"
+        if name not in self.files:
+            self.files[name] = png_of(figure_picture(figure, scale=2.0, palette=palette))
+        return name
+
+    # --- sources ---
+
+    def _source(self, name: str) -> None:
+        """The page of a source file, or of a folder of them."""
+        path = (PACKAGE.parent if name.startswith(PACKAGE.name) else data_folder("docs").parent) / name
+        if path.is_dir():
+            inside = sorted(each for each in path.iterdir() if each.is_dir() or each.suffix == ".py")
+            names = [f"{name}/{each.name}" for each in inside if not each.name.startswith(("_", "."))]
+            self._sources |= set(names)
+            start = Path(page_of(name)).parent.as_posix()
+            rows = [tag("li", tag("a", Path(each).name, href=relpath(page_of(each), start))) for each in names]
+            self._write(page_of(name), name, [tag("ul", *rows)])
+        else:
+            text = path.read_text("utf-8")
+            self._write(page_of(name), name, [Markup(_coloured(text, f"/{name}"))])
+
+
+def _titled(tokens: list[Token], name: str) -> tuple[str, list[Token]]:
+    """The title of a document, and the tokens without it."""
+    if tokens and tokens[0].type == "heading_open" and tokens[0].tag == "h1":
+        return _plain(tokens[1]), tokens[3:]
+    return Path(name).stem, tokens
+
+
+def _plain(token: Token) -> str:
+    """The text of a token without marks."""
+    if token.type == "fence":
+        return token.content
+    return "".join(" " if each.type == "softbreak" else each.content for each in token.children or ())
+
+
+def _anchored(tokens: list[Token]) -> Iterator[tuple[str, str]]:
+    """Give the headings their anchors; those of the second rank with their texts. Equal ones get numbers."""
+    used: dict[str, int] = {}
+    for at, token in enumerate(tokens):
+        if token.type == "heading_open":
+            text = _plain(tokens[at + 1])
+            anchor = slug(text)
+            used[anchor] = used.get(anchor, -1) + 1
+            token.attrs["id"] = anchor + (f"-{used[anchor]}" if used[anchor] else "")
+            if token.tag == "h2":
+                yield str(token.attrs["id"]), text
+
+
+def _film(path: Path) -> dict[str, bytes]:
+    """The moving picture of the first page, every second picture of it, as WebP; and its middle as PNG."""
+    from PIL import Image, ImageSequence
+
+    film, still = BytesIO(), BytesIO()
+    with Image.open(path) as gif:
+        first, *others = [each.convert("RGB") for each in ImageSequence.Iterator(gif)][::2]
+        pace = 2 * gif.info["duration"]
+    first.save(film, "webp", save_all=True, append_images=others, duration=pace, loop=0, quality=30, method=4)
+    others[len(others) // 2].quantize(64).save(still, "png")
+    return {FILM: film.getvalue(), STILL: still.getvalue()}
+
+
+def _stands_for(before: Token, token: Token, after: Token, links: Iterable[tuple[str, str]], folder: Path) -> None:
+    """Turn a paragraph of sources or an answer into what opens at a click, and one of a picture into the picture.
+
+    ``links``: those in it, as they are written, seen from ``folder``, and where they lead in the site.
+    """
+    children = token.children or []
+    if len(children) == 1 and children[0].type == "html_inline":
+        before.hidden = after.hidden = True
+    elif token.content.startswith("Code: "):
+        before.hidden = after.hidden = True
+        names = ", ".join(link.partition("#")[2] for link, _ in links)
+        shown = [_function(folder, link, address) for link, address in links]
+        children[0].type, children[0].content = (
+            "html_inline",
+            tag("details", tag("summary", "Show me the code: ", names), *shown),
+        )
+        del children[1:]
+    elif token.content.startswith("**Answer.**"):
+        before.type = after.type = "html_block"
+        before.content, after.content = "<details><summary>Answer</summary><p>", "</p></details>"
+        del children[: next(place for place, each in enumerate(children) if each.type == "strong_close") + 1]
+
+
+def _function(folder: Path, link: str, address: str) -> Markup:
+    """The source of a function, and where it stands in its file."""
+    path, _, name = link.partition("#")
+    source = normpath((folder / path).as_posix())
+    text = (PACKAGE.parent / source).read_text("utf-8")
+    node = _definitions(text)[name]
+    lines = text.splitlines()[node.lineno - 1 : node.end_lineno]
+    first = tag("p", tag("a", f"{source}, line {node.lineno}", href=address), class_="faint")
+    return joined(Markup(_coloured("\n".join(lines), "python")), first)
+
+
+def _coloured(text: str, lang: str, _: str = "") -> str:
+    """A piece of code as HTML, Python in colours; each line has an anchor where ``lang`` is a path."""
+    python = lang.split(" ", maxsplit=1)[0].endswith(("python", "py"))
+    shape = HtmlFormatter(cssclass="code", lineanchors="L" if "/" in lang else "")
+    shown = str(highlight(text, PythonLexer(stripnl=False) if python else TextLexer(stripnl=False), shape)).rstrip()
+    shown = re.sub(r'<a (id="L-\d+")[^>]*></a>', r"<span \1></span>", shown)
+    return shown.removesuffix("</div>").replace('<div class="code"><pre>', '<pre class="code" tabindex="0">', 1)
+
+
+def _definitions(text: str) -> Mapping[str, ast.FunctionDef | ast.ClassDef]:
+    """The functions and classes of a file; methods too, by their names."""
+    found: dict[str, ast.FunctionDef | ast.ClassDef] = {}
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            found.setdefault(node.name, node)
+    return found
