@@ -93,6 +93,9 @@ SOURCES: dict[Source, tuple[int, float]] = {
 
 def place_enemies(scene: Scene, rng: Random, wanted: int, difficulty: int) -> bool:
     """Put about so many enemies of two or three sources into a scene; whether there are at least three."""
+    for x, y in scene.rings:
+        turret = difficulty >= SOURCES[turrets][0] and _enemy(scene, spec(f"gauss turret {x:g},{y:g}px"), 4 * CELL)
+        scene.hazards.append([turret or spec(f"mine {x:g},{y:g}px")])
     able = [source for source, (least, _) in SOURCES.items() if difficulty >= least]
     weights = [SOURCES[source][1] for source in able]
     chosen = [rng.choices(able, weights)[0] for _ in range(3)]
@@ -113,7 +116,7 @@ def place_enemies(scene: Scene, rng: Random, wanted: int, difficulty: int) -> bo
             scene.hazards.append([enemy])
             x, y, *_ = enemy.values
             twins = [record for line in lines if [(record := spec(line)).values[:2]] == scene.twin([(x, y)])]
-            if twins and rng.random() < 0.6 and scene.count(*ENEMIES) < wanted and _enemy(scene, twins[0], apart):
+            if twins and rng.random() < 0.75 and scene.count(*ENEMIES) < wanted and _enemy(scene, twins[0], apart):
                 scene.hazards.append([twins[0]])
     return scene.count(*ENEMIES) >= 3
 
@@ -177,7 +180,7 @@ def _surface_lines(scene: Scene, rng: Random, *, floors: bool = False) -> list[l
     lines = list[list[Point]]()
     for chain in scene.surfaces:
         for first in range(0, len(chain) - 2, 3):
-            part = chain[first : first + rng.randint(4, 10)]
+            part = chain[first : first + rng.randint(5, 10)]
             floor = [face for face in part if face.away_y < -0.9]
             if len(floor) > 2 and min(face.y for face in part) <= CELL * 20:
                 part = floor[:3] if floors else []
@@ -186,7 +189,7 @@ def _surface_lines(scene: Scene, rng: Random, *, floors: bool = False) -> list[l
     return lines
 
 
-STEP, ON_ROCK = 16.0, 6.0
+STEP, ON_ROCK = 28.0, 6.0
 """px between the mines of a line, and from the rock to their middles."""
 
 
