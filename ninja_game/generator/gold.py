@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from itertools import pairwise
-from math import cos, dist, pi, sin
+from math import cos, dist, sin, tau
 from random import Random
 
 from ninja_game.generator.scene import Point, Scene, cell_of, middle, places, spec
@@ -80,13 +80,21 @@ def hoard(scene: Scene, rng: Random) -> list[Point]:
 
 
 def rings(scene: Scene, rng: Random) -> Iterator[list[Point]]:
-    """Round open air, out of sight of the start if it can be, for a danger in the middle."""
+    """At the spots of the plan, then round open air out of sight of the start, for a danger in the middle."""
     size, start = rng.choice((34, 40, 46)), middle(scene.start)
     reach = range(-2, 3)
-    open_ = [(c, r) for c, r in scene.steps if all((c + i, r + j) in scene.steps for i in reach for j in reach)]
-    rng.shuffle(open_ := sorted(open_))
-    for x, y in sorted(map(middle, open_), key=lambda at: scene.sees(at, start)):
-        yield [(x + size * cos(k * pi / 6), y + size * sin(k * pi / 6)) for k in range(12)]
+    air = [cell for cell in sorted(scene.steps) if all((cell[0] + i, cell[1] + j) in scene.steps for i in reach for j in reach)]
+    rng.shuffle(air)
+    for x, y in scene.board.spots:
+        yield from (ring(CELL * x, CELL * y, far) for far in (size, 28, 22))
+    for x, y in sorted(map(middle, air), key=lambda at: scene.sees(at, start)):
+        yield ring(x, y, size)
+
+
+def ring(x: float, y: float, size: float) -> list[Point]:
+    """Points of a circle, more of them on a greater one."""
+    count = round(size / 4) + 2
+    return [(x + size * cos(k * tau / count), y + size * sin(k * tau / count)) for k in range(count)]
 
 
 def along(line: list[Point], step: float) -> list[Point]:
@@ -106,15 +114,15 @@ def lay_gold(scene: Scene, rng: Random) -> bool:
     """Put a few groups of gold into a scene: the hoard, rings, then two other sorts; whether it is enough."""
     wanted = rng.randint(LEAST + 2, MOST)
     _lay(scene, hoard(scene, rng), wanted)
-    for pattern, most in ((rings, rng.choice((0, 1, 1))), (bows, 1), *((each, 1) for each in rng.sample(PATTERNS, 2))):
+    first = (rings, len(scene.board.spots) or rng.choice((0, 1, 1))), (bows, 1)
+    for pattern, most in (*first, *((each, 3) for each in rng.sample(PATTERNS, 4))):
         for group in pattern(scene, rng):
-            both = [group, scene.twin(group)]
-            laid = sum([_lay(scene, points, wanted) for points in both])
+            if most <= 0 or len(scene.baits) > 4 and len(scene.gold) > LEAST:
+                break
+            laid = sum([_lay(scene, points, wanted) for points in (group, scene.twin(group))])
+            most -= laid > 0
             if laid and pattern is rings:
                 scene.rings += scene.baits[-laid:]
-            most -= laid > 0
-            if not most:
-                break
     return LEAST <= len(scene.gold) and len(scene.baits) >= 3
 
 

@@ -28,11 +28,12 @@ def dome(x: float, y: float, wide: float, high: float) -> Ink:
 
 def heart(board: Board, rng: Random) -> None:
     """A heart in a heart."""
-    board.air(disc(9.7, 8.4, 7.6, 6.9), poly((2.8, 11), (MID, 23.6), (30.2, 11), (MID, 6)))
-    board.rock(box(1, 22, 32, 24), disc(12.6, 10, 4.7, 4.1), poly((8.3, 11.6), (MID, 19.6), (24.7, 11.6), (MID, 9)))
-    board.air(disc(12.9, 10.2, 3.2, 2.6), box(11.5, 10, 21.5, 14))
+    board.air(disc(9.6, 8.3, 7.9, 7.1), poly((2.6, 11), (MID, 24.2), (30.4, 11), (MID, 6)))
+    board.rock(box(1, 22, 32, 24), disc(12.7, 10.5, 4.5, 3.8), poly((8.5, 12), (MID, 19.3), (24.5, 12), (MID, 9.5)))
+    board.air(disc(12.9, 10.7, 3.1, 2.4), box(11.5, 10.5, 21.5, 14))
     board.vault(12, 20, 13, gate=21)
-    board.rock(dish(5.5, rng.choice((7, 8)), 2, 1.4), dish(rng.choice((12, 13)), 21, 1, 1))
+    board.rock(dish(5.5, rng.choice((7, 8)), 2, 1.4))
+    board.spots = [(10, 4.4)]
 
 
 def mask(board: Board, rng: Random) -> None:
@@ -45,6 +46,7 @@ def mask(board: Board, rng: Random) -> None:
     board.rock(poly((MID, 8), (14.4, 14), (18.6, 14)))
     board.rock(path(5, (12, 18.5), (21, 18.5)))
     board.vault(11, 21, 19, gate=20)
+    board.spots = [(9.5, 11.0)]
 
 
 def web(board: Board, rng: Random) -> None:
@@ -58,6 +60,7 @@ def web(board: Board, rng: Random) -> None:
     first = rng.random() < 0.5
     board.air(box(14.5, 3.5, 18.5, 7) if first else poly((4, 5), (9, 4), (13, 9), (9, 11)))
     board.air(box(13, 18, 20, 21.4))
+    board.spots = [(MID, 20.5)]
     if rng.random() < 0.6:
         board.rock(path(1.4, (6.4, 12.5), (11, 12.5)) if first else path(1.4, (MID, 5), (MID, 9)))
 
@@ -67,8 +70,8 @@ def islands(board: Board, rng: Random) -> None:
     board.air(box(2, 2, 31, 22))
     for x in (1.5, 6.5, 11.5, 16.5):
         board.rock(disc(x, 22.8, 2.4, 1.9))
-    board.rock(disc(MID, 12.4, 5.2, 4.2))
-    board.air(disc(MID, 10.9, 4, 2.2))
+    board.rock(disc(MID, 12.2, 5.4, 4.8))
+    board.air(disc(MID, 11, 3.8, 2.2))
     board.vault(14, 18, 12, gate=18)
     sea = rng.choice(((3.0, 9), (3.5, 7)))
     for x, y in ((sea[0], sea[1]), (6.6, 14), (9.3, rng.choice((5.5, 7))), (9.5, 18.5)):
@@ -102,6 +105,7 @@ def pyramid(board: Board, rng: Random) -> None:
     board.vault(11, 21, 22, gate=23)
     board.rock(poly((5, 9.4), (7.4, 9.4), (6.2, 11)), dish(rng.choice((11, 12)), 5.5, 1.6, 1.1))
     board.rock(dish(3.6, 17, 1.4, 1.2))
+    board.spots = [(MID, 14.5)]
 
 
 def hive(board: Board, rng: Random) -> None:
@@ -114,6 +118,7 @@ def hive(board: Board, rng: Random) -> None:
     board.air(disc(MID, 12, 3, 1.8))
     board.vault(14, 18, 13, gate=18)
     board.rock(disc(5, rng.choice((12, 13)), 1.2, 1.2))
+    board.spots = rng.sample([(5.5, 18.5), (12.5, 19.5), (12.5, 5.5)], 2)
     board.rock(dish(5.5, 7.4, 1.6, 1.0), box(15.8, 18, 17.2, 23))
 
 
@@ -125,8 +130,9 @@ def cascade(board: Board, rng: Random) -> None:
     for k, x in enumerate((8.4, 16.2, 24.2)):
         y = 6.2 + drop * k
         board.rock(disc(x, y, 3.9, 4) & box(1, y, 32, 24) & ~disc(x, y - 0.6, 2.6, 2.8))
+        board.spots.append((x, y - 0.5))
     board.rock(poly((1, 11.5), (5, 12.6), (9, 14.6), (18, 17), (18, 19), (1, 19)), box(10, 19, 12, 24))
-    board.rock(box(1, 6, 3.6, 12), dome(20.5, 23.2, 3, 1.7), dome(27.5, 23.2, 2, 1.2))
+    board.rock(box(1, 6, 4, 12), dome(20.5, 23.2, 3, 1.7), dome(27.5, 23.2, 2, 1.2))
     board.vault(3, 9, 22, gate=10)
 
 
@@ -174,8 +180,11 @@ def wheel(board: Board, rng: Random) -> None:
     board.air(disc(MID, 11.8, 3.6, 2.6))
     board.vault(14, 18, 13, gate=18)
     near, far = rng.choice(((0.6, 0.8), (0.56, 0.76)))
-    for x, y in rng.choice((((0, -11), (10.6, -7.8), (15, 0), (10.6, 7.8)), ((5.8, -10.2), (13.8, -4.2), (13.8, 4.2), (5.8, 10.2)))):
-        board.rock(path(1.7, (MID - near * x, 12.5 + near * y), (MID - far * x, 12.5 + far * y)))
+    wide = rng.random() < 0.5
+    spokes = ((0, 11), (10.6, 7.8), (15, 0), (10.6, -7.8)) if wide else ((5.8, 10.2), (13.8, 4.2), (13.8, -4.2), (5.8, -10.2))
+    for x, y in spokes:
+        board.rock(path(1.7, (MID - near * x, 12.5 - near * y), (MID - far * x, 12.5 - far * y)))
+    board.spots = [(MID, 19.5), (12, 5) if wide else (8.5, 6.5)]
 
 
 def volcano(board: Board, rng: Random) -> None:
@@ -189,6 +198,7 @@ def volcano(board: Board, rng: Random) -> None:
     board.vault(12, 20, 22, gate=22)
     board.rock(dish(rng.choice((5, 6)), 6, 2.6, 1.4), dish(10.6, rng.choice((4, 5)), 1.6, 1.1), dish(3.4, 12, 2, 1.5))
     board.rock(dish(7.2, 12.6, 1.5, 1.2))
+    board.spots = [(MID, 15.5)]
 
 
 def eye(board: Board, rng: Random) -> None:
@@ -199,6 +209,7 @@ def eye(board: Board, rng: Random) -> None:
     board.rock(disc(MID, 12, 4.8, 3.3))
     board.air(dome(MID, 13, 3.4, 2.8))
     board.vault(14, 18, 12, gate=19)
+    board.spots = [(MID, 18.5)]
     board.rock(poly((4.4, 12.3), (7, 11.3), (7, 13.3)), dish(10, 19, 1.7, 1.1))
 
 
@@ -212,6 +223,7 @@ def waves(board: Board, rng: Random) -> None:
         board.rock(*(disc(x, y + 0.4, 1.6, 0.9) for x in rng.sample((9, 13, 18, 23), 2)))
     board.air(path(2.6, (28, 6), (28, 11)), path(2.6, (27, 13), (27, 19)))
     board.air(path(2.6, (rng.choice((12, 14)), 12), (15, 20)) if rng.random() < 0.5 else path(2.6, (15, 6), (14, 13)))
+    board.spots = [(27.5, 12.5), (rng.choice((5.5, 27.5)), 5.5)]
     board.rock(box(1, 16, 12, 24))
     board.air(box(3, 18, 10, 21))
     board.vault(3, 9, 20, gate=10)

@@ -20,7 +20,7 @@ SAFE = 150.0
 """px from the ninja's start in which nothing waits."""
 BESIDE = 110.0
 """px from gold, exit and switches in which enemies are put first."""
-AT_BAIT = 80.0
+AT_BAIT = 110.0
 """px from the middle of a group of gold in which mines guard it."""
 FROM_RUN = 17.0
 """px from a certified run at which a mine leaves it alone: their radii, and a little."""
@@ -86,7 +86,7 @@ def launchers(scene: Scene, _: Random) -> Iterator[str]:
 
 
 SOURCES: dict[Source, tuple[int, float]] = {
-    guards: (1, 2.5), zaps: (1, 5.0), thwumps: (1, 1.2), patrols: (2, 1.5), turrets: (3, 2.0), launchers: (5, 1.5),
+    guards: (1, 2.5), zaps: (1, 5.0), thwumps: (1, 1.2), patrols: (2, 1.5), turrets: (3, 0.8), launchers: (5, 1.5),
 }  # fmt: skip
 """Where enemies come from: the least difficulty for them, and how often they are taken."""
 

@@ -71,7 +71,8 @@ def path(width: float, *points: Point) -> Ink:
 class Board:
     """Painted rock, all solid at first. What is painted is painted at the mirrored place too, as long as it is ``even``.
 
-    ``heart``: the floor of the vault. ``gate``: two cells, the only way into it, each with room for a door.
+    ``heart``: the floor of the vault. ``gate``: two cells, the only way into it, each with room for a door. ``spots``:
+    where a ring of gold would be in its place, in cells.
     """
 
     def __init__(self) -> None:
@@ -79,6 +80,7 @@ class Board:
         self.even = True
         self.heart: list[Cell] = []
         self.gate: list[Cell] = []
+        self.spots: list[Point] = []
         self.side = "right"  #: of the gate's cells, where a door is
 
     def rock(self, *shapes: Ink) -> None:
@@ -103,6 +105,7 @@ class Board:
         """Turn left and right round."""
         self.ink, self.side = self.ink[:, ::-1], "left" if self.side == "right" else "right"
         self.heart, self.gate = [list(map(mirrored, cells)) for cells in (self.heart, self.gate)]
+        self.spots = [(COLUMNS + 2 - x, y) for x, y in self.spots]
 
 
 def flood(first: Cell, within: set[Cell]) -> set[Cell]:
