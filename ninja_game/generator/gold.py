@@ -7,7 +7,7 @@ from itertools import pairwise
 from math import cos, dist, sin, tau
 from random import Random
 
-from ninja_game.generator.scene import Point, Scene, cell_of, middle, places, spec
+from ninja_game.generator.scene import Point, Scene, cell_of, middle, spec
 from ninja_game.sim.rules import CELL
 
 LEAST, MOST = 26, 42
@@ -83,7 +83,11 @@ def rings(scene: Scene, rng: Random) -> Iterator[list[Point]]:
     """At the spots of the plan, then round open air out of sight of the start, for a danger in the middle."""
     size, start = rng.choice((34, 40, 46)), middle(scene.start)
     reach = range(-2, 3)
-    air = [cell for cell in sorted(scene.steps) if all((cell[0] + i, cell[1] + j) in scene.steps for i in reach for j in reach)]
+    air = [
+        cell
+        for cell in sorted(scene.steps)
+        if all((cell[0] + i, cell[1] + j) in scene.steps for i in reach for j in reach)
+    ]
     rng.shuffle(air)
     for x, y in scene.board.spots:
         yield from (ring(CELL * x, CELL * y, far) for far in (size, 28, 22))
@@ -116,14 +120,15 @@ def lay_gold(scene: Scene, rng: Random) -> bool:
     _lay(scene, hoard(scene, rng), wanted)
     first = (rings, len(scene.board.spots) or rng.choice((0, 1, 1))), (bows, 1)
     for pattern, most in (*first, *((each, 3) for each in rng.sample(PATTERNS, 4))):
+        done = 0
         for group in pattern(scene, rng):
-            if most <= 0 or len(scene.baits) > 4 and len(scene.gold) > LEAST:
+            if done >= most or (len(scene.baits) > 4 and len(scene.gold) > LEAST):
                 break
             laid = sum([_lay(scene, points, wanted) for points in (group, scene.twin(group))])
-            most -= laid > 0
+            done += laid > 0
             if laid and pattern is rings:
                 scene.rings += scene.baits[-laid:]
-    return LEAST <= len(scene.gold) and len(scene.baits) >= 3
+    return len(scene.gold) >= LEAST and len(scene.baits) >= 3
 
 
 PATTERNS: tuple[Pattern, ...] = (round_stones, along_walls, bows, falls)

@@ -85,7 +85,9 @@ def cathedral(board: Board, rng: Random) -> None:
     board.air(poly((2, 24), (2, 8.5), (6, 5.5), (10, 5.5), (MID, top), (23, 5.5), (27, 5.5), (31, 8.5), (31, 24)))
     board.rock(box(1, 23, 32, 24))
     low = rng.choice((0, 1, 2))
-    board.rock(poly((7, 7 + low), (9, 9 + low), (9, 14), (8, 16), (8, 18), (7, 20), (6, 18), (6, 16), (5, 14), (5, 9 + low)))
+    board.rock(
+        poly((7, 7 + low), (9, 9 + low), (9, 14), (8, 16), (8, 18), (7, 20), (6, 18), (6, 16), (5, 14), (5, 9 + low))
+    )
     board.rock(poly((8, 23), (11, 17), (22, 17), (25, 23)))
     board.rock(poly((12, 17), (11, 15), (11, 13), (13, 11), (15, 13), (15, 15), (14, 17)))
     board.air(poly((11, 23), (13, 19), (20, 19), (22, 23)))
@@ -181,7 +183,11 @@ def wheel(board: Board, rng: Random) -> None:
     board.vault(14, 18, 13, gate=18)
     near, far = rng.choice(((0.6, 0.8), (0.56, 0.76)))
     wide = rng.random() < 0.5
-    spokes = ((0, 11), (10.6, 7.8), (15, 0), (10.6, -7.8)) if wide else ((5.8, 10.2), (13.8, 4.2), (13.8, -4.2), (5.8, -10.2))
+    spokes = (
+        ((0, 11), (10.6, 7.8), (15, 0), (10.6, -7.8))
+        if wide
+        else ((5.8, 10.2), (13.8, 4.2), (13.8, -4.2), (5.8, -10.2))
+    )
     for x, y in spokes:
         board.rock(path(1.7, (MID - near * x, 12.5 - near * y), (MID - far * x, 12.5 - far * y)))
     board.spots = [(MID, 19.5), (12, 5) if wide else (8.5, 6.5)]

@@ -41,12 +41,14 @@ Y, X = (1 + (np.indices((ROWS * FINE, COLUMNS * FINE)) + 0.5) / FINE).astype(flo
 
 def disc(x: float, y: float, wide: float, high: float) -> Ink:
     """An ellipse about a point: half its width and height."""
-    return ((X - x) / wide) ** 2 + ((Y - y) / high) ** 2 <= 1
+    shape: Ink = ((X - x) / wide) ** 2 + ((Y - y) / high) ** 2 <= 1
+    return shape
 
 
 def box(left: float, top: float, right: float, bottom: float) -> Ink:
     """A rectangle."""
-    return (left <= X) & (right >= X) & (top <= Y) & (bottom >= Y)
+    shape: Ink = (left <= X) & (right >= X) & (top <= Y) & (bottom >= Y)
+    return shape
 
 
 def poly(*corners: Point) -> Ink:
@@ -54,7 +56,7 @@ def poly(*corners: Point) -> Ink:
     odd = np.zeros(X.shape, bool)
     for (x0, y0), (x1, y1) in pairwise([*corners, corners[0]]):
         if y0 != y1:
-            odd ^= ((y0 <= Y) != (y1 <= Y)) & (X <= (x1 - x0) * (Y - y0) / (y1 - y0) + x0)
+            odd ^= ((y0 <= Y) != (y1 <= Y)) & ((x1 - x0) * (Y - y0) / (y1 - y0) + x0 >= X)
     return odd
 
 
@@ -69,7 +71,7 @@ def path(width: float, *points: Point) -> Ink:
 
 
 class Board:
-    """Painted rock, all solid at first. What is painted is painted at the mirrored place too, as long as it is ``even``.
+    """Painted rock, all solid at first. While it is ``even``, all is painted at the mirrored place too.
 
     ``heart``: the floor of the vault. ``gate``: two cells, the only way into it, each with room for a door. ``spots``:
     where a ring of gold would be in its place, in cells.

@@ -16,7 +16,7 @@ from ninja_game.sim.rules import CELL, STRIDE
 FINE = 8
 """Samples of a cell in a row and in a column."""
 FULL = TILE_CHARS.index("#")
-COSTS = np.array([2 * (tile in "_]\"[") + 3 * (tile in "jkiuJKIU") + 1 * (tile not in ".#") for tile in TILE_CHARS])
+COSTS = np.array([2 * (tile in '_]"[') + 3 * (tile in "jkiuJKIU") + 1 * (tile not in ".#") for tile in TILE_CHARS])
 """What each tile costs, in samples of a cell that it covers wrongly."""
 AGREE, ROUNDS = 1, 12
 """What a sample of a side that differs from the tile beside it costs; how often all are looked at."""
@@ -44,7 +44,7 @@ def _costs() -> tuple[NDArray[np.int64], NDArray[np.int64]]:
 
 
 def fitted(ink: Ink, *, even: bool) -> NDArray[np.int64]:
-    """The number of the tile of each cell, (rows, columns); ``even``: those of the middle column are alike on both sides."""
+    """The number of the tile of each cell, (rows, columns); ``even``: both sides of the middle column are alike."""
     cells = ink.reshape(ROWS, FINE, COLUMNS, FINE).swapaxes(1, 2)[:, :, None]
     own = (cells != masks()).sum((3, 4)) + COSTS
     own[:, COLUMNS // 2, even * (masks() != masks()[:, :, ::-1]).any((1, 2))] += FINE * FINE
