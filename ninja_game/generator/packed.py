@@ -23,6 +23,8 @@ from ninja_game.sim.level import Level
 
 PACKED = "generated.tsv.xz"
 """Among the game's assets: a level a line, as ``PackedLevel.line`` writes it."""
+FROZEN = "bench.tsv.xz"
+"""Likewise, of an earlier generator: what the levels of the benchmark are made of. They never change."""
 MOST_BYTES = 8 * 2**20
 """Of the file, and of its text when unpacked."""
 MOST_MEMORY = 64 * 2**20
@@ -76,9 +78,9 @@ def generated_levels(difficulty: int | None = None) -> list[PackedLevel]:
     return [read_line(line) for line in lines if difficulty is None or line.split("\t")[1] == str(difficulty)]
 
 
-def generated_level(place: int) -> PackedLevel:
-    """One of them, by its place in their order, from 0 on; the others are not read. Raises what they raise."""
-    return read_line(_lines(data_folder("assets") / PACKED)[place])
+def frozen_level(place: int) -> PackedLevel:
+    """One of those of ``FROZEN``, by its place, from 0 on; the others are not read. Raises FileError likewise."""
+    return read_line(_lines(data_folder("assets") / FROZEN)[place])
 
 
 @cache

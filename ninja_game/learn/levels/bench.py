@@ -1,6 +1,6 @@
 """Levels without end: 100,000 to learn in and 1,000 to be tried in, each made from its number in microseconds.
 
-A level is one of the thousand that come with the game (``generator/packed.py``), varied: mirrored, with a part of its
+A level is one of a thousand of an earlier generator (``generator/packed.py``), varied: mirrored, with a part of its
 gold and of what kills, and, but for the hard ones, with a shorter task: start, switch and exit are put on the way of
 the run that is known. That run, cut alike, passes every one of them: the world itself has played it. Of the first
 ``TRIES`` variations of a number the table ``TABLE`` names the one with which it did (tools/bench_levels.py).
@@ -26,7 +26,7 @@ from ninja_game.editor.specs import carried
 from ninja_game.errors import ArgumentError
 from ninja_game.files.reading import read_bytes
 from ninja_game.files.user_folder import data_folder
-from ninja_game.generator.packed import MOST_BYTES, PACKED, generated_level
+from ninja_game.generator.packed import FROZEN, MOST_BYTES, frozen_level
 from ninja_game.learn.draws import draws
 from ninja_game.learn.levels.source import LevelSource
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, KEYS_DOWN, pressed
@@ -137,7 +137,7 @@ def _table() -> bytes:
 def _base(number: int, mirrored: bool) -> _Base:
     """A level that comes with the game, or its mirror image, with the run that passes it."""
     if not mirrored:
-        packed = generated_level(number)
+        packed = frozen_level(number)
         record = open_worlds("auto", packed.level, box=False).run(packed.inputs)
         places = np.frombuffer(record.places, np.float64).reshape(-1, 2)
         speeds = np.abs(np.diff(places, axis=0, prepend=places[:1])).sum(1)
@@ -189,7 +189,7 @@ class BenchSource(LevelSource):
     @property
     def digest(self) -> str:
         """Sha256 (hex) of what makes them."""
-        assets = [read_bytes(data_folder("assets") / name, MOST_BYTES) for name in (PACKED, TABLE)]
+        assets = [read_bytes(data_folder("assets") / name, MOST_BYTES) for name in (FROZEN, TABLE)]
         return sha256(repr(self.levels.numbers).encode() + b"".join(assets)).hexdigest()
 
 

@@ -17,8 +17,8 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.files.user_folder import PACKAGE, data_folder
 
 LEFT_OUT = (
-    "batch", "cli", "generated.tsv.xz", "data", "learn", "search", "sounds/music", "tas", "verification", "web/board",
-    "web/pages", "web/licences", "web/page", "web/site",
+    "batch", "bench.", "cli", "generated.tsv.xz", "data", "learn", "search", "sounds/music", "tas", "verification",
+    "web/board", "web/pages", "web/licences", "web/page", "web/site",
 )  # fmt: skip
 """What of the package a page has no use for."""
 
