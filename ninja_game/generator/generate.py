@@ -32,7 +32,7 @@ FIND_TICKS, SHORTEN_TICKS = 1_500_000, 1_000_000
 ATTEMPTS = 3
 """Attempts that the solver looks at; of those it passes the nearest to what is wanted is taken."""
 PATIENCE = 4
-"""So many times as many, with other plans, as long as none that can be passed is about as hard as wanted."""
+"""So many times as many, with other plans, as long as none is about as hard as wanted; its square if none is passed."""
 ROUNDS = 14
 """Changes of the hazards of one attempt."""
 TRIES_TO_COMPOSE = 400
@@ -91,7 +91,8 @@ def generate(
     looked_at = 0
     for number in range(TRIES_TO_COMPOSE):
         far = best is None or best[0][0]
-        if looked_at >= effort.attempts * (PATIENCE if far else 1) or stop.is_set():
+        patience = 1 if not far else PATIENCE if best else PATIENCE**2
+        if looked_at >= effort.attempts * patience or stop.is_set():
             break
         rng = Random(f"{seed}/{wanted}/{number}")  # noqa: S311 - not for secrets
         plan = plan_of(seed if looked_at < effort.attempts else str(seed), rng)
