@@ -256,18 +256,6 @@ def nearest_hazard(scene: Scene, run: Sequence[Point]) -> int | None:
 MOST_FIXTURES = 8
 
 
-def blocks(scene: Scene, rng: Random) -> Iterator[str]:
-    """A row of bounce blocks through open air, as a bridge over what is deep."""
-    rows = list(range(4, 20))
-    rng.shuffle(rows)
-    for row in rows:
-        for first in range(2, 22, 4):
-            columns = [first + 3 * k for k in range(4)]
-            if all((c + i, row + j) in scene.empty for c in columns for i in (-1, 0, 1) for j in range(-1, 6)):
-                yield from (f"bounce block {c},{row}" for c in columns)
-                return
-
-
 def pads(scene: Scene, rng: Random) -> Iterator[str]:
     """Launch pads on floors."""
     runs = [run for run in scene.runs() if run.length >= 3]
@@ -297,7 +285,7 @@ def one_ways(scene: Scene, rng: Random) -> Iterator[str]:
 
 def place_fixtures(scene: Scene, rng: Random) -> None:
     """Perhaps put one sort of fixtures into a scene."""
-    kind = rng.choice((blocks, blocks, blocks, pads, pads, one_ways, one_ways, None))
+    kind = rng.choice((pads, pads, one_ways, one_ways, None))
     for line in kind(scene, rng) if kind else ():
         record = spec(line)
         # A pad lies on the edge of its cell.

@@ -308,7 +308,7 @@ class Scene:
 
 
 _KEY = (kinds.NINJA, kinds.EXIT, kinds.DOOR)
-_ROOM = {kinds.BOUNCE_BLOCK: 20.0, kinds.LAUNCH_PAD: 20.0, kinds.ONE_WAY: 16.0}
+_ROOM = {kinds.LAUNCH_PAD: 20.0, kinds.ONE_WAY: 16.0}
 """px that stay free around fixtures."""
 
 
