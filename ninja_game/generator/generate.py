@@ -32,7 +32,7 @@ FIND_TICKS, SHORTEN_TICKS = 1_500_000, 1_000_000
 ATTEMPTS = 3
 """Attempts that the solver looks at; of those it passes the nearest to what is wanted is taken."""
 PATIENCE = 4
-"""So many times as many, as long as none of them can be passed."""
+"""So many times as many, with other plans, as long as none is about as hard as wanted; its square if none is passed."""
 ROUNDS = 14
 """Changes of the hazards of one attempt."""
 TRIES_TO_COMPOSE = 400
@@ -87,13 +87,15 @@ def generate(
     ``report`` gets a line now and then. Raises MemoryUnavailableError without Numba.
     """
     stop = stop or Event()
-    best: tuple[tuple[bool, float], Generated] | None = None
+    best: tuple[tuple[bool, bool, float], Generated] | None = None
     looked_at = 0
     for number in range(TRIES_TO_COMPOSE):
-        if looked_at >= effort.attempts * (1 if best else PATIENCE) or stop.is_set():
+        far = best is None or best[0][0]
+        patience = 1 if not far else PATIENCE if best else PATIENCE**2
+        if looked_at >= effort.attempts * patience or stop.is_set():
             break
         rng = Random(f"{seed}/{wanted}/{number}")  # noqa: S311 - not for secrets
-        plan = plan_of(seed, rng)
+        plan = plan_of(seed if looked_at < effort.attempts else str(seed), rng)
         scene = compose(plan, rng, wanted)
         if scene is None:
             continue
@@ -107,7 +109,7 @@ def generate(
         name = name_for(plan, rng)
         comment = f"seed {seed}, difficulty {wanted}: measured {measured:.1f}"
         made = Generated(name, comment, scene.level, run, measured, looked_at)
-        worth = lacking > 0, abs(measured - wanted)
+        worth = not _near(measured, wanted, 2), lacking > 0, abs(measured - wanted)
         if best is None or worth < best[0]:
             best = worth, made
         if _near(measured, wanted) and not lacking:
@@ -121,9 +123,9 @@ def plan_of(seed: int | str, rng: Random) -> str:
     return layouts[seed % len(layouts)] if isinstance(seed, int) else rng.choice(layouts)
 
 
-def _near(measured: float, wanted: int) -> bool:
-    """Whether a measured difficulty is what was asked for."""
-    return abs(measured - wanted) <= max(0.5, 0.15 * wanted)
+def _near(measured: float, wanted: int, times: int = 1) -> bool:
+    """Whether a measured difficulty is what was asked for, or so many times as far from it as that allows."""
+    return abs(measured - wanted) <= times * max(0.5, 0.15 * wanted)
 
 
 def _certified(scene: Scene, rng: Random, wanted: int, effort: Effort, stop: Event) -> tuple[Replay, float] | None:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from itertools import pairwise
-from math import dist
+from math import cos, dist, sin, tau
 from random import Random
 
-from ninja_game.generator.scene import Point, Scene, cell_of, middle, places, spec
+from ninja_game.generator.scene import Point, Scene, cell_of, middle, spec
 from ninja_game.sim.rules import CELL
 
-LEAST, MOST = 30, 66
-"""Pieces in a level."""
+LEAST, MOST = 26, 42
+"""Pieces in a level; a last group may bring more."""
 APART, FROM_KEY = 12.0, 26.0
 """px between pieces, and from ninja, exit and switches."""
 BETWEEN = 4.0 * CELL
@@ -24,7 +24,7 @@ Pattern = Callable[[Scene, Random], Iterator[list[Point]]]
 
 def round_stones(scene: Scene, _: Random) -> Iterator[list[Point]]:
     """Round a small stone, or over and beside it."""
-    small = [set(piece) for piece in scene.board.pieces() if len(piece) <= 25]
+    small = [stone for stone in scene.stones() if len(stone) <= 25]
     for chain in scene.surfaces:
         inside = {cell_of(face.off(-4.0)) for face in chain}
         if len(chain) <= 20 and any(inside <= piece for piece in small):
@@ -71,15 +71,34 @@ def _walled(scene: Scene, column: int, row: int) -> bool:
     return all(any((column + side * k, row) not in scene.steps for k in (1, 2)) for side in (-1, 1))
 
 
-def hoard(scene: Scene, rng: Random) -> Iterator[list[Point]]:
-    """A heap on a floor, far from the start: what the level is about."""
-    runs = [run for run in scene.runs() if run.length >= 3]
-    runs.sort(key=lambda run: (run.column + run.length // 2, run.row) not in scene.board.heart)
-    for run in runs:
-        (x, y), wide = run.middle, min(2 * run.length - 2, rng.choice((5, 7)))
-        if dist(run.middle, middle(scene.start)) >= 7 * CELL:
-            rows = ((j, k) for j in range(3) for k in range(wide - 2 * j))
-            yield [(x + 13 * (k + j - (wide - 1) / 2), y + 4 - 13 * j) for j, k in rows]
+def hoard(scene: Scene, rng: Random) -> list[Point]:
+    """Two or three rows on the floor of the vault: what the level is about."""
+    (left, y), (right, _) = (middle(cell) for cell in sorted({scene.board.heart[0], scene.board.heart[-1]}))
+    wide, rows = min(9, int((right - left) // 14)), rng.choice((2, 2, 3))
+    grid = [((left + right) / 2 + 14 * (k - wide / 2), y + 5 - 14 * j) for j in range(rows) for k in range(wide + 1)]
+    return [point for point in grid if _fits(scene, point)]
+
+
+def rings(scene: Scene, rng: Random) -> Iterator[list[Point]]:
+    """At the spots of the plan, then round open air out of sight of the start, for a danger in the middle."""
+    size, start = rng.choice((34, 40, 46)), middle(scene.start)
+    reach = range(-2, 3)
+    air = [
+        cell
+        for cell in sorted(scene.steps)
+        if all((cell[0] + i, cell[1] + j) in scene.steps for i in reach for j in reach)
+    ]
+    rng.shuffle(air)
+    for x, y in scene.board.spots:
+        yield from (ring(CELL * x, CELL * y, far) for far in (size, 28, 22))
+    for x, y in sorted(map(middle, air), key=lambda at: scene.sees(at, start)):
+        yield ring(x, y, size)
+
+
+def ring(x: float, y: float, size: float) -> list[Point]:
+    """Points of a circle, more of them on a greater one."""
+    count = round(size / 4) + 2
+    return [(x + size * cos(k * tau / count), y + size * sin(k * tau / count)) for k in range(count)]
 
 
 def along(line: list[Point], step: float) -> list[Point]:
@@ -95,27 +114,36 @@ def along(line: list[Point], step: float) -> list[Point]:
     return points
 
 
+def lay_gold(scene: Scene, rng: Random) -> bool:
+    """Put a few groups of gold into a scene: the hoard, rings, then two other sorts; whether it is enough."""
+    wanted = rng.randint(LEAST + 2, MOST)
+    _lay(scene, hoard(scene, rng), wanted)
+    first = (rings, len(scene.board.spots) or rng.choice((0, 1, 1))), (bows, 1)
+    for pattern, most in (*first, *((each, 3) for each in rng.sample(PATTERNS, 4))):
+        done = 0
+        for group in pattern(scene, rng):
+            if done >= most or (len(scene.baits) > 4 and len(scene.gold) > LEAST):
+                break
+            laid = sum([_lay(scene, points, wanted) for points in (group, scene.twin(group))])
+            done += laid > 0
+            if laid and pattern is rings:
+                scene.rings += scene.baits[-laid:]
+    return len(scene.gold) >= LEAST and len(scene.baits) >= 3
+
+
 PATTERNS: tuple[Pattern, ...] = (round_stones, along_walls, bows, falls)
 
 
-def lay_gold(scene: Scene, rng: Random) -> bool:
-    """Put groups of gold of two or three sorts into a scene, most of them on both sides; whether it is enough."""
-    wanted = rng.randint(LEAST + 10, MOST - 8)
-    stops = [cell_of(point) for record in scene.key for point in places(record)]
-    groups = [next(hoard(scene, rng), [])] if rng.random() < 0.6 or scene.board.heart.isdisjoint(stops) else []
-    for pattern in rng.sample(PATTERNS, 3):
-        some = list(pattern(scene, rng))
-        rng.shuffle(some)
-        groups += some[: 2 if pattern is bows else 5]
-    for group in groups:
-        both = [group, scene.twin(group)] if rng.random() < 0.8 else [group]
-        for points in both:
-            if len(scene.gold) < wanted and len(points) >= 3 and all(_fits(scene, point) for point in points):
-                centre = centre_of(points)
-                if all(dist(centre, other) >= BETWEEN for other in scene.baits):
-                    scene.baits.append(centre)
-                    scene.gold += [spec(f"gold {round(px)},{round(py)}px") for px, py in points]
-    return LEAST <= len(scene.gold) <= MOST and len(scene.baits) >= 3
+def _lay(scene: Scene, points: list[Point], wanted: int) -> bool:
+    """Put a group where all of it has room, away from other groups; whether it could be."""
+    if len(scene.gold) >= wanted or len(points) < 3 or not all(_fits(scene, point) for point in points):
+        return False
+    centre = centre_of(points)
+    if any(dist(centre, other) < BETWEEN for other in scene.baits):
+        return False
+    scene.baits.append(centre)
+    scene.gold += [spec(f"gold {round(px)},{round(py)}px") for px, py in points]
+    return True
 
 
 def centre_of(points: list[Point]) -> Point:

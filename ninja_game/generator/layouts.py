@@ -1,294 +1,243 @@
-"""Ground plans: each is one figure over the whole screen, with a heart for the exit or its switch."""
+"""Ground plans: each is one picture over the whole screen, with a vault whose only way in can be locked.
+
+They are painted in cells: columns 1 to 32, rows 1 to 24, the middle at ``MID``.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from random import Random
 
-from ninja_game.generator.scene import MIDDLE, Board, Cell
-from ninja_game.sim.level import COLUMNS, ROWS
+from ninja_game.generator.scene import Board, box, disc, path, poly
+from ninja_game.generator.shaping import Ink
 
 Layout = Callable[[Board, Random], None]
 
-
-def octagon(column: int, row: int, wide: int, high: int, cut: int) -> set[Cell]:
-    """The cells of an octagon about a cell: half its width and height, and what is cut off its corners, in cells."""
-    return {
-        (column + dx, row + dy)
-        for dx in range(-wide, wide + 1)
-        for dy in range(-high, high + 1)
-        if abs(dx) + abs(dy) <= wide + high - cut
-    }
+MID = 16.5
 
 
-def room(board: Board, cut: int) -> None:
-    """The whole screen as one room, its corners cut off."""
-    board.draw(octagon(MIDDLE, 12, COLUMNS, ROWS, 0))
-    board.dig(octagon(MIDDLE, 12, 14, 10, cut))
+def dish(x: float, y: float, wide: float, high: float) -> Ink:
+    """An island with a flat top: half its width, its depth."""
+    return disc(x, round(y), wide, high) & box(1, round(y), 32, 24)
 
 
-def ledges(board: Board, rng: Random, rows: tuple[int, ...], width: int = 3) -> None:
-    """Short shelves at both walls."""
-    for row in rows:
-        board.fill(1, row + rng.choice((-1, 0, 0, 1)), width, 1)
+def dome(x: float, y: float, wide: float, high: float) -> Ink:
+    """A roof with a flat underside: half its width, its height."""
+    return disc(x, round(y), wide, high) & box(1, 1, 32, round(y))
 
 
-def rings(board: Board, rng: Random) -> None:
+def heart(board: Board, rng: Random) -> None:
+    """A heart in a heart."""
+    board.air(disc(9.6, 8.3, 7.9, 7.1), poly((2.6, 11), (MID, 24.2), (30.4, 11), (MID, 6)))
+    board.rock(box(1, 22, 32, 24), disc(12.7, 10.5, 4.5, 3.8), poly((8.5, 12), (MID, 19.3), (24.5, 12), (MID, 9.5)))
+    board.air(disc(12.9, 10.7, 3.1, 2.4), box(11.5, 10.5, 21.5, 14))
+    board.vault(12, 20, 13, gate=21)
+    board.rock(dish(5.5, rng.choice((7, 8)), 2, 1.4))
+    board.spots = [(10, 4.4)]
+
+
+def mask(board: Board, rng: Random) -> None:
+    """A face: eyes with something in them, a mouth full of gold."""
+    brow = rng.choice((-1.0, 0.0, 1.0))
+    board.air(disc(MID, 11.5, 15, 9.6), poly((4.5, 15), (10, 23.5), (23, 23.5), (28.5, 15)))
+    board.rock(path(1.3, (7, 5.5 - brow), (12.4, 5.5 + brow)))
+    board.rock(disc(9.7, 11, 3.9, 2.9))
+    board.air(disc(9.7, 11, 2.7, 1.8), box(9, 12, 11, 15))
+    board.rock(poly((MID, 8), (14.4, 14), (18.6, 14)))
+    board.rock(path(5, (12, 18.5), (21, 18.5)))
+    board.vault(11, 21, 19, gate=20)
+    board.spots = [(9.5, 11.0)]
+
+
+def web(board: Board, rng: Random) -> None:
     """A ring in a ring, their gates turned against each other."""
-    room(board, rng.choice((3, 5, 6)))
-    wide, high = rng.choice(((9, 7), (10, 7), (9, 6)))
-    board.draw(octagon(MIDDLE, 12, wide, high, 5) - octagon(MIDDLE, 12, wide - 1, high - 1, 4))
-    board.draw(octagon(MIDDLE, 12, 5, 3, 2) - octagon(MIDDLE, 12, 4, 2, 2))
-    if rng.random() < 0.5:
-        board.clear(MIDDLE - 2, 12 - high, 5, 2)
-        board.clear(MIDDLE - 6, 11, 3, 3)
-    else:
-        board.clear(MIDDLE - wide, 11, 2, 3)
-        board.clear(MIDDLE - 1, 8, 3, 3)
-    board.clear(MIDDLE - 2, 11 + high, 5, 2)
-    ledges(board, rng, (9, 16), 2)
-    board.heart = octagon(MIDDLE, 12, 4, 2, 2)
-
-
-def bowl(board: Board, rng: Random) -> None:
-    """Pillars hang into a bowl, their lengths in an arc."""
-    room(board, rng.choice((6, 8)))
-    board.dig(octagon(MIDDLE, 8, 14, 6, 2))
-    first, grow = rng.choice(((4, 3), (6, 2), (11, -2)))
-    for i in range(2):
-        column, length = 5 + 5 * i, first + grow * i
-        board.fill(column, 1, 2, 1 + length)
-    board.fill(MIDDLE - 1, 1, 3, rng.choice((6, 9, 11)))
-    board.fill(MIDDLE - 2, 20, 5, 3)
-    board.fill(8, rng.choice((17, 18)), 3, 1)
-    ledges(board, rng, (11,))
-    board.heart = {(c, 19) for c in range(MIDDLE - 2, MIDDLE + 3)}
-
-
-def wheel(board: Board, rng: Random) -> None:
-    """Stones on a wheel about a great stone."""
-    room(board, rng.choice((5, 7)))
-    size = rng.choice((2, 3))
-    board.draw(octagon(MIDDLE, 12, size + 1, size, size))
-    for column, row in rng.choice((((9, 12), (11, 6), (11, 18)), ((7, 9), (7, 15), (12, 5), (12, 19)))):
-        board.draw(octagon(column, row, *rng.choice(((1, 1, 0), (2, 1, 0)))))
+    board.air(disc(MID, 12.5, 15.2, 11.2) & box(1, 1, 32, 23))
+    wide, high = rng.choice(((10.6, 7.7), (11.2, 7.4)))
+    board.rock(disc(MID, 12.5, wide, high) & ~disc(MID, 12.5, wide - 1.5, high - 1.3))
+    board.rock(disc(MID, 12.5, 5.8, 4.0))
+    board.air(disc(MID, 11.6, 4.1, 2.2))
+    board.vault(14, 18, 13, gate=19)
+    first = rng.random() < 0.5
+    board.air(box(14.5, 3.5, 18.5, 7) if first else poly((4, 5), (9, 4), (13, 9), (9, 11)))
+    board.air(box(13, 18, 20, 21.4))
+    board.spots = [(MID, 20.5)]
     if rng.random() < 0.6:
-        board.draw(octagon(MIDDLE, 4, 2, 0, 0))
-    ledges(board, rng, (12,))
-    board.heart = octagon(MIDDLE, 12 - size - 1, 2, 0, 0)
+        board.rock(path(1.4, (6.4, 12.5), (11, 12.5)) if first else path(1.4, (MID, 5), (MID, 9)))
 
 
-def shafts(board: Board, rng: Random) -> None:
-    """Shafts side by side, joined above and below in turn, each with a danger of its own."""
-    board.fill(1, 1, COLUMNS, ROWS)
-    top, low = rng.choice((3, 4)), rng.choice((20, 21))
-    board.clear(2, top, 4, low - top + 1)
-    board.clear(8, top + 1, 3, low - top)
-    board.clear(MIDDLE - 3, top, 7, low - top + 1)
-    board.clear(2, low - 2, 9, 3)
-    board.clear(8, top + 1, 8, 3)
-    for row in range(top + 5, low - 4, 5):
-        board.fill(rng.choice((2, 4)), row, 2, 1)
-    board.fill(MIDDLE - 1, rng.choice((9, 10)), 3, 2)
-    board.fill(MIDDLE - 3, 14, 2, 1)
-    board.fill(MIDDLE - 2, low - 1, 5, 2)
-    board.heart = {(c, low - 2) for c in range(MIDDLE - 2, MIDDLE + 3)}
+def islands(board: Board, rng: Random) -> None:
+    """Islands about a crescent, over a mined ground."""
+    board.air(box(2, 2, 31, 22))
+    for x in (1.5, 6.5, 11.5, 16.5):
+        board.rock(disc(x, 22.8, 2.4, 1.9))
+    board.rock(disc(MID, 12.2, 5.4, 4.8))
+    board.air(disc(MID, 11, 3.8, 2.2))
+    board.vault(14, 18, 12, gate=18)
+    sea = rng.choice(((3.0, 9), (3.5, 7)))
+    for x, y in ((sea[0], sea[1]), (6.6, 14), (9.3, rng.choice((5.5, 7))), (9.5, 18.5)):
+        wide = rng.uniform(2.0, 2.7)
+        board.rock(dish(x, y, wide, 1.9), dome(x, y + 0.1, wide, rng.choice((0.1, 0.1, 1.0))))
+
+
+def cathedral(board: Board, rng: Random) -> None:
+    """A nave with pillars under a steep roof, the treasure under its altar."""
+    top = rng.choice((1.5, 2.5))
+    board.air(poly((2, 24), (2, 8.5), (6, 5.5), (10, 5.5), (MID, top), (23, 5.5), (27, 5.5), (31, 8.5), (31, 24)))
+    board.rock(box(1, 23, 32, 24))
+    low = rng.choice((0, 1, 2))
+    board.rock(
+        poly((7, 7 + low), (9, 9 + low), (9, 14), (8, 16), (8, 18), (7, 20), (6, 18), (6, 16), (5, 14), (5, 9 + low))
+    )
+    board.rock(poly((8, 23), (11, 17), (22, 17), (25, 23)))
+    board.rock(poly((12, 17), (11, 15), (11, 13), (13, 11), (15, 13), (15, 15), (14, 17)))
+    board.air(poly((11, 23), (13, 19), (20, 19), (22, 23)))
+    board.vault(11, 21, 22, gate=21)
+    board.rock(disc(MID, 7, 2.6, 2.6) & ~disc(MID, 7, 1.5, 1.5) & ~box(15, 8, 18, 11) if rng.random() < 0.5 else
+               poly((MID, 5), (14.6, 7.5), (MID, 10), (18.4, 7.5)))  # fmt: skip
 
 
 def pyramid(board: Board, rng: Random) -> None:
-    """A hollow pyramid, a smaller one in it."""
-    room(board, 2)
-    apex = rng.choice((5, 6))
-    for row in range(apex, ROWS - 1):
-        half = row - apex
-        board.fill(MIDDLE - half, row, 2 * half + 1, 1)
-        if row > apex + 3:
-            board.clear(MIDDLE - half + 3, row, 2 * half - 5, 1)
-    board.clear(1, 1, 3, 21)
-    for row in range(14, 19):
-        board.fill(MIDDLE - (row - 14), row, 2 * (row - 14) + 1, 1)
-    board.clear(MIDDLE - 2, 17, 5, 2)
-    board.fill(MIDDLE - 5, 19, 11, 1)
-    board.clear(MIDDLE - 1, 19 if rng.random() < 0.5 else 14, 3, 1)
-    board.clear(4, 20, 8, 3)
-    if rng.random() < 0.5:
-        board.clear(MIDDLE - 1, apex, 3, 4)
-    ledges(board, rng, (8, 14))
-    board.heart = {(c, 18) for c in range(MIDDLE - 2, MIDDLE + 3)}
-
-
-def hourglass(board: Board, rng: Random) -> None:
-    """Two wide chambers and the neck between them."""
-    room(board, 2)
-    neck, waist = rng.choice((2, 3)), rng.choice((11, 12, 13))
-    for row in range(1, ROWS + 1):
-        left = MIDDLE - neck - abs(row - waist) * 2
-        if left > 2:
-            board.fill(1, row, left - 1, 1)
-    board.draw(octagon(MIDDLE, waist + 4, 1, 1, 0))
-    board.draw(octagon(MIDDLE - rng.choice((5, 6)), 19, 2, 1, 0))
-    board.draw(octagon(MIDDLE - rng.choice((5, 7)), 5, 2, 0, 0))
-    board.fill(MIDDLE - 2, 21, 5, 2)
-    board.heart = {(c, 20) for c in range(MIDDLE - 2, MIDDLE + 3)}
-
-
-def star(board: Board, rng: Random) -> None:
-    """A hollow star in the middle, a stone in each quarter."""
-    room(board, rng.choice((6, 8)))
-    size = rng.choice((6, 7))
-    board.draw(octagon(MIDDLE, 12, size, size, size))
-    board.draw(octagon(MIDDLE, 12, size + 4, 0, 0))
-    board.dig(octagon(MIDDLE, 12, 3, 3, 2))
-    if rng.random() < 0.5:
-        board.clear(MIDDLE - 1, 4, 3, 7)
-    else:
-        board.clear(MIDDLE - 1, 13, 3, 7)
-        board.fill(MIDDLE - 1, 21, 3, 2)
-    for row in (6, 18):
-        board.draw(octagon(rng.choice((7, 8)), row, 2, 1, 0))
-    ledges(board, rng, (12,), 2)
-    board.heart = octagon(MIDDLE, 13, 2, 1, 1)
-
-
-def tower(board: Board, rng: Random) -> None:
-    """A hollow tower with battlements, shelves on both sides of it."""
-    room(board, rng.choice((2, 4)))
-    half, top = rng.choice((4, 5)), rng.choice((6, 7))
-    board.fill(MIDDLE - half, top, 2 * half + 1, ROWS - top)
-    board.clear(MIDDLE - half + 1, top + 1, 2 * half - 1, 21 - top)
-    for column in range(MIDDLE - half - 1, MIDDLE + 1, 2):
-        board.fill(column, top - 1, 1, 1)
-    board.clear(MIDDLE - 1, top - 1, 3, 2)
-    board.fill(MIDDLE - half, 12, half - 1, 1)
-    board.fill(MIDDLE - 1, 17, 3, 1)
-    board.clear(MIDDLE - half, rng.choice((9, 14)), 1, 3)
-    board.draw(octagon(rng.choice((6, 7)), 10, 2, 1, 0))
-    board.draw(octagon(rng.choice((8, 9)), 16, 2, 1, 0))
-    ledges(board, rng, (7, 14))
-    board.heart = {(c, 21) for c in range(MIDDLE - 2, MIDDLE + 3)}
-
-
-def galleries(board: Board, rng: Random) -> None:
-    """Three long caves over each other, a long stone in each, holes between them."""
-    board.fill(1, 1, COLUMNS, ROWS)
-    for number, row in enumerate((5, 12, 19)):
-        board.dig(octagon(MIDDLE, row, 14, 2, 1))
-        board.dig(octagon(rng.choice((8, 9)), row, 3, 3, 1))
-        board.draw(octagon(rng.choice((8, 9)) if number % 2 else MIDDLE, row, rng.choice((2, 3)), 0, 0))
-    board.clear(rng.choice((3, 4)), 7, 3, 4)
-    if rng.random() < 0.5:
-        board.clear(MIDDLE - 1, 14, 3, 4)
-    else:
-        board.clear(6, 14, 3, 4)
-        board.fill(3, 17, 2, 1)
-    board.clear(MIDDLE - 2, 3, 5, 1)
-    board.heart = {(c, 13) for c in range(MIDDLE - 3, MIDDLE + 4)}
-
-
-def comb(board: Board, rng: Random) -> None:
-    """Teeth from above and below, pointed, between each other."""
-    room(board, 3)
-    first = rng.choice((11, 12, 13))
-    for i, column in enumerate((5, 10)):
-        down = i % 2 == 0
-        length = first - i
-        for k in range(length):
-            board.fill(
-                column if k < length - 1 else column + 1, 2 + k if down else 22 - k, 3 if k < length - 1 else 1, 1
-            )
-    if rng.random() < 0.5:
-        board.fill(MIDDLE - 1, 1, 3, rng.choice((7, 9)))
-        board.fill(MIDDLE - 2, 20, 5, 3)
-    else:
-        board.fill(MIDDLE - 1, 14, 3, 9)
-        board.fill(MIDDLE - 3, 6, 7, 1)
-    ledges(board, rng, (8, 16), 2)
-    board.heart = {(c, r) for c in range(MIDDLE - 2, MIDDLE + 3) for r in (5, 13, 19)}
-
-
-def eights(board: Board, rng: Random) -> None:
-    """Two round chambers with a core each, and the throat between them."""
-    board.fill(1, 1, COLUMNS, ROWS)
-    board.dig(octagon(8, 12, 6, 9, 4))
-    board.dig(octagon(MIDDLE, rng.choice((8, 12, 15)), 4, 2, 0))
-    board.clear(MIDDLE - 2, 5, 5, 13)
-    core = rng.choice((1, 2))
-    board.draw(octagon(8, 8, 2, 1, 0))
-    board.draw(octagon(8, 16, core + 1, core, 1))
-    board.fill(MIDDLE - 1, rng.choice((9, 10)), 3, rng.choice((2, 4)))
-    ledges(board, rng, (12,))
-    board.heart = {(c, 17) for c in range(MIDDLE - 2, MIDDLE + 3)}
-
-
-def diamonds(board: Board, rng: Random) -> None:
-    """A field of diamonds about a great one."""
-    room(board, rng.choice((4, 7)))
-    big = rng.choice((2, 3))
-    board.draw(octagon(MIDDLE, 12, big, big, big))
-    for column, row in ((12, 6), (12, 18), (7, 9), (7, 15), (9, 12), (5, 4), (5, 20))[rng.choice((0, 1)) :: 1]:
-        board.draw(octagon(column, row, 1, 1, 0))
-    board.fill(1, 12, 2, 1)
-    board.heart = octagon(MIDDLE, 11 - big, 1, 0, 0)
-
-
-def chambers(board: Board, rng: Random) -> None:
-    """Four chambers, a stone in each, doorways between them and a keep in the middle."""
-    board.fill(1, 1, COLUMNS, ROWS)
-    for row, high in ((7, 4), (17, 4)):
-        board.dig(octagon(8, row, 6, high, 3))
-        board.draw(octagon(8, row, *rng.choice(((1, 1, 0), (2, 1, 0)))))
-    board.clear(6, 10, 5, 4)
-    board.dig(octagon(MIDDLE, 7, 3, 1, 0))
-    board.dig(octagon(MIDDLE, 17, 3, 2, 0))
-    board.clear(MIDDLE - 2, 10, 5, 4)
-    if rng.random() < 0.5:
-        board.clear(MIDDLE - 1, 7, 3, 9)
-    else:
-        board.clear(MIDDLE - 3, 11, 7, 3)
-        board.clear(11, 11, 2, 2)
-    board.heart = {(c, 13) for c in range(MIDDLE - 2, MIDDLE + 3)}
+    """A hollow pyramid, its chamber under a shaft, stars over it."""
+    apex = rng.choice((6.0, 7.0))
+    board.air(poly((2, 24), (2, 14), (10, 2), (23, 2), (31, 14), (31, 24)))
+    board.rock(box(1, 23, 32, 24), poly((MID, apex), (5, 24), (28, 24)))
+    board.air(poly((MID, apex + 4), (8.2, 23), (24.8, 23)), box(15, 5, 18, 12))
+    board.rock(box(8, 17, 25, 19))
+    board.rock(poly((MID, 19.5), (13.4, 24), (19.6, 24)))
+    board.vault(11, 21, 22, gate=23)
+    board.rock(poly((5, 9.4), (7.4, 9.4), (6.2, 11)), dish(rng.choice((11, 12)), 5.5, 1.6, 1.1))
+    board.rock(dish(3.6, 17, 1.4, 1.2))
+    board.spots = [(MID, 14.5)]
 
 
 def hive(board: Board, rng: Random) -> None:
-    """Seven cells of a comb, with openings where they touch."""
-    board.fill(1, 1, COLUMNS, ROWS)
-    for column, row in ((6, 7), (6, 17), (MIDDLE, 12), (MIDDLE, 4), (MIDDLE, 20)):
-        board.dig(octagon(column, row, 4, 3 if column == MIDDLE and row != 12 else 4, 2))
-    board.clear(9, 8, 5, 3)
-    board.clear(9, 14, 5, 3)
-    board.clear(5, 10, 3, 4)
-    if rng.random() < 0.5:
-        board.clear(MIDDLE - 1, 6, 3, 3)
-    else:
-        board.clear(10, 4, 3, 3)
-    board.clear(MIDDLE - 1, 15, 3, 3)
-    board.draw(octagon(6, rng.choice((6, 7)), 1, 0, 0))
-    board.draw(octagon(6, 17, 1, 1, 0))
-    board.draw(octagon(MIDDLE, 13, 2, 0, 0))
-    board.heart = octagon(MIDDLE, 12, 2, 0, 0)
+    """Round chambers with doorways between them, about a great one with a core."""
+    board.air(*(disc(x, y, 3.5, 3.3) for x, y in ((5.5, 6.2), (12.7, 5.2), (4.9, 12.5), (5.5, 18.8), (12.7, 19.8))))
+    board.air(path(2.2, (5.5, 6), (12.7, 5.2), (MID, 5.2)), path(2.2, (5.5, 6), (4.8, 12), (5.5, 18.8), (12.7, 20.2)))
+    board.air(disc(MID, 12.5, 7.6, 5.3))
+    board.air(path(2.4, *(((12.7, 19), (12.7, 14)) if rng.random() < 0.5 else ((12.7, 5), (12.7, 11)))))
+    board.rock(box(1, 22, 32, 24), disc(MID, 12.5, 4.5, 3.2))
+    board.air(disc(MID, 12, 3, 1.8))
+    board.vault(14, 18, 13, gate=18)
+    board.rock(disc(5, rng.choice((12, 13)), 1.2, 1.2))
+    board.spots = rng.sample([(5.5, 18.5), (12.5, 19.5), (12.5, 5.5)], 2)
+    board.rock(dish(5.5, 7.4, 1.6, 1.0), box(15.8, 18, 17.2, 23))
 
 
-def castle(board: Board, rng: Random) -> None:
-    """Towers of different heights and a gate in the middle."""
-    room(board, rng.choice((5, 8)))
-    high, low = rng.choice((13, 15)), rng.choice((7, 9))
-    board.fill(9, ROWS - high, 4, high)
-    board.fill(4, ROWS - low, 3, low)
-    for column, top in ((9, high), (12, high)):
-        board.fill(column, ROWS - top - 1, 1, 1)
-    board.fill(12, ROWS - 9, MIDDLE - 11, 3)
-    board.clear(10, 15, 2, 3)
-    board.clear(9, 18, 4, rng.choice((3, 4)))
-    board.clear(7, 20, 3, 2)
-    board.fill(12, 20, 1, 3)
-    board.draw(octagon(MIDDLE, rng.choice((6, 8)), 2, 1, 0))
-    ledges(board, rng, (8,))
-    board.heart = {(c, 22) for c in range(MIDDLE - 2, MIDDLE + 3)}
+def cascade(board: Board, rng: Random) -> None:
+    """Bowls, each lower than the one before, over the way back; not mirrored."""
+    board.even = False
+    board.air(poly((2, 23), (2, 2.5), (15, 2.5), (20, 5), (26, 7), (31, 11), (31, 23)))
+    drop = rng.choice((1.6, 2.2))
+    for k, x in enumerate((8.4, 16.2, 24.2)):
+        y = 6.2 + drop * k
+        board.rock(disc(x, y, 3.9, 4) & box(1, y, 32, 24) & ~disc(x, y - 0.6, 2.6, 2.8))
+        board.spots.append((x, y - 0.5))
+    board.rock(poly((1, 11.5), (5, 12.6), (9, 14.6), (18, 17), (18, 19), (1, 19)), box(10, 19, 12, 24))
+    board.rock(box(1, 6, 4, 12), dome(20.5, 23.2, 3, 1.7), dome(27.5, 23.2, 2, 1.2))
+    board.vault(3, 9, 22, gate=10)
+
+
+def umbrellas(board: Board, rng: Random) -> None:
+    """Trees with round crowns, a den at the foot of the greatest."""
+    board.air(box(2, 2, 31, 23), disc(MID, 4, 10, 2.6))
+    board.rock(dome(MID, 10, 6.6, 4.6), box(15, 10, 18, 19))
+    x, y = rng.choice((6.5, 7.5)), rng.choice((13.0, 14.0))
+    board.rock(dome(x, y, 2.9, 2.4), box(x - 0.5, y - 1, x + 0.5, 23.2) if rng.random() < 0.5 else dish(x, y, 1, 1.2))
+    board.rock(dome(11.4, 19.4, 1.8, 1.4), dome(4, 23.2, 2.2, 1.2), dome(x - 1, 6.6, 2, 1.3))
+    board.rock(dome(MID, 23.2, 6.4, 5.4))
+    board.air(dome(MID, 23, 5, 3.6))
+    board.vault(13, 19, 22, gate=20)
+
+
+def skull(board: Board, rng: Random) -> None:
+    """A skull: great eyes, teeth, and what it thinks of behind its forehead."""
+    board.air(disc(MID, 10.5, 15, 8.8), poly((7, 16), (9, 23.4), (24, 23.4), (26, 16)))
+    size = rng.choice((2.4, 2.8))
+    board.rock(disc(9, 12, size + 0.7, size), poly((MID, 12.4), (14.8, 16), (18.2, 16)), box(1, 23, 32, 24))
+    board.rock(disc(MID, 7.2, 5.6, 3.4))
+    board.air(dome(MID, 8, 4.2, 2.4))
+    board.vault(13, 19, 8, gate=19)
+    for k in range(2):
+        board.rock(poly((9.8 + 3.6 * k, 24), (10.1 + 3.6 * k, 20.2), (11.7 + 3.6 * k, 20.2), (12 + 3.6 * k, 24)))
+    board.rock(path(1.3, (6.4, 17.2), (10.4, 17.4)))
+
+
+def hourglass(board: Board, rng: Random) -> None:
+    """Two wide chambers and the neck between them; the sand covers a vault."""
+    waist = rng.choice((10.5, 11.5))
+    board.air(box(3, 2, 30, 23))
+    board.rock(disc(2, waist, 12.2, 6.0), box(1, waist - 2, 6, waist + 2))
+    board.rock(poly((MID, 15.4), (14.5, 17), (9.5, 24), (23.5, 24), (18.5, 17)))
+    board.air(poly((MID, 18), (11.8, 23), (21.2, 23)))
+    board.vault(12, 20, 22, gate=21)
+    board.rock(dish(MID, rng.choice((5, 6)), 2.2, 1.6), dish(8, 4.2, 1.7, 1.1))
+    board.rock(dish(5.5, 20, 1.8, 1.2))
+
+
+def wheel(board: Board, rng: Random) -> None:
+    """Spokes about a hub, in a round hall."""
+    board.air(disc(MID, 12.5, 15, 11) & box(1, 1, 32, 22))
+    board.rock(disc(MID, 12.5, 5.2, 4.4))
+    board.air(disc(MID, 11.8, 3.6, 2.6))
+    board.vault(14, 18, 13, gate=18)
+    near, far = rng.choice(((0.6, 0.8), (0.56, 0.76)))
+    wide = rng.random() < 0.5
+    spokes = (
+        ((0, 11), (10.6, 7.8), (15, 0), (10.6, -7.8))
+        if wide
+        else ((5.8, 10.2), (13.8, 4.2), (13.8, -4.2), (5.8, -10.2))
+    )
+    for x, y in spokes:
+        board.rock(path(1.7, (MID - near * x, 12.5 - near * y), (MID - far * x, 12.5 - far * y)))
+    board.spots = [(MID, 19.5), (12, 5) if wide else (8.5, 6.5)]
+
+
+def volcano(board: Board, rng: Random) -> None:
+    """A mountain with a shaft in it, clouds of rock on both sides."""
+    board.air(box(2, 2, 31, 23))
+    board.rock(poly((7, 24), (10, 18), (12, 11), (13, 8), (20, 8), (21, 11), (23, 18), (26, 24)))
+    board.air(poly((14.8, 6), (18.2, 6), (17.8, 16), (15.2, 16)))
+    board.air(disc(MID, 15.4, 2.8, 1.8), disc(MID, 21, 5.4, 2.6))
+    board.rock(box(9, 23, 24, 24), box(10, 17, 23, 19))
+    board.air(path(2.2, (14, 15.8), (9, rng.choice((13.6, 14.8)))))
+    board.vault(12, 20, 22, gate=22)
+    board.rock(dish(rng.choice((5, 6)), 6, 2.6, 1.4), dish(10.6, rng.choice((4, 5)), 1.6, 1.1), dish(3.4, 12, 2, 1.5))
+    board.rock(dish(7.2, 12.6, 1.5, 1.2))
+    board.spots = [(MID, 15.5)]
+
+
+def eye(board: Board, rng: Random) -> None:
+    """An eye: the iris a ring of rock, the vault in the pupil, lashes over it."""
+    board.air(disc(MID, 19, 17.5, 16) & disc(MID, 5.5, 17.5, 16.5))
+    board.rock(disc(MID, 12.2, 7.8, 6.6) & ~disc(MID, 12.2, 6.5, 5.4))
+    board.air(box(14, 16, 19, 19.6), box(8, 11, 11, 14) if rng.random() < 0.5 else box(15, 5, 18, 8))
+    board.rock(disc(MID, 12, 4.8, 3.3))
+    board.air(dome(MID, 13, 3.4, 2.8))
+    board.vault(14, 18, 12, gate=19)
+    board.spots = [(MID, 18.5)]
+    board.rock(poly((4.4, 12.3), (7, 11.3), (7, 13.3)), dish(10, 19, 1.7, 1.1))
+
+
+def waves(board: Board, rng: Random) -> None:
+    """Three long waves over each other, holes between them."""
+    board.even = False
+    for number, y in enumerate((5.2, 12.4, 19.6)):
+        turn = 1.3 if number % 2 else -1.3
+        crest = [(3.6 + 2.15 * k, y + turn * (0, 0.7, 1, 0.7, 0, -0.7, -1, -0.7)[k % 8]) for k in range(13)]
+        board.air(path(rng.uniform(4.4, 5.0), *crest))
+        board.rock(*(disc(x, y + 0.4, 1.6, 0.9) for x in rng.sample((9, 13, 18, 23), 2)))
+    board.air(path(2.6, (28, 6), (28, 11)), path(2.6, (27, 13), (27, 19)))
+    board.air(path(2.6, (rng.choice((12, 14)), 12), (15, 20)) if rng.random() < 0.5 else path(2.6, (15, 6), (14, 13)))
+    board.spots = [(27.5, 12.5), (rng.choice((5.5, 27.5)), 5.5)]
+    board.rock(box(1, 16, 12, 24))
+    board.air(box(3, 18, 10, 21))
+    board.vault(3, 9, 20, gate=10)
 
 
 LAYOUTS: dict[str, Layout] = {
-    "rings": rings, "bowl": bowl, "wheel": wheel, "shafts": shafts, "pyramid": pyramid, "hourglass": hourglass,
-    "star": star, "tower": tower, "galleries": galleries, "comb": comb, "eights": eights, "diamonds": diamonds,
-    "chambers": chambers, "hive": hive, "castle": castle,
+    "heart": heart, "cascade": cascade, "web": web, "cathedral": cathedral, "islands": islands, "mask": mask,
+    "pyramid": pyramid, "hive": hive, "volcano": volcano, "eye": eye, "umbrellas": umbrellas, "hourglass": hourglass,
+    "waves": waves, "skull": skull, "wheel": wheel,
 }  # fmt: skip
 """The ground plans by name."""

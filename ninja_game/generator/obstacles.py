@@ -20,7 +20,7 @@ SAFE = 150.0
 """px from the ninja's start in which nothing waits."""
 BESIDE = 110.0
 """px from gold, exit and switches in which enemies are put first."""
-AT_BAIT = 80.0
+AT_BAIT = 110.0
 """px from the middle of a group of gold in which mines guard it."""
 FROM_RUN = 17.0
 """px from a certified run at which a mine leaves it alone: their radii, and a little."""
@@ -86,13 +86,16 @@ def launchers(scene: Scene, _: Random) -> Iterator[str]:
 
 
 SOURCES: dict[Source, tuple[int, float]] = {
-    guards: (1, 2.5), zaps: (1, 5.0), thwumps: (1, 1.2), patrols: (2, 1.5), turrets: (3, 2.0), launchers: (5, 1.5),
+    guards: (1, 2.5), zaps: (1, 5.0), thwumps: (1, 1.2), patrols: (2, 1.5), turrets: (3, 0.8), launchers: (5, 1.5),
 }  # fmt: skip
 """Where enemies come from: the least difficulty for them, and how often they are taken."""
 
 
 def place_enemies(scene: Scene, rng: Random, wanted: int, difficulty: int) -> bool:
     """Put about so many enemies of two or three sources into a scene; whether there are at least three."""
+    for x, y in scene.rings:
+        turret = difficulty >= SOURCES[turrets][0] and _enemy(scene, spec(f"gauss turret {x:g},{y:g}px"), 4 * CELL)
+        scene.hazards.append([turret or spec(f"mine {x:g},{y:g}px")])
     able = [source for source, (least, _) in SOURCES.items() if difficulty >= least]
     weights = [SOURCES[source][1] for source in able]
     chosen = [rng.choices(able, weights)[0] for _ in range(3)]
@@ -113,7 +116,7 @@ def place_enemies(scene: Scene, rng: Random, wanted: int, difficulty: int) -> bo
             scene.hazards.append([enemy])
             x, y, *_ = enemy.values
             twins = [record for line in lines if [(record := spec(line)).values[:2]] == scene.twin([(x, y)])]
-            if twins and rng.random() < 0.6 and scene.count(*ENEMIES) < wanted and _enemy(scene, twins[0], apart):
+            if twins and rng.random() < 0.75 and scene.count(*ENEMIES) < wanted and _enemy(scene, twins[0], apart):
                 scene.hazards.append([twins[0]])
     return scene.count(*ENEMIES) >= 3
 
@@ -177,7 +180,7 @@ def _surface_lines(scene: Scene, rng: Random, *, floors: bool = False) -> list[l
     lines = list[list[Point]]()
     for chain in scene.surfaces:
         for first in range(0, len(chain) - 2, 3):
-            part = chain[first : first + rng.randint(4, 10)]
+            part = chain[first : first + rng.randint(5, 10)]
             floor = [face for face in part if face.away_y < -0.9]
             if len(floor) > 2 and min(face.y for face in part) <= CELL * 20:
                 part = floor[:3] if floors else []
@@ -186,7 +189,7 @@ def _surface_lines(scene: Scene, rng: Random, *, floors: bool = False) -> list[l
     return lines
 
 
-STEP, ON_ROCK = 16.0, 6.0
+STEP, ON_ROCK = 28.0, 6.0
 """px between the mines of a line, and from the rock to their middles."""
 
 
@@ -253,18 +256,6 @@ def nearest_hazard(scene: Scene, run: Sequence[Point]) -> int | None:
 MOST_FIXTURES = 8
 
 
-def blocks(scene: Scene, rng: Random) -> Iterator[str]:
-    """A row of bounce blocks through open air, as a bridge over what is deep."""
-    rows = list(range(4, 20))
-    rng.shuffle(rows)
-    for row in rows:
-        for first in range(2, 22, 4):
-            columns = [first + 3 * k for k in range(4)]
-            if all((c + i, row + j) in scene.empty for c in columns for i in (-1, 0, 1) for j in range(-1, 6)):
-                yield from (f"bounce block {c},{row}" for c in columns)
-                return
-
-
 def pads(scene: Scene, rng: Random) -> Iterator[str]:
     """Launch pads on floors."""
     runs = [run for run in scene.runs() if run.length >= 3]
@@ -294,7 +285,7 @@ def one_ways(scene: Scene, rng: Random) -> Iterator[str]:
 
 def place_fixtures(scene: Scene, rng: Random) -> None:
     """Perhaps put one sort of fixtures into a scene."""
-    kind = rng.choice((blocks, blocks, blocks, pads, pads, one_ways, one_ways, None))
+    kind = rng.choice((pads, pads, one_ways, one_ways, None))
     for line in kind(scene, rng) if kind else ():
         record = spec(line)
         # A pad lies on the edge of its cell.

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from functools import cached_property
+from itertools import pairwise
 from math import dist, hypot
 from typing import NamedTuple
 
+import numpy as np
+
 from ninja_game.formats.ascii.legend import TILE_OF_CHAR
 from ninja_game.formats.ascii.object_lines import Listed, read_object_line
+from ninja_game.generator.shaping import FINE, Ink
 from ninja_game.sim import kinds
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 from ninja_game.sim.rules import CELL
 
 Cell = tuple[int, int]
 """Column 1…31, row 1…23."""
+Point = tuple[float, float]
+"""px; where a board is painted, cells."""
 
 MIDDLE = (COLUMNS + 1) // 2
 
@@ -29,51 +35,79 @@ def inside(cell: Cell) -> bool:
     return 1 <= cell[0] <= COLUMNS and 1 <= cell[1] <= ROWS
 
 
+Y, X = (1 + (np.indices((ROWS * FINE, COLUMNS * FINE)) + 0.5) / FINE).astype(float)
+"""Row and column of each sample, in cells."""
+
+
+def disc(x: float, y: float, wide: float, high: float) -> Ink:
+    """An ellipse about a point: half its width and height."""
+    shape: Ink = ((X - x) / wide) ** 2 + ((Y - y) / high) ** 2 <= 1
+    return shape
+
+
+def box(left: float, top: float, right: float, bottom: float) -> Ink:
+    """A rectangle."""
+    shape: Ink = (left <= X) & (right >= X) & (top <= Y) & (bottom >= Y)
+    return shape
+
+
+def poly(*corners: Point) -> Ink:
+    """A polygon."""
+    odd = np.zeros(X.shape, bool)
+    for (x0, y0), (x1, y1) in pairwise([*corners, corners[0]]):
+        if y0 != y1:
+            odd ^= ((y0 <= Y) != (y1 <= Y)) & ((x1 - x0) * (Y - y0) / (y1 - y0) + x0 >= X)
+    return odd
+
+
+def path(width: float, *points: Point) -> Ink:
+    """A line with round ends."""
+    drawn = np.zeros(X.shape, bool)
+    for (x0, y0), (x1, y1) in pairwise(points):
+        dx, dy = x1 - x0, y1 - y0
+        t = (((X - x0) * dx + (Y - y0) * dy) / (dx * dx + dy * dy)).clip(0, 1)
+        drawn |= (X - x0 - t * dx) ** 2 + (Y - y0 - t * dy) ** 2 <= width * width / 4
+    return drawn
+
+
 class Board:
-    """Solid cells. All that is drawn or dug is drawn or dug at the mirrored place too."""
+    """Painted rock, all solid at first. While it is ``even``, all is painted at the mirrored place too.
+
+    ``heart``: the floor of the vault. ``gate``: two cells, the only way into it, each with room for a door. ``spots``:
+    where a ring of gold would be in its place, in cells.
+    """
 
     def __init__(self) -> None:
-        self.cells: set[Cell] = set()
-        self.heart: set[Cell] = set()  #: where the figure leads the eye to: for the exit or its switch
+        self.ink = np.ones(X.shape, bool)
+        self.even = True
+        self.heart: list[Cell] = []
+        self.gate: list[Cell] = []
+        self.spots: list[Point] = []
+        self.side = "right"  #: of the gate's cells, where a door is
 
-    def draw(self, cells: Iterable[Cell]) -> None:
-        """Make cells solid."""
-        self.cells |= {each for cell in cells if inside(cell) for each in (cell, mirrored(cell))}
+    def rock(self, *shapes: Ink) -> None:
+        """Paint shapes solid."""
+        for shape in shapes:
+            self.ink |= shape | shape[:, ::-1] if self.even else shape
 
-    def dig(self, cells: Iterable[Cell]) -> None:
-        """Make cells empty."""
-        self.cells -= {each for cell in cells for each in (cell, mirrored(cell))}
+    def air(self, *shapes: Ink) -> None:
+        """Dig shapes out."""
+        for shape in shapes:
+            self.ink &= ~(shape | shape[:, ::-1] if self.even else shape)
 
-    def fill(self, column: int, row: int, width: int, height: int) -> None:
-        """Make a rectangle solid."""
-        self.draw(_rectangle(column, row, width, height))
+    def vault(self, first: int, last: int, row: int, gate: int) -> None:
+        """A flat floor from column to column, and a low way out to the right from the column ``gate`` on."""
+        self.ink |= box(first, row + 1, last + 1, row + 2)
+        self.ink |= box(gate, row - 1, gate + 2, row + 2)
+        self.ink &= ~(box(first, row - 1, gate, row + 1) | box(first, row, gate + 4, row + 1))
+        self.heart = [(column, row) for column in range(first, last + 1)]
+        self.gate = [(gate, row), (gate + 1, row)]
 
-    def clear(self, column: int, row: int, width: int, height: int) -> None:
-        """Make a rectangle empty."""
-        self.dig(_rectangle(column, row, width, height))
-
-    def solid(self, cell: Cell) -> bool:
-        """Whether a cell is solid; the border is."""
-        return cell in self.cells or not inside(cell)
-
-    def free(self, column: int, row: int, width: int, height: int) -> bool:
-        """Whether a rectangle is empty."""
-        return not any(map(self.solid, _rectangle(column, row, width, height)))
-
-    def pieces(self) -> list[list[Cell]]:
-        """The connected groups of solid cells that do not touch the border, each sorted, in reading order."""
-        left, found = set(self.cells), []
-        for first in sorted(self.cells):
-            if first in left:
-                group = flood(first, left)
-                left -= group
-                if all(1 < c < COLUMNS and 1 < r < ROWS for c, r in group):
-                    found.append(sorted(group))
-        return found
-
-
-def _rectangle(column: int, row: int, width: int, height: int) -> list[Cell]:
-    return [(c, r) for c in range(column, column + width) for r in range(row, row + height)]
+    def flip(self) -> None:
+        """Turn left and right round."""
+        self.ink, self.side = self.ink[:, ::-1], "left" if self.side == "right" else "right"
+        self.heart, self.gate = [list(map(mirrored, cells)) for cells in (self.heart, self.gate)]
+        self.spots = [(COLUMNS + 2 - x, y) for x, y in self.spots]
 
 
 def flood(first: Cell, within: set[Cell]) -> set[Cell]:
@@ -99,9 +133,6 @@ def neighbours(cell: Cell) -> tuple[Cell, ...]:
 
 
 ENEMIES = (kinds.TURRET, kinds.FLOOR_GUARD, kinds.DRONE, kinds.THWUMP, kinds.LAUNCHER)
-
-Point = tuple[float, float]
-"""px."""
 
 
 class Run(NamedTuple):
@@ -178,6 +209,7 @@ class Scene:
         self.fixtures: list[ObjectSpec] = []
         self.gold: list[ObjectSpec] = []
         self.baits: list[Point] = []  #: the middles of groups of gold
+        self.rings: list[Point] = []  #: of which these are rings of gold with room for a danger in them
         self.hazards: list[list[ObjectSpec]] = []
 
     @property
@@ -194,6 +226,14 @@ class Scene:
     def count(self, *which: int) -> int:
         """How many objects of these kinds there are."""
         return sum(record.kind in which for record in self.objects)
+
+    def stones(self) -> list[set[Cell]]:
+        """The connected groups of cells with a tile that do not touch the border."""
+        left, found = set(self.tiles), []
+        while left:
+            found.append(flood(min(left), left))
+            left -= found[-1]
+        return [each for each in found if all(1 < c < COLUMNS and 1 < r < ROWS for c, r in each)]
 
     def full(self, cell: Cell) -> bool:
         """Whether a cell is a full tile or of the border."""
@@ -268,7 +308,7 @@ class Scene:
 
 
 _KEY = (kinds.NINJA, kinds.EXIT, kinds.DOOR)
-_ROOM = {kinds.BOUNCE_BLOCK: 20.0, kinds.LAUNCH_PAD: 20.0, kinds.ONE_WAY: 16.0}
+_ROOM = {kinds.LAUNCH_PAD: 20.0, kinds.ONE_WAY: 16.0}
 """px that stay free around fixtures."""
 
 

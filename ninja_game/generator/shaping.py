@@ -1,110 +1,68 @@
-"""Tiles for solid cells: stairs become slopes, other corners slopes or curves, all of a level in one style."""
+"""Tiles for painted rock: of each cell the tile that covers it best and agrees with those beside it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from random import Random
-from typing import NamedTuple
+from functools import cache
 
-from ninja_game.generator.scene import Board, Cell, inside
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.formats.ascii.legend import TILE_CHARS
+from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.level import COLUMNS, ROWS
+from ninja_game.sim.memory.schema import TileMap
+from ninja_game.sim.rules import CELL, STRIDE
 
-CORNERS = (-1, -1), (1, -1), (-1, 1), (1, 1)
-"""Where a corner points to: up left, up right, down left, down right."""
+FINE = 8
+"""Samples of a cell in a row and in a column."""
+FULL = TILE_CHARS.index("#")
+COSTS = np.array([2 * (tile in '_]"[') + 3 * (tile in "jkiuJKIU") + 1 * (tile not in ".#") for tile in TILE_CHARS])
+"""What each tile costs, in samples of a cell that it covers wrongly."""
+AGREE, ROUNDS = 1, 12
+"""What a sample of a side that differs from the tile beside it costs; how often all are looked at."""
 
-OUTER = {"slope": "sawq", "round": "KJIU"}
-"""Tiles of a stone's outer corner, in the order of ``CORNERS``."""
-INNER = {"slope": "qwas", "round": "uijk"}
-"""Tiles in a hollow corner."""
-LONG = {"flat": ("fF", "dD", "rR", "eE"), "steep": ("hH", "gG", "yY", "tT")}
-"""Tiles of a long slope at an outer corner: the tip, the one behind it."""
-
-
-class Style(NamedTuple):
-    """What becomes of outer corners above and below, and of hollow ones; "": nothing. ``ends``: of thin platforms."""
-
-    above: str
-    below: str
-    hollow_above: str
-    hollow_below: str
-    ends: bool
+Ink = NDArray[np.bool_]
+"""Painted rock: a sample each, (rows * FINE, columns * FINE)."""
 
 
-STYLES = (
-    Style("", "slope", "slope", "slope", True),
-    Style("slope", "slope", "slope", "", True),
-    Style("round", "round", "round", "round", False),
-    Style("slope", "slope", "slope", "slope", False),
-    Style("round", "slope", "", "round", True),
-    Style("flat", "slope", "slope", "slope", True),
-    Style("slope", "steep", "round", "round", True),
-    Style("steep", "flat", "slope", "", True),
-    Style("", "round", "round", "round", True),
-    Style("flat", "flat", "slope", "slope", True),
-)
+@cache
+def masks() -> Ink:
+    """The samples of a cell that each tile covers: (tile, row, column)."""
+    at, tiles, found = [(k + 0.5) * CELL / FINE for k in range(FINE)], TileMap(), []
+    for tiles.tiles[STRIDE + 1] in range(len(TILE_CHARS)):
+        found.append([[solid_at(tiles, x, y) for x in at] for y in at])
+    return np.array(found)
 
 
-def shaped(board: Board, style: Style) -> dict[Cell, str]:
-    """The tile of every cell that is not empty."""
-    tiles = dict.fromkeys(board.cells, "#")
-    for cell in sorted(board.cells):
-        tiles.update(_outer(board, cell, style))
-    for cell in sorted((c, r) for c in range(1, COLUMNS + 1) for r in range(1, ROWS + 1)):
-        if cell not in tiles:
-            tiles.update(_inner(board, cell, style, tiles))
-    return tiles
+@cache
+def _costs() -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Samples that differ where one tile is above, or to the left of, another: (this one, the other)."""
+    mask = masks()
+    below = np.abs(mask[:, None, -1].astype(int) - mask[None, :, 0]).sum(2)
+    right = np.abs(mask[:, None, :, -1].astype(int) - mask[None, :, :, 0]).sum(2)
+    return below * AGREE, right * AGREE
 
 
-def _outer(board: Board, cell: Cell, style: Style) -> Iterator[tuple[Cell, str]]:
-    """The tiles of a cell that is an outer corner or the end of a thin platform."""
-    column, row = cell
-    if style.ends and not board.solid((column, row - 1)) and not board.solid((column, row + 1)):
-        for dx, tile in ((-1, "w"), (1, "q")):
-            long = board.solid((column - dx, row)) and board.solid((column - 2 * dx, row))
-            if long and not board.solid((column + dx, row)):
-                yield cell, tile
-    for number, (dx, dy) in enumerate(CORNERS):
-        open_ = not (board.solid((column + dx, row)) or board.solid((column, row + dy)))
-        backed = board.solid((column - dx, row)) and board.solid((column, row - dy))
-        stair = board.solid((column + dx, row - dy)) or board.solid((column - dx, row + dy))
-        shape = "slope" if stair else style.above if dy < 0 else style.below
-        if not (open_ and backed and shape) or board.solid((column + dx, row + dy)):
-            continue
-        if shape in OUTER:
-            yield cell, OUTER[shape][number]
-            continue
-        thin, thick = tuple(LONG[shape][number])
-        second = (column - dx, row) if shape == "flat" else (column, row - dy)
-        # Room for the slope of the other end.
-        beyond = [(column - k * dx, row) if shape == "flat" else (column, row - k * dy) for k in (2, 3)]
-        # Where the next cell is not a plain side of the stone, a short slope.
-        side = (second[0], row + dy) if shape == "flat" else (column + dx, second[1])
-        under = (second[0], row - dy) if shape == "flat" else (column - dx, second[1])
-        if inside(second) and all(map(board.solid, beyond)) and board.solid(under) and not board.solid(side):
-            yield from ((cell, thin), (second, thick))
-        else:
-            yield cell, OUTER["slope"][number]
+def fitted(ink: Ink, *, even: bool) -> NDArray[np.int64]:
+    """The number of the tile of each cell, (rows, columns); ``even``: both sides of the middle column are alike."""
+    cells = ink.reshape(ROWS, FINE, COLUMNS, FINE).swapaxes(1, 2)[:, :, None]
+    own = (cells != masks()).sum((3, 4)) + COSTS
+    own[:, COLUMNS // 2, even * (masks() != masks()[:, :, ::-1]).any((1, 2))] += FINE * FINE
+    below, right = _costs()
+    best = np.full((ROWS + 2, COLUMNS + 2), FULL)
+    best[1:-1, 1:-1] = own.argmin(2)
+    odd = np.indices((ROWS, COLUMNS)).sum(0) % 2
+    for number in range(ROUNDS):  # in turn, like the squares of a chessboard
+        sides = below[best[:-2, 1:-1]] + below.T[best[2:, 1:-1]]
+        sides += right[best[1:-1, :-2]] + right.T[best[1:-1, 2:]]
+        best[1:-1, 1:-1] = np.where(odd == number % 2, (own + sides).argmin(2), best[1:-1, 1:-1])
+    return best[1:-1, 1:-1]
 
 
-def _inner(board: Board, cell: Cell, style: Style, tiles: dict[Cell, str]) -> Iterator[tuple[Cell, str]]:
-    """The tile that fills a hollow corner between full ones."""
-    column, row = cell
-    for number, (dx, dy) in enumerate(CORNERS):
-        stair = not (board.solid((column + dx, row - dy)) and board.solid((column - dx, row + dy)))
-        shape = "slope" if stair else style.hollow_above if dy < 0 else style.hollow_below
-        beside = (column + dx, row), (column, row + dy)
-        full = all(tiles.get(each) == "#" or not inside(each) for each in beside)
-        room = not (board.solid((column - dx, row)) or board.solid((column, row - dy)))
-        if shape and full and room:
-            yield cell, INNER[shape][number]
-
-
-def chosen_style(board: Board, rng: Random, least: int, most: int) -> dict[Cell, str] | None:
-    """Tiles in a style by which ``least`` to ``most`` of them have a shape; None if no style does."""
-    styles = list(STYLES)
-    rng.shuffle(styles)
-    for style in styles:
-        tiles = shaped(board, style)
-        if least <= sum(tile != "#" for tile in tiles.values()) <= most:
-            return tiles
-    return None
+def shaped(ink: Ink, *, even: bool) -> dict[tuple[int, int], str]:
+    """The tile of every cell that is not empty; what is painted the same on both sides is so."""
+    tiles, other = fitted(ink, even=even), fitted(ink[:, ::-1], even=even)
+    turned = [next(k for k, mask in enumerate(masks()) if (mask == each[:, ::-1]).all()) for each in masks()]
+    half = COLUMNS // 2 + 1
+    tiles[:, half:] = np.array(turned)[other[:, ::-1]][:, half:]
+    return {(c + 1, r + 1): TILE_CHARS[tiles[r, c]] for r in range(ROWS) for c in range(COLUMNS) if tiles[r, c]}
