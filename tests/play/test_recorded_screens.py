@@ -25,6 +25,7 @@ NOT_SHOWN = {
     "play/app.py: Screen.draw": "its screens do",
     "play/workspace/part.py: Part.paint": "its parts do",
     "ui/widgets.py: Widget.draw": "its widgets do",
+    "play/lab/screen.py: FigurePicture.draw": "of the pages of Learn; test_learn.py shows it",
     "play/replay/film.py: _Panel.draw": "of films, which tests of their own make",
     "play/replay/paths.py: _draw_speeds": "of the pictures that `compare` writes",
     "tas_editor/roll/part.py: RollMouse._paint": "paints keys with the mouse, not a picture",
