@@ -25,7 +25,7 @@ from ninja_game.files.user_folder import PACKAGE, data_folder
 from ninja_game.play.lab.screen import FIGURES, figure_picture
 from ninja_game.play.window import png_of
 from ninja_game.web.pages import frame
-from ninja_game.web.pages.frame import GAME, HOME, NAVIGATION, SEARCH, Content, Markup, joined, tag  # fmt: skip
+from ninja_game.web.pages.frame import GAME, HOME, NAVIGATION, SEARCH, Content, Markup, joined, tag
 
 FILM, STILL = "pictures/ninja-game.webp", "pictures/ninja-game.png"
 """The moving picture of the first page, and one for who wants no motion."""

@@ -28,7 +28,7 @@ from ninja_game.web.pages.frame import (
     section,
     table,
     tag,
-)  # fmt: skip
+)
 from ninja_game.web.pages.published import (
     PICTURE_WIDTH,
     PublishedLevels,
