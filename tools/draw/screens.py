@@ -48,9 +48,8 @@ def editor_picture(folder: Path) -> pygame.Surface:
 
 
 def menu_picture(folder: Path) -> pygame.Surface:
-    """The main menu, over the attract mode, which begins with a level at random."""
-    with patch("ninja_game.play.menus.main_menu.Random", lambda: Random(1)):
-        driver = MenuDriver(folder)
+    """The main menu, over the attract mode."""
+    driver = MenuDriver(folder)
     driver.frames(80)
     return driver.app.surface.copy()
 
@@ -99,8 +98,9 @@ SCREENS = {
 
 
 def draw(name: str) -> pygame.Surface:
-    """One of them, by a new player with the levels of the tests, which stay as they are."""
-    with tempfile.TemporaryDirectory() as folder, instead_of_ours():
+    """One of them, by a new player with the levels of the tests, which stay as they are; the menu begins alike."""
+    chance = patch("ninja_game.play.menus.main_menu.Random", lambda: Random(1))
+    with tempfile.TemporaryDirectory() as folder, instead_of_ours(), chance:
         return SCREENS[name](Path(folder))
 
 

@@ -31,6 +31,7 @@ class EditorScreen(WorkspaceScreen):
 
     def __init__(self, app: App, source: Source | None = None, *, offers_recovered: bool = True) -> None:
         super().__init__(app)
+        app.follow_mood(self.mood)
         self.session = EditorSession(app, source)
         x, y, w, h = LAYOUT.palette
         self.palette = PaletteView((x + 6, y + 4, w - 10, h - 5), self.session.tools)
@@ -43,6 +44,10 @@ class EditorScreen(WorkspaceScreen):
         ]  # fmt: skip
         self._dragged_to: InputEvent | None = None
         self._entered = not offers_recovered
+
+    @property
+    def mood(self) -> int:
+        return 0
 
     @property
     def parts(self) -> Sequence[Part]:
