@@ -209,11 +209,15 @@ export class Painter {
     if (opacity < 0) context.globalCompositeOperation = "source-over";
   }
 
+  // Larger as pygame does it: the first px lies on the first one, and between two there is a line.
   stretch(source, width, height, toWidth, toHeight, opacity) {
     const { context } = this;
+    const larger = toWidth > width && height > 1;
+    const from = (few, many) => (larger ? [(1 - (few - 1) / many) / 2, few - 1] : [0, few]);
+    const [[x, wide], [y, high]] = [from(width, toWidth), from(height, toHeight)];
     context.globalAlpha = opacity;
-    context.imageSmoothingQuality = "high";
-    context.drawImage(source, 0, 0, width, height, 0, 0, toWidth, toHeight);
+    context.imageSmoothingQuality = larger ? "low" : "high";
+    context.drawImage(source, x, y, wide, high, 0, 0, toWidth, toHeight);
     context.globalAlpha = 1;
   }
 

@@ -100,7 +100,7 @@ def test_only_what_was_passed_can_be_watched(driver: MenuDriver) -> None:
     again = driver.open("Records")
     assert isinstance(again, RecordsScreen)
     driver.press("down")
-    assert again.list.hint == "Enter: watch"
+    assert again.list.hint == "Enter: watch. E: save as a text file"
 
 
 def test_file_that_cannot_be_read_is_named(driver: MenuDriver) -> None:

@@ -324,7 +324,7 @@ def test_replay_is_written_as_a_text_to_share(driver: MenuDriver) -> None:
 def test_what_players_need_comes_before_what_is_for_the_curious(driver: MenuDriver) -> None:
     names = [text for text, _, _ in driver.shown(MainMenu).entries()]
     assert names[-2:] == ["Extras", "Quit"]
-    for entry in ("Levels", "Daily", "Episodes"):
+    for entry in ("Levels", "Episodes"):
         screen = driver.open(entry)
         assert isinstance(screen, MenuScreen)
         words = " ".join(getattr(each, "text", "") for each in screen.widgets)
