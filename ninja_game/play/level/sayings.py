@@ -42,7 +42,7 @@ WHY = {
 }
 """What helps against each killer, said after its first kill."""
 
-FALL_HELP = "Slide down a wall, or land on a slope: then a deep fall does not kill."
+FALL_HELP = "What counts is how hard you hit: slide down a wall, or land on a slope that goes down your way."
 
 
 class Sayings:

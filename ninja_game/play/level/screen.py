@@ -149,13 +149,17 @@ class LevelScreen(Screen):
             self.play.pause()
 
         def row(text: str, action: Callable[[], object], hint: str, why_not: str) -> Row:
-            return text, partial(app.notify, f"{text}: {why_not}") if why_not else action, why_not or hint
+            if why_not:
+                return f"{text} ({why_not})", partial(app.notify, f"{text}: {why_not}"), "Not yet"
+            return text, action, hint
 
+        slow = "Slow down", partial(self._play_at, SLOWER), f"All levels at {SLOWER} %, no records, until you end it"
+        full = "Full speed", partial(self._play_at, 100), "Records count again"
         unseen = f"after {STUCK_AFTER} failed tries" if run else "no run comes with this level"
         rows: list[Row] = [
             ("Try again", self.retry, ""),
             row("Watch how", partial(self._watch, run), "The run of the level's author", unseen * (not (run and seen))),
-            ("Slow down", self._slow_down, f"Game speed {SLOWER} %: no record; Settings change it"),
+            full if app.settings.game_speed < 100 else slow,
             row(SKIP, self.go_on, "You can come back to it", "no level follows" * (not context.leads_on)),
         ]
         app.push(Menu(app, HELP, rows))
@@ -165,8 +169,9 @@ class LevelScreen(Screen):
         self.retry()
         watch(self.app, [run])
 
-    def _slow_down(self) -> None:
-        self.app.change_settings(game_speed=SLOWER)
+    def _play_at(self, speed: int) -> None:
+        """Begin again at a speed, %; it stays in the settings."""
+        self.app.change_settings(game_speed=speed)
         self.retry()
 
     def quit(self) -> None:

@@ -19,7 +19,7 @@ from ninja_game.ui.widgets import Button, Widget
 
 PICTURE = 132
 
-CLOCK = "on the clock, the score of the episode: gold adds to it, time takes from it"
+CLOCK = "left on the clock: your score for this episode. Each gold added 2 s"
 
 
 class EpisodePassed(ThumbnailScreen):

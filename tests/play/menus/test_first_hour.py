@@ -345,6 +345,9 @@ def test_slower_play_opens_what_follows_without_a_record(driver: MenuDriver) -> 
     driver.press("n")
     driver.choose("Slow down")
     assert driver.player.settings.game_speed == 70
+    driver.press("n")
+    driver.choose("Full speed")
+    assert driver.player.settings.game_speed == 100
     level.attempt.assists.add("slow motion")
     level.context.passed(level.attempt)
     assert driver.player.progress.columns[0].beaten == (0, 1)
@@ -361,7 +364,7 @@ def test_help_with_a_level_can_always_be_asked_for_and_says_what_is_not_possible
         driver.press(*keys)
         menu = driver.shown(Menu)
         hints = {each.text: each.hint for each in menu.widgets if isinstance(each, Button)}
-        assert hints["Watch how"] == f"after {STUCK_AFTER} failed tries"
+        assert hints[f"Watch how (after {STUCK_AFTER} failed tries)"] == "Not yet"
         assert hints["Skip this level"] == "You can come back to it"
         tick = level.attempt.simulation.tick
         driver.frames(5)

@@ -221,7 +221,7 @@ class Surface:
         return True
 
     def scaled(self, size: Any) -> Surface:
-        """The picture in another size. A fresh one that is made smaller stays sharp: its shapes are drawn in that size."""
+        """The picture in another size. A fresh one made smaller stays sharp: its shapes are drawn in that size."""
         small = Surface(size, SRCALPHA * self.alpha)
         if self._own is not None and small._own is not None and self.opacity == 1.0 and small.w <= self.w:
             small._own.extend((SHIFT, small.w / self.w, 0, 0))
