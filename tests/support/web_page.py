@@ -31,6 +31,7 @@ EMPTY_PAGE = "licences/NOTICE.txt"
 START = """
 async ([width, height]) => {
   document.body.innerHTML = "<canvas></canvas>";
+  document.head.append(Object.assign(document.createElement("base"), { href: "/" }));
   document.body.style.margin = 0;
   const canvas = document.querySelector("canvas");
   Object.assign(canvas.style, { width: `${width}px`, height: `${height}px`, display: "block" });

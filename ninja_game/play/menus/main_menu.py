@@ -33,7 +33,7 @@ from ninja_game.play.replay.playback import Playback
 from ninja_game.play.window import LOGO
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import EpisodeRun, next_run
-from ninja_game.runtime import IN_PAGE, in_page_or_not
+from ninja_game.runtime import in_page_or_not
 from ninja_game.simulation import Simulation
 from ninja_game.ui.audio.music import MENU
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Point
@@ -119,7 +119,7 @@ class MainMenu(MenuScreen):
 
             app.push(PackScreen(app, edit))
 
-        return Browser(app, edit, None if IN_PAGE else packs)
+        return Browser(app, edit, in_page_or_not(None, packs))
 
     def _opener(self, screen: Callable[[App], Screen]) -> Callable[[], None]:
         return lambda: self.app.push(screen(self.app))
