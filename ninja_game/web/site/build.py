@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import Any, NamedTuple
 
 from ninja_game import __version__
@@ -71,10 +71,12 @@ def build_site(out: Path, pyodide: Path | None, cache: Path) -> list[SiteFile]:
     for name, content in files.items():
         site.write(name, content)
     site.write(MARK, json.dumps({"version": __version__, "files": sorted(files)}, indent=1) + "\n")
-    for name in before - set(files):
+    gone = before - set(files)
+    for name in gone:
         site.remove(name)
+    for folder in sorted({folder for name in gone for folder in PurePath(name).parents}, reverse=True):
         with suppress(OSError):
-            (out / name).parent.rmdir()  # of an earlier version, if nothing else is in it
+            (out / folder).rmdir()  # of an earlier version, if nothing else is in it
     return [SiteFile(name, len(data), len(gzip.compress(data, 9))) for name, data in sorted(files.items())]
 
 
