@@ -6,12 +6,10 @@ what order, is written into the index.
 
 from __future__ import annotations
 
-import json
-import re
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from ninja_game.editor.ascii_text import ascii_text
 from ninja_game.editor.draft import Draft
@@ -19,7 +17,6 @@ from ninja_game.editor.files import SUFFIX, draft_of, open_source, save
 from ninja_game.errors import PackError
 from ninja_game.files.reading import read_bytes, read_utf8
 from ninja_game.files.shown_text import file_stem
-from ninja_game.files.toml import parse_toml
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.named_level import NamedLevel
@@ -29,57 +26,56 @@ from ninja_game.formats.pack.pack import Pack
 from ninja_game.runs.packs import KINDS
 from ninja_game.sim.level import Level
 
-_HEADS = re.compile(r"(?m)^(?=[ \t]*\[\[)")
+if TYPE_CHECKING:
+    from tomlkit import TOMLDocument
+
+Values = Mapping[str, str | int | Sequence[str]]
 
 
-def toml_value(value: str | int | Sequence[str]) -> str:
-    r"""A value as TOML writes it.
+def _change_index(path: Path, change: Callable[[TOMLDocument], object]) -> None:
+    """Write an index that ``change`` has changed."""
+    import tomlkit
+    from tomlkit.exceptions import TOMLKitError
 
-    >>> toml_value(["a", 'the "b"']), toml_value(3)
-    ('["a", "the \\"b\\""]', '3')
-    """
-    if isinstance(value, str | int):
-        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-    return f"[{', '.join(map(toml_value, value))}]"
-
-
-def with_value(block: str, key: str, value: str | int | Sequence[str]) -> str:
-    r"""A table of an index with an entry in its old place, else behind the others; comments beside it stay.
-
-    >>> with_value('name = "a"\nlevels = [\n  "b",\n]\n# why\n', "levels", [])
-    'name = "a"\nlevels = []\n# why\n'
-    """
-    lines = block.splitlines()
-    entry = re.compile(rf"\s*[\"']?{key}[\"']?\s*=")
-    first = next((number for number, line in enumerate(lines) if entry.match(line)), None)
-    if first is None:
-        entries = [number for number, line in enumerate(lines) if line.strip() and not line.lstrip().startswith("#")]
-        first = last = max(entries, default=-1) + 1
-    else:
-        last = next(end for end in range(first + 1, len(lines) + 1) if _is_toml("\n".join(lines[first:end])))
-    return "\n".join([*lines[:first], f"{key} = {toml_value(value)}", *lines[last:]]) + "\n"
+    text = read_utf8(path / INDEX)
+    parse_index(text, file=str(path / INDEX))
+    try:
+        document = tomlkit.parse(text)
+    except TOMLKitError as error:
+        raise PackError(f"no TOML: {error}", str(path / INDEX)) from None
+    change(document)
+    _write_index(path, document)
 
 
-def _is_toml(text: str) -> bool:
-    with suppress(ValueError):
-        parse_toml(text)
-        return True
-    return False
-
-
-def _change_index(path: Path, change: Callable[[list[str]], Sequence[str]]) -> None:
-    """Write an index whose blocks, the first entries and then a table each, ``change`` has made."""
-    text = "".join(change(_HEADS.split(read_utf8(path / INDEX))))
+def _write_index(path: Path, document: TOMLDocument) -> None:
+    text = document.as_string()
     parse_index(text, file=str(path / INDEX))
     Tree(path).write(INDEX, text)
 
 
+def _add(document: TOMLDocument, key: str, values: Values) -> None:
+    """A table [[key]] behind the others."""
+    import tomlkit
+
+    table = tomlkit.table()
+    table.update(values)
+    table.trivia.indent = "\n"
+    tables: Any = document.get(key)
+    if tables is None:
+        document[key] = tomlkit.aot()
+        tables = document[key]
+    tables.append(table)
+
+
 def new_pack(folder: Path, name: str, author: str) -> Path:
     """A pack with one empty episode; its folder, in ``folder``."""
+    import tomlkit
+
     path = free_path(folder, file_stem(name, "pack"), "")
-    text = "".join(f"{key} = {toml_value(value)}\n" for key, value in (("name", name), ("author", author)))
-    parse_index(text)
-    Tree(path).write(INDEX, f'{text}\n[[episode]]\nnumber = 0\nname = "Episode 1"\nlevels = []\n')
+    document = tomlkit.document()
+    document.update({"name": name, "author": author})
+    _add(document, "episode", {"number": 0, "name": "Episode 1", "levels": []})
+    _write_index(path, document)
     return path
 
 
@@ -94,40 +90,24 @@ def copy_pack(pack: Pack, folder: Path, name: str) -> Path:
 
 def describe(path: Path, values: Mapping[str, str | Sequence[str]]) -> None:
     """Other first entries of the index: name, author, version, comment, columns."""
-
-    def change(blocks: list[str]) -> list[str]:
-        for key, value in values.items():
-            blocks[0] = with_value(blocks[0], key, value)
-        return blocks
-
-    _change_index(path, change)
+    _change_index(path, lambda document: document.update(values))
 
 
 def accept(path: Path, file: str, code: str, reason: str) -> None:
     """Accept a finding about a file, for a reason that the index keeps."""
     entries = {"file": file, "code": code, "reason": reason}
-    text = "".join(f"{key} = {toml_value(value)}\n" for key, value in entries.items())
-    _change_index(path, lambda blocks: [*blocks, f"\n[[accept]]\n{text}"])
+    _change_index(path, lambda document: _add(document, "accept", entries))
 
 
 # --- episodes ---
 
 
-def _change_episodes(path: Path, changes: Mapping[int, Mapping[str, str | int | Sequence[str]]]) -> None:
+def _change_episodes(path: Path, changes: Mapping[int, Values]) -> None:
     """Change entries of episodes by their numbers."""
-    index = parse_index(read_utf8(path / INDEX), file=str(path / INDEX))
-    numbers = {episode.line: episode.number for episode in index.episodes}
 
-    def change(blocks: list[str]) -> list[str]:
-        line = 1
-        changed = []
-        for block in blocks:
-            following = line + block.count("\n")
-            for key, value in changes.get(numbers.get(line, -1), {}).items():
-                block = with_value(block, key, value)  # noqa: PLW2901 - one entry after the other
-            changed.append(block)
-            line = following
-        return changed
+    def change(document: TOMLDocument) -> None:
+        for table in document.get("episode", ()):
+            table.update(changes.get(table["number"], {}))
 
     _change_index(path, change)
 
@@ -139,8 +119,7 @@ def rename_episode(path: Path, number: int, name: str) -> None:
 def new_episode(path: Path, name: str, column: int) -> int:
     """An episode below the others of a column; its number."""
     number = _free_number({episode.number for episode in Pack(path).index.episodes}, column)
-    text = f"\n[[episode]]\nnumber = {number}\nname = {toml_value(name)}\nlevels = []\n"
-    _change_index(path, lambda blocks: [*blocks[:-1], blocks[-1].rstrip("\n") + "\n", text])
+    _change_index(path, lambda document: _add(document, "episode", {"number": number, "name": name, "levels": []}))
     return number
 
 
@@ -156,12 +135,12 @@ def _free_number(numbers: set[int], column: int) -> int:
 
 def remove_episode(path: Path, number: int) -> None:
     """Take an episode out of the index; its levels stay, in no episode."""
-    pack = Pack(path)
-    line = next(episode.line for episode in pack.index.episodes if episode.number == number)
 
-    def change(blocks: list[str]) -> list[str]:
-        starts = [1 + sum(block.count("\n") for block in blocks[:place]) for place in range(len(blocks))]
-        return [block for block, start in zip(blocks, starts, strict=True) if start != line]
+    def change(document: TOMLDocument) -> None:
+        tables: Any = document["episode"]
+        del tables[next(place for place, table in enumerate(tables) if table["number"] == number)]
+        if not tables:
+            del document["episode"]
 
     _change_index(path, change)
 
