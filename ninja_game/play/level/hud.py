@@ -174,8 +174,9 @@ class Hud:
         h = 48.0 + 18 * len(lines) + below
         y = min(y, LOWEST - h)
         place = theme.canvas.rect((WIDTH - w) / 2, y, w, h)
-        behind = pygame.Surface(place.size, pygame.SRCALPHA)
-        behind.blit(surface, (0, 0), place)
+        behind = pygame.Surface(place.size, pygame.SRCALPHA) if seen < 1 else None
+        if behind:
+            behind.blit(surface, (0, 0), place)
         rect = theme.panel(surface, (WIDTH - w) / 2, y, w, h, 4)
         if medal and stamp > STAMP_SEEN:
             # It grows a little too large, but never over the words beside it.
@@ -186,8 +187,9 @@ class Hud:
         for k, line in enumerate(lines):
             colour = theme.palette.text if k < len(lines) - 1 else theme.palette.faint
             theme.text(surface, line, WIDTH / 2, y + 41 + below + 18 * k, size=LINE, colour=colour, align="centre")
-        behind.fill((round(255 * (1 - seen)),) * 4, special_flags=pygame.BLEND_RGBA_MULT)
-        surface.blit(behind, place, special_flags=pygame.BLEND_PREMULTIPLIED)
+        if behind:
+            behind.fill((round(255 * (1 - seen)),) * 4, special_flags=pygame.BLEND_RGBA_MULT)
+            surface.blit(behind, place, special_flags=pygame.BLEND_PREMULTIPLIED)
         return rect
 
     def pointer(self, surface: pygame.Surface, name: str, x: float, y: float) -> pygame.Rect:

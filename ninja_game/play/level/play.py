@@ -134,11 +134,12 @@ class LevelPlay:
         """What a player looks for at the start: what there is, and, where the level has texts, the author's way."""
         run = self.context.data.catalogue.author_run(self.context.entry) if self.context.sayings() else None
         places = [(o.x, o.y, MAY if o.kind == GOLD else MUST) for o in self.attempt.simulation.world.objects[1:]]
-        way = Simulation(self.context.level)
-        for keys in run.inputs if run else b"":
-            way.step_keys(keys)
-            if way.tick % 4 == 0:
-                places.append((way.world.ninja.x, way.world.ninja.y, MAY))
+        if run:
+            way = Simulation(self.context.level)
+            for keys in run.inputs:
+                way.step_keys(keys)
+                if way.tick % 4 == 0:
+                    places.append((way.world.ninja.x, way.world.ninja.y, MAY))
         return (*self._ninja_place(), MUST), *places
 
     # --- from phase to phase ---
