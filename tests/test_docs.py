@@ -16,6 +16,7 @@ import ninja_game.learn
 from ninja_game.files.reading import MAX_BYTES
 from ninja_game.sim.inputs import MAX_TICKS
 from ninja_game.sim.memory.schema import CAPACITY
+from ninja_game.web.pages import documents
 
 DEFINITIONS = (ast.FunctionDef, ast.ClassDef)
 ROOT = Path(__file__).resolve().parent.parent
@@ -48,9 +49,8 @@ def named(path: Path) -> str:
 
 
 def slug(heading: str) -> str:
-    """The anchor that a heading gets: lower case, no punctuation, blanks as hyphens."""
-    words = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).strip().lower()
-    return re.sub(r"[^\w\- ]", "", words).replace(" ", "-")
+    """The anchor that a heading gets, as it is written: with links."""
+    return documents.slug(re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading))
 
 
 @cache
