@@ -8,17 +8,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from random import Random
 
-from ninja_game.generator.scene import Board, box, disc, path, poly
+from ninja_game.generator.scene import Board, box, disc, dish, path, poly
 from ninja_game.generator.shaping import Ink
 
 Layout = Callable[[Board, Random], None]
 
 MID = 16.5
-
-
-def dish(x: float, y: float, wide: float, high: float) -> Ink:
-    """An island with a flat top: half its width, its depth."""
-    return disc(x, round(y), wide, high) & box(1, round(y), 32, 24)
 
 
 def dome(x: float, y: float, wide: float, high: float) -> Ink:

@@ -8,7 +8,7 @@ from math import dist, hypot
 from random import Random
 
 from ninja_game.generator.gold import along
-from ninja_game.generator.scene import ENEMIES, MIDDLE, Cell, Point, Scene, middle, spec
+from ninja_game.generator.scene import ENEMIES, MIDDLE, Cell, Point, Scene, middle, mirrored, spec
 from ninja_game.sim import kinds
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import CELL, PAD_RADIUS
@@ -128,7 +128,7 @@ def _guards_something(scene: Scene, line: str) -> bool:
 
 
 def _from_hoard(scene: Scene, line: str) -> float:
-    return dist(spec(line).values[:2], scene.baits[0])
+    return dist(spec(line).values[:2], middle(scene.board.heart[len(scene.board.heart) // 2]))
 
 
 def _enemy(scene: Scene, record: ObjectSpec, apart: float) -> ObjectSpec | None:
@@ -253,7 +253,7 @@ def nearest_hazard(scene: Scene, run: Sequence[Point]) -> int | None:
     return min(spare)[1] if spare else None
 
 
-MOST_FIXTURES = 8
+MOST_FIXTURES = 12
 
 
 def pads(scene: Scene, rng: Random) -> Iterator[str]:
@@ -283,10 +283,19 @@ def one_ways(scene: Scene, rng: Random) -> Iterator[str]:
         yield from (f"one-way {c},{r} up" for c, r in gap)
 
 
+def blocks(scene: Scene, rng: Random) -> Iterator[str]:
+    """Bounce blocks in open air, in pairs or like steps, some the same on both sides."""
+    air = [(c, r) for c, r in sorted(scene.steps) if all((c + i, r + j) in scene.steps for i in (-2, 0, 2) for j in
+           (-2, -1, 0, 1, 2))]  # fmt: skip
+    x, y = rng.choice(((1, 0), (0, 1), (2, 1), (2, -1), (3, 0)))
+    for c, r in rng.sample(air, min(len(air), 3)):
+        steps = [(c + x * k, r + y * k) for k in range(2 + (x > 1))]
+        yield from (f"bounce block {c},{r}" for c, r in [*steps, *map(mirrored, steps * (rng.random() < 0.7))])
+
+
 def place_fixtures(scene: Scene, rng: Random) -> None:
-    """Perhaps put one sort of fixtures into a scene."""
-    kind = rng.choice((pads, pads, one_ways, one_ways, None))
-    for line in kind(scene, rng) if kind else ():
+    """Put one or two sorts of fixtures into a scene."""
+    for line in (line for kind in rng.sample((blocks, pads, one_ways), rng.choice((1, 2, 2))) for line in kind(scene, rng)):
         record = spec(line)
         # A pad lies on the edge of its cell.
         point = (record.values[0], record.values[1] - (PAD_RADIUS if record.kind == kinds.LAUNCH_PAD else 0.0))
