@@ -290,7 +290,8 @@ def blocks(scene: Scene, rng: Random) -> Iterator[str]:
     x, y = rng.choice(((1, 0), (0, 1), (2, 1), (2, -1), (3, 0)))
     for c, r in rng.sample(air, min(len(air), 3)):
         steps = [(c + x * k, r + y * k) for k in range(2 + (x > 1))]
-        yield from (f"bounce block {c},{r}" for c, r in [*steps, *map(mirrored, steps * (rng.random() < 0.7))])
+        both = [*steps, *map(mirrored, steps * (rng.random() < 0.7))]
+        yield from (f"bounce block {c},{r}" for c, r in both if (c, r) in scene.steps)
 
 
 def place_fixtures(scene: Scene, rng: Random) -> None:

@@ -145,10 +145,10 @@ class Board:
         sorts, even = rng.sample(STONES, 2), self.even
         for number in range(11):
             air = np.pad(~self.ink.reshape(ROWS, FINE, COLUMNS, FINE).any((1, 3)), 1)
-            wide, high = (9, 7) if number < 4 else (7, 5)
+            wide, high = ((9, 6), (7, 5), (6, 4))[number // 4]
             free = np.argwhere(sliding_window_view(air, (high, wide)).all((2, 3)))
             if not len(free):
-                break
+                continue
             top, left = rng.choice(free.tolist())
             x, y = left + wide / 2 + rng.choice((-0.5, 0.5)), top + high // 2 + rng.choice((0, 1))
             self.even = even and rng.random() < 0.6
