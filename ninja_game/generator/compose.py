@@ -109,9 +109,9 @@ def compose(layout: str, rng: Random, difficulty: int) -> Scene | None:
     place_fixtures(scene, rng)
     if not lay_gold(scene, rng):
         return None
-    if not place_enemies(scene, rng, rng.choice((5, 6, 7)) + difficulty // 4, difficulty):
+    if not place_enemies(scene, rng, rng.choice((6, 7, 8)) + difficulty // 4, difficulty):
         return None
-    place_mines(scene, rng, rng.choice((14, 18, 22)) + difficulty)
+    place_mines(scene, rng, rng.choice((20, 24, 28)) + difficulty)
     if not OBJECTS[0] <= len(scene.objects) <= OBJECTS[1] or level_findings(scene.level) or not _fair(scene.level):
         return None
     return scene

@@ -94,7 +94,7 @@ def cathedral(board: Board, rng: Random) -> None:
 def pyramid(board: Board, rng: Random) -> None:
     """A hollow pyramid, its chamber under a shaft, stars over it."""
     apex = rng.choice((6.0, 7.0))
-    board.air(poly((2, 24), (2, 14), (10, 2), (23, 2), (31, 14), (31, 24)))
+    board.air(poly((2, 24), (2, 9), (6, 2), (27, 2), (31, 9), (31, 24)))
     board.rock(box(1, 23, 32, 24), poly((MID, apex), (5, 24), (28, 24)))
     board.air(poly((MID, apex + 4), (8.2, 23), (24.8, 23)), box(15, 5, 18, 12))
     board.rock(box(8, 17, 25, 19))
@@ -161,7 +161,7 @@ def skull(board: Board, rng: Random) -> None:
 def hourglass(board: Board, rng: Random) -> None:
     """Two wide chambers and the neck between them; the sand covers a vault."""
     waist = rng.choice((10.5, 11.5))
-    board.air(box(3, 2, 30, 23))
+    board.air(box(2, 2, 31, 23))
     board.rock(disc(2, waist, 12.2, 6.0), box(1, waist - 2, 6, waist + 2))
     board.rock(poly((MID, 15.4), (14.5, 17), (9.5, 24), (23.5, 24), (18.5, 17)))
     board.air(poly((MID, 18), (11.8, 23), (21.2, 23)))

@@ -20,7 +20,7 @@ SAFE = 150.0
 """px from the ninja's start in which nothing waits."""
 BESIDE = 110.0
 """px from gold, exit and switches in which enemies are put first."""
-AT_BAIT = 110.0
+AT_BAIT = 120.0
 """px from the middle of a group of gold in which mines guard it."""
 FROM_RUN = 17.0
 """px from a certified run at which a mine leaves it alone: their radii, and a little."""
@@ -28,7 +28,7 @@ CLOSE = 48.0
 """px from a certified run within which hazards are put when a level turns out too easy."""
 IN_SIGHT = 200.0
 """As ``CLOSE``, of what shoots."""
-MOST_ENEMIES = 10
+MOST_ENEMIES = 12
 GATE = 20.0
 """px from the run to either mine of a gate."""
 
@@ -86,7 +86,7 @@ def launchers(scene: Scene, _: Random) -> Iterator[str]:
 
 
 SOURCES: dict[Source, tuple[int, float]] = {
-    guards: (1, 2.5), zaps: (1, 5.0), thwumps: (1, 1.2), patrols: (2, 1.5), turrets: (3, 0.8), launchers: (5, 1.5),
+    guards: (1, 3.0), zaps: (1, 5.0), thwumps: (1, 1.8), patrols: (2, 1.5), turrets: (3, 0.8), launchers: (5, 1.5),
 }  # fmt: skip
 """Where enemies come from: the least difficulty for them, and how often they are taken."""
 
@@ -205,7 +205,7 @@ def more_beside(scene: Scene, run: Sequence[Point], difficulty: int, rng: Random
 
     No mine is less than ``FROM_RUN`` px from the run; whether it still passes an enemy is to be tried.
     """
-    if scene.count(*ENEMIES) < MOST_ENEMIES and rng.random() < 0.35:
+    if scene.count(*ENEMIES) < MOST_ENEMIES and rng.random() < 0.5:
         source = rng.choices(list(SOURCES), [often * (difficulty >= least) for least, often in SOURCES.values()])[0]
         lines = list(source(scene, rng))
         rng.shuffle(lines)

@@ -142,6 +142,9 @@ class Board:
 
     def fill(self, rng: Random) -> None:
         """Stones of one or two sorts in what is too wide and open, some of them on one side only."""
+        for row in self.ink:  # What comes close to the border goes on to it.
+            row[:FINE], row[-FINE:] = row[FINE], row[-FINE - 1]
+        self.ink[:FINE] = self.ink[FINE]
         sorts, even = rng.sample(STONES, 2), self.even
         for number in range(11):
             air = np.pad(~self.ink.reshape(ROWS, FINE, COLUMNS, FINE).any((1, 3)), 1)
