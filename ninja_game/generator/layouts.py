@@ -163,6 +163,7 @@ def hourglass(board: Board, rng: Random) -> None:
     waist = rng.choice((10.5, 11.5))
     board.air(box(2, 2, 31, 23))
     board.rock(disc(2, waist, 12.2, 6.0), box(1, waist - 2, 6, waist + 2))
+    board.air(path(2.4, (4, 5), (5, waist), (4, 19)))
     board.rock(poly((MID, 15.4), (14.5, 17), (9.5, 24), (23.5, 24), (18.5, 17)))
     board.air(poly((MID, 18), (11.8, 23), (21.2, 23)))
     board.vault(12, 20, 22, gate=21)

@@ -130,12 +130,13 @@ class Board:
     def unroof(self, rng: Random) -> None:
         """Close the way into the vault and open its roof instead, if there is open space not far above."""
         column, row = rng.choice(self.heart[1:-1])
-        heights = [k for k in range(1, 12) if self.holds((column, row - k))]
-        if not heights or heights != list(range(heights[0], heights[-1] + 1)) or not 2 <= len(heights) <= 5:
+        near = next((k for k in range(1, 6) if self.holds((column, row - k))), 6)
+        far = next((k for k in range(near, near + 6) if not self.holds((column, row - k))), 0)
+        if not near + 2 <= far:
             return
-        (near, _), (far, _) = self.gate[0], self.gate[-1]
-        self.ink |= box(min(near, far), row - self.doors, max(near, far) + 1, row + 1)
-        low, high = row - heights[0], row - heights[-1]
+        left, right = sorted((self.gate[0][0], self.gate[-1][0]))
+        self.ink |= box(left, row - self.doors, right + 1, row + 1)
+        low, high = row - near, row - far + 1
         self.ink &= ~box(column - 1, high - 1, column + 2, low + 1)
         self.even, self.side, self.doors = False, "top", 3
         self.gate = [(column + k, high + lock) for lock in (0, 1) for k in (-1, 0, 1)]
