@@ -9,7 +9,7 @@ from random import Random
 
 from ninja_game.generator.gold import lay_gold
 from ninja_game.generator.layouts import LAYOUTS
-from ninja_game.generator.obstacles import MOST_OBJECTS, place_enemies, place_fixtures, place_mines
+from ninja_game.generator.obstacles import MOST_OBJECTS, fill_voids, place_enemies, place_fixtures, place_mines
 from ninja_game.generator.scene import Board, Cell, Scene, flood, mirrored, spec, steps_from
 from ninja_game.generator.shaping import shaped
 from ninja_game.levels.warnings import level_findings
@@ -112,6 +112,7 @@ def compose(layout: str, rng: Random, difficulty: int) -> Scene | None:
     if not place_enemies(scene, rng, rng.choice((6, 7, 8)) + difficulty // 4, difficulty):
         return None
     place_mines(scene, rng, rng.choice((20, 24, 28)) + difficulty)
+    fill_voids(scene, rng, difficulty)
     if not OBJECTS[0] <= len(scene.objects) <= OBJECTS[1] or level_findings(scene.level) or not _fair(scene.level):
         return None
     return scene

@@ -99,9 +99,12 @@ def dangers(scene: Scene, rng: Random) -> Iterator[list[Point]]:
         cell
         for cell in sorted(scene.steps)
         if all((cell[0] + i, cell[1] + j) in scene.steps for i in reach for j in reach)
+        and scene.clear_of(middle(cell), key=60.0, other=30.0)
     ]
     rng.shuffle(air)
-    for x, y in scene.board.spots:
+    for x, y in (
+        spot for spot in scene.board.spots if scene.clear_of((CELL * spot[0], CELL * spot[1]), key=9, other=30)
+    ):
         yield from (form(CELL * x, CELL * y, far) for far in (size, 28, 22))
     for x, y in sorted(map(middle, air), key=lambda at: scene.sees(at, start)):
         yield form(x, y, size)
@@ -177,6 +180,12 @@ def _lay(scene: Scene, points: list[Point], wanted: int) -> bool:
 def centre_of(points: list[Point]) -> Point:
     """The middle of some points."""
     return sum(x for x, _ in points) / len(points), sum(y for _, y in points) / len(points)
+
+
+def lay_about(scene: Scene, place: Point, rng: Random) -> bool:
+    """Put a small group round a place; whether it could be."""
+    form, size = rng.choice((bowl, cross, sides)), rng.choice((26, 32))
+    return _lay(scene, form(*place, size), MOST + 8) or _lay(scene, sides(*place, 24), MOST + 8)
 
 
 def lay_trails(scene: Scene, run: Sequence[Point], rng: Random) -> None:

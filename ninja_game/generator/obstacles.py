@@ -7,8 +7,10 @@ from functools import partial
 from math import dist, hypot
 from random import Random
 
-from ninja_game.generator.gold import along
-from ninja_game.generator.scene import ENEMIES, MIDDLE, Cell, Point, Scene, middle, mirrored, spec
+import numpy as np
+
+from ninja_game.generator.gold import along, lay_about
+from ninja_game.generator.scene import ENEMIES, MIDDLE, Cell, Point, Scene, middle, mirrored, places, spec
 from ninja_game.sim import kinds
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import CELL, PAD_RADIUS
@@ -29,6 +31,8 @@ CLOSE = 48.0
 IN_SIGHT = 200.0
 """As ``CLOSE``, of what shoots."""
 MOST_ENEMIES = 12
+MOST_VOIDS, VOID = 4, 4.2 * CELL
+"""Places that are furnished because nothing is so many px around them."""
 GATE = 20.0
 """px from the run to either mine of a gate."""
 
@@ -150,6 +154,26 @@ def _beside_tiles(scene: Scene) -> Iterator[Cell]:
     for column, row in sorted(scene.steps):
         if scene.full((column, row + 1)) != scene.full((column, row - 1)):
             yield column, row
+
+
+def fill_voids(scene: Scene, rng: Random, difficulty: int) -> None:
+    """Where nothing is far around: a few pieces of gold about a drone that goes to and fro, a turret or a mine."""
+    for _ in range(MOST_VOIDS):
+        taken = np.array([point for record in scene.objects for point in places(record)])
+        cells = sorted(scene.steps)
+        away = np.hypot(*(np.array([middle(cell) for cell in cells])[:, None] - taken[None]).transpose(2, 0, 1)).min(1)
+        x, y = middle(cells[int(away.argmax())])
+        if away.max() < VOID or not lay_about(scene, (x, y), rng):
+            break
+        kind = rng.choice(("zap drone", "zap drone", "gauss turret" if difficulty >= SOURCES[turrets][0] else "mine"))
+        line = f"{kind} {x:g},{y:g}px"
+        enemy = _enemy(
+            scene, spec(f"{line} alternating {rng.choice(('left', 'right'))}" if "zap" in line else line), 60
+        )
+        if scene.count(*ENEMIES) >= MOST_ENEMIES or enemy is None:
+            scene.rings.append((x, y))
+            enemy = spec(f"mine {x:g},{y:g}px")
+        scene.hazards.append([enemy])
 
 
 # --- mines ---
@@ -296,7 +320,9 @@ def blocks(scene: Scene, rng: Random) -> Iterator[str]:
 
 def place_fixtures(scene: Scene, rng: Random) -> None:
     """Put one or two sorts of fixtures into a scene."""
-    for line in (line for kind in rng.sample((blocks, pads, one_ways), rng.choice((1, 2, 2))) for line in kind(scene, rng)):
+    for line in (
+        line for kind in rng.sample((blocks, pads, one_ways), rng.choice((1, 2, 2))) for line in kind(scene, rng)
+    ):
         record = spec(line)
         # A pad lies on the edge of its cell.
         point = (record.values[0], record.values[1] - (PAD_RADIUS if record.kind == kinds.LAUNCH_PAD else 0.0))
