@@ -111,7 +111,7 @@ def compose(layout: str, rng: Random, difficulty: int) -> Scene | None:
         return None
     if not place_enemies(scene, rng, rng.choice((6, 7, 8)) + difficulty // 4, difficulty):
         return None
-    place_mines(scene, rng, rng.choice((20, 24, 28)) + difficulty)
+    place_mines(scene, rng, rng.choice((20, 24, 28)))
     fill_voids(scene, rng, difficulty)
     if not OBJECTS[0] <= len(scene.objects) <= OBJECTS[1] or level_findings(scene.level) or not _fair(scene.level):
         return None

@@ -28,7 +28,7 @@ def round_stones(scene: Scene, _: Random) -> Iterator[list[Point]]:
     for chain in scene.surfaces:
         inside = {cell_of(face.off(-4.0)) for face in chain}
         if len(chain) <= 20 and any(inside <= piece for piece in small):
-            yield along([face.off(OFF) for face in chain], 22.0)
+            yield along([face.off(OFF) for face in chain], 30.0)
 
 
 def along_walls(scene: Scene, rng: Random) -> Iterator[list[Point]]:
@@ -193,9 +193,9 @@ def lay_trails(scene: Scene, run: Sequence[Point], rng: Random) -> None:
     for _ in range(20):
         first = rng.randrange(40, max(41, len(run) - 60))
         points = along(list(run[first : first + rng.randint(30, 50)]), 23.0)
-        if all(not scene.stands(cell_of(point)) for point in points[1:-1]) and _lay(scene, points[:7], MOST + 8):
-            if len(scene.baits) > 10:
-                break
+        in_air = all(not scene.stands(cell_of(point)) for point in points[1:-1])
+        if in_air and _lay(scene, points[:7], MOST + 8) and len(scene.baits) > 10:
+            break
 
 
 def _fits(scene: Scene, point: Point) -> bool:

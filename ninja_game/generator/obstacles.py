@@ -16,7 +16,7 @@ from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import CELL, PAD_RADIUS
 
 MOST_MINES, MOST_OBJECTS = 34, 110
-MORE = 14
+MORE = 28
 """Mines and objects that may come to them when a level turns out too easy."""
 SAFE = 150.0
 """px from the ninja's start in which nothing waits."""
@@ -30,7 +30,7 @@ CLOSE = 48.0
 """px from a certified run within which hazards are put when a level turns out too easy."""
 IN_SIGHT = 200.0
 """As ``CLOSE``, of what shoots."""
-MOST_ENEMIES = 12
+MOST_ENEMIES, MOST_ADDED = 11, 15
 MOST_VOIDS, VOID = 4, 4.2 * CELL
 """Places that are furnished because nothing is so many px around them."""
 GATE = 20.0
@@ -229,7 +229,7 @@ def more_beside(scene: Scene, run: Sequence[Point], difficulty: int, rng: Random
 
     No mine is less than ``FROM_RUN`` px from the run; whether it still passes an enemy is to be tried.
     """
-    if scene.count(*ENEMIES) < MOST_ENEMIES and rng.random() < 0.5:
+    if scene.count(*ENEMIES) < MOST_ADDED and rng.random() < 0.5:
         source = rng.choices(list(SOURCES), [often * (difficulty >= least) for least, often in SOURCES.values()])[0]
         lines = list(source(scene, rng))
         rng.shuffle(lines)

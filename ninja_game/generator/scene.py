@@ -81,7 +81,7 @@ STONES: tuple[Callable[[float, float, float], Ink], ...] = (
     lambda x, y, size: dish(x, y, size, 1.3),
     lambda x, y, size: box(round(x - size), y, round(x + size), y + 1),
     lambda x, y, size: poly((x - size, y), (x, y - 1.5), (x + size, y), (x, y + 1.5)),
-    lambda x, y, size: box(round(x), y - 1, round(x) + 1, y + 2),
+    lambda x, y, _: box(round(x), y - 1, round(x) + 1, y + 2),
     lambda x, y, size: poly((x - size, y + 1), (x + size, y + 1), (x + size, y - size / 2)),
     lambda x, y, size: poly((x + size, y + 1), (x - size, y + 1), (x - size, y - size / 2)),
 )
