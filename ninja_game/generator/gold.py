@@ -123,7 +123,7 @@ def bowl(x: float, y: float, size: float) -> list[Point]:
 
 def cross(x: float, y: float, size: float) -> list[Point]:
     """Two pieces to each side."""
-    return [(x + k * dx, y + k * dy) for dx, dy in ((1, 0), (0, 1), (-1, 0), (0, -1)) for k in (size * 0.6, size)]
+    return [(x + k * dx, y + k * dy) for dx, dy in ((1, 0), (0, 1), (-1, 0), (0, -1)) for k in (size - 13, size)]
 
 
 def sides(x: float, y: float, size: float) -> list[Point]:

@@ -229,7 +229,7 @@ def more_beside(scene: Scene, run: Sequence[Point], difficulty: int, rng: Random
 
     No mine is less than ``FROM_RUN`` px from the run; whether it still passes an enemy is to be tried.
     """
-    if scene.count(*ENEMIES) < MOST_ADDED and rng.random() < 0.5:
+    if scene.count(*ENEMIES) < MOST_ADDED and rng.random() < 0.4:
         source = rng.choices(list(SOURCES), [often * (difficulty >= least) for least, often in SOURCES.values()])[0]
         lines = list(source(scene, rng))
         rng.shuffle(lines)
