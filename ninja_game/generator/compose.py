@@ -9,7 +9,7 @@ from random import Random
 
 from ninja_game.generator.gold import lay_gold
 from ninja_game.generator.layouts import LAYOUTS
-from ninja_game.generator.obstacles import MOST_OBJECTS, place_enemies, place_fixtures, place_mines
+from ninja_game.generator.obstacles import MOST_OBJECTS, fill_voids, place_enemies, place_fixtures, place_mines
 from ninja_game.generator.scene import Board, Cell, Scene, flood, mirrored, spec, steps_from
 from ninja_game.generator.shaping import shaped
 from ninja_game.levels.warnings import level_findings
@@ -37,8 +37,9 @@ def place_route(board: Board, tiles: dict[Cell, str], rng: Random, *, far: float
     floor = [(c, r) for c, r in sorted(outside) if (c, r + 1) not in bare.empty and (c, r - 1) in bare.empty]
     hidden, locks = rng.random() < 0.65, rng.choice((1, 2, 2))
     locks = locks if hidden else rng.choice((0, 1))
+    locks = locks if len(inner) <= 70 else 0
     vault = board.heart[len(board.heart) // 2]
-    if len(floor) < 12 or len(inner) > 70 or vault not in inner:
+    if len(floor) < 12 or vault not in inner:
         return None
     best: tuple[float, list[Cell]] | None = None
     for _ in range(CHOICES):
@@ -57,8 +58,9 @@ def place_route(board: Board, tiles: dict[Cell, str], rng: Random, *, far: float
     # Now and then one has to jump for a switch.
     places = [f"{c},{r - 1 if rng.random() < 0.3 else r}" for c, r in (switch, *keys)]
     scene.key = [spec(f"ninja {start[0]},{start[1]}"), spec(f"exit {exit_[0]},{exit_[1]} switch {places[0]}")]
-    for (c, r), place in zip(board.gate, places[1:], strict=False):
-        scene.key.append(spec(f"locked door {c},{r} {board.side} switch {place}"))
+    for number, place in enumerate(places[1:]):
+        for c, r in board.gate[number * board.doors : (number + 1) * board.doors]:
+            scene.key.append(spec(f"locked door {c},{r} {board.side} switch {place}"))
     return scene
 
 
@@ -89,8 +91,11 @@ OBJECTS = 50, MOST_OBJECTS
 
 def compose(layout: str, rng: Random, difficulty: int) -> Scene | None:
     """A level of a ground plan that keeps to all marks and has nothing odd; None if this attempt does not."""
-    board = Board()
+    board = Board(rng.choice((1, 2, 2, 3)))
     LAYOUTS[layout](board, rng)
+    if rng.random() < 0.5:
+        board.unroof(rng)
+    board.fill(rng)
     if rng.random() < 0.5:
         board.flip()
     tiles = shaped(board.ink, even=board.even)
@@ -104,9 +109,10 @@ def compose(layout: str, rng: Random, difficulty: int) -> Scene | None:
     place_fixtures(scene, rng)
     if not lay_gold(scene, rng):
         return None
-    if not place_enemies(scene, rng, rng.choice((5, 6, 7)) + difficulty // 4, difficulty):
+    if not place_enemies(scene, rng, rng.choice((6, 7, 8)) + difficulty // 4, difficulty):
         return None
-    place_mines(scene, rng, rng.choice((14, 18, 22)) + difficulty)
+    place_mines(scene, rng, rng.choice((20, 24, 28)))
+    fill_voids(scene, rng, difficulty)
     if not OBJECTS[0] <= len(scene.objects) <= OBJECTS[1] or level_findings(scene.level) or not _fair(scene.level):
         return None
     return scene

@@ -14,6 +14,7 @@ from ninja_game.batch.difficulty import TRIES, difficulty
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.replay.text import Replay
 from ninja_game.generator.compose import compose
+from ninja_game.generator.gold import lay_trails
 from ninja_game.generator.layouts import LAYOUTS
 from ninja_game.generator.naming import AUTHOR, name_for
 from ninja_game.generator.obstacles import more_beside, nearest_hazard
@@ -33,7 +34,7 @@ ATTEMPTS = 3
 """Attempts that the solver looks at; of those it passes the nearest to what is wanted is taken."""
 PATIENCE = 4
 """So many times as many, with other plans, as long as none is about as hard as wanted; its square if none is passed."""
-ROUNDS = 14
+ROUNDS = 22
 """Changes of the hazards of one attempt."""
 TRIES_TO_COMPOSE = 400
 
@@ -133,6 +134,8 @@ def _certified(scene: Scene, rng: Random, wanted: int, effort: Effort, stop: Eve
     run = solve(Task(scene.level, work=effort.find), stop=stop)
     if run is None:
         return None
+    lay_trails(scene, path_of(scene.level, run), rng)
+    run = verified_run(scene.level, run.inputs)
     measured = difficulty(scene.level, run.inputs, tries=effort.tries)
     spared = False
     for _ in range(effort.rounds):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 from math import cos, dist, sin, tau
 from random import Random
@@ -10,11 +10,11 @@ from random import Random
 from ninja_game.generator.scene import Point, Scene, cell_of, middle, spec
 from ninja_game.sim.rules import CELL
 
-LEAST, MOST = 26, 42
+LEAST, MOST = 26, 38
 """Pieces in a level; a last group may bring more."""
 APART, FROM_KEY = 12.0, 26.0
 """px between pieces, and from ninja, exit and switches."""
-BETWEEN = 4.0 * CELL
+BETWEEN = 3.5 * CELL
 """px between the middles of two groups."""
 OFF = 14.0
 """px from the rock."""
@@ -28,7 +28,7 @@ def round_stones(scene: Scene, _: Random) -> Iterator[list[Point]]:
     for chain in scene.surfaces:
         inside = {cell_of(face.off(-4.0)) for face in chain}
         if len(chain) <= 20 and any(inside <= piece for piece in small):
-            yield along([face.off(OFF) for face in chain], 22.0)
+            yield along([face.off(OFF) for face in chain], 30.0)
 
 
 def along_walls(scene: Scene, rng: Random) -> Iterator[list[Point]]:
@@ -72,33 +72,63 @@ def _walled(scene: Scene, column: int, row: int) -> bool:
 
 
 def hoard(scene: Scene, rng: Random) -> list[Point]:
-    """Two or three rows on the floor of the vault: what the level is about."""
+    """A row or an arch on the floor of the vault, or nothing: the exit or the switch there is enough."""
     (left, y), (right, _) = (middle(cell) for cell in sorted({scene.board.heart[0], scene.board.heart[-1]}))
-    wide, rows = min(9, int((right - left) // 14)), rng.choice((2, 2, 3))
-    grid = [((left + right) / 2 + 14 * (k - wide / 2), y + 5 - 14 * j) for j in range(rows) for k in range(wide + 1)]
-    return [point for point in grid if _fits(scene, point)]
+    count, high = rng.choice((0, 0, 5, 6, 7)), rng.choice((0, 0, 34))
+    wide = min((right - left) / 2, 12.0 * count)
+    row = [((left + right) / 2 + wide * (2 * k / (count - 1) - 1), k / (count - 1)) for k in range(count)]
+    return [point for x, t in row if _fits(scene, point := (x, y + 4 - high * 4 * t * (1 - t)))]
 
 
-def rings(scene: Scene, rng: Random) -> Iterator[list[Point]]:
-    """At the spots of the plan, then round open air out of sight of the start, for a danger in the middle."""
+def rows(scene: Scene, rng: Random) -> Iterator[list[Point]]:
+    """A few pieces on a floor, small ones first: what a guard, a thwump or a mine has to watch."""
+    floors = sorted(scene.runs(), key=lambda run: (run.length > 6) + rng.random())
+    for run in floors:
+        count = min(run.length, 4)
+        if count >= 2:
+            x, y = run.middle
+            yield [(x + 20.0 * (k - (count - 1) / 2), y + 4.0) for k in range(count)]
+
+
+def dangers(scene: Scene, rng: Random) -> Iterator[list[Point]]:
+    """At the spots of the plan, then in open air out of sight of the start, round a danger in the middle."""
     size, start = rng.choice((34, 40, 46)), middle(scene.start)
+    form = rng.choice((ring, bowl, bowl, cross, sides, sides))
     reach = range(-2, 3)
     air = [
         cell
         for cell in sorted(scene.steps)
         if all((cell[0] + i, cell[1] + j) in scene.steps for i in reach for j in reach)
+        and scene.clear_of(middle(cell), key=60.0, other=30.0)
     ]
     rng.shuffle(air)
-    for x, y in scene.board.spots:
-        yield from (ring(CELL * x, CELL * y, far) for far in (size, 28, 22))
+    for x, y in (
+        spot for spot in scene.board.spots if scene.clear_of((CELL * spot[0], CELL * spot[1]), key=9, other=30)
+    ):
+        yield from (form(CELL * x, CELL * y, far) for far in (size, 28, 22))
     for x, y in sorted(map(middle, air), key=lambda at: scene.sees(at, start)):
-        yield ring(x, y, size)
+        yield form(x, y, size)
 
 
 def ring(x: float, y: float, size: float) -> list[Point]:
     """Points of a circle, more of them on a greater one."""
     count = round(size / 4) + 2
     return [(x + size * cos(k * tau / count), y + size * sin(k * tau / count)) for k in range(count)]
+
+
+def bowl(x: float, y: float, size: float) -> list[Point]:
+    """The lower half of a circle."""
+    return [(x + size * cos(k * tau / 14), y + size * sin(k * tau / 14)) for k in range(8)]
+
+
+def cross(x: float, y: float, size: float) -> list[Point]:
+    """Two pieces to each side."""
+    return [(x + k * dx, y + k * dy) for dx, dy in ((1, 0), (0, 1), (-1, 0), (0, -1)) for k in (size - 13, size)]
+
+
+def sides(x: float, y: float, size: float) -> list[Point]:
+    """A short column to the left and to the right."""
+    return [(x + side * size, y + k) for side in (-1, 1) for k in (-18.0, 0.0, 18.0)]
 
 
 def along(line: list[Point], step: float) -> list[Point]:
@@ -115,28 +145,29 @@ def along(line: list[Point], step: float) -> list[Point]:
 
 
 def lay_gold(scene: Scene, rng: Random) -> bool:
-    """Put a few groups of gold into a scene: the hoard, rings, then two other sorts; whether it is enough."""
+    """Put a few groups of gold into a scene: in the vault, round dangers, then of other sorts; whether it is enough."""
     wanted = rng.randint(LEAST + 2, MOST)
     _lay(scene, hoard(scene, rng), wanted)
-    first = (rings, len(scene.board.spots) or rng.choice((0, 1, 1))), (bows, 1)
-    for pattern, most in (*first, *((each, 3) for each in rng.sample(PATTERNS, 4))):
+    first = (dangers, min(rng.choice((0, 1, 1, 2)), len(scene.board.spots) or 1)), (bows, 1)
+    for pattern, most in (*first, *((each, 3) for each in rng.sample(PATTERNS, len(PATTERNS)))):
         done = 0
         for group in pattern(scene, rng):
-            if done >= most or (len(scene.baits) > 4 and len(scene.gold) > LEAST):
+            if done >= most or (len(scene.baits) > 6 and len(scene.gold) > LEAST):
                 break
-            laid = sum([_lay(scene, points, wanted) for points in (group, scene.twin(group))])
+            both = [group, scene.twin(group)][: 1 + (rng.random() < 0.6)]
+            laid = sum([_lay(scene, points, wanted) for points in both])
             done += laid > 0
-            if laid and pattern is rings:
+            if laid and pattern is dangers:
                 scene.rings += scene.baits[-laid:]
     return len(scene.gold) >= LEAST and len(scene.baits) >= 3
 
 
-PATTERNS: tuple[Pattern, ...] = (round_stones, along_walls, bows, falls)
+PATTERNS: tuple[Pattern, ...] = (round_stones, along_walls, bows, falls, rows)
 
 
 def _lay(scene: Scene, points: list[Point], wanted: int) -> bool:
     """Put a group where all of it has room, away from other groups; whether it could be."""
-    if len(scene.gold) >= wanted or len(points) < 3 or not all(_fits(scene, point) for point in points):
+    if len(scene.gold) >= wanted or len(points) < 2 or not all(_fits(scene, point) for point in points):
         return False
     centre = centre_of(points)
     if any(dist(centre, other) < BETWEEN for other in scene.baits):
@@ -149,6 +180,22 @@ def _lay(scene: Scene, points: list[Point], wanted: int) -> bool:
 def centre_of(points: list[Point]) -> Point:
     """The middle of some points."""
     return sum(x for x, _ in points) / len(points), sum(y for _, y in points) / len(points)
+
+
+def lay_about(scene: Scene, place: Point, rng: Random) -> bool:
+    """Put a small group round a place; whether it could be."""
+    form, size = rng.choice((bowl, cross, sides)), rng.choice((26, 32))
+    return _lay(scene, form(*place, size), MOST + 8) or _lay(scene, sides(*place, 24), MOST + 8)
+
+
+def lay_trails(scene: Scene, run: Sequence[Point], rng: Random) -> None:
+    """Up to three more groups along flights of a run that passes."""
+    for _ in range(20):
+        first = rng.randrange(40, max(41, len(run) - 60))
+        points = along(list(run[first : first + rng.randint(30, 50)]), 23.0)
+        in_air = all(not scene.stands(cell_of(point)) for point in points[1:-1])
+        if in_air and _lay(scene, points[:7], MOST + 8) and len(scene.baits) > 10:
+            break
 
 
 def _fits(scene: Scene, point: Point) -> bool:

@@ -8,17 +8,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from random import Random
 
-from ninja_game.generator.scene import Board, box, disc, path, poly
+from ninja_game.generator.scene import Board, box, disc, dish, path, poly
 from ninja_game.generator.shaping import Ink
 
 Layout = Callable[[Board, Random], None]
 
 MID = 16.5
-
-
-def dish(x: float, y: float, wide: float, high: float) -> Ink:
-    """An island with a flat top: half its width, its depth."""
-    return disc(x, round(y), wide, high) & box(1, round(y), 32, 24)
 
 
 def dome(x: float, y: float, wide: float, high: float) -> Ink:
@@ -99,7 +94,7 @@ def cathedral(board: Board, rng: Random) -> None:
 def pyramid(board: Board, rng: Random) -> None:
     """A hollow pyramid, its chamber under a shaft, stars over it."""
     apex = rng.choice((6.0, 7.0))
-    board.air(poly((2, 24), (2, 14), (10, 2), (23, 2), (31, 14), (31, 24)))
+    board.air(poly((2, 24), (2, 9), (6, 2), (27, 2), (31, 9), (31, 24)))
     board.rock(box(1, 23, 32, 24), poly((MID, apex), (5, 24), (28, 24)))
     board.air(poly((MID, apex + 4), (8.2, 23), (24.8, 23)), box(15, 5, 18, 12))
     board.rock(box(8, 17, 25, 19))
@@ -166,8 +161,9 @@ def skull(board: Board, rng: Random) -> None:
 def hourglass(board: Board, rng: Random) -> None:
     """Two wide chambers and the neck between them; the sand covers a vault."""
     waist = rng.choice((10.5, 11.5))
-    board.air(box(3, 2, 30, 23))
+    board.air(box(2, 2, 31, 23))
     board.rock(disc(2, waist, 12.2, 6.0), box(1, waist - 2, 6, waist + 2))
+    board.air(path(2.4, (4, 5), (5, waist), (4, 19)))
     board.rock(poly((MID, 15.4), (14.5, 17), (9.5, 24), (23.5, 24), (18.5, 17)))
     board.air(poly((MID, 18), (11.8, 23), (21.2, 23)))
     board.vault(12, 20, 22, gate=21)

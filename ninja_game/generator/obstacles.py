@@ -7,20 +7,22 @@ from functools import partial
 from math import dist, hypot
 from random import Random
 
-from ninja_game.generator.gold import along
-from ninja_game.generator.scene import ENEMIES, MIDDLE, Cell, Point, Scene, middle, spec
+import numpy as np
+
+from ninja_game.generator.gold import along, lay_about
+from ninja_game.generator.scene import ENEMIES, MIDDLE, Cell, Point, Scene, middle, mirrored, places, spec
 from ninja_game.sim import kinds
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import CELL, PAD_RADIUS
 
 MOST_MINES, MOST_OBJECTS = 34, 110
-MORE = 14
+MORE = 28
 """Mines and objects that may come to them when a level turns out too easy."""
 SAFE = 150.0
 """px from the ninja's start in which nothing waits."""
 BESIDE = 110.0
 """px from gold, exit and switches in which enemies are put first."""
-AT_BAIT = 110.0
+AT_BAIT = 120.0
 """px from the middle of a group of gold in which mines guard it."""
 FROM_RUN = 17.0
 """px from a certified run at which a mine leaves it alone: their radii, and a little."""
@@ -28,7 +30,9 @@ CLOSE = 48.0
 """px from a certified run within which hazards are put when a level turns out too easy."""
 IN_SIGHT = 200.0
 """As ``CLOSE``, of what shoots."""
-MOST_ENEMIES = 10
+MOST_ENEMIES, MOST_ADDED = 11, 15
+MOST_VOIDS, VOID = 4, 4.2 * CELL
+"""Places that are furnished because nothing is so many px around them."""
 GATE = 20.0
 """px from the run to either mine of a gate."""
 
@@ -86,7 +90,7 @@ def launchers(scene: Scene, _: Random) -> Iterator[str]:
 
 
 SOURCES: dict[Source, tuple[int, float]] = {
-    guards: (1, 2.5), zaps: (1, 5.0), thwumps: (1, 1.2), patrols: (2, 1.5), turrets: (3, 0.8), launchers: (5, 1.5),
+    guards: (1, 3.0), zaps: (1, 5.0), thwumps: (1, 1.8), patrols: (2, 1.5), turrets: (3, 0.8), launchers: (5, 1.5),
 }  # fmt: skip
 """Where enemies come from: the least difficulty for them, and how often they are taken."""
 
@@ -128,7 +132,7 @@ def _guards_something(scene: Scene, line: str) -> bool:
 
 
 def _from_hoard(scene: Scene, line: str) -> float:
-    return dist(spec(line).values[:2], scene.baits[0])
+    return dist(spec(line).values[:2], middle(scene.board.heart[len(scene.board.heart) // 2]))
 
 
 def _enemy(scene: Scene, record: ObjectSpec, apart: float) -> ObjectSpec | None:
@@ -150,6 +154,26 @@ def _beside_tiles(scene: Scene) -> Iterator[Cell]:
     for column, row in sorted(scene.steps):
         if scene.full((column, row + 1)) != scene.full((column, row - 1)):
             yield column, row
+
+
+def fill_voids(scene: Scene, rng: Random, difficulty: int) -> None:
+    """Where nothing is far around: a few pieces of gold about a drone that goes to and fro, a turret or a mine."""
+    for _ in range(MOST_VOIDS):
+        taken = np.array([point for record in scene.objects for point in places(record)])
+        cells = sorted(scene.steps)
+        away = np.hypot(*(np.array([middle(cell) for cell in cells])[:, None] - taken[None]).transpose(2, 0, 1)).min(1)
+        x, y = middle(cells[int(away.argmax())])
+        if away.max() < VOID or not lay_about(scene, (x, y), rng):
+            break
+        kind = rng.choice(("zap drone", "zap drone", "gauss turret" if difficulty >= SOURCES[turrets][0] else "mine"))
+        line = f"{kind} {x:g},{y:g}px"
+        enemy = _enemy(
+            scene, spec(f"{line} alternating {rng.choice(('left', 'right'))}" if "zap" in line else line), 60
+        )
+        if scene.count(*ENEMIES) >= MOST_ENEMIES or enemy is None:
+            scene.rings.append((x, y))
+            enemy = spec(f"mine {x:g},{y:g}px")
+        scene.hazards.append([enemy])
 
 
 # --- mines ---
@@ -205,7 +229,7 @@ def more_beside(scene: Scene, run: Sequence[Point], difficulty: int, rng: Random
 
     No mine is less than ``FROM_RUN`` px from the run; whether it still passes an enemy is to be tried.
     """
-    if scene.count(*ENEMIES) < MOST_ENEMIES and rng.random() < 0.35:
+    if scene.count(*ENEMIES) < MOST_ADDED and rng.random() < 0.4:
         source = rng.choices(list(SOURCES), [often * (difficulty >= least) for least, often in SOURCES.values()])[0]
         lines = list(source(scene, rng))
         rng.shuffle(lines)
@@ -253,7 +277,7 @@ def nearest_hazard(scene: Scene, run: Sequence[Point]) -> int | None:
     return min(spare)[1] if spare else None
 
 
-MOST_FIXTURES = 8
+MOST_FIXTURES = 12
 
 
 def pads(scene: Scene, rng: Random) -> Iterator[str]:
@@ -283,10 +307,22 @@ def one_ways(scene: Scene, rng: Random) -> Iterator[str]:
         yield from (f"one-way {c},{r} up" for c, r in gap)
 
 
+def blocks(scene: Scene, rng: Random) -> Iterator[str]:
+    """Bounce blocks in open air, in pairs or like steps, some the same on both sides."""
+    air = [(c, r) for c, r in sorted(scene.steps) if all((c + i, r + j) in scene.steps for i in (-2, 0, 2) for j in
+           (-2, -1, 0, 1, 2))]  # fmt: skip
+    x, y = rng.choice(((1, 0), (0, 1), (2, 1), (2, -1), (3, 0)))
+    for c, r in rng.sample(air, min(len(air), 3)):
+        steps = [(c + x * k, r + y * k) for k in range(2 + (x > 1))]
+        both = [*steps, *map(mirrored, steps * (rng.random() < 0.7))]
+        yield from (f"bounce block {c},{r}" for c, r in both if (c, r) in scene.steps)
+
+
 def place_fixtures(scene: Scene, rng: Random) -> None:
-    """Perhaps put one sort of fixtures into a scene."""
-    kind = rng.choice((pads, pads, one_ways, one_ways, None))
-    for line in kind(scene, rng) if kind else ():
+    """Put one or two sorts of fixtures into a scene."""
+    for line in (
+        line for kind in rng.sample((blocks, pads, one_ways), rng.choice((1, 2, 2))) for line in kind(scene, rng)
+    ):
         record = spec(line)
         # A pad lies on the edge of its cell.
         point = (record.values[0], record.values[1] - (PAD_RADIUS if record.kind == kinds.LAUNCH_PAD else 0.0))

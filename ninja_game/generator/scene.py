@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cached_property
 from itertools import pairwise
 from math import dist, hypot
+from random import Random
 from typing import NamedTuple
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
 from ninja_game.formats.ascii.legend import TILE_OF_CHAR
 from ninja_game.formats.ascii.object_lines import Listed, read_object_line
@@ -70,14 +72,31 @@ def path(width: float, *points: Point) -> Ink:
     return drawn
 
 
+def dish(x: float, y: float, wide: float, high: float) -> Ink:
+    """An island with a flat top: half its width, its depth."""
+    return disc(x, round(y), wide, high) & box(1, round(y), 32, 24)
+
+
+STONES: tuple[Callable[[float, float, float], Ink], ...] = (
+    lambda x, y, size: dish(x, y, size, 1.3),
+    lambda x, y, size: box(round(x - size), y, round(x + size), y + 1),
+    lambda x, y, size: poly((x - size, y), (x, y - 1.5), (x + size, y), (x, y + 1.5)),
+    lambda x, y, _: box(round(x), y - 1, round(x) + 1, y + 2),
+    lambda x, y, size: poly((x - size, y + 1), (x + size, y + 1), (x + size, y - size / 2)),
+    lambda x, y, size: poly((x + size, y + 1), (x - size, y + 1), (x - size, y - size / 2)),
+)
+"""Small stones about a point, by half their width: islands, slabs, diamonds, pillars, ramps."""
+
+
 class Board:
     """Painted rock, all solid at first. While it is ``even``, all is painted at the mirrored place too.
 
-    ``heart``: the floor of the vault. ``gate``: two cells, the only way into it, each with room for a door. ``spots``:
-    where a ring of gold would be in its place, in cells.
+    ``heart``: the floor of the vault. ``gate``: the only way into it, cells for two locks, each of ``doors`` doors.
+    ``spots``: where a group of gold round a danger would be in its place, in cells.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, doors: int = 1) -> None:
+        self.doors = doors
         self.ink = np.ones(X.shape, bool)
         self.even = True
         self.heart: list[Cell] = []
@@ -96,12 +115,49 @@ class Board:
             self.ink &= ~(shape | shape[:, ::-1] if self.even else shape)
 
     def vault(self, first: int, last: int, row: int, gate: int) -> None:
-        """A flat floor from column to column, and a low way out to the right from the column ``gate`` on."""
+        """A flat floor from column to column, and a way out to the right from the column ``gate`` on."""
+        top = row + 1 - self.doors
         self.ink |= box(first, row + 1, last + 1, row + 2)
-        self.ink |= box(gate, row - 1, gate + 2, row + 2)
-        self.ink &= ~(box(first, row - 1, gate, row + 1) | box(first, row, gate + 4, row + 1))
+        self.ink |= box(gate, top - 1, gate + 2, row + 2)
+        self.ink &= ~(box(first, row - 1, gate, row + 1) | box(first, top, gate + 4, row + 1))
         self.heart = [(column, row) for column in range(first, last + 1)]
-        self.gate = [(gate, row), (gate + 1, row)]
+        self.gate = [(gate + lock, row - k) for lock in (0, 1) for k in range(self.doors)]
+
+    def holds(self, cell: Cell) -> bool:
+        """Whether the middle of a cell is rock, or of the border."""
+        return not inside(cell) or bool(self.ink[cell[1] * FINE - FINE // 2, cell[0] * FINE - FINE // 2])
+
+    def unroof(self, rng: Random) -> None:
+        """Close the way into the vault and open its roof instead, if there is open space not far above."""
+        column, row = rng.choice(self.heart[1:-1])
+        near = next((k for k in range(1, 6) if self.holds((column, row - k))), 6)
+        far = next((k for k in range(near, near + 6) if not self.holds((column, row - k))), 0)
+        if not near + 2 <= far:
+            return
+        left, right = sorted((self.gate[0][0], self.gate[-1][0]))
+        self.ink |= box(left, row - self.doors, right + 1, row + 1)
+        low, high = row - near, row - far + 1
+        self.ink &= ~box(column - 1, high - 1, column + 2, low + 1)
+        self.even, self.side, self.doors = False, "top", 3
+        self.gate = [(column + k, high + lock) for lock in (0, 1) for k in (-1, 0, 1)]
+
+    def fill(self, rng: Random) -> None:
+        """Stones of one or two sorts in what is too wide and open, some of them on one side only."""
+        for row in self.ink:  # What comes close to the border goes on to it.
+            row[:FINE], row[-FINE:] = row[FINE], row[-FINE - 1]
+        self.ink[:FINE] = self.ink[FINE]
+        sorts, even = rng.sample(STONES, 2), self.even
+        for number in range(11):
+            air = np.pad(~self.ink.reshape(ROWS, FINE, COLUMNS, FINE).any((1, 3)), 1)
+            wide, high = ((9, 6), (7, 5), (6, 4))[number // 4]
+            free = np.argwhere(sliding_window_view(air, (high, wide)).all((2, 3)))
+            if not len(free):
+                continue
+            top, left = rng.choice(free.tolist())
+            x, y = left + wide / 2 + rng.choice((-0.5, 0.5)), top + high // 2 + rng.choice((0, 1))
+            self.even = even and rng.random() < 0.6
+            self.rock(rng.choice(sorts)(x, y, rng.uniform(1.0, 1.0 + wide / 9)))
+        self.even &= even
 
     def flip(self) -> None:
         """Turn left and right round."""
@@ -308,7 +364,7 @@ class Scene:
 
 
 _KEY = (kinds.NINJA, kinds.EXIT, kinds.DOOR)
-_ROOM = {kinds.LAUNCH_PAD: 20.0, kinds.ONE_WAY: 16.0}
+_ROOM = {kinds.LAUNCH_PAD: 20.0, kinds.ONE_WAY: 16.0, kinds.BOUNCE_BLOCK: 22.0}
 """px that stay free around fixtures."""
 
 
