@@ -83,6 +83,17 @@ def test_safe_palettes_mark_danger_by_shape(palette: Palette, key: SpriteKey) ->
 
 
 @pytest.mark.parametrize("palette", PALETTES.values(), ids=lambda palette: palette.name)
+def test_one_way_is_solid_where_it_carries_and_no_spikes_where_it_lets_through(palette: Palette) -> None:
+    scale = 4
+    bar, ax, ay = SpriteBook(scale, palette).sprite(static.one_way())
+    alpha = {y: [bar.get_at((ax + scale * x, ay + scale * y)).a for x in range(-11, 12)] for y in (-10, -6, 6)}
+    assert min(alpha[-10]) == 255, "what one stands on"
+    assert max(alpha[-6]) < 128, "mines are solid, this is not"
+    assert max(alpha[6]) < max(alpha[-6]), "it fades out"
+    assert contrast(palette.switch, palette.background) >= 1.9
+
+
+@pytest.mark.parametrize("palette", PALETTES.values(), ids=lambda palette: palette.name)
 def test_every_drawing_can_be_made(palette: Palette) -> None:
     examples = (
         *AT_REST, static.gold(), static.one_way(), static.exit_door(5), static.exit_switch(1), static.door(2, 0),
