@@ -28,10 +28,10 @@ from ninja_game.ui.theme import Palette, Theme, mixed, wrapped
 from ninja_game.ui.widgets import draw_medal
 
 _BAR_LEFT, _BAR_MIDDLE = 24.0, 12.0
-_BAR_LONGEST = 700.0
-_BAR_AT_START = 600.0
-"""Length of the bar with the lifetime that a level begins with."""
-_WARNING_TICKS = 1800
+_BAR_LONGEST = 630.0
+"""Its length, px, with the lifetime that a level begins with, or more."""
+_WARNING_TICKS, _LAST_TICKS = 1800, 800
+_MARKED = "silver", "gold"
 _FOOT_WIDTH = 744.0
 
 
@@ -44,13 +44,12 @@ _KEYS = (
 
 
 def bar_length(lifetime: float) -> float:
-    """Length of the time bar, px, for a lifetime in ticks: whatever is left, less of it is shorter.
+    """Length of the time bar, px, for a lifetime in ticks.
 
-    >>> bar_length(1800), bar_length(3600), bar_length(7200)
-    (300.0, 600.0, 650.0)
+    >>> bar_length(900), bar_length(3600), bar_length(7200)
+    (157.5, 630.0, 630.0)
     """
-    more = _BAR_LONGEST - _BAR_AT_START
-    return _BAR_LONGEST - more * LIFETIME / lifetime if lifetime > LIFETIME else _BAR_AT_START * lifetime / LIFETIME
+    return _BAR_LONGEST * min(1.0, max(0.0, lifetime / LIFETIME))
 
 
 def trough(palette: Palette) -> pygame.Color:
@@ -69,7 +68,8 @@ KeyName = Callable[[str], str]
 class HudView:
     """What is written over a level now.
 
-    ``lifetime``: ticks, for the time bar; ``label``: a word in its place. ``foot``: texts at the left and the right of
+    ``lifetime``: ticks, for the time bar; ``label``: a word in its place; ``pars``: medals, and with which lifetime each
+    is lost. ``foot``: texts at the left and the right of
     the border below. ``keys``: those of the present tick, ``frame_ms``: of the last picture; None: not shown.
     ``said``: a text of the level, its tiles and the things of which it covers as little as can be, the place near which
     it should be, and whether it may cover anything but rock: else it may lie in the border below. ``moves``: the keys
@@ -81,6 +81,7 @@ class HudView:
     lifetime: float
     label: str
     foot: tuple[str, str]
+    pars: Sequence[tuple[str, float]] = ()
     keys: int | None = None
     frame_ms: float | None = None
     said: tuple[str, tuple[int, ...], Things, Point | None, bool] | None = None
@@ -100,7 +101,7 @@ class Hud:
 
     def draw(self, surface: pygame.Surface, view: HudView) -> list[pygame.Rect]:
         """All of it; the px rectangles that it covers."""
-        top = self.label(surface, view.label) if view.label else self.time_bar(surface, view.lifetime)
+        top = self.label(surface, view.label) if view.label else self.time_bar(surface, view.lifetime, view.pars)
         said = self.box(*view.said, keys=KEYS_WIDE if view.moves else 0) if view.said else None
         in_border = said is not None and said[2] == IN_BORDER
         written = [top, self.foot(surface, "" if in_border else view.foot[0], view.foot[1])]
@@ -115,24 +116,31 @@ class Hud:
             written.append(self.message(surface, *view.message, medal=view.medal, stamp=view.stamp, seen=view.seen))
         return written
 
-    def time_bar(self, surface: pygame.Surface, lifetime: float) -> pygame.Rect:
-        """The lifetime (ticks) as a bar that grows thick and red as it runs out, and as seconds."""
+    def time_bar(
+        self, surface: pygame.Surface, lifetime: float, pars: Sequence[tuple[str, float]] = ()
+    ) -> pygame.Rect:
+        """The lifetime (ticks) as a bar, what gold added to the first in gold, and as seconds; medals where they end.
+
+        It grows thick and red as it runs out.
+        """
         palette, canvas = self.theme.palette, self.theme.canvas
         left = max(0.0, lifetime)
-        length = bar_length(left)
         danger = min(1.0, max(0.0, 1 - left / _WARNING_TICKS))
         thick = 5 + 8 * danger
-        colour = mixed(palette.bar_full, palette.bar_empty, danger)
-        frame = canvas.fill_rect(
-            surface, trough(palette), _BAR_LEFT - 1, _BAR_MIDDLE - thick / 2 - 1, _BAR_LONGEST + 2, thick + 2, 2
-        )
-        if length > 0:
-            canvas.fill_rect(surface, colour, _BAR_LEFT, _BAR_MIDDLE - thick / 2, length, thick, 1.5)
-        x = _BAR_LEFT + _BAR_LONGEST + 5
+        top = _BAR_MIDDLE - thick / 2
+        frame = canvas.fill_rect(surface, trough(palette), _BAR_LEFT - 1, top - 1, _BAR_LONGEST + 2, thick + 2, 2)
+        full = mixed(palette.bar_full, palette.bar_empty, danger)
+        for colour, ticks in ((full, left), (palette.gold, left - LIFETIME)):
+            if length := bar_length(ticks):
+                canvas.fill_rect(surface, colour, _BAR_LEFT, top, length, thick, 1.5)
+        for medal, ticks in pars:
+            draw_medal(surface, self.theme, medal, _BAR_LEFT + bar_length(ticks), _BAR_MIDDLE, MARK)
+        x = _BAR_LEFT + _BAR_LONGEST
         text = self.theme.text(
-            surface, f"{rounded_text(int(left))} s left", x, 7.4, size=9, colour=palette.on_tile, bold=True
-        )
-        return frame.union(text.inflate(canvas.px(8), 4))
+            surface, f"{rounded_text(int(left))} s left" + " to live" * (left < _LAST_TICKS), RIGHT, 7.4, size=9,
+            colour=palette.on_tile, align="right", bold=True, width=RIGHT - x - 10,
+        )  # fmt: skip
+        return frame.union(text.inflate(canvas.px(8), 4)).union(canvas.rect(x, 2, 8, 20))
 
     def label(self, surface: pygame.Surface, text: str) -> pygame.Rect:
         """A word in the time bar's place."""
@@ -292,6 +300,9 @@ LOWEST = 573.0
 TITLE, LINE, POINTER = 24.0, 12.5, 9.5
 """Sizes in the panel of a passed level, and of the names of things."""
 
+MARK, RIGHT = 12.0, 768.0
+"""Size of a medal on the time bar; right edge of what is written in the borders."""
+
 PRIZE, STAMP_SEEN = 54.0, 0.2
 """Size of the medal of a pass; how far its stamp has come when it is first seen."""
 
@@ -340,6 +351,7 @@ def hud_view(play: LevelPlay) -> HudView:
         play.shown_lifetime,
         practice if context.practice_mode else "",
         (title, hint or f"gold {gold}"),
+        pars=_pars_ahead(play),
         keys=play.keys if settings.show_keys and not hint else None,
         frame_ms=app.frame_ms if settings.show_frame_time else None,
         said=said,
@@ -350,6 +362,16 @@ def hud_view(play: LevelPlay) -> HudView:
         stamp=play.stamp,
         seen=1.0 if settings.reduced_motion else min(1.0, (play.after_end + play.fraction) / FADE_TICKS),
     )
+
+
+def _pars_ahead(play: LevelPlay) -> list[tuple[str, float]]:
+    """The medals that the present try can still bring, in a level that was passed, each with the lifetime at its par."""
+    pars, attempt = play.context.pars, play.attempt
+    if pars is None or not play.aim or play.phase is Phase.PASSED:
+        return []
+    tick = attempt.simulation.tick
+    ahead = ((medal, attempt.lifetime - (pars.par(medal) - tick)) for medal in _MARKED)
+    return [(medal, ticks) for medal, ticks in ahead if 0 < ticks < min(attempt.lifetime, LIFETIME)]
 
 
 def _reached(play: LevelPlay) -> list[str]:
