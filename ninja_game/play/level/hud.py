@@ -68,9 +68,8 @@ KeyName = Callable[[str], str]
 class HudView:
     """What is written over a level now.
 
-    ``lifetime``: ticks, for the time bar; ``label``: a word in its place; ``pars``: medals, and with which lifetime each
-    is lost. ``foot``: texts at the left and the right of
-    the border below. ``keys``: those of the present tick, ``frame_ms``: of the last picture; None: not shown.
+    ``lifetime``: ticks, for the time bar; ``label``: a word in its place; ``pars``: medals, and with which lifetime
+    each is lost. ``foot``: texts at the left and the right of the border below. ``keys``: those of the present tick, ``frame_ms``: of the last picture; None: not shown.
     ``said``: a text of the level, its tiles and the things of which it covers as little as can be, the place near which
     it should be, and whether it may cover anything but rock: else it may lie in the border below. ``moves``: the keys
     of each of its lines.
@@ -116,9 +115,7 @@ class Hud:
             written.append(self.message(surface, *view.message, medal=view.medal, stamp=view.stamp, seen=view.seen))
         return written
 
-    def time_bar(
-        self, surface: pygame.Surface, lifetime: float, pars: Sequence[tuple[str, float]] = ()
-    ) -> pygame.Rect:
+    def time_bar(self, surface: pygame.Surface, lifetime: float, pars: Sequence[tuple[str, float]] = ()) -> pygame.Rect:
         """The lifetime (ticks) as a bar, what gold added to the first in gold, and as seconds; medals where they end.
 
         It grows thick and red as it runs out.
@@ -365,7 +362,7 @@ def hud_view(play: LevelPlay) -> HudView:
 
 
 def _pars_ahead(play: LevelPlay) -> list[tuple[str, float]]:
-    """The medals that the present try can still bring, in a level that was passed, each with the lifetime at its par."""
+    """The medals that this try can still bring, in a level that was passed, each with the lifetime at its par."""
     pars, attempt = play.context.pars, play.attempt
     if pars is None or not play.aim or play.phase is Phase.PASSED:
         return []

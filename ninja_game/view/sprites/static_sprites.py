@@ -139,7 +139,7 @@ def one_way(s: Sketch, p: Palette) -> None:
 
 def _soft(colour: pygame.Color, solid: float) -> pygame.Color:
     """A colour that lets through what is behind it."""
-    return pygame.Color(*colour[:3], round(255 * solid)).premul_alpha()
+    return pygame.Color(colour.r, colour.g, colour.b, round(255 * solid)).premul_alpha()
 
 
 @drawing(7)
