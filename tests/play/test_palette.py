@@ -59,7 +59,8 @@ def test_time_bar_stands_out_full_and_empty(palette: Palette) -> None:
 def test_text_and_ninja_stand_out(palette: Palette) -> None:
     assert contrast(palette.text, palette.panel) >= 7
     assert contrast(palette.text, palette.background) >= 7
-    assert contrast(palette.faint, palette.panel) >= 4
+    assert contrast(palette.faint, palette.panel) >= 4.5
+    assert contrast(palette.accent, palette.panel) >= 4.5
     assert contrast(palette.on_tile, palette.tile) >= 3.2
     assert contrast(palette.ninja, palette.background) >= 7
     assert contrast(palette.tile, palette.background) >= 1.7

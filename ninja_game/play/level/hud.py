@@ -12,7 +12,7 @@ import pygame
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.run_time import rounded_text
 from ninja_game.formats.sayings import named_keys
-from ninja_game.play.level.play import LevelPlay, Phase, Things
+from ninja_game.play.level.play import MUST, STAMP_TICKS, LevelPlay, Phase, Things
 from ninja_game.play.level.sayings import FALL_HELP, WHY
 from ninja_game.player.marks import Mark, next_par
 from ninja_game.player.playthrough import Navigation
@@ -69,12 +69,14 @@ class HudView:
     """What is written over a level now.
 
     ``lifetime``: ticks, for the time bar; ``label``: a word in its place; ``pars``: medals, and with which lifetime
-    each is lost. ``foot``: texts at the left and the right of the border below. ``keys``: those of the present tick, ``frame_ms``: of the last picture; None: not shown.
+    each is lost. ``foot``: texts at the left and the right of the border below. ``keys``: those of the present tick,
+    ``frame_ms``: of the last picture; None: not shown.
     ``said``: a text of the level, its tiles and the things of which it covers as little as can be, the place near which
     it should be, and whether it may cover anything but rock: else it may lie in the border below. ``moves``: the keys
     of each of its lines.
-    ``named``: what it names, and where that is, px. ``message``: title and lines of a panel, and its top; ``medal``:
-    that of the pass, or "", and ``stamp``: how far it has grown, 0…1. ``seen``: how solid the panel is, 0…1.
+    ``named``: what it names, and where that is, px. ``message``: title and lines of a panel, and the level's tiles
+    and the things of which it covers as little as can be; ``medal``: that of the pass, or "", ``stamp``: how far it has
+    grown, 0…1, ``shine``: how far light has swept over it. ``seen``: how solid the panel is, 0…1.
     """
 
     lifetime: float
@@ -86,9 +88,10 @@ class HudView:
     said: tuple[str, tuple[int, ...], Things, Point | None, bool] | None = None
     moves: Sequence[int] = ()
     named: Sequence[tuple[str, float, float]] = ()
-    message: tuple[str, Sequence[str], float] | None = None
+    message: tuple[str, Sequence[str], tuple[int, ...], Things] | None = None
     medal: str = ""
     stamp: float = 1.0
+    shine: float = 1.0
     seen: float = 1.0
 
 
@@ -111,8 +114,8 @@ class Hud:
         written += [self.pointer(surface, *named) for named in view.named]
         if said is not None:
             written.append(self.said(surface, said, () if in_border else view.moves))
-        if view.message is not None and view.seen > 0:
-            written.append(self.message(surface, *view.message, medal=view.medal, stamp=view.stamp, seen=view.seen))
+        if view.message and view.seen > 0:
+            written.append(self.message(surface, view, *view.message))
         return written
 
     def time_bar(self, surface: pygame.Surface, lifetime: float, pars: Sequence[tuple[str, float]] = ()) -> pygame.Rect:
@@ -168,32 +171,37 @@ class Hud:
         return rect.inflate(self.theme.canvas.px(12), 2)
 
     def message(
-        self, surface: pygame.Surface, title: str, lines: Sequence[str], y: float, *,
-        medal: str = "", stamp: float = 1.0, seen: float = 1.0,
+        self, surface: pygame.Surface, view: HudView, title: str, lines: Sequence[str], tiles: tuple[int, ...],
+        things: Things,
     ) -> pygame.Rect:  # fmt: skip
-        """A panel: a title, a medal left of it or none, and lines under them, from ``y`` on; all fade in together."""
-        theme = self.theme
+        """A panel: a title and lines under it; with a medal at its left, beside it the first line too, in large."""
+        theme, medal = self.theme, view.medal
         below, beside = (26, PRIZE + 14) if medal else (0, 0)
-        head = theme.width(title, TITLE, bold=True)
+        named, lines = (lines[0], lines[1:]) if medal else ("", lines)
+        head = max(theme.width(title, TITLE, bold=True), theme.width(named, NAMED, bold=True))
         w = max(220.0, head + beside, *(theme.width(line, LINE) for line in lines)) + 44
         h = 48.0 + 18 * len(lines) + below
-        y = min(y, LOWEST - h)
-        place = theme.canvas.rect((WIDTH - w) / 2, y, w, h)
-        behind = pygame.Surface(place.size, pygame.SRCALPHA) if seen < 1 else None
+        x, y, _ = solid_place(tiles, w, h, things, few=True)
+        place = theme.canvas.rect(x, y, w, h)
+        behind = pygame.Surface(place.size, pygame.SRCALPHA) if view.seen < 1 else None
         if behind:
             behind.blit(surface, (0, 0), place)
-        rect = theme.panel(surface, (WIDTH - w) / 2, y, w, h, 4)
-        if medal and stamp > STAMP_SEEN:
+        rect = theme.panel(surface, x, y, w, h, 4)
+        middle = x + w / 2
+        if medal and view.stamp > STAMP_SEEN:
             # It grows a little too large, but never over the words beside it.
-            size = PRIZE * stamp * (1 + 0.6 * sin(pi * stamp))
-            draw_medal(surface, theme, medal, (WIDTH - head - 14) / 2, y + 9 + PRIZE / 2, size)
-        middle = (WIDTH + beside) / 2
-        theme.text(surface, title, middle, y + 9 + below / 2, size=TITLE, align="centre", bold=True)
+            size = PRIZE * view.stamp * (1 + 0.6 * sin(pi * view.stamp))
+            at = middle - (head + 14) / 2, y + 9 + PRIZE / 2
+            draw_medal(surface, theme, medal, *at, size, shine=view.shine)
+        across = middle + beside / 2
+        theme.text(surface, title, across, y + 9, size=TITLE, align="centre", bold=True)
+        theme.text(
+            surface, named, across, y + 43, size=NAMED, colour=theme.palette.accent, align="centre", bold=True
+        )  # fmt: skip
         for k, line in enumerate(lines):
-            colour = theme.palette.text if k < len(lines) - 1 else theme.palette.faint
-            theme.text(surface, line, WIDTH / 2, y + 41 + below + 18 * k, size=LINE, colour=colour, align="centre")
+            theme.text(surface, line, middle, y + 41 + below + 18 * k, size=LINE, align="centre")
         if behind:
-            behind.fill((round(255 * (1 - seen)),) * 4, special_flags=pygame.BLEND_RGBA_MULT)
+            behind.fill((round(255 * (1 - view.seen)),) * 4, special_flags=pygame.BLEND_RGBA_MULT)
             surface.blit(behind, place, special_flags=pygame.BLEND_PREMULTIPLIED)
         return rect
 
@@ -255,12 +263,12 @@ class Hud:
 
 @lru_cache(maxsize=4)
 def solid_place(
-    tiles: tuple[int, ...], w: float, h: float, things: Things = (), eye: Point | None = None
+    tiles: tuple[int, ...], w: float, h: float, things: Things = (), eye: Point | None = None, *, few: bool = False
 ) -> tuple[float, float, int]:
     """Upper left corner of a panel of that size, px, where it covers no thing, little gold and the least of any way.
 
     The third is how much it covers. What is full is no way, open space far from all that is full hardly one. Of equal
-    places it is the one nearest to ``eye``, or to the middle of the lower border.
+    places it is the one nearest to ``eye``, or to the middle of the lower border. ``few``: of nine places only.
     """
     full = [SHAPE[tile] == FULL for tile in tiles]
 
@@ -279,23 +287,24 @@ def solid_place(
 
     ways = [way(*divmod(place, ROWS)) for place in range(COLUMNS * ROWS)]
     edge = CELL + 4
-    lefts = [edge + k * (WIDTH - 2 * edge - w) / 8 for k in range(9)]
-    best = min(((x, y) for x in lefts for y in range(int(edge), int(LOWEST - h), 6)), key=cost)
+    lefts = [edge + k * (WIDTH - 2 * edge - w) / 8 for k in range(0, 9, 4 if few else 1)]
+    tops = range(int(edge), int(LOWEST - h), int(LOWEST - h - edge - 1) // 2 if few else 6)
+    best = min(((x, y) for x in lefts for y in tops), key=cost)
     return *best, cost(best)[0]
 
 
 NEAR, ALONG = 16.0, 7
 """px that a panel keeps from the middle of a thing; open cells that weigh as much as a cell along rock."""
 
-ABOVE, BELOW, NINJA_ROOM, FADE_TICKS = 34.0, 474.0, 230.0, 8
-"""Where the panel of an ended run begins: near the upper border, or the lower one if the ninja is above this line; in
-how many ticks it fades in."""
+FADE_TICKS, SHINE_TICKS, END_ROOM = 8, 20, 36.0
+"""In how many ticks the panel of an ended run fades in, and light sweeps over its medal; px to all sides of where the
+run ended that it leaves free."""
 
 LOWEST = 573.0
 """Where it ends at the latest: below it are the level's name and what a pass has brought."""
 
-TITLE, LINE, POINTER = 24.0, 12.5, 9.5
-"""Sizes in the panel of a passed level, and of the names of things."""
+TITLE, NAMED, LINE, POINTER = 26.0, 15.0, 12.5, 9.5
+"""Sizes in the panel of a passed level: its time, the medal, the rest; and of the names of things."""
 
 MARK, RIGHT = 12.0, 768.0
 """Size of a medal on the time bar; right edge of what is written in the borders."""
@@ -321,8 +330,6 @@ def hud_view(play: LevelPlay) -> HudView:
     key, settings = app.controls.name, app.settings
     gold = f"{attempt.gold} / {play.all_gold}"
     message = None
-    # Always at the same place, but where the ninja is: its dance or its corpse is never hidden.
-    y = ABOVE if attempt.simulation.world.ninja.y > NINJA_ROOM else BELOW
     text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.sayings.text
     still = play.phase is Phase.READY
     # Who needs to see what keys do is stuck: that may cover open space.
@@ -330,14 +337,15 @@ def hud_view(play: LevelPlay) -> HudView:
     said = (named_keys(text, key), context.level.tiles, play.things, play.eye, covers) if text else None
     if play.phase is Phase.DEAD:
         cause, _, why = cause_of_death(play).partition(". ")
-        message = cause.rstrip("."), [*filter(None, [why]), _after_death(play, key)], y
+        message = cause.rstrip("."), [*filter(None, [why]), _after_death(play, key)], *_covering(play)
     if play.phase is Phase.PASSED:
         onward = "go on" if context.way_out is Navigation.EPISODE_END else "next level"
         keys = f"{key('confirm')}: {onward}    {key('retry')}: play again    {key('replay')}: replay"
         if not context.leads_on:
             keys = f"{key('confirm')}: play again    {key('replay')}: replay    {key('back')}: leave"
         time = f"{rounded_text(attempt.ended_tick)} s"
-        message = f"{play.medal.capitalize() or 'Passed'}    time {time}", [*_reached(play), keys], y
+        title = f"Time {time}" if play.medal else f"Passed    time {time}"
+        message = title, [*_reached(play), keys], *_covering(play)
     hint = _hint(play, key)
     name = shown_text(context.title)
     title = f"{name} ({play.aim})" if play.phase is Phase.READY and play.aim else name
@@ -357,6 +365,7 @@ def hud_view(play: LevelPlay) -> HudView:
         named=() if message else _named(play),
         medal=play.medal,
         stamp=play.stamp,
+        shine=1.0 if settings.reduced_motion else (play.after_end + play.fraction - STAMP_TICKS) / SHINE_TICKS,
         seen=1.0 if settings.reduced_motion else min(1.0, (play.after_end + play.fraction) / FADE_TICKS),
     )
 
@@ -371,12 +380,20 @@ def _pars_ahead(play: LevelPlay) -> list[tuple[str, float]]:
     return [(medal, ticks) for medal, ticks in ahead if 0 < ticks < min(attempt.lifetime, LIFETIME)]
 
 
+def _covering(play: LevelPlay) -> tuple[tuple[int, ...], Things]:
+    """The tiles and things of which the panel of an ended run covers little, and where the run ended: never that."""
+    x, y = play.eye or (0.0, 0.0)
+    end = [(x + dx, y + dy, 9 * MUST) for dx in (-END_ROOM, 0, END_ROOM) for dy in (-END_ROOM, 0, END_ROOM)]
+    return play.context.level.tiles, (*end, *play.things)
+
+
 def _reached(play: LevelPlay) -> list[str]:
-    """What the next medal needs; the gold of a passed run, and what that has brought."""
+    """The medal; what the next one needs; the gold of a passed run, and what that has brought."""
     attempt, pars = play.attempt, play.context.pars
     following = [next_par(pars, Mark(attempt.ended_tick, 0)) or "The best medal"] if pars and play.medal else []
     gold = f"{attempt.gold} of {play.all_gold} gold"
-    return [*following, "    ".join([gold, *play.notices])]
+    medal = [f"{play.medal.capitalize()} medal"] if play.medal else []
+    return [*medal, *following, "    ".join([gold, *play.notices])]
 
 
 def _named(play: LevelPlay) -> list[tuple[str, float, float]]:
