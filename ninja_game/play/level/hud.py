@@ -181,7 +181,7 @@ class Hud:
         head = max(theme.width(title, TITLE, bold=True), theme.width(named, NAMED, bold=True))
         w = max(220.0, head + beside, *(theme.width(line, LINE) for line in lines)) + 44
         h = 48.0 + 18 * len(lines) + below
-        x, y, _ = solid_place(tiles, w, h, things, few=True)
+        x, y, *_ = solid_place(tiles, w, h, things, rows=3)
         place = theme.canvas.rect(x, y, w, h)
         behind = pygame.Surface(place.size, pygame.SRCALPHA) if view.seen < 1 else None
         if behind:
@@ -222,13 +222,17 @@ class Hud:
     def box(
         self, text: str, tiles: tuple[int, ...], things: Things, eye: Point | None, covers: bool, *, keys: float = 0.0
     ) -> Box:
-        """Where a text of the level lies: over what is solid, or in the border below, beside the gold."""
+        """Where a text of the level lies: along the lower or the upper border, over what is solid.
+
+        Where it would hide something there, one that may cover open space lies where there is most of it, another in
+        the border below, beside the gold.
+        """
         theme = self.theme
-        for width in (360, 200) if eye else (360,):
+        for rows, width in ((2, 360), (2, 200), (0, 360)):
             lines = text.split("\n") if keys else wrapped(theme, text, width, SAID)
             w = max(theme.width(line, SAID) for line in lines) + 28 + keys
-            left, y, covered = solid_place(tiles, w, 20.0 * len(lines) + 19, things, eye)
-            if covers or not covered:
+            left, y, covered, hidden = solid_place(tiles, w, 20.0 * len(lines) + 19, things, eye, rows=rows)
+            if not (hidden if covers and rows else covered if not covers else 0):
                 return lines, left, y, w, 20.0, 10.0, SAID
         text = text.replace("\n", "    ")
         size = min(SAID, SAID * BESIDE_GOLD / theme.width(text, SAID))
@@ -263,12 +267,14 @@ class Hud:
 
 @lru_cache(maxsize=4)
 def solid_place(
-    tiles: tuple[int, ...], w: float, h: float, things: Things = (), eye: Point | None = None, *, few: bool = False
-) -> tuple[float, float, int]:
+    tiles: tuple[int, ...], w: float, h: float, things: Things = (), eye: Point | None = None, *, rows: int = 0
+) -> tuple[float, float, int, int]:
     """Upper left corner of a panel of that size, px, where it covers no thing, little gold and the least of any way.
 
-    The third is how much it covers. What is full is no way, open space far from all that is full hardly one. Of equal
-    places it is the one nearest to ``eye``, or to the middle of the lower border. ``few``: of nine places only.
+    The third is how much it covers, the last how much of that are things, gold and the author's way. What is full is no
+    way, open space far from all that is full hardly one. Of equal places it is the one nearest to ``eye``, or to the
+    middle of the lower border. ``rows``: at the left, in the middle and at the right of so many heights only, from the
+    upper border to the lower one.
     """
     full = [SHAPE[tile] == FULL for tile in tiles]
 
@@ -277,20 +283,22 @@ def solid_place(
                   if 0 <= a < COLUMNS and 0 <= b < ROWS]  # fmt: skip
         return 0 if full[column * ROWS + row] else ALONG if any(around) or len(around) < 9 else 1
 
-    def cost(place: tuple[float, float]) -> tuple[int, float]:
+    def cost(place: tuple[float, float]) -> tuple[int, float, int]:
         x, y = place
-        columns, rows = (range(int(a // CELL) - 1, int((a + b - 1) // CELL)) for a, b in ((x, w), (y, h)))
-        covered = sum(ways[column * ROWS + row] for column in columns for row in rows if row < ROWS)
+        columns, heights = (range(int(a // CELL) - 1, int((a + b - 1) // CELL)) for a, b in ((x, w), (y, h)))
+        covered = sum(ways[column * ROWS + row] for column in columns for row in heights if row < ROWS)
         hidden = sum(worth for a, b, worth in things if -NEAR < a - x < w + NEAR and -NEAR < b - y < h + NEAR)
         far = hypot(x + w / 2 - eye[0], y + h / 2 - eye[1]) if eye else 0.0
-        return covered + hidden, far or abs(x + w / 2 - WIDTH / 2) + HEIGHT - y
+        return covered + hidden, far or abs(x + w / 2 - WIDTH / 2) + HEIGHT - y, hidden
 
     ways = [way(*divmod(place, ROWS)) for place in range(COLUMNS * ROWS)]
     edge = CELL + 4
-    lefts = [edge + k * (WIDTH - 2 * edge - w) / 8 for k in range(0, 9, 4 if few else 1)]
-    tops = range(int(edge), int(LOWEST - h), int(LOWEST - h - edge - 1) // 2 if few else 6)
-    best = min(((x, y) for x in lefts for y in tops), key=cost)
-    return *best, cost(best)[0]
+    lefts = [edge + k * (WIDTH - 2 * edge - w) / 8 for k in range(0, 9, 4 if rows else 1)]
+    apart = (LOWEST - h - edge) / (rows - 1) if rows else 6
+    tops = [edge + k * apart for k in range(rows or int((LOWEST - h - edge) / 6))]
+    x, y = min(((x, y) for x in lefts for y in tops), key=cost)
+    covered, _, hidden = cost((x, y))
+    return x, y, covered, hidden
 
 
 NEAR, ALONG = 16.0, 7
