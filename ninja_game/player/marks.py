@@ -67,8 +67,7 @@ def opens_author(entry: Entry, mark: Mark | None) -> bool:
 def next_par(pars: Pars, mark: Mark) -> str:
     """The medal after the one that a mark brings, and by how much it was missed; "" after the best."""
     medal = pars.next_medal(mark.fastest)
-    behind = "the author" if medal == "author" else medal
-    return f"{rounded_text(mark.fastest - pars.par(medal))} s behind {behind}" if medal else ""
+    return f"{rounded_text(mark.fastest - pars.par(medal))} s behind the {medal} medal" if medal else ""
 
 
 def reached(entry: Entry, mark: Mark | None) -> str:

@@ -221,7 +221,7 @@ ROLES = tuple(entry.name for entry in fields(Palette) if entry.name not in {"nam
 """All colour roles."""
 
 _CLASSIC = dict(  # noqa: C408 - one form for all palettes
-    background="#cacad0", tile="#787887", text="#17171c", faint="#62626f", on_tile="#e4e4ea", panel="#dcdce1",
+    background="#cacad0", tile="#787887", text="#17171c", faint="#5f5f6b", on_tile="#e4e4ea", panel="#dcdce1",
     panel_edge="#9a9aa6", accent="#a33a2c", good="#2d6a3a", bad="#992222", bar_full="#c0ccff",
     bar_empty="#ffab9f", ninja="#1d1d22", band="#a33a2c", ghost="#5865a0", blood="#990000", outline="#3a3a42",
     dark="#5b5b66", middle="#9a9aa5", light="#b8b8c1", bright="#ebebef", gold="#cc9900", gold_light="#f4dd55",

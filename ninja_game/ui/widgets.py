@@ -11,7 +11,7 @@ from typing import Generic, TypeVar
 import pygame
 
 from ninja_game.formats.pack import pars
-from ninja_game.ui.theme import Area, Theme, inside
+from ninja_game.ui.theme import Area, Theme, inside, mixed
 
 PAD = 8
 TEXT = 11
@@ -239,25 +239,52 @@ class Slider(Widget):
 
 _METALS = {"bronze": "#b8743a", "silver": "#b4bcc6", "gold": "#e3b021", "author": "#5fb2a5"}
 _INK = pygame.Color("#1d1d22")
+_LARGE = 30.0
+"""Size from which a medal shows its relief, px."""
 MEDALS = tuple(reversed(pars.MEDALS))
 """All of them, the easiest first."""
 
 
 def draw_medal(
-    surface: pygame.Surface, theme: Theme, medal: str, x: float, y: float, size: float = 14, *, reached: bool = True
-) -> None:
-    """A disc with the medal's first letter, its middle at x, y; only its rim where it is not reached."""
-    canvas, palette = theme.canvas, theme.palette
+    surface: pygame.Surface, theme: Theme, medal: str, x: float, y: float, size: float = 14, *,
+    reached: bool = True, shine: float = 1.0,
+) -> None:  # fmt: skip
+    """A disc with the medal's first letter, its middle at x, y; only its rim where it is not reached.
+
+    A large one has relief and hangs from a ribbon, all within ``size``; ``shine``: how far light has swept over it.
+    """
+    canvas, palette, large = theme.canvas, theme.palette, reached and size >= _LARGE
+    metal = pygame.Color(_METALS[medal])
+    bright = mixed(metal, palette.spark, 0.6)
+    radius = size * 0.4 if large else size / 2
+    if large:
+        y += size * 0.1
+        for side in (-1, 1):
+            corners = ((0.02, -0.3), (0.26, -0.6), (0.42, -0.5), (0.18, -0.18))
+            canvas.polygon(surface, palette.band, [(x + side * dx * size, y + dy * size) for dx, dy in corners])
     if reached:
-        canvas.circle(surface, pygame.Color(_METALS[medal]), (x, y), size / 2)
-        canvas.circle(surface, _INK, (x, y), size / 2, 1)
+        canvas.circle(surface, mixed(metal, _INK, 0.35) if large else metal, (x, y), radius)
+        canvas.circle(surface, _INK, (x, y), radius, 1)
     else:
-        canvas.circle(surface, palette.panel_edge, (x, y), size / 2, 1)
+        canvas.circle(surface, palette.panel_edge, (x, y), radius, 1)
+    if large:
+        canvas.circle(surface, bright, (x - size * 0.012, y - size * 0.012), radius * 0.86)
+        canvas.circle(surface, metal, (x + size * 0.012, y + size * 0.012), radius * 0.8)
+        if 0 < shine < 1:
+            across = radius * 0.7 * (2 * shine - 1)
+            half = (radius * radius * 0.56 - across * across) ** 0.5 * 0.7
+            middle = x + across * 0.7, y + across * 0.7
+            ends = (middle[0] - half, middle[1] + half), (middle[0] + half, middle[1] - half)
+            canvas.line(surface, bright, *ends, size * 0.09)
+    letter = radius * 1.16
+    at = y - letter / 2
+    if large:
+        engraved = x + size * 0.02, at + size * 0.02
+        theme.text(
+            surface, medal[0].upper(), *engraved, size=letter, colour=bright, align="centre", bold=True, height=size
+        )
     ink = _INK if reached else palette.faint
-    letter = size * 0.58
-    theme.text(
-        surface, medal[0].upper(), x, y - letter / 2, size=letter, colour=ink, align="centre", bold=True, height=size
-    )
+    theme.text(surface, medal[0].upper(), x, at, size=letter, colour=ink, align="centre", bold=True, height=size)
 
 
 def draw_all_gold(surface: pygame.Surface, theme: Theme, x: float, y: float, size: float = 11) -> None:

@@ -6,18 +6,20 @@ from itertools import pairwise
 from pathlib import Path
 
 import pygame
+import pytest
 
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App
-from ninja_game.play.level.hud import bar_length, cause_of_death, hud_view
+from ninja_game.play.level.hud import Hud, bar_length, cause_of_death, hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, Phase
-from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.level.screen import LevelScreen, play_level
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.playthrough import FileRun
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.states import CRUSHED
+from tests.support.menu_driver import MenuDriver
 from tests.support.scripted import ScriptedControls, frames, open_level, phase_of, play_to_the_end, press, release, tap
 
 
@@ -239,10 +241,44 @@ def test_it_says_what_the_ninja_died_of(stage: tuple[App, ScriptedControls], rec
     assert cause_of_death(screen.play) == "You were crushed."
 
 
-def test_the_time_bar_moves_whatever_time_is_left() -> None:
-    lengths = [bar_length(lifetime) for lifetime in range(0, 4 * LIFETIME, 40)]
-    assert all(b > a for a, b in pairwise(lengths))
-    assert lengths[-1] < 700
+def test_the_time_bar_is_linear_and_what_gold_adds_to_a_full_one_is_seen(app: App) -> None:
+    lengths = [bar_length(lifetime) for lifetime in range(0, LIFETIME + 40, 40)]
+    assert max(b - a for a, b in pairwise(lengths)) - min(b - a for a, b in pairwise(lengths)) < 1e-9
+    hud, pictures = Hud(app.theme), []
+    for lifetime in (LIFETIME, LIFETIME + 80, 2 * LIFETIME):
+        app.surface.fill("black")
+        hud.time_bar(app.surface, lifetime)
+        pictures.append(pygame.image.tobytes(app.surface.subsurface(app.canvas.rect(24, 8, 600, 8)), "RGB"))
+    assert len(set(pictures)) == 3
+
+
+@pytest.mark.parametrize("size", [100, 125, 150])
+def test_the_time_left_ends_at_the_border_and_says_what_it_is_for(app: App, size: int) -> None:
+    app.change_settings(text_size=size)
+    app.surface.fill("black")
+    for lifetime in (99 * 400, 4 * LIFETIME, 700):
+        Hud(app.theme).time_bar(app.surface, lifetime)
+        beyond = app.surface.subsurface(app.canvas.rect(770, 0, 22, 24))
+        assert set(pygame.image.tobytes(beyond, "RGB")) == {0}
+
+
+def test_silver_and_gold_are_marked_on_the_time_bar_of_a_level_that_was_passed(tmp_path: Path) -> None:
+    driver = MenuDriver(tmp_path)
+    entry = driver.player.catalogue.ours.levels[0]
+    pars = entry.pars
+    assert pars is not None
+
+    def marks() -> list[tuple[str, float]]:
+        play_level(driver.app, entry)
+        driver.frames(1)
+        level = driver.shown(LevelScreen)
+        level.begin()
+        driver.frames(40)
+        return list(hud_view(level.play).pars)
+
+    assert marks() == []
+    driver.player.marks.passed(entry.digest, pars.par("silver") + 1, 0)
+    assert marks() == [(medal, LIFETIME - pars.par(medal)) for medal in ("silver", "gold")]
 
 
 def test_keys_of_practice_are_named_where_they_work(app: App, recording: Recording) -> None:

@@ -59,7 +59,8 @@ def test_time_bar_stands_out_full_and_empty(palette: Palette) -> None:
 def test_text_and_ninja_stand_out(palette: Palette) -> None:
     assert contrast(palette.text, palette.panel) >= 7
     assert contrast(palette.text, palette.background) >= 7
-    assert contrast(palette.faint, palette.panel) >= 4
+    assert contrast(palette.faint, palette.panel) >= 4.5
+    assert contrast(palette.accent, palette.panel) >= 4.5
     assert contrast(palette.on_tile, palette.tile) >= 3.2
     assert contrast(palette.ninja, palette.background) >= 7
     assert contrast(palette.tile, palette.background) >= 1.7
@@ -80,6 +81,17 @@ def test_safe_palettes_mark_danger_by_shape(palette: Palette, key: SpriteKey) ->
     plain = SpriteBook(4.0, Palette("plain", danger_by_shape=False, scenery="", **ink)).sprite(key).surface
     marked = SpriteBook(4.0, Palette("marked", danger_by_shape=True, scenery="", **ink)).sprite(key).surface
     assert pygame.mask.from_surface(plain).count() != pygame.mask.from_surface(marked).count()
+
+
+@pytest.mark.parametrize("palette", PALETTES.values(), ids=lambda palette: palette.name)
+def test_one_way_is_solid_where_it_carries_and_no_spikes_where_it_lets_through(palette: Palette) -> None:
+    scale = 4
+    bar, ax, ay = SpriteBook(scale, palette).sprite(static.one_way())
+    alpha = {y: [bar.get_at((ax + scale * x, ay + scale * y)).a for x in range(-11, 12)] for y in (-10, -6, 6)}
+    assert min(alpha[-10]) == 255, "what one stands on"
+    assert max(alpha[-6]) < 128, "mines are solid, this is not"
+    assert max(alpha[6]) < max(alpha[-6]), "it fades out"
+    assert contrast(palette.switch, palette.background) >= 1.9
 
 
 @pytest.mark.parametrize("palette", PALETTES.values(), ids=lambda palette: palette.name)

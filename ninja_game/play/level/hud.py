@@ -12,7 +12,7 @@ import pygame
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.run_time import rounded_text
 from ninja_game.formats.sayings import named_keys
-from ninja_game.play.level.play import LevelPlay, Phase, Things
+from ninja_game.play.level.play import MUST, STAMP_TICKS, LevelPlay, Phase, Things
 from ninja_game.play.level.sayings import FALL_HELP, WHY
 from ninja_game.player.marks import Mark, next_par
 from ninja_game.player.playthrough import Navigation
@@ -28,10 +28,10 @@ from ninja_game.ui.theme import Palette, Theme, mixed, wrapped
 from ninja_game.ui.widgets import draw_medal
 
 _BAR_LEFT, _BAR_MIDDLE = 24.0, 12.0
-_BAR_LONGEST = 700.0
-_BAR_AT_START = 600.0
-"""Length of the bar with the lifetime that a level begins with."""
-_WARNING_TICKS = 1800
+_BAR_LONGEST = 630.0
+"""Its length, px, with the lifetime that a level begins with, or more."""
+_WARNING_TICKS, _LAST_TICKS = 1800, 800
+_MARKED = "silver", "gold"
 _FOOT_WIDTH = 744.0
 
 
@@ -44,13 +44,12 @@ _KEYS = (
 
 
 def bar_length(lifetime: float) -> float:
-    """Length of the time bar, px, for a lifetime in ticks: whatever is left, less of it is shorter.
+    """Length of the time bar, px, for a lifetime in ticks.
 
-    >>> bar_length(1800), bar_length(3600), bar_length(7200)
-    (300.0, 600.0, 650.0)
+    >>> bar_length(900), bar_length(3600), bar_length(7200)
+    (157.5, 630.0, 630.0)
     """
-    more = _BAR_LONGEST - _BAR_AT_START
-    return _BAR_LONGEST - more * LIFETIME / lifetime if lifetime > LIFETIME else _BAR_AT_START * lifetime / LIFETIME
+    return _BAR_LONGEST * min(1.0, max(0.0, lifetime / LIFETIME))
 
 
 def trough(palette: Palette) -> pygame.Color:
@@ -69,26 +68,30 @@ KeyName = Callable[[str], str]
 class HudView:
     """What is written over a level now.
 
-    ``lifetime``: ticks, for the time bar; ``label``: a word in its place. ``foot``: texts at the left and the right of
-    the border below. ``keys``: those of the present tick, ``frame_ms``: of the last picture; None: not shown.
+    ``lifetime``: ticks, for the time bar; ``label``: a word in its place; ``pars``: medals, and with which lifetime
+    each is lost. ``foot``: texts at the left and the right of the border below. ``keys``: those of the present tick,
+    ``frame_ms``: of the last picture; None: not shown.
     ``said``: a text of the level, its tiles and the things of which it covers as little as can be, the place near which
     it should be, and whether it may cover anything but rock: else it may lie in the border below. ``moves``: the keys
     of each of its lines.
-    ``named``: what it names, and where that is, px. ``message``: title and lines of a panel, and its top; ``medal``:
-    that of the pass, or "", and ``stamp``: how far it has grown, 0…1. ``seen``: how solid the panel is, 0…1.
+    ``named``: what it names, and where that is, px. ``message``: title and lines of a panel, and the level's tiles
+    and the things of which it covers as little as can be; ``medal``: that of the pass, or "", ``stamp``: how far it has
+    grown, 0…1, ``shine``: how far light has swept over it. ``seen``: how solid the panel is, 0…1.
     """
 
     lifetime: float
     label: str
     foot: tuple[str, str]
+    pars: Sequence[tuple[str, float]] = ()
     keys: int | None = None
     frame_ms: float | None = None
     said: tuple[str, tuple[int, ...], Things, Point | None, bool] | None = None
     moves: Sequence[int] = ()
     named: Sequence[tuple[str, float, float]] = ()
-    message: tuple[str, Sequence[str], float] | None = None
+    message: tuple[str, Sequence[str], tuple[int, ...], Things] | None = None
     medal: str = ""
     stamp: float = 1.0
+    shine: float = 1.0
     seen: float = 1.0
 
 
@@ -100,7 +103,7 @@ class Hud:
 
     def draw(self, surface: pygame.Surface, view: HudView) -> list[pygame.Rect]:
         """All of it; the px rectangles that it covers."""
-        top = self.label(surface, view.label) if view.label else self.time_bar(surface, view.lifetime)
+        top = self.label(surface, view.label) if view.label else self.time_bar(surface, view.lifetime, view.pars)
         said = self.box(*view.said, keys=KEYS_WIDE if view.moves else 0) if view.said else None
         in_border = said is not None and said[2] == IN_BORDER
         written = [top, self.foot(surface, "" if in_border else view.foot[0], view.foot[1])]
@@ -111,28 +114,33 @@ class Hud:
         written += [self.pointer(surface, *named) for named in view.named]
         if said is not None:
             written.append(self.said(surface, said, () if in_border else view.moves))
-        if view.message is not None and view.seen > 0:
-            written.append(self.message(surface, *view.message, medal=view.medal, stamp=view.stamp, seen=view.seen))
+        if view.message and view.seen > 0:
+            written.append(self.message(surface, view, *view.message))
         return written
 
-    def time_bar(self, surface: pygame.Surface, lifetime: float) -> pygame.Rect:
-        """The lifetime (ticks) as a bar that grows thick and red as it runs out, and as seconds."""
+    def time_bar(self, surface: pygame.Surface, lifetime: float, pars: Sequence[tuple[str, float]] = ()) -> pygame.Rect:
+        """The lifetime (ticks) as a bar, what gold added to the first in gold, and as seconds; medals where they end.
+
+        It grows thick and red as it runs out.
+        """
         palette, canvas = self.theme.palette, self.theme.canvas
         left = max(0.0, lifetime)
-        length = bar_length(left)
         danger = min(1.0, max(0.0, 1 - left / _WARNING_TICKS))
         thick = 5 + 8 * danger
-        colour = mixed(palette.bar_full, palette.bar_empty, danger)
-        frame = canvas.fill_rect(
-            surface, trough(palette), _BAR_LEFT - 1, _BAR_MIDDLE - thick / 2 - 1, _BAR_LONGEST + 2, thick + 2, 2
-        )
-        if length > 0:
-            canvas.fill_rect(surface, colour, _BAR_LEFT, _BAR_MIDDLE - thick / 2, length, thick, 1.5)
-        x = _BAR_LEFT + _BAR_LONGEST + 5
+        top = _BAR_MIDDLE - thick / 2
+        frame = canvas.fill_rect(surface, trough(palette), _BAR_LEFT - 1, top - 1, _BAR_LONGEST + 2, thick + 2, 2)
+        full = mixed(palette.bar_full, palette.bar_empty, danger)
+        for colour, ticks in ((full, left), (palette.gold, left - LIFETIME)):
+            if length := bar_length(ticks):
+                canvas.fill_rect(surface, colour, _BAR_LEFT, top, length, thick, 1.5)
+        for medal, ticks in pars:
+            draw_medal(surface, self.theme, medal, _BAR_LEFT + bar_length(ticks), _BAR_MIDDLE, MARK)
+        x = _BAR_LEFT + _BAR_LONGEST
         text = self.theme.text(
-            surface, f"{rounded_text(int(left))} s left", x, 7.4, size=9, colour=palette.on_tile, bold=True
-        )
-        return frame.union(text.inflate(canvas.px(8), 4))
+            surface, f"{rounded_text(int(left))} s left" + " to live" * (left < _LAST_TICKS), RIGHT, 7.4, size=9,
+            colour=palette.on_tile, align="right", bold=True, width=RIGHT - x - 10,
+        )  # fmt: skip
+        return frame.union(text.inflate(canvas.px(8), 4)).union(canvas.rect(x, 2, 8, 20))
 
     def label(self, surface: pygame.Surface, text: str) -> pygame.Rect:
         """A word in the time bar's place."""
@@ -163,32 +171,37 @@ class Hud:
         return rect.inflate(self.theme.canvas.px(12), 2)
 
     def message(
-        self, surface: pygame.Surface, title: str, lines: Sequence[str], y: float, *,
-        medal: str = "", stamp: float = 1.0, seen: float = 1.0,
+        self, surface: pygame.Surface, view: HudView, title: str, lines: Sequence[str], tiles: tuple[int, ...],
+        things: Things,
     ) -> pygame.Rect:  # fmt: skip
-        """A panel: a title, a medal left of it or none, and lines under them, from ``y`` on; all fade in together."""
-        theme = self.theme
+        """A panel: a title and lines under it; with a medal at its left, beside it the first line too, in large."""
+        theme, medal = self.theme, view.medal
         below, beside = (26, PRIZE + 14) if medal else (0, 0)
-        head = theme.width(title, TITLE, bold=True)
+        named, lines = (lines[0], lines[1:]) if medal else ("", lines)
+        head = max(theme.width(title, TITLE, bold=True), theme.width(named, NAMED, bold=True))
         w = max(220.0, head + beside, *(theme.width(line, LINE) for line in lines)) + 44
         h = 48.0 + 18 * len(lines) + below
-        y = min(y, LOWEST - h)
-        place = theme.canvas.rect((WIDTH - w) / 2, y, w, h)
-        behind = pygame.Surface(place.size, pygame.SRCALPHA) if seen < 1 else None
+        x, y, *_ = solid_place(tiles, w, h, things, rows=3)
+        place = theme.canvas.rect(x, y, w, h)
+        behind = pygame.Surface(place.size, pygame.SRCALPHA) if view.seen < 1 else None
         if behind:
             behind.blit(surface, (0, 0), place)
-        rect = theme.panel(surface, (WIDTH - w) / 2, y, w, h, 4)
-        if medal and stamp > STAMP_SEEN:
+        rect = theme.panel(surface, x, y, w, h, 4)
+        middle = x + w / 2
+        if medal and view.stamp > STAMP_SEEN:
             # It grows a little too large, but never over the words beside it.
-            size = PRIZE * stamp * (1 + 0.6 * sin(pi * stamp))
-            draw_medal(surface, theme, medal, (WIDTH - head - 14) / 2, y + 9 + PRIZE / 2, size)
-        middle = (WIDTH + beside) / 2
-        theme.text(surface, title, middle, y + 9 + below / 2, size=TITLE, align="centre", bold=True)
+            size = PRIZE * view.stamp * (1 + 0.6 * sin(pi * view.stamp))
+            at = middle - (head + 14) / 2, y + 9 + PRIZE / 2
+            draw_medal(surface, theme, medal, *at, size, shine=view.shine)
+        across = middle + beside / 2
+        theme.text(surface, title, across, y + 9, size=TITLE, align="centre", bold=True)
+        theme.text(
+            surface, named, across, y + 43, size=NAMED, colour=theme.palette.accent, align="centre", bold=True
+        )  # fmt: skip
         for k, line in enumerate(lines):
-            colour = theme.palette.text if k < len(lines) - 1 else theme.palette.faint
-            theme.text(surface, line, WIDTH / 2, y + 41 + below + 18 * k, size=LINE, colour=colour, align="centre")
+            theme.text(surface, line, middle, y + 41 + below + 18 * k, size=LINE, align="centre")
         if behind:
-            behind.fill((round(255 * (1 - seen)),) * 4, special_flags=pygame.BLEND_RGBA_MULT)
+            behind.fill((round(255 * (1 - view.seen)),) * 4, special_flags=pygame.BLEND_RGBA_MULT)
             surface.blit(behind, place, special_flags=pygame.BLEND_PREMULTIPLIED)
         return rect
 
@@ -209,13 +222,17 @@ class Hud:
     def box(
         self, text: str, tiles: tuple[int, ...], things: Things, eye: Point | None, covers: bool, *, keys: float = 0.0
     ) -> Box:
-        """Where a text of the level lies: over what is solid, or in the border below, beside the gold."""
+        """Where a text of the level lies: along the lower or the upper border, over what is solid.
+
+        Where it would hide something there, one that may cover open space lies where there is most of it, another in
+        the border below, beside the gold.
+        """
         theme = self.theme
-        for width in (360, 200) if eye else (360,):
+        for rows, width in ((2, 360), (2, 200), (0, 360)):
             lines = text.split("\n") if keys else wrapped(theme, text, width, SAID)
             w = max(theme.width(line, SAID) for line in lines) + 28 + keys
-            left, y, covered = solid_place(tiles, w, 20.0 * len(lines) + 19, things, eye)
-            if covers or not covered:
+            left, y, covered, hidden = solid_place(tiles, w, 20.0 * len(lines) + 19, things, eye, rows=rows)
+            if not (hidden if covers and rows else covered if not covers else 0):
                 return lines, left, y, w, 20.0, 10.0, SAID
         text = text.replace("\n", "    ")
         size = min(SAID, SAID * BESIDE_GOLD / theme.width(text, SAID))
@@ -250,12 +267,14 @@ class Hud:
 
 @lru_cache(maxsize=4)
 def solid_place(
-    tiles: tuple[int, ...], w: float, h: float, things: Things = (), eye: Point | None = None
-) -> tuple[float, float, int]:
+    tiles: tuple[int, ...], w: float, h: float, things: Things = (), eye: Point | None = None, *, rows: int = 0
+) -> tuple[float, float, int, int]:
     """Upper left corner of a panel of that size, px, where it covers no thing, little gold and the least of any way.
 
-    The third is how much it covers. What is full is no way, open space far from all that is full hardly one. Of equal
-    places it is the one nearest to ``eye``, or to the middle of the lower border.
+    The third is how much it covers, the last how much of that are things, gold and the author's way. What is full is no
+    way, open space far from all that is full hardly one. Of equal places it is the one nearest to ``eye``, or to the
+    middle of the lower border. ``rows``: at the left, in the middle and at the right of so many heights only, from the
+    upper border to the lower one.
     """
     full = [SHAPE[tile] == FULL for tile in tiles]
 
@@ -264,33 +283,39 @@ def solid_place(
                   if 0 <= a < COLUMNS and 0 <= b < ROWS]  # fmt: skip
         return 0 if full[column * ROWS + row] else ALONG if any(around) or len(around) < 9 else 1
 
-    def cost(place: tuple[float, float]) -> tuple[int, float]:
+    def cost(place: tuple[float, float]) -> tuple[int, float, int]:
         x, y = place
-        columns, rows = (range(int(a // CELL) - 1, int((a + b - 1) // CELL)) for a, b in ((x, w), (y, h)))
-        covered = sum(ways[column * ROWS + row] for column in columns for row in rows if row < ROWS)
+        columns, heights = (range(int(a // CELL) - 1, int((a + b - 1) // CELL)) for a, b in ((x, w), (y, h)))
+        covered = sum(ways[column * ROWS + row] for column in columns for row in heights if row < ROWS)
         hidden = sum(worth for a, b, worth in things if -NEAR < a - x < w + NEAR and -NEAR < b - y < h + NEAR)
         far = hypot(x + w / 2 - eye[0], y + h / 2 - eye[1]) if eye else 0.0
-        return covered + hidden, far or abs(x + w / 2 - WIDTH / 2) + HEIGHT - y
+        return covered + hidden, far or abs(x + w / 2 - WIDTH / 2) + HEIGHT - y, hidden
 
     ways = [way(*divmod(place, ROWS)) for place in range(COLUMNS * ROWS)]
     edge = CELL + 4
-    lefts = [edge + k * (WIDTH - 2 * edge - w) / 8 for k in range(9)]
-    best = min(((x, y) for x in lefts for y in range(int(edge), int(LOWEST - h), 6)), key=cost)
-    return *best, cost(best)[0]
+    lefts = [edge + k * (WIDTH - 2 * edge - w) / 8 for k in range(0, 9, 4 if rows else 1)]
+    apart = (LOWEST - h - edge) / (rows - 1) if rows else 6
+    tops = [edge + k * apart for k in range(rows or int((LOWEST - h - edge) / 6))]
+    x, y = min(((x, y) for x in lefts for y in tops), key=cost)
+    covered, _, hidden = cost((x, y))
+    return x, y, covered, hidden
 
 
 NEAR, ALONG = 16.0, 7
 """px that a panel keeps from the middle of a thing; open cells that weigh as much as a cell along rock."""
 
-ABOVE, BELOW, NINJA_ROOM, FADE_TICKS = 34.0, 474.0, 230.0, 8
-"""Where the panel of an ended run begins: near the upper border, or the lower one if the ninja is above this line; in
-how many ticks it fades in."""
+FADE_TICKS, SHINE_TICKS, END_ROOM = 8, 20, 36.0
+"""In how many ticks the panel of an ended run fades in, and light sweeps over its medal; px to all sides of where the
+run ended that it leaves free."""
 
 LOWEST = 573.0
 """Where it ends at the latest: below it are the level's name and what a pass has brought."""
 
-TITLE, LINE, POINTER = 24.0, 12.5, 9.5
-"""Sizes in the panel of a passed level, and of the names of things."""
+TITLE, NAMED, LINE, POINTER = 26.0, 15.0, 12.5, 9.5
+"""Sizes in the panel of a passed level: its time, the medal, the rest; and of the names of things."""
+
+MARK, RIGHT = 12.0, 768.0
+"""Size of a medal on the time bar; right edge of what is written in the borders."""
 
 PRIZE, STAMP_SEEN = 54.0, 0.2
 """Size of the medal of a pass; how far its stamp has come when it is first seen."""
@@ -313,8 +338,6 @@ def hud_view(play: LevelPlay) -> HudView:
     key, settings = app.controls.name, app.settings
     gold = f"{attempt.gold} / {play.all_gold}"
     message = None
-    # Always at the same place, but where the ninja is: its dance or its corpse is never hidden.
-    y = ABOVE if attempt.simulation.world.ninja.y > NINJA_ROOM else BELOW
     text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.sayings.text
     still = play.phase is Phase.READY
     # Who needs to see what keys do is stuck: that may cover open space.
@@ -322,14 +345,15 @@ def hud_view(play: LevelPlay) -> HudView:
     said = (named_keys(text, key), context.level.tiles, play.things, play.eye, covers) if text else None
     if play.phase is Phase.DEAD:
         cause, _, why = cause_of_death(play).partition(". ")
-        message = cause.rstrip("."), [*filter(None, [why]), _after_death(play, key)], y
+        message = cause.rstrip("."), [*filter(None, [why]), _after_death(play, key)], *_covering(play)
     if play.phase is Phase.PASSED:
         onward = "go on" if context.way_out is Navigation.EPISODE_END else "next level"
         keys = f"{key('confirm')}: {onward}    {key('retry')}: play again    {key('replay')}: replay"
         if not context.leads_on:
             keys = f"{key('confirm')}: play again    {key('replay')}: replay    {key('back')}: leave"
         time = f"{rounded_text(attempt.ended_tick)} s"
-        message = f"{play.medal.capitalize() or 'Passed'}    time {time}", [*_reached(play), keys], y
+        title = f"Time {time}" if play.medal else f"Passed    time {time}"
+        message = title, [*_reached(play), keys], *_covering(play)
     hint = _hint(play, key)
     name = shown_text(context.title)
     title = f"{name} ({play.aim})" if play.phase is Phase.READY and play.aim else name
@@ -340,6 +364,7 @@ def hud_view(play: LevelPlay) -> HudView:
         play.shown_lifetime,
         practice if context.practice_mode else "",
         (title, hint or f"gold {gold}"),
+        pars=_pars_ahead(play),
         keys=play.keys if settings.show_keys and not hint else None,
         frame_ms=app.frame_ms if settings.show_frame_time else None,
         said=said,
@@ -348,16 +373,35 @@ def hud_view(play: LevelPlay) -> HudView:
         named=() if message else _named(play),
         medal=play.medal,
         stamp=play.stamp,
+        shine=1.0 if settings.reduced_motion else (play.after_end + play.fraction - STAMP_TICKS) / SHINE_TICKS,
         seen=1.0 if settings.reduced_motion else min(1.0, (play.after_end + play.fraction) / FADE_TICKS),
     )
 
 
+def _pars_ahead(play: LevelPlay) -> list[tuple[str, float]]:
+    """The medals that this try can still bring, in a level that was passed, each with the lifetime at its par."""
+    pars, attempt = play.context.pars, play.attempt
+    if pars is None or not play.aim or play.phase is Phase.PASSED:
+        return []
+    tick = attempt.simulation.tick
+    ahead = ((medal, attempt.lifetime - (pars.par(medal) - tick)) for medal in _MARKED)
+    return [(medal, ticks) for medal, ticks in ahead if 0 < ticks < min(attempt.lifetime, LIFETIME)]
+
+
+def _covering(play: LevelPlay) -> tuple[tuple[int, ...], Things]:
+    """The tiles and things of which the panel of an ended run covers little, and where the run ended: never that."""
+    x, y = play.eye or (0.0, 0.0)
+    end = [(x + dx, y + dy, 9 * MUST) for dx in (-END_ROOM, 0, END_ROOM) for dy in (-END_ROOM, 0, END_ROOM)]
+    return play.context.level.tiles, (*end, *play.things)
+
+
 def _reached(play: LevelPlay) -> list[str]:
-    """What the next medal needs; the gold of a passed run, and what that has brought."""
+    """The medal; what the next one needs; the gold of a passed run, and what that has brought."""
     attempt, pars = play.attempt, play.context.pars
     following = [next_par(pars, Mark(attempt.ended_tick, 0)) or "The best medal"] if pars and play.medal else []
     gold = f"{attempt.gold} of {play.all_gold} gold"
-    return [*following, "    ".join([gold, *play.notices])]
+    medal = [f"{play.medal.capitalize()} medal"] if play.medal else []
+    return [*medal, *following, "    ".join([gold, *play.notices])]
 
 
 def _named(play: LevelPlay) -> list[tuple[str, float, float]]:

@@ -83,9 +83,9 @@ class LevelPlay:
 
     ``view`` shows every tick. ``tries``: the failed ones, inputs. ``after_end``: ticks since the exit contact or death;
     ``killer``: what killed, one of ``statistics.KILLERS``, ``crushed`` whether by being crushed. ``keys``: those of the
-    last tick. ``things``: what a text of the level is not to cover; ``eye``: where the ninja was when the
-    present text came, None for that of the start. ``notices``: what a pass has brought. ``aim``: the next par, while it
-    waits at the start. ``changed``: more than a tick has happened, so that everything has to be drawn again.
+    last tick. ``things``: what a text of the level is not to cover; ``eye``: where the ninja was when the present text
+    came, or the run ended; None for the text of the start. ``notices``: what a pass has brought. ``aim``: the next par,
+    while it waits at the start. ``changed``: more than a tick has happened, so that everything has to be drawn again.
     """
 
     def __init__(self, app: App, context: LevelContext) -> None:
@@ -282,7 +282,7 @@ class LevelPlay:
     def _note_end(self) -> None:
         """Phases follow the first exit contact or death."""
         if self.phase is Phase.PLAY and self.attempt.outcome != "running":
-            self.after_end = 0
+            self.after_end, self.eye = 0, self._ninja_place()
             self.phase = _PHASE_OF_OUTCOME[self.attempt.outcome]
             self.changed = True
             if self.phase is Phase.PASSED:

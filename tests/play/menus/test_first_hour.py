@@ -95,17 +95,17 @@ def test_switch_sends_out_rings_until_it_is_touched(driver: MenuDriver, reduced:
 
 def test_text_of_the_start_covers_what_is_solid_and_no_way() -> None:
     block = tuple(int(12 <= column < 30 and 11 <= row < 14) for column in range(31) for row in range(23))
-    x, y, _ = solid_place(block, 360.0, 59.0)
+    x, y, *_ = solid_place(block, 360.0, 59.0)
     assert 13 * 24 <= x <= 31 * 24 - 360
     assert 12 * 24 <= y <= 15 * 24 - 59
     assert solid_place((0,) * 713, 300.0, 39.0)[1] > 2 * 24, "in the open it is not along a wall"
     for thing in ((x + 10, y + 10, MUST), (x + 350, y - 8, MUST)):
-        left, top, _ = solid_place(block, 360.0, 59.0, (thing,))
+        left, top, *_ = solid_place(block, 360.0, 59.0, (thing,))
         assert not (left < thing[0] < left + 360 and top < thing[1] < top + 59), "a thing is never covered"
 
 
 def test_text_of_the_start_hides_neither_a_thing_nor_gold_nor_the_way(driver: MenuDriver) -> None:
-    app, hidden = driver.app, []
+    app, hidden, bands, texts = driver.app, [], 0, 0
     for each in app.player.catalogue.ours.levels:
         play = LevelScreen(app, LevelRun(app.player, each)).play
         shown = hud_view(play).said
@@ -113,13 +113,17 @@ def test_text_of_the_start_hides_neither_a_thing_nor_gold_nor_the_way(driver: Me
         if shown is None or run is None:
             continue
         hud = Hud(app.theme)
-        card = hud.said(app.surface, hud.box(*shown))
+        box = hud.box(*shown)
+        card = hud.said(app.surface, box)
+        bands += abs(box[2] - 28) < 1 or abs(box[2] + 20 * len(box[0]) + 19 - 573) < 1
+        texts += 1
         way, places = Simulation(each.named.level), [(o.x, o.y) for o in play.attempt.simulation.world.objects[1:]]
         for keys in run.inputs:
             way.step_keys(keys)
             places.append((way.world.ninja.x, way.world.ninja.y))
         hidden += [(each.title, place) for place in places if card.collidepoint(app.canvas.point(*place))]
     assert not hidden
+    assert bands * 4 >= texts * 3, "along the upper or the lower border, but for few"
 
 
 def test_goal_is_not_said_again_in_a_level_that_was_passed(driver: MenuDriver) -> None:

@@ -8,7 +8,7 @@ import pygame
 import pytest
 
 from ninja_game.formats.run_time import rounded_text
-from ninja_game.play.level.hud import PRIZE, Hud, hud_view
+from ninja_game.play.level.hud import PRIZE, Hud, HudView, hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, STAMP_TICKS, TRIES_FROM, TRIES_TICKS, Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.wipe import WIPE_MS
@@ -80,9 +80,9 @@ def test_card_says_one_thing_large_one_next_and_the_rest_short(driver: MenuDrive
     level = passed_level(driver)
     assert level.context.pars
     level.attempt.ended_tick = level.context.pars.par("gold") + 1
-    title, (following, rest, _), _ = hud_view(level.play).message or ("", [""], 0)
-    assert title == f"Silver    time {rounded_text(level.attempt.ended_tick)} s"
-    assert following == "0.1 s behind gold"
+    title, (medal, following, rest, _), *_ = hud_view(level.play).message or ("", [""], (), ())
+    assert title == f"Time {rounded_text(level.attempt.ended_tick)} s"
+    assert (medal, following) == ("Silver medal", "0.1 s behind the gold medal")
     assert rest == "1 of 5 gold    First pass    New medal"
 
 
@@ -137,19 +137,21 @@ def test_cause_of_death_stands_large_at_once(driver: MenuDriver) -> None:
     driver.keys.script = [2] * 60
     driver.frames(60)
     assert level.phase is Phase.DEAD
-    title, lines, _ = hud_view(level.play).message or ("", [], 0)
+    title, lines, *_ = hud_view(level.play).message or ("", [], (), ())
     assert (title, lines[0]) == ("Killed by a mine", "Mines never move: keep a body's width away.")
     for level.play.after_end in (0, DEATH_PAUSE + 1):
-        message = hud_view(level.play).message or ("", [], 0)
+        message = hud_view(level.play).message or ("", [], (), ())
         assert message[1] == [lines[0], "Space or Z: try again    V: watch it"], "the panel has its size at once"
 
 
 def test_panel_of_an_end_fades_in_as_a_whole_and_its_medal_hides_no_word(driver: MenuDriver) -> None:
     hud, empty = Hud(driver.app.theme), pygame.Surface((792, 600))
+    message = ("Time 123456.8 s", ["Gold medal", "Go on"], (1,) * 713, ())
 
     def drawn(stamp: float, seen: float) -> tuple[pygame.Surface, pygame.Rect]:
         surface = empty.copy()
-        return surface, hud.message(surface, "Gold    9.8 s", ["Go on"], 34, medal="gold", stamp=stamp, seen=seen)
+        view = HudView(0, "", ("", ""), message=message, medal="gold", stamp=stamp, seen=seen)
+        return surface, hud.message(surface, view, *message)
 
     whole, box = drawn(1.0, 1.0)
     assert pygame.image.tobytes(drawn(1.0, 0.0)[0], "RGB") == pygame.image.tobytes(empty, "RGB")
@@ -164,6 +166,24 @@ def test_panel_of_an_end_fades_in_as_a_whole_and_its_medal_hides_no_word(driver:
         )
         surface.fill("black", box)
         assert pygame.image.tobytes(surface, "RGB") == pygame.image.tobytes(empty, "RGB"), "nothing sticks out of it"
+
+
+@pytest.mark.parametrize("size", [100, 150])
+def test_panel_of_an_end_leaves_free_where_the_run_ended(driver: MenuDriver, size: int) -> None:
+    driver.app.change_settings(text_size=size)
+    driver.press("return")
+    level = driver.shown(LevelScreen)
+    hud, ninja = Hud(driver.app.theme), level.attempt.simulation.world.ninja
+    for ninja.x in range(40, 792, 120):
+        for ninja.y in range(40, 560, 90):
+            level.begin()
+            level.give_up()
+            view = hud_view(level.play)
+            assert view.message
+            panel = hud.message(driver.app.surface, view, *view.message)
+            assert not panel.colliderect(driver.app.canvas.rect(ninja.x - 30, ninja.y - 30, 60, 60))
+            level.retry()
+            ninja = level.attempt.simulation.world.ninja
 
 
 @pytest.mark.parametrize("shake", [0, 100])
