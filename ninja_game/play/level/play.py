@@ -11,6 +11,7 @@ from ninja_game.play.clock import RunClock
 from ninja_game.play.level.sayings import Sayings
 from ninja_game.play.replay.playback import Ghost, Playback
 from ninja_game.player.attempt import Attempt, Moment
+from ninja_game.player.marks import HELPED
 from ninja_game.player.playthrough import LevelContext
 from ninja_game.player.statistics import cause_of
 from ninja_game.sim.kinds import GOLD
@@ -290,7 +291,7 @@ class LevelPlay:
                 self.notices = self.context.passed(self.attempt)
                 self._frozen_ms = 0 if self.app.settings.reduced_motion else FREEZE_MS
                 if self.attempt.assisted and not self.context.practice_mode:
-                    self.notices = ["Assisted: no record", *self.notices]
+                    self.notices = [HELPED, *self.notices]
             else:
                 self.killer = self.attempt.killer
                 self.crushed = cause_of(self.attempt.simulation.world) == CRUSHED

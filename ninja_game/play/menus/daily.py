@@ -17,7 +17,7 @@ from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, draw_pars, tries_text
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.marks import next_par, reached
+from ninja_game.player.marks import next_par
 from ninja_game.runtime import require_desktop, run_in_background
 from ninja_game.ui.theme import wrapped
 from ninja_game.ui.widgets import Button, Widget
@@ -157,7 +157,7 @@ class DailyScreen(ThumbnailScreen):
         lines = [f"{entry.all_gold} gold"]
         if entry.pars and entry.pars.grade:
             lines.insert(0, entry.pars.grade)
-        lines.append(reached(entry, mark))
+        lines.append(self.player.reached(entry, mark))
         if entry.pars and mark:
             lines.append(next_par(entry.pars, mark))
         if played.attempts:

@@ -11,7 +11,6 @@ from ninja_game.play.app import App
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal
 from ninja_game.player.catalogue import Episode
-from ninja_game.player.marks import reached
 from ninja_game.player.playthrough import EpisodeRun
 from ninja_game.player.saving import OF_A_LEVEL
 from ninja_game.ui.canvas import WIDTH
@@ -67,7 +66,7 @@ class EpisodePassed(ThumbnailScreen):
             middle = x + PICTURE / 2
             theme.text(surface, entry.title, middle, 232, size=10, align="centre", width=PICTURE, height=15)
             mark = self.player.marks.of(entry.digest)
-            time = reached(entry, mark)
+            time = self.player.reached(entry, mark)
             theme.text(surface, time, middle, 247, size=10, colour=palette.faint, align="centre", width=PICTURE)
             all_gold_and_medal(surface, theme, entry, mark, x + PICTURE - 11, 135)
         score = f"{seconds_text(self.run.score)} s left"

@@ -220,7 +220,7 @@ RACED = [("your best", "best"), ("next medal", "next"), *((medal, medal) for med
 RATES = [("match display", 0), ("30", 30), ("60", 60), ("120", 120), ("144", 144), ("240", 240)]
 COLOUR_NAMES = ("default", "pink", "olive", "teal", "mauve", "maroon", "white", "gold", "slate", "silver")
 PRACTICE_HINT = "No clock; save, rewind, slow motion; no records"
-ASSISTED_HINT = "no records"
+ASSISTED_HINT = "with help: no medal"
 LEFT, TOP, STEP, HEIGHT_OF_ROW = 216, 72, 42, 32
 WIDTH_OF_ROW = WIDTH - 36 - LEFT - 12
 

@@ -229,12 +229,16 @@ def test_levels_of_a_locked_episode_are_locked_everywhere(driver: MenuDriver) ->
     browser.list._select(place)
     assert not browser.play_it.enabled
     assert not browser.practice.enabled
-    assert browser.practice.hint == "Opens after episode 1"
+    assert browser.practice.hint == "Pass 5 more levels of episode 1"
     browser.play(place)
-    assert browser.message == "Opens after episode 1"
+    assert browser.message == "Pass 5 more levels of episode 1"
     assert driver.top() is browser
     for level in range(5):
         driver.player.progress.level_passed((0, level), legitimate=True)
+        assert driver.player.lock_of(browser.shown[place]) == [
+            "Pass 4 more levels of episode 1", "Pass 3 more levels of episode 1", "Pass 2 more levels of episode 1",
+            "Pass 1 more level of episode 1", "",
+        ][level]  # fmt: skip
     browser.play(place)
     assert isinstance(driver.top(), LevelScreen)
 
