@@ -103,7 +103,8 @@ def test_a_tap_runs_until_the_next_one(app: App) -> None:
     keys.stop_running()
     assert keys.poll() == 0
     keys.tap_to_run = False
-    assert _tapped(keys, "right") == 0, "nothing is held"
+    assert _tapped(keys, "right") == KEY_RIGHT
+    assert keys.poll() == 0, "nothing is held"
 
 
 def _tapped(keys: Bindings, name: str) -> int:

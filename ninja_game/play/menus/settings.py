@@ -83,7 +83,7 @@ class Capture(Screen):
         return None
 
 
-SLOTS = 5
+SLOTS = 6
 ROW = 30
 LIST: Area = (216, 72, 540, 13 * ROW)
 LABEL_SHARE = 0.34

@@ -33,7 +33,7 @@ def test_first_episode_is_played_to_its_end(driver: MenuDriver) -> None:
         driver.play_replay(number)
         assert level.phase is Phase.PASSED
         assert level.play.notices[0] == "First pass"
-        driver.press("space")
+        driver.press("return")
     passed = driver.shown(EpisodePassed)
     assert driver.player.progress.state(1) == UNLOCKED
     log = DrawLog()
@@ -124,7 +124,7 @@ def test_deaths_are_counted_and_retry_is_one_key(driver: MenuDriver) -> None:
     driver.press("k")
     assert level.phase is Phase.DEAD
     assert driver.player.statistics.deaths()["player"] == 1
-    driver.press("space")
+    driver.press("return")
     assert level.attempt.simulation.tick == 0
 
 
@@ -138,7 +138,7 @@ def test_practice_saves_no_record_and_unlocks_nothing(driver: MenuDriver) -> Non
         level.begin()
         driver.play_replay(number)
         assert level.phase is Phase.PASSED
-        driver.press("space")
+        driver.press("return")
     assert isinstance(driver.top(), EpisodePassed)
     assert driver.player.records.level_bests() == {}
     assert driver.player.progress.state(1) != UNLOCKED
