@@ -41,7 +41,16 @@ class EpisodePassed(ThumbnailScreen):
             buttons.append(Button((236, 440, 320, 36), f"Next: episode {following.code}", self.go_on, size=13))
         watch = Button((236, 482, 156, 30), "Watch the run", self.watch, hint="The best run of this episode")
         watch.enabled = self.player.records.episode_best(self.run.episode.key) is not None
-        return [*buttons, watch, Button((400, 482, 156, 30), "Episodes", self.back)]
+        return [*buttons, watch, Button((400, 482, 156, 30), "Episodes", self._episodes)]
+
+    def _episodes(self) -> None:
+        """The screen of episodes, whatever screen this one was opened from."""
+        from ninja_game.play.menus.episodes import EpisodeGrid  # it opens levels, which open this screen
+
+        if isinstance(self.app.stack.below, EpisodeGrid):
+            self.back()
+        else:
+            self.app.replace(EpisodeGrid(self.app, self.run.episode.pack))
 
     def go_on(self) -> None:
         if self.next_episode is not None:

@@ -11,6 +11,7 @@ from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import EpisodeGrid
+from ninja_game.play.menus.panels import nothing
 from ninja_game.play.menus.passed import EpisodePassed
 from ninja_game.play.menus.records import RecordsScreen
 from ninja_game.play.menus.replays import ReplaysScreen
@@ -47,6 +48,15 @@ def test_first_episode_is_played_to_its_end(driver: MenuDriver) -> None:
     assert best is not None
     assert best.score == passed.run.score
     driver.frames(3)
+    passed._episodes()
+    assert isinstance(driver.top(), EpisodeGrid)
+    assert len(driver.app.stack) == 2, "that from which it was opened"
+    driver.app.push(EpisodePassed(driver.app, passed.run, nothing))
+    driver.app.stack._screens.pop(1)
+    driver.shown(EpisodePassed)._episodes()
+    assert isinstance(driver.top(), EpisodeGrid), "whatever it was opened from"
+    assert len(driver.app.stack) == 2
+    driver.app.push(passed)
     driver.press("down", "return")
     assert isinstance(driver.top(), ReplayScreen)
     driver.press("escape", "up", "return")
