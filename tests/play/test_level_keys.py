@@ -93,9 +93,10 @@ def test_escape_pauses_a_level_from_its_first_picture_to_its_pass(
         screen.give_up()
     for _ in range(2):
         tap(app, key)
-        assert isinstance(app.top, PausePanel)
+        panel: Screen = app.top
+        assert isinstance(panel, PausePanel)
         tap(app, key)
-        assert app.top is screen
+        assert screen is app.stack.top
         assert phase_of(screen) is phase
     assert len(app.stack) == 2
 

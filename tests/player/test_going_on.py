@@ -25,9 +25,7 @@ def episode(*levels: Level) -> Episode:
 def placed(number: int, *levels: Level) -> Episode:
     """An episode whose levels know their places, as those of a pack do."""
     made = Episode(number, "tests", tuple(map(entry, levels)))
-    return replace(
-        made, levels=tuple(replace(each, episode=f"{number:02d}-{k}") for k, each in enumerate(made.levels))
-    )
+    return replace(made, levels=tuple(replace(each, episode=f"{number:02d}-{k}") for k, each in enumerate(made.levels)))
 
 
 def place(data: PlayerData, *, practice: bool = False) -> int:

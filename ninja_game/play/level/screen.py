@@ -326,7 +326,9 @@ _UNPASSED: PhaseActions = {
 """What holds as long as the level is not passed."""
 
 _END: PhaseActions = {
-    "replay": LevelScreen.watch_replay, "export": LevelScreen.keep_replay, "link": LevelScreen.copy_link,
+    "replay": LevelScreen.watch_replay,
+    "export": LevelScreen.keep_replay,
+    "link": LevelScreen.copy_link,
 }
 """What dead and passed have in common."""
 

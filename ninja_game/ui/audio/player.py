@@ -63,7 +63,12 @@ class AudioPlayer(AudioOutput):
     """
 
     def __init__(
-        self, folder: Path, *, volume: int = LOUDEST, effects_volume: int = LOUDEST, loop_volume: int = LOUDEST,
+        self,
+        folder: Path,
+        *,
+        volume: int = LOUDEST,
+        effects_volume: int = LOUDEST,
+        loop_volume: int = LOUDEST,
         music_volume: int = 0,
     ) -> None:
         self.folder = folder

@@ -141,9 +141,7 @@ def test_tap_between_two_ticks_still_counts_once(
     assert bindings.poll() == 0
 
 
-def test_what_a_key_that_jumps_has_just_chosen_is_no_jump(
-    bindings: Bindings, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_a_key_that_jumps_has_just_chosen_is_no_jump(bindings: Bindings, monkeypatch: pytest.MonkeyPatch) -> None:
     for name, expected in (("space", 4), ("z", 0), ("return", 0)):
         state = tuple(code == SCANCODES[name] for code in range(512))
         monkeypatch.setattr(pygame.key, "get_pressed", lambda state=state: state)

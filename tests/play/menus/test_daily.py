@@ -156,8 +156,8 @@ def test_days_in_a_row_and_the_week_are_shown_and_one_way_back(
     making: MenuDriver, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(daily, "take_packed", PACKED)
-    for day in range(23, 27):
-        assert PACKED(making.player.folder / "levels", date(2026, 11, day))
+    for number in range(23, 27):
+        assert PACKED(making.player.folder / "levels", date(2026, 11, number))
     monkeypatch.setattr("ninja_game.play.menus.daily.date", Thursday)
     screen = opened(making)
     marks = making.player.marks

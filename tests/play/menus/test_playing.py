@@ -11,7 +11,6 @@ from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import EpisodeGrid
-from ninja_game.play.menus.panels import nothing
 from ninja_game.play.menus.passed import EpisodePassed
 from ninja_game.play.menus.records import RecordsScreen
 from ninja_game.play.menus.replays import ReplaysScreen
@@ -51,7 +50,7 @@ def test_first_episode_is_played_to_its_end(driver: MenuDriver) -> None:
     passed._episodes()
     assert isinstance(driver.top(), EpisodeGrid)
     assert len(driver.app.stack) == 2, "that from which it was opened"
-    driver.app.push(EpisodePassed(driver.app, passed.run, nothing))
+    driver.app.push(EpisodePassed(driver.app, passed.run, passed._play))
     driver.app.stack._screens.pop(1)
     driver.shown(EpisodePassed)._episodes()
     assert isinstance(driver.top(), EpisodeGrid), "whatever it was opened from"
