@@ -46,8 +46,8 @@ def test_full_screen_and_ghost_keys_outlast_a_change_of_settings() -> None:
 
 
 OTHER = {
-    "palette": "dark", "ninja_colour": "#186285", "fullscreen": True, "volume": 11, "effects_volume": 14, "loop_volume": 12,
-    "music_volume": 13, "dead_zone": 0.8, "keys": {"jump": ("x",)}, "pad": {"jump": ("b",)},
+    "palette": "dark", "ninja_colour": "#186285", "fullscreen": True, "volume": 11, "effects_volume": 14,
+    "loop_volume": 12, "music_volume": 13, "dead_zone": 0.8, "keys": {"jump": ("x",)}, "pad": {"jump": ("b",)},
 }  # fmt: skip
 """Another value for each setting that the app hands on; all others are read where they are used."""
 

@@ -145,9 +145,9 @@ class LevelScreen(Screen):
             self.go_on()
             self.app.notify("    ".join(self.context.notices))
         else:
-            self._ask_for_help()
+            self.ask_for_help()
 
-    def _ask_for_help(self, *, paused: bool = False) -> None:
+    def ask_for_help(self, *, paused: bool = False) -> None:
         """What to do about a level that is too hard: nobody has to stay in it. What is not possible says why.
 
         ``paused``: asked for in the pause panel, to which Esc leads back, as it does from play.
@@ -358,7 +358,7 @@ class PausePanel(Panel):
     def rows(self) -> list[tuple[str, Callable[[], object], str]]:
         playing = self.playing
         practice = playing.context.practice_mode
-        skip, helped = (SKIP, playing.skip) if practice else (HELP, partial(playing._ask_for_help, paused=True))
+        skip, helped = (SKIP, playing.skip) if practice else (HELP, partial(playing.ask_for_help, paused=True))
         return [
             ("Resume", self.back, ""),
             ("Retry", lambda: self._leave(self.playing.retry), ""),

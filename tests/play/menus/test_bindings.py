@@ -126,7 +126,7 @@ def test_hats_and_axes_of_unknown_pads_work_too(bindings: Bindings) -> None:
     assert "jump" in bindings.decode(pygame.Event(pygame.JOYBUTTONDOWN, instance_id=9, button=0)).pressed
 
 
-@pytest.mark.parametrize(("name", "bit"), [("z", 4), ("space", 4), ("left", 1), ("right", 2)])
+@pytest.mark.parametrize("name, bit", [("z", 4), ("space", 4), ("left", 1), ("right", 2)])
 @pytest.mark.parametrize("late", [0.0, 0.1])
 def test_tap_between_two_ticks_still_counts_once(
     bindings: Bindings, monkeypatch: pytest.MonkeyPatch, name: str, bit: int, late: float

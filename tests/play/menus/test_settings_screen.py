@@ -48,9 +48,7 @@ def test_up_from_the_top_row_stays_on_the_page(driver: MenuDriver, screen: Setti
     assert screen.page == "Sound"
 
 
-@pytest.mark.parametrize(
-    ("place", "name"), [(1, "volume"), (2, "effects_volume"), (3, "loop_volume"), (4, "music_volume")]
-)
+@pytest.mark.parametrize("place, name", [(1, "volume"), (2, "effects_volume"), (3, "loop_volume"), (4, "music_volume")])
 def test_a_volume_is_shown_in_percent_of_the_loudest(
     driver: MenuDriver, screen: SettingsScreen, place: int, name: str
 ) -> None:
