@@ -6,7 +6,7 @@ from ninja_game.sim.rules import TICK_MS
 
 
 def seconds_text(ticks: int) -> str:
-    """Ticks as seconds with three decimals: a time that may be compared (game.md §1.3).
+    """Ticks as seconds with three decimals (game.md §1.3): every time of a run.
 
     The time of a run, and its length in ticks, is the tick of the exit contact or the death; of one that has neither
     all ticks that were run. So it is 90 s and two for each piece of gold less the score.
@@ -19,7 +19,7 @@ def seconds_text(ticks: int) -> str:
 
 
 def rounded_text(ticks: int) -> str:
-    """Ticks as seconds with one decimal, rounded up: a time to be read in passing.
+    """Ticks as seconds with one decimal, rounded up: a clock that runs down.
 
     >>> rounded_text(1), rounded_text(3600), rounded_text(943)
     ('0.1', '90.0', '23.6')

@@ -101,6 +101,11 @@ class ScreenStack:
         """The screen that gets the events. Raises IndexError if there is none."""
         return self._screens[-1]
 
+    @property
+    def below(self) -> Screen | None:
+        """The screen to which the top one goes back, if any."""
+        return self._screens[-2] if len(self) > 1 else None
+
     def push(self, screen: Screen) -> None:
         """Cover the top screen by another."""
         if self._screens:
@@ -233,7 +238,7 @@ class App:
         self.controls.bind(after.keys, after.pad)
         self.controls.pads.dead_zone = after.dead_zone
         self.controls.tap_to_run = after.tap_to_run
-        self.audio_output.set_volumes(after.volume, after.loop_volume, after.music_volume)
+        self.audio_output.set_volumes(after.volume, after.effects_volume, after.loop_volume, after.music_volume)
         self.window.set_fullscreen(wanted=after.fullscreen)
         look = attrgetter("palette", "fullscreen", "text_size")
         if look(after) != look(before):
@@ -439,6 +444,7 @@ def build_app(
     sound = audio_output or AudioPlayer(
         data_folder("assets") / "sounds",
         volume=settings.volume,
+        effects_volume=settings.effects_volume,
         loop_volume=settings.loop_volume,
         music_volume=settings.music_volume,
     )

@@ -31,6 +31,7 @@ from ninja_game.files.zips import open_zip, unpacked
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
+from ninja_game.player.marks import WITH_HELP
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import is_place
 from ninja_game.player.records import Records, level_score
@@ -318,7 +319,7 @@ def _sound(column: str, value: str | int) -> bool:
     """Whether records hold such a value in a column."""
     if isinstance(value, int):
         return 0 <= value < _COUNT_LIMIT
-    words = {"killer": KILLERS, "body": BODIES}.get(column)
+    words = {"killer": KILLERS, "body": (*BODIES, WITH_HELP)}.get(column)
     return value in words if words else _DIGEST.fullmatch(value) is not None
 
 

@@ -1,4 +1,4 @@
-"""The episode that was left half-way: its key and the runs of its first levels, in a store."""
+"""Where play goes on: the key of an episode, and the runs of its first levels if none was left out, in a store."""
 
 from __future__ import annotations
 
@@ -12,17 +12,15 @@ from ninja_game.player.store import Store
 _PLACE = "episode left half-way"
 
 
-def keep_place(store: Store, key: str, replays: Sequence[Replay]) -> None:
-    """Note where an episode stands; without runs nothing is noted any more. Raises sqlite3.Error."""
+def keep_place(store: Store, key: str, replays: Sequence[Replay] = ()) -> None:
+    """Note the episode with which play goes on, "" for none, and its runs. Raises sqlite3.Error."""
     with store.change() as db:
-        db.execute("DELETE FROM fact WHERE name = ?", (_PLACE,))
-        if replays:
-            value = json.dumps([key, *map(write_replay, replays)])
-            db.execute("INSERT INTO fact (name, value) VALUES (?, ?)", (_PLACE, value))
+        value = json.dumps([key, *map(write_replay, replays)])
+        db.execute("REPLACE INTO fact (name, value) VALUES (?, ?)", (_PLACE, value))
 
 
 def kept_place(store: Store) -> tuple[str, list[Replay]]:
-    """The key of the episode that was left, and its runs; ("", []) where there is none, or it is damaged."""
+    """The key of the episode that play goes on with, and its runs; ("", []) where there is none, or it is damaged."""
     for (value,) in store.rows("SELECT value FROM fact WHERE name = ?", (_PLACE,), [str]):
         try:
             key, *texts = json.loads(value)

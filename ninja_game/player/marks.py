@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from typing import NamedTuple
 
 from ninja_game.formats.pack.pars import MEDALS, Pars
-from ninja_game.formats.run_time import rounded_text
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.store import Store
+
+HELPED = "Passed with help: no medal"
+"""What a pass by a run that is assisted is called on every screen."""
+
+WITH_HELP = "with help"
+"""In the place of the body in marks of such passes: they open what follows, and are no records."""
 
 
 class Mark(NamedTuple):
@@ -34,6 +40,10 @@ class Marks:
         query = "SELECT fastest, most_gold FROM level_mark WHERE level = ? AND body = ?"
         rows = self.store.rows(query, (level, body), [int, int])
         return Mark(*rows[0]) if rows else None
+
+    def is_passed(self, level: str) -> bool:
+        """Whether a level was passed, with help or without."""
+        return (self.of(level) or self.of(level, WITH_HELP)) is not None
 
     def passed(self, level: str, tick: int, gold: int, body: str = "circle") -> Mark:
         """Take note of a passed run: what is better in it stays. Raises sqlite3.Error."""
@@ -67,14 +77,14 @@ def opens_author(entry: Entry, mark: Mark | None) -> bool:
 def next_par(pars: Pars, mark: Mark) -> str:
     """The medal after the one that a mark brings, and by how much it was missed; "" after the best."""
     medal = pars.next_medal(mark.fastest)
-    return f"{rounded_text(mark.fastest - pars.par(medal))} s behind the {medal} medal" if medal else ""
+    return f"{seconds_text(mark.fastest - pars.par(medal))} s behind the {medal} medal" if medal else ""
 
 
 def reached(entry: Entry, mark: Mark | None) -> str:
-    """The player's fastest time in a level and the most gold of a pass, in words."""
+    """The player's fastest time in a level and the most gold of a pass, in words; "" without a mark."""
     if mark is None:
-        return "Not passed yet"
-    return f"Time {rounded_text(mark.fastest)} s, gold {mark.most_gold} of {entry.all_gold}"
+        return ""
+    return f"Time {seconds_text(mark.fastest)} s, gold {mark.most_gold} of {entry.all_gold}"
 
 
 def has_all_gold(entry: Entry, mark: Mark | None) -> bool:
@@ -89,10 +99,10 @@ def worst_medal(entries: Iterable[Entry], marks: dict[str, Mark]) -> str:
     return order[max(found, default=len(MEDALS))]
 
 
-def tally(entries: Iterable[Entry], marks: dict[str, Mark]) -> Tally:
-    """Count what has been reached in levels."""
+def tally(entries: Iterable[Entry], marks: dict[str, Mark], helped: Collection[str] = ()) -> Tally:
+    """Count what has been reached in levels. ``helped``: digests of those passed with help."""
     pairs = [(entry, marks.get(entry.digest)) for entry in entries]
     medals = [medal_of(*pair) for pair in pairs]
-    passed = sum(mark is not None for _, mark in pairs)
+    passed = sum(mark is not None or entry.digest in helped for entry, mark in pairs)
     counts = {medal: medals.count(medal) for medal in MEDALS}
     return Tally(len(pairs), passed, counts, sum(has_all_gold(*pair) for pair in pairs))

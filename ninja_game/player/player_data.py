@@ -9,7 +9,7 @@ from ninja_game.errors import FileError, reason
 from ninja_game.files.user_folder import LEVELS, RECORDS, REPLAYS, SETTINGS, make_user_folder, user_folder
 from ninja_game.files.writing import remove_leftovers
 from ninja_game.player.catalogue import Catalogue, Entry, Episode
-from ninja_game.player.marks import Marks
+from ninja_game.player.marks import HELPED, Mark, Marks, reached
 from ninja_game.player.progress import LOCKED, UNLOCKED, Progress, complete_columns
 from ninja_game.player.records import Records
 from ninja_game.player.settings import Settings, read_settings, write_changes
@@ -90,7 +90,22 @@ class PlayerData:
         before = self.catalogue.preceding(episode)
         if before is None or self.episode_state(episode) != LOCKED:
             return ""
-        return f"Opens after episode {before.code}"
+        if self.episode_state(before) == LOCKED:
+            return f"Pass episode {before.code} first"
+        number, level = self.progress_in(before.pack).columns[before.column].beaten
+        left = len(before.levels) - level * (number == before.number)
+        return f"Pass {left} more level{'s' * (left != 1)} of episode {before.code}"
+
+    def reached(self, entry: Entry, mark: Mark | None) -> str:
+        """What the player has reached in a level, whose mark this is, in words: the same on every screen."""
+        if mark is None and self.marks.is_passed(entry.digest):
+            return HELPED
+        episode = None if mark else self.catalogue.episode_of(entry)
+        if episode:
+            place = episode.number, int(entry.episode.partition("-")[2])
+            if self.progress_in(episode.pack).columns[episode.column].beaten > place:
+                return "Skipped, not passed yet"
+        return reached(entry, mark) or "Not passed yet"
 
     @cached_property
     def marks(self) -> Marks:

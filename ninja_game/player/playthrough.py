@@ -26,7 +26,7 @@ from ninja_game.player.catalogue import Entry, Episode
 from ninja_game.player.going_on import keep_place, kept_place
 from ninja_game.player.marks import next_par
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.progress import LOCKED, UNLOCKED, Place, Progress, new_unlocks
+from ninja_game.player.progress import LOCKED, UNLOCKED, new_unlocks
 from ninja_game.player.saving import EPISODE_BEST, count_of, replay_of, save_best, told
 from ninja_game.player.store import Work
 from ninja_game.sim.level import Level
@@ -127,7 +127,8 @@ class LevelContext:
     @property
     def helps(self) -> bool:
         """Whether words help in the level: not once it has been passed, nor where the player does not want them."""
-        return self.data.settings.level_texts and self.data.marks.of(self.entry.digest, self.body) is None
+        marks, level = self.data.marks, self.entry.digest
+        return self.data.settings.level_texts and not marks.is_passed(level) and marks.of(level, self.body) is None
 
     def sayings(self) -> tuple[Saying, ...]:
         """What the level says, where it ``helps``."""
@@ -219,9 +220,26 @@ class LevelRun(LevelContext):
 
         def work() -> list[str]:
             count()
-            return save_best(self.data, entry, replay) if replay else []
+            notices = save_best(self.data, entry, replay) if replay else []
+            if not self.practice_mode:
+                self._open_following(entry)
+            return notices
 
         return told(self.data, work)
+
+    def _open_following(self, entry: Entry) -> None:
+        """Where its episode stands at this level it goes on behind it, and behind those passed before."""
+        data, episode = self.data, self.data.catalogue.episode_of(entry)
+        if episode is None or data.episode_state(episode) != UNLOCKED:
+            return
+        position = int(entry.episode.partition("-")[2])
+        if data.progress_in(episode.pack).columns[episode.column].beaten != (episode.number, position):
+            return
+        while True:
+            move_on(data, episode, position, kept=kept_place(data.store)[0] in {"", episode.key})
+            position += 1
+            if position == len(episode.levels) or not data.marks.is_passed(episode.levels[position].digest):
+                return
 
 
 class FileRun(LevelRun):
@@ -270,25 +288,12 @@ class EpisodeRun(LevelContext):
         self.lifetime = lifetimes(replays)[-1]
         self.score = self.lifetime
 
-    def go_behind(self, beaten: Place) -> None:
+    def go_behind(self) -> None:
         """Stand where a run in which levels were left out came to, if that is in this episode."""
+        beaten = self.data.progress_in(self.episode.pack).columns[self.episode.column].beaten
         if beaten[0] == self.episode.number and 0 < beaten[1] < len(self.episode.levels) and not self.practice_mode:
             self.whole, self.position = False, beaten[1]
             self.entry = self.episode.levels[self.position]
-
-    @property
-    def _progress(self) -> Progress:
-        """The player's progress in the episode's pack."""
-        return self.data.progress_in(self.episode.pack)
-
-    def _level_passed(self, position: int, *, legitimate: bool) -> None:
-        following = self.data.catalogue.following(self.episode)
-        self._progress.level_passed(
-            (self.episode.number, position),
-            levels=len(self.episode.levels),
-            following=following.number if following else None,
-            legitimate=legitimate,
-        )
 
     @property
     def title(self) -> str:
@@ -323,11 +328,10 @@ class EpisodeRun(LevelContext):
     ) -> list[str]:
         count()
         levels = len(self.episode.levels)
-        self._level_passed(position, legitimate=legitimate)
+        move_on(self.data, self.episode, position, replays if whole else (), legitimate=legitimate)
         if not replays:
             return []
         notices = save_best(self.data, self.episode.levels[position], replays[-1])
-        keep_place(self.data.store, self.episode.key, replays if whole and position < levels - 1 else ())
         if position == levels - 1:
             if whole and self.data.records.episode_passed(self.episode.key, score, replays):
                 notices.append(EPISODE_BEST)
@@ -364,14 +368,36 @@ class EpisodeRun(LevelContext):
         position, legitimate = self.position, self.legitimate
 
         def work() -> list[str]:
-            self._level_passed(position, legitimate=legitimate)
+            move_on(self.data, self.episode, position, legitimate=legitimate)
             return []
 
         self.notices = told(self.data, work)
 
 
+def move_on(
+    data: PlayerData, episode: Episode, position: int, replays: Sequence[Replay] = (), *,
+    legitimate: bool = True, kept: bool = True,
+) -> None:  # fmt: skip
+    """A level of an episode was passed or left out: open what follows, and keep that play goes on there.
+
+    ``replays``: those of the episode up to it, where no level was left out. Raises sqlite3.Error.
+    """
+    following = data.catalogue.following(episode)
+    levels = len(episode.levels)
+    data.progress_in(episode.pack).level_passed(
+        (episode.number, position),
+        levels=levels,
+        following=following.number if following else None,
+        legitimate=legitimate,
+    )
+    if legitimate and kept and position < levels - 1:
+        keep_place(data.store, episode.key, replays)
+    elif legitimate and kept:
+        keep_place(data.store, following.key if following else "")
+
+
 def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodeRun | None:
-    """Where play goes on: in the episode left half-way, or else in the first one that has not been passed.
+    """Where play goes on: behind the level played last, or else in the first episode that has not been passed.
 
     None where there are no episodes.
     """
@@ -384,22 +410,26 @@ def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodeRun | N
     if chosen is None:
         return None
     run = EpisodeRun(data, chosen, practice_mode=practice_mode)
-    run.go_behind(data.progress.columns[chosen.column].beaten)
+    run.go_behind()
     return run
 
 
-def left_half_way(data: PlayerData) -> EpisodeRun | None:
-    """The run that was left, if its levels are still what they were."""
+def left_half_way(data: PlayerData, asked: Episode | None = None) -> EpisodeRun | None:
+    """The run of an episode, or of that played last, where it was left; None where it has not been begun or is over."""
     key, replays = kept_place(data.store)
-    if not replays:
+    if asked is None:
+        episodes = (episode for pack in data.catalogue.packs() for episode in pack.episodes.values())
+        asked = next((episode for episode in episodes if key and episode.key == key), None)
+    elif asked.key != key:
+        replays = []
+    if asked is None or len(replays) >= len(asked.levels):
         return None
-    episodes = (episode for pack in data.catalogue.packs() for episode in pack.episodes.values())
-    episode = next((episode for episode in episodes if episode.key == key), None)
-    if episode is None or len(replays) >= len(episode.levels):
-        return None
-    run = EpisodeRun(data, episode)
-    run.go_on(replays)
-    return run
+    run = EpisodeRun(data, asked)
+    if replays:
+        run.go_on(replays)
+    else:
+        run.go_behind()
+    return run if run.position or not data.progress_in(asked.pack).is_beaten(asked.number) else None
 
 
 def _stamp(entry: Entry) -> tuple[int, int]:

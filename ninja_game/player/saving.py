@@ -8,7 +8,7 @@ from __future__ import annotations
 from ninja_game.formats.replay.text import Replay
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.marks import has_all_gold, medal_of
+from ninja_game.player.marks import WITH_HELP, has_all_gold, medal_of
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.store import Work
 
@@ -68,12 +68,15 @@ def save_best(data: PlayerData, entry: Entry, replay: Replay) -> list[str]:
 def count_of(
     data: PlayerData, entry: Entry, attempt: Attempt, *, killer: str | None = None, passed: bool = False
 ) -> Work:
-    """What counts an attempt as it is now: passed, killed, or given up."""
+    """What counts an attempt as it is now: passed, killed, or given up; a pass with help gets its mark."""
     level, gold = entry.digest, attempt.gold
+    helped = passed and attempt.assisted and not attempt.practice_mode
     ticks = attempt.simulation.tick if attempt.outcome == "running" else max(attempt.ended_tick, 0)
 
     def work() -> list[str]:
         data.statistics.attempt_ended(level, killer=killer, passed=passed, ticks=ticks, gold=gold)
+        if helped:
+            data.marks.passed(level, ticks, gold, WITH_HELP)
         return []
 
     return work

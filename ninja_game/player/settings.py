@@ -72,6 +72,7 @@ class Settings:
     window_width: int = 0
     window_height: int = 0
     volume: int = 70
+    effects_volume: int = 99
     loop_volume: int = 99
     music_volume: int = 45
     music_in_practice: bool = True
@@ -179,7 +180,8 @@ RULES = {
     "window_width": _whole("look", 0, 16384, "px; 0: as it fits the screen"),
     "window_height": _whole("look", 0, 16384, "px; 0: as it fits the screen"),
     "volume": _whole("sound", 0, 99, "of all that is heard"),
-    "loop_volume": _whole("sound", 0, 99, "of sounds that go on, a share of the volume"),
+    "effects_volume": _whole("sound", 0, 99, "of all but the music, a share of the volume"),
+    "loop_volume": _whole("sound", 0, 99, "of sounds that go on, a share of the effects"),
     "music_volume": _whole("sound", 0, 99, "of the music, a share of the volume"),
     "music_in_practice": _flag("sound", "music in practice mode too"),
     "text_scale": _whole("tas", 0, 400, "size of the text in the TAS editor, percent; 0: as it suits the window"),

@@ -46,8 +46,8 @@ def test_full_screen_and_ghost_keys_outlast_a_change_of_settings() -> None:
 
 
 OTHER = {
-    "palette": "dark", "ninja_colour": "#186285", "fullscreen": True, "volume": 11, "loop_volume": 12,
-    "music_volume": 13, "dead_zone": 0.8, "keys": {"jump": ("x",)}, "pad": {"jump": ("b",)},
+    "palette": "dark", "ninja_colour": "#186285", "fullscreen": True, "volume": 11, "effects_volume": 14,
+    "loop_volume": 12, "music_volume": 13, "dead_zone": 0.8, "keys": {"jump": ("x",)}, "pad": {"jump": ("b",)},
 }  # fmt: skip
 """Another value for each setting that the app hands on; all others are read where they are used."""
 
@@ -56,10 +56,10 @@ class Volumes(AudioOutput):
     """Remembers its volumes."""
 
     def __init__(self, settings: Settings) -> None:
-        self.volumes = settings.volume, settings.loop_volume, settings.music_volume
+        self.volumes = settings.volume, settings.effects_volume, settings.loop_volume, settings.music_volume
 
-    def set_volumes(self, volume: int, loop_volume: int, music_volume: int) -> None:
-        self.volumes = volume, loop_volume, music_volume
+    def set_volumes(self, volume: int, effects: int, loop_volume: int, music_volume: int) -> None:
+        self.volumes = volume, effects, loop_volume, music_volume
 
 
 def handed_on(app: App) -> dict[str, object]:

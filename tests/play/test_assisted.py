@@ -11,6 +11,7 @@ from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.help import Page, read_pages, room_level
 from ninja_game.player.attempt import Attempt
+from ninja_game.player.marks import HELPED
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.level import Level
 from ninja_game.ui.audio.table import warning_of
@@ -62,7 +63,7 @@ def test_an_assisted_pass_is_no_record_and_says_so(
     play_to_the_end(app, controls, screen, recording)
     assert screen.phase is Phase.PASSED
     assert app.player.records.level_best(screen.context.entry.digest) is None
-    assert screen.play.notices[0] == "Assisted: no record"
+    assert screen.play.notices[0] == HELPED
 
 
 def test_game_speed_makes_ticks_longer(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
@@ -102,7 +103,8 @@ def test_a_tap_runs_until_the_next_one(app: App) -> None:
     keys.stop_running()
     assert keys.poll() == 0
     keys.tap_to_run = False
-    assert _tapped(keys, "right") == 0, "nothing is held"
+    assert _tapped(keys, "right") == KEY_RIGHT
+    assert keys.poll() == 0, "nothing is held"
 
 
 def _tapped(keys: Bindings, name: str) -> int:

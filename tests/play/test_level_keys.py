@@ -13,8 +13,9 @@ from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App, Screen
 from ninja_game.play.level.hud import hud_view
-from ninja_game.play.level.play import DEATH_PAUSE, Phase
+from ninja_game.play.level.play import DEATH_PAUSE, LATE_JUMP, Phase
 from ninja_game.play.level.screen import LevelScreen, PausePanel
+from ninja_game.play.menus.panels import Menu
 from ninja_game.player.playthrough import EpisodeRun, FileRun
 from ninja_game.ui.input.bindings import ACTIONS
 from tests.support.scripted import (
@@ -78,13 +79,62 @@ def test_time_goes_on_after_single_steps(app: App, recording: Recording, action:
     assert screen.attempt.simulation.tick > tick
 
 
-def test_escape_before_the_first_move_does_not_end_the_game(app: App, recording: Recording) -> None:
+@pytest.mark.parametrize("phase", [Phase.READY, Phase.PLAY, Phase.DEAD])
+@pytest.mark.parametrize("key", ["back", "pause"])
+def test_escape_pauses_a_level_from_its_first_picture_to_its_pass(
+    stage: tuple[App, ScriptedControls], recording: Recording, phase: Phase, key: str
+) -> None:
+    app, _ = stage
+    app.push(Menu(app, "below", []))
     screen = open_level(app, recording)
+    if phase is not Phase.READY:
+        tap(app, "confirm")
+    if phase is Phase.DEAD:
+        screen.give_up()
+    for _ in range(2):
+        tap(app, key)
+        panel: Screen = app.top
+        assert isinstance(panel, PausePanel)
+        tap(app, key)
+        assert screen is app.stack.top
+        assert phase_of(screen) is phase
+    assert len(app.stack) == 2
+
+
+def test_space_goes_on_and_does_not_jump(app: App, recording: Recording, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The key that jumps and chooses: what it has chosen, while it is down, is no jump; pressed again it is one."""
+    screen = open_level(app, recording)
+    controls = app.controls
+    assert isinstance(controls, ScriptedControls)
+    monkeypatch.setattr(controls, "choosing", lambda: controls.held_bits & 4)
+
+    def down(*, space: bool) -> None:
+        controls.held_bits = 4 * space
+        if space:
+            press("jump", "confirm")
+        frames(app)
+
+    down(space=True)
+    frames(app, 3)
+    assert phase_of(screen) is Phase.PLAY
+    assert not any(screen.attempt.inputs), "it begins"
+    down(space=False)
+    down(space=True)
+    assert screen.attempt.inputs[-1] & 4
     tap(app, "back")
-    panel: Screen = app.top
-    assert isinstance(panel, PausePanel)
-    tap(app, "back")
-    assert len(app.stack) == 1
+    down(space=False)
+    controls.held_bits = 4
+    tap(app, "confirm", pictures=3)
+    assert phase_of(screen) is Phase.PLAY
+    assert not any(screen.attempt.inputs[-2:]), "it ends the pause"
+    down(space=False)
+    screen.give_up()
+    down(space=True)
+    assert phase_of(screen) is Phase.DEAD, "a jump that came too late"
+    frames(app, LATE_JUMP)
+    down(space=True)
+    assert phase_of(screen) is Phase.READY, "it tries again"
+    frames(app, 3)
     assert phase_of(screen) is Phase.READY
 
 

@@ -105,11 +105,11 @@ def test_one_music_fades_before_the_next_begins(player: AudioPlayer) -> None:
 
 def test_no_volume_is_no_music(player: AudioPlayer) -> None:
     begin(player, MENU)
-    player.set_volumes(70, 99, 0)
+    player.set_volumes(70, 99, 99, 0)
     assert busy(player._music) == [False] * 4
     player.music(MENU, 1000)
     assert busy(player._music) == [False] * 4
-    player.set_volumes(70, 99, 99)
+    player.set_volumes(70, 0, 99, 99)
     begin(player, MENU)
     assert busy(player._music)[0]
 

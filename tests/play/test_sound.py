@@ -136,7 +136,7 @@ def test_no_sound_device_is_no_error(folder: Path, monkeypatch: pytest.MonkeyPat
     sound.play_events(run.world)
     sound.corpse(4.0)
     sound.play("gold-1")
-    sound.set_volumes(0, 0, 0)
+    sound.set_volumes(0, 0, 0, 0)
     sound.quiet()
 
 

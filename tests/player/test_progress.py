@@ -39,6 +39,14 @@ def test_passing_an_episode_unlocks_the_next_of_its_column(progress: Progress) -
     assert progress.columns[2].beaten == (21, 0)
 
 
+def test_padlock_says_what_opens_an_episode(tmp_path: Path) -> None:
+    data = player_data(tmp_path, *(episode(number) for number in range(3)))
+    data.progress.level_passed((0, 0), legitimate=True)
+    locks = [data.lock_of_episode(data.catalogue.episodes[number]) for number in range(3)]
+    assert locks == ["", "Pass 4 more levels of episode 1", "Pass episode 2 first"]
+    data.close()
+
+
 def test_illegitimate_passing_only_moves_reached(progress: Progress) -> None:
     pass_levels(progress, 0, legitimate=False)
     assert progress.state(1) == CHEATED

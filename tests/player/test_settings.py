@@ -23,6 +23,7 @@ VALUES = {
     "window_width": st.integers(0, 16384),
     "window_height": st.integers(0, 16384),
     "volume": st.integers(0, 99),
+    "effects_volume": st.integers(0, 99),
     "loop_volume": st.integers(0, 99),
     "music_volume": st.integers(0, 99),
     "music_in_practice": st.booleans(),

@@ -10,7 +10,7 @@ from math import hypot, pi, sin
 import pygame
 
 from ninja_game.files.shown_text import shown_text
-from ninja_game.formats.run_time import rounded_text
+from ninja_game.formats.run_time import rounded_text, seconds_text
 from ninja_game.formats.sayings import named_keys
 from ninja_game.play.level.play import MUST, STAMP_TICKS, LevelPlay, Phase, Things
 from ninja_game.play.level.sayings import FALL_HELP, WHY
@@ -351,14 +351,14 @@ def hud_view(play: LevelPlay) -> HudView:
         keys = f"{key('confirm')}: {onward}    {key('retry')}: play again    {key('replay')}: replay"
         if not context.leads_on:
             keys = f"{key('confirm')}: play again    {key('replay')}: replay    {key('back')}: leave"
-        time = f"{rounded_text(attempt.ended_tick)} s"
+        time = f"{seconds_text(attempt.ended_tick)} s"
         title = f"Time {time}" if play.medal else f"Passed    time {time}"
         message = title, [*_reached(play), keys], *_covering(play)
     hint = _hint(play, key)
     name = shown_text(context.title)
     title = f"{name} ({play.aim})" if play.phase is Phase.READY and play.aim else name
     if (settings.game_speed < 100 or play.invincible or attempt.assisted) and not context.practice_mode:
-        title += "    assisted: no record"
+        title += "    with help: no medal"
     practice = "Practice" + (", slow motion" if play.tools.slow else "")
     return HudView(
         play.shown_lifetime,

@@ -11,6 +11,7 @@ from ninja_game.play.clock import RunClock
 from ninja_game.play.level.sayings import Sayings
 from ninja_game.play.replay.playback import Ghost, Playback
 from ninja_game.player.attempt import Attempt, Moment
+from ninja_game.player.marks import HELPED
 from ninja_game.player.playthrough import LevelContext
 from ninja_game.player.statistics import cause_of
 from ninja_game.sim.kinds import GOLD
@@ -27,6 +28,9 @@ DEATH_PAUSE = 20
 
 FREEZE_MS = 50
 """How long the picture stands still at the exit."""
+
+LATE_JUMP = 10
+"""Ticks after the end in which a key that jumps and goes on is taken for a jump that came too late."""
 
 STAMP_TICKS = 14
 """Ticks after the exit contact until the medal is stamped."""
@@ -113,7 +117,7 @@ class LevelPlay:
         self._go_to(Phase.READY)
         self.app.controls.stop_running()
         self._held_before = self.app.controls.poll()
-        self.keys = 0
+        self.keys = self._ignored = self._tapped = 0
         self.eye: tuple[float, float] | None = None
         self.after_end = self._frozen_ms = 0
         self.killer, self.crushed = "", False
@@ -149,7 +153,9 @@ class LevelPlay:
         self.clock.reset()
         self.changed = True
 
-    def begin(self) -> None:
+    def begin(self, *, ignored: int = 0) -> None:
+        """Play. ``ignored``: keys that are down and count only when they are pressed again."""
+        self._ignored = ignored
         self._go_to(Phase.PLAY)
 
     def pause(self) -> None:
@@ -159,6 +165,7 @@ class LevelPlay:
     def resume(self) -> None:
         self.app.controls.stop_running()
         self._held_before = self.app.controls.poll()
+        self._ignored = self.app.controls.choosing()
         self._go_to(self._phase_before)
 
     def retry(self, *, ignored: int = 0) -> None:
@@ -252,7 +259,8 @@ class LevelPlay:
         """Any move begins; keys that were down before do not count until they are pressed again."""
         held = self.app.controls.poll()
         self._held_before &= held
-        if held & ~self._held_before:
+        self._tapped = held & ~self._held_before
+        if self._tapped:
             self.begin()
 
     @property
@@ -266,7 +274,9 @@ class LevelPlay:
             self.attempt.assists.add("slow motion")
         for _ in range(due):
             # Sampled right before the tick: as late as can be.
-            self.keys = self.app.controls.poll() if self.phase is Phase.PLAY else 0
+            held = (self.app.controls.poll() | self._tapped) if self.phase is Phase.PLAY else 0
+            self._ignored &= held
+            self.keys, self._tapped = held & ~self._ignored, 0
             self.attempt.tick(self.keys, invincible=self.invincible)
             self.view.on_tick()
             self.tools.on_tick()
@@ -290,7 +300,7 @@ class LevelPlay:
                 self.notices = self.context.passed(self.attempt)
                 self._frozen_ms = 0 if self.app.settings.reduced_motion else FREEZE_MS
                 if self.attempt.assisted and not self.context.practice_mode:
-                    self.notices = ["Assisted: no record", *self.notices]
+                    self.notices = [HELPED, *self.notices]
             else:
                 self.killer = self.attempt.killer
                 self.crushed = cause_of(self.attempt.simulation.world) == CRUSHED

@@ -14,9 +14,9 @@ from ninja_game.formats.replay.text import Replay
 from ninja_game.play.app import App, Screen
 from ninja_game.play.clipboard import copy_level_link, copy_link
 from ninja_game.play.level.hud import Hud, hud_view
-from ninja_game.play.level.play import DEATH_PAUSE, STUCK_AFTER, LevelPlay, Phase
+from ninja_game.play.level.play import DEATH_PAUSE, LATE_JUMP, STUCK_AFTER, LevelPlay, Phase
 from ninja_game.play.menus.help import HelpScreen
-from ninja_game.play.menus.panels import Menu, Panel, Row
+from ninja_game.play.menus.panels import Menu, Panel, Row, nothing
 from ninja_game.play.menus.passed import EpisodePassed
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import SettingsScreen
@@ -90,14 +90,17 @@ class LevelScreen(Screen):
     # --- what keys and the pause panel do ---
 
     def begin(self) -> None:
-        self.play.begin()
+        """By the key that chooses: on a keyboard it is no jump yet; on a pad it is the only one."""
+        controls = self.app.controls
+        controls.stop_running()
+        self.play.begin(ignored=0 if controls.pad_used else controls.choosing())
 
     def pause(self) -> None:
         self.play.pause()
         self.app.push(PausePanel(self.app, self))
 
     def back(self) -> None:
-        """Out of a level that is not being played; where that would end the program, the pause panel comes first."""
+        """Out of a level that is passed; where that would end the program, the pause panel comes first."""
         if len(self.app.stack) > 1:
             self.quit()
         else:
@@ -115,6 +118,10 @@ class LevelScreen(Screen):
         except (NinjaGameError, OSError) as error:
             self.app.notify(f"The changed level cannot be played: {reason(error)}")
         self.play.retry(ignored=ignored)
+
+    def retry_by_choice(self) -> None:
+        """The key that chooses retries, and does not jump."""
+        self.retry(ignored=self.app.controls.choosing())
 
     def retry_by_jump(self) -> None:
         """The jump key retries too, but not at once; it begins to count when it is pressed again."""
@@ -138,20 +145,28 @@ class LevelScreen(Screen):
             self.go_on()
             self.app.notify("    ".join(self.context.notices))
         else:
-            self._ask_for_help()
+            self.ask_for_help()
 
-    def _ask_for_help(self) -> None:
-        """What to do about a level that is too hard: nobody has to stay in it. What is not possible says why."""
+    def ask_for_help(self, *, paused: bool = False) -> None:
+        """What to do about a level that is too hard: nobody has to stay in it. What is not possible says why.
+
+        ``paused``: asked for in the pause panel, to which Esc leads back, as it does from play.
+        """
         context, app = self.context, self.app
         run = context.data.catalogue.author_run(context.entry)
         seen = self.play.is_stuck or opens_author(context.entry, context.data.marks.of(context.entry.digest))
+        back = self.pause if paused or self.phase is Phase.PLAY else nothing
         if self.phase is Phase.PLAY:
             self.play.pause()
 
         def row(text: str, action: Callable[[], object], hint: str, why_not: str) -> Row:
             if why_not:
-                return f"{text} ({why_not})", partial(app.notify, f"{text}: {why_not}"), "Not yet"
+                return f"{text} ({why_not})", partial(impossible, f"{text}: {why_not}"), "Not yet"
             return text, action, hint
+
+        def impossible(why: str) -> None:
+            back()
+            app.notify(why)
 
         slow = "Slow down", partial(self._play_at, SLOWER), f"All levels at {SLOWER} %, no records, until you end it"
         full = "Full speed", partial(self._play_at, 100), "Records count again"
@@ -162,7 +177,7 @@ class LevelScreen(Screen):
             full if app.settings.game_speed < 100 else slow,
             row(SKIP, self.go_on, "You can come back to it", "no level follows" * (not context.leads_on)),
         ]
-        app.push(Menu(app, HELP, rows))
+        app.push(Menu(app, HELP, rows, back))
 
     def _watch(self, run: Replay | None) -> None:
         """Watch a run; then the level waits at its start."""
@@ -242,7 +257,13 @@ class LevelScreen(Screen):
         self._dispatch_action(pressed)
 
     def _dispatch_action(self, pressed: tuple[str, ...]) -> None:
-        """Do the first thing that the pressed actions mean in this phase."""
+        """Do the first thing that the pressed actions mean in this phase.
+
+        After the end, a key that jumps and goes on is first a jump that came too late, and then no jump.
+        """
+        if {"jump", "confirm"} <= set(pressed) and self.phase in {Phase.DEAD, Phase.PASSED}:
+            late = self.play.after_end < LATE_JUMP
+            pressed = () if late else tuple(action for action in pressed if action != "jump")
         for action in pressed:
             method = ACTIONS_BY_PHASE[self.phase].get(action)
             if action == "ghost":
@@ -298,28 +319,31 @@ def play_level(app: App, entry: Entry, *, practice: bool = False, following: Seq
 
 PhaseActions = dict[str, Callable[[LevelScreen], None]]
 
-_END: PhaseActions = {
-    "retry": LevelScreen.retry, "replay": LevelScreen.watch_replay, "export": LevelScreen.keep_replay,
-    "link": LevelScreen.copy_link,
-    "back": LevelScreen.back, "quit": LevelScreen.quit,
+_UNPASSED: PhaseActions = {
+    "pause": LevelScreen.pause, "back": LevelScreen.pause, "retry": LevelScreen.retry, "quit": LevelScreen.quit,
+    "skip": LevelScreen.skip,
 }  # fmt: skip
+"""What holds as long as the level is not passed."""
+
+_END: PhaseActions = {
+    "replay": LevelScreen.watch_replay,
+    "export": LevelScreen.keep_replay,
+    "link": LevelScreen.copy_link,
+}
 """What dead and passed have in common."""
 
 ACTIONS_BY_PHASE: dict[Phase, PhaseActions] = {
-    Phase.READY: {
-        "confirm": LevelScreen.begin, "retry": LevelScreen.retry, "back": LevelScreen.back, "quit": LevelScreen.quit,
-        "skip": LevelScreen.skip,
-    },
+    Phase.READY: {"confirm": LevelScreen.begin, **_UNPASSED},
     Phase.PLAY: {
-        "pause": LevelScreen.pause, "back": LevelScreen.pause, "retry": LevelScreen.retry,
-        "suicide": LevelScreen.give_up, "skip": LevelScreen.skip,
+        **_UNPASSED, "suicide": LevelScreen.give_up,
         **dict.fromkeys(("confirm", "left", "right", "jump"), LevelScreen.run_on),
     },
     Phase.PAUSED: {},
-    Phase.DEAD: {
-        "confirm": LevelScreen.retry, "jump": LevelScreen.retry_by_jump, "skip": LevelScreen.skip, **_END,
+    Phase.DEAD: {"confirm": LevelScreen.retry_by_choice, "jump": LevelScreen.retry_by_jump, **_UNPASSED, **_END},
+    Phase.PASSED: {
+        "confirm": LevelScreen.go_on, "skip": LevelScreen.go_on, "retry": LevelScreen.retry,
+        "back": LevelScreen.back, "quit": LevelScreen.quit, **_END,
     },
-    Phase.PASSED: {"confirm": LevelScreen.go_on, "skip": LevelScreen.go_on, **_END},
 }  # fmt: skip
 """What each action does in each phase; the other actions do nothing there."""
 
@@ -332,11 +356,13 @@ class PausePanel(Panel):
         self.playing = playing
 
     def rows(self) -> list[tuple[str, Callable[[], object], str]]:
-        skip = SKIP if self.playing.context.practice_mode else HELP
+        playing = self.playing
+        practice = playing.context.practice_mode
+        skip, helped = (SKIP, playing.skip) if practice else (HELP, partial(playing.ask_for_help, paused=True))
         return [
             ("Resume", self.back, ""),
             ("Retry", lambda: self._leave(self.playing.retry), ""),
-            (skip, lambda: self._leave(self.playing.skip), f"{self.app.controls.name('skip')}, also in play"),
+            (skip, lambda: self._leave(helped), f"{self.app.controls.name('skip')}, also in play"),
             ("Settings", lambda: self.app.push(SettingsScreen(self.app)), ""),
             ("Help", lambda: self.app.push(HelpScreen(self.app)), ""),
             ("Copy a link", self._copy_link, "Whoever opens the link plays this level"),

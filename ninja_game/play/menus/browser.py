@@ -13,7 +13,7 @@ from ninja_game.files.shown_text import name_problem
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.load import load_levels
-from ninja_game.formats.run_time import rounded_text
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.level.screen import play_level
@@ -24,7 +24,7 @@ from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text, where_from
 from ninja_game.player.catalogue import Entry, author_name
-from ninja_game.player.marks import Mark, opens_author, reached
+from ninja_game.player.marks import Mark, opens_author
 from ninja_game.player.records import SavedReplay
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import ListView
@@ -229,7 +229,7 @@ class Browser(ThumbnailScreen):
         theme.paragraph(surface, [entry.named.comment, *teaches], (SIDE, 321, SIDE_WIDTH, TEXT_HIGH), 10.5, 13.5)
         mark = self.marks.get(entry.digest)
         colour = palette.good if mark else palette.faint
-        theme.text(surface, reached(entry, mark), SIDE, 408, size=12, colour=colour, width=SIDE_WIDTH)
+        theme.text(surface, self.player.reached(entry, mark), SIDE, 408, size=12, colour=colour, width=SIDE_WIDTH)
         played = self.player.statistics.played(entry.digest)
         if played.attempts:
             theme.text(surface, tries_text(played), SIDE, 425, size=10.5, colour=palette.faint)
@@ -251,7 +251,7 @@ class Browser(ThumbnailScreen):
         theme.text(surface, source, left, y + 32, size=10, colour=palette.faint, width=150)
         mark = self.marks.get(entry.digest)
         if mark:
-            time = f"time {rounded_text(mark.fastest)} s"
+            time = f"time {seconds_text(mark.fastest)} s"
             theme.text(surface, time, x + w - 8, y + 11, size=12, colour=palette.good, align="right", width=100)
         all_gold_and_medal(surface, theme, entry, mark, x + w - 16, y + 37)
         grade = entry.pars.grade if entry.pars else ""

@@ -3,27 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from datetime import date
+from datetime import date, timedelta
 from pathlib import Path
 from threading import Event
 
 import pygame
 
 from ninja_game.backend.memories import choose_memory
+from ninja_game.files.shown_text import counted
 from ninja_game.files.user_folder import LEVELS
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.generator import daily
 from ninja_game.play.app import App
 from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.settings import PRACTICE_HINT
-from ninja_game.play.menus.thumbnails import ThumbnailScreen, draw_pars, tries_text
+from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.marks import next_par, reached
+from ninja_game.player.marks import next_par
 from ninja_game.runtime import require_desktop, run_in_background
-from ninja_game.ui.theme import wrapped
+from ninja_game.ui.theme import Theme, wrapped
 from ninja_game.ui.widgets import Button, Widget
 
 LEFT, TOP, WIDE = 44, 74, 480
-SIDE, SIDE_WIDTH = 548, 200
+SIDE, SIDE_WIDTH, WEEK = 548, 200, 272
 
 
 class _Maker:
@@ -64,6 +66,7 @@ class DailyScreen(ThumbnailScreen):
         super().__init__(app)
         self.day = date.today()  # noqa: DTZ011 - the player's day
         self.entry: Entry | None = None
+        self.days: dict[str, Entry] = {}
         self.message = ""
         self._maker: _Maker | None = None
         self._shown = ""
@@ -92,17 +95,32 @@ class DailyScreen(ThumbnailScreen):
             self._maker = None
 
     def build(self) -> Sequence[Widget]:
-        return [self.play, self.practice] if self.entry else [Button(self.play.area, "Back", self.close)]
+        return [self.play, self.practice] if self.entry else []
 
     def _find(self) -> None:
         """Look for the day's level in the player's folder; a message says why it cannot be read."""
         catalogue = self.player.catalogue
         catalogue.problems.clear()
-        there = (each for each in catalogue.singles() if Path(each.named.file) == self.file)
-        self.entry = next(there, None) if self.file.exists() else None
+        files = ((Path(each.named.file), each) for each in catalogue.singles())
+        self.days = {file.stem: each for file, each in files if file.parent == self.file.parent}
+        self.entry = self.days.get(self.file.stem) if self.file.exists() else None
         self.message = ""
         if self.entry is None and self.file.exists():
             self.message = next(iter(catalogue.problems), f"{self.file} is not a level")
+
+    def is_passed(self, day: date) -> bool:
+        """Whether the level of a day has been passed, with help or without."""
+        entry = self.days.get(day.isoformat())
+        return entry is not None and self.player.marks.is_passed(entry.digest)
+
+    @property
+    def streak(self) -> int:
+        """How many days in a row were passed, up to today, or up to yesterday as long as today is not over."""
+        count = int(self.is_passed(self.day))
+        day = self.day - timedelta(1)
+        while self.is_passed(day):
+            count, day = count + 1, day - timedelta(1)
+        return count
 
     def update(self, real_ms: int) -> None:
         """See whether the level is there, and how its making stands."""
@@ -154,14 +172,31 @@ class DailyScreen(ThumbnailScreen):
         theme.text(surface, entry.title, SIDE, TOP + 24, size=17, bold=True, width=SIDE_WIDTH)
         mark = self.player.marks.of(entry.digest)
         played = self.player.statistics.played(entry.digest)
-        lines = [f"{entry.all_gold} gold"]
+        lines = [f"{counted(self.streak, 'day', 'days')} in a row passed", f"{entry.all_gold} gold"]
         if entry.pars and entry.pars.grade:
-            lines.insert(0, entry.pars.grade)
-        lines.append(reached(entry, mark))
+            lines.insert(1, entry.pars.grade)
+        lines.append(self.player.reached(entry, mark))
         if entry.pars and mark:
             lines.append(next_par(entry.pars, mark))
         if played.attempts:
             lines.append(tries_text(played))
+        self._draw_week(surface, theme)
         for number, line in enumerate(lines):
             theme.text(surface, line, SIDE, TOP + 60 + 20 * number, size=11, width=SIDE_WIDTH)
         draw_pars(surface, theme, entry.pars, mark and mark.fastest, LEFT, TOP + WIDE * 25 / 33 + 12)
+
+    def _draw_week(self, surface: pygame.Surface, theme: Theme) -> None:
+        """The days of this week, and what was reached on each."""
+        for place in range(7):
+            day = self.day + timedelta(place - self.day.weekday())
+            entry = self.days.get(day.isoformat())
+            mark = self.player.marks.of(entry.digest) if entry else None
+            passed = self.is_passed(day)
+            text = f"{seconds_text(mark.fastest)} s" if mark else "with help" if passed else "not passed"
+            text = "" if day > self.day else text
+            y = WEEK + 16 * place
+            colour = theme.palette.good if passed else theme.palette.faint
+            theme.text(surface, f"{day:%a}", SIDE, y, size=10, bold=day == self.day, width=40)
+            theme.text(surface, text, SIDE + 44, y, size=10, colour=colour, width=SIDE_WIDTH - 70)
+            if entry:
+                all_gold_and_medal(surface, theme, entry, mark, SIDE + SIDE_WIDTH - 10, y + 5)

@@ -16,7 +16,7 @@ from ninja_game.play.menus.problems import of_files, problems_button
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, tries_text
 from ninja_game.player.catalogue import Episode, EpisodeSet
-from ninja_game.player.marks import Mark, has_all_gold, next_par, reached, tally, worst_medal
+from ninja_game.player.marks import WITH_HELP, Mark, has_all_gold, next_par, tally, worst_medal
 from ninja_game.player.playthrough import EpisodeRun, left_half_way
 from ninja_game.player.progress import CHEATED, LOCKED
 from ninja_game.ui.input.bindings import InputEvent
@@ -118,6 +118,7 @@ class EpisodeGrid(ThumbnailScreen):
         self.packs: list[EpisodeSet] = []
         self.pack = self.player.catalogue.ours
         self.marks: dict[str, Mark] = {}
+        self.helped: dict[str, Mark] = {}
         self.grid = Cells((LEFT, TOP, WIDE, MOST_HIGH), 1, self._draw_cell, self._play, opens=True)
         self.grid.selected = self._selected
         self.play = Button((SIDE + 274, 64, 90, 30), "Play", lambda: self._play(self.grid.index))
@@ -178,6 +179,7 @@ class EpisodeGrid(ThumbnailScreen):
         if self.pack is not before:
             self.grid.arrange(self.pack.episodes)
         self.marks = self.player.marks.all()
+        self.helped = self.player.marks.all(WITH_HELP)
         self._selected(self.grid.index)
         self.practice = Choice(
             (LEFT, self._below, WIDE, 30), "Practice mode", [("off", False), ("on", True)],
@@ -216,8 +218,8 @@ class EpisodeGrid(ThumbnailScreen):
             return
         practice_mode = self.player.settings.practice
         afresh = EpisodeRun(self.player, self.episode, practice_mode=practice_mode)
-        left = None if practice_mode else left_half_way(self.player)
-        if left is None or left.episode.key != self.episode.key:
+        left = None if practice_mode else left_half_way(self.player, self.episode)
+        if left is None or not left.position:
             self.app.push(LevelScreen(self.app, afresh))
             return
         rows: list[Row] = [
@@ -265,7 +267,7 @@ class EpisodeGrid(ThumbnailScreen):
     def _draw_total(self, surface: pygame.Surface, theme: Theme, y: float) -> None:
         """How much of the pack has been passed, with which medals, with all gold."""
         levels = self.pack.levels
-        total = tally(levels, self.marks)
+        total = tally(levels, self.marks, self.helped)
         theme.text(surface, f"{total.passed} of {total.levels} levels passed", LEFT, y, size=11, bold=True)
         x = LEFT + 8.0
         if any(entry.pars for entry in levels):
@@ -314,7 +316,8 @@ class EpisodeGrid(ThumbnailScreen):
 
     def _look_of(self, number: int) -> str:
         state = self._state(number)
-        if self.player.progress_in(self.pack.key).is_beaten(number):
+        passed = self.marks.keys() | self.helped.keys()
+        if all(entry.digest in passed for entry in self.pack.episodes[number].levels):
             return "beaten"
         return {LOCKED: "locked", CHEATED: "cheated"}.get(state, "open")
 
@@ -335,7 +338,7 @@ class EpisodeGrid(ThumbnailScreen):
         played = self.player.statistics.played(entry.digest)
         colour = theme.palette.good if mark else theme.palette.faint
         room = w - SMALL_PICTURE - 24
-        theme.text(surface, reached(entry, mark), left, y + 32, size=11, colour=colour, width=room)
+        theme.text(surface, self.player.reached(entry, mark), left, y + 32, size=11, colour=colour, width=room)
         following = next_par(entry.pars, mark) if entry.pars and mark else ""
         theme.text(surface, following, left, y + 48, size=10, width=room)
         if played.attempts:

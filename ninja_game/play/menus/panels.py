@@ -77,11 +77,16 @@ class Panel(MenuScreen):
 
 
 class Menu(Panel):
-    """Some actions; each of them closes the panel first."""
+    """Some actions; each of them closes the panel first. ``then``: done when it is left by the key for back."""
 
-    def __init__(self, app: App, title: str, rows: Sequence[Row]) -> None:
+    def __init__(self, app: App, title: str, rows: Sequence[Row], then: Action = nothing) -> None:
         super().__init__(app, title)
+        self._then = then
         self._rows = [(text, self._closing(action), hint) for text, action, hint in rows]
+
+    def back(self) -> None:
+        super().back()
+        self._then()
 
     def _closing(self, action: Callable[[], object]) -> Callable[[], object]:
         def close_and_do() -> None:

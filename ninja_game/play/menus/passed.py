@@ -11,7 +11,6 @@ from ninja_game.play.app import App
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal
 from ninja_game.player.catalogue import Episode
-from ninja_game.player.marks import reached
 from ninja_game.player.playthrough import EpisodeRun
 from ninja_game.player.saving import OF_A_LEVEL
 from ninja_game.ui.canvas import WIDTH
@@ -42,7 +41,16 @@ class EpisodePassed(ThumbnailScreen):
             buttons.append(Button((236, 440, 320, 36), f"Next: episode {following.code}", self.go_on, size=13))
         watch = Button((236, 482, 156, 30), "Watch the run", self.watch, hint="The best run of this episode")
         watch.enabled = self.player.records.episode_best(self.run.episode.key) is not None
-        return [*buttons, watch, Button((400, 482, 156, 30), "Episodes", self.back)]
+        return [*buttons, watch, Button((400, 482, 156, 30), "Episodes", self._episodes)]
+
+    def _episodes(self) -> None:
+        """The screen of episodes, whatever screen this one was opened from."""
+        from ninja_game.play.menus.episodes import EpisodeGrid  # it opens levels, which open this screen
+
+        if isinstance(self.app.stack.below, EpisodeGrid):
+            self.back()
+        else:
+            self.app.replace(EpisodeGrid(self.app, self.run.episode.pack))
 
     def go_on(self) -> None:
         if self.next_episode is not None:
@@ -67,7 +75,7 @@ class EpisodePassed(ThumbnailScreen):
             middle = x + PICTURE / 2
             theme.text(surface, entry.title, middle, 232, size=10, align="centre", width=PICTURE, height=15)
             mark = self.player.marks.of(entry.digest)
-            time = reached(entry, mark)
+            time = self.player.reached(entry, mark)
             theme.text(surface, time, middle, 247, size=10, colour=palette.faint, align="centre", width=PICTURE)
             all_gold_and_medal(surface, theme, entry, mark, x + PICTURE - 11, 135)
         score = f"{seconds_text(self.run.score)} s left"

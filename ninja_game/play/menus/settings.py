@@ -83,7 +83,7 @@ class Capture(Screen):
         return None
 
 
-SLOTS = 5
+SLOTS = 6
 ROW = 30
 LIST: Area = (216, 72, 540, 13 * ROW)
 LABEL_SHARE = 0.34
@@ -220,7 +220,7 @@ RACED = [("your best", "best"), ("next medal", "next"), *((medal, medal) for med
 RATES = [("match display", 0), ("30", 30), ("60", 60), ("120", 120), ("144", 144), ("240", 240)]
 COLOUR_NAMES = ("default", "pink", "olive", "teal", "mauve", "maroon", "white", "gold", "slate", "silver")
 PRACTICE_HINT = "No clock; save, rewind, slow motion; no records"
-ASSISTED_HINT = "no records"
+ASSISTED_HINT = "with help: no medal"
 LEFT, TOP, STEP, HEIGHT_OF_ROW = 216, 72, 42, 32
 WIDTH_OF_ROW = WIDTH - 36 - LEFT - 12
 
@@ -281,7 +281,7 @@ class SettingsScreen(ThumbnailScreen):
         )  # fmt: skip
 
     def _slider(self, place: int, text: str, name: str, range_: tuple[float, float, float], hint: str = "") -> Slider:
-        """One for a number; volumes, which have no unit, are heard at once."""
+        """One for a number; volumes, stored as 0 to 99, are heard at once."""
         volume = name.endswith("volume")
 
         def put(value: float) -> None:
@@ -289,19 +289,20 @@ class SettingsScreen(ThumbnailScreen):
             if volume:
                 self.chime("gold-1" if name == "volume" else "menu-move")
 
-        show = ("{:.0f}" if volume else "{:.0f} %").format
+        share = 100 / range_[1]
         return Slider(
-            self._area(place), text, range_, lambda: getattr(self.player.settings, name), put, show=show, hint=hint
-        )
+            self._area(place), text, range_, lambda: getattr(self.player.settings, name), put,
+            show=lambda value: f"{share * value:.0f} %", hint=hint,
+        )  # fmt: skip
 
     def _picture(self) -> list[Widget]:
         columns, present = self.player.columns_complete, self.player.columns_present
         count = len(NINJA_COLOURS) if custom_colour_unlocked(columns, present) else 1 + unlocked_colours(columns)
-        palettes = [("by column", BY_COLUMN), *((name, name) for name in PALETTES)]
+        palettes = [(name.replace("-", " ").title(), name) for name in (BY_COLUMN, *PALETTES)]
         colours = list(zip(COLOUR_NAMES, NINJA_COLOURS, strict=True))[:count]
         more = "Complete columns of episodes for more" if count < len(NINJA_COLOURS) else ""
         return [
-            self._choice(0, "Palette", "palette", palettes, "contrast, safe: what kills has spikes"),
+            self._choice(0, "Palette", "palette", palettes, "Contrast, Safe: what kills has spikes"),
             self._choice(1, "Ninja colour", "ninja_colour", colours, more),
             self._choice(2, "Full screen", "fullscreen", SWITCH, "F11 at any time"),
             self._choice(3, "Smooth motion", "smooth", SWITCH, "More than 40 pictures a second"),
@@ -314,9 +315,10 @@ class SettingsScreen(ThumbnailScreen):
     def _sound(self) -> list[Widget]:
         return [
             self._slider(0, "Volume", "volume", (0, 99, 3), "0: no sound"),
-            self._slider(1, "Slides, rockets, lasers", "loop_volume", (0, 99, 3), "A share of the volume"),
-            self._slider(2, "Music", "music_volume", (0, 99, 3), "A share of the volume; 0: no music"),
-            self._choice(3, "Music in practice", "music_in_practice", SWITCH),
+            self._slider(1, "Effects", "effects_volume", (0, 99, 3), "All but the music; a share of the volume"),
+            self._slider(2, "Slides, rockets, lasers", "loop_volume", (0, 99, 3), "A share of the effects"),
+            self._slider(3, "Music", "music_volume", (0, 99, 3), "A share of the volume; 0: no music"),
+            self._choice(4, "Music in practice", "music_in_practice", SWITCH),
         ]
 
     def _play(self) -> list[Widget]:

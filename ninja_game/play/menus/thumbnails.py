@@ -8,7 +8,7 @@ import pygame
 
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.pars import MARGINS, Pars
-from ninja_game.formats.run_time import rounded_text
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.player.catalogue import Entry
@@ -108,7 +108,7 @@ def draw_pars(surface: pygame.Surface, theme: Theme, pars: Pars | None, tick: in
         par = pars.par(medal) if medal in MARGINS else None
         reached = tick is not None and (par is None or tick <= par)
         draw_medal(surface, theme, medal, x + 8, y + 8, 16, reached=reached)
-        theme.text(surface, "pass it" if par is None else f"{rounded_text(par)} s", x + 20, y + 3.5, size=9.5)
+        theme.text(surface, "pass it" if par is None else f"{seconds_text(par)} s", x + 20, y + 3.5, size=9.5)
         x += 80
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pygame
 
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.theme import Theme, mixed
 
@@ -46,5 +47,6 @@ class ReplayBar:
 
     @staticmethod
     def write(surface: pygame.Surface, theme: Theme, tick: int, end: int, speed: str) -> pygame.Rect:
-        text = f"{min(tick, end)} / {end}, {speed}"
+        at = min(tick, end)
+        text = f"{seconds_text(at)} / {seconds_text(end)} s    tick {at} / {end}    {speed}"
         return theme.text(surface, text, 768, 583, size=9, colour=theme.palette.on_tile, align="right")

@@ -46,7 +46,7 @@ class AudioOutput:
     def music(self, name: str, real_ms: int) -> None:
         """Called for every picture: which music is to be heard, "" the one that plays; ms since the last one."""
 
-    def set_volumes(self, volume: int, loop_volume: int, music_volume: int) -> None:
+    def set_volumes(self, volume: int, effects: int, loop_volume: int, music_volume: int) -> None:
         """Take other volumes, 0 to 99."""
 
     def quiet(self) -> None:
@@ -63,10 +63,17 @@ class AudioPlayer(AudioOutput):
     """
 
     def __init__(
-        self, folder: Path, *, volume: int = LOUDEST, loop_volume: int = LOUDEST, music_volume: int = 0
+        self,
+        folder: Path,
+        *,
+        volume: int = LOUDEST,
+        effects_volume: int = LOUDEST,
+        loop_volume: int = LOUDEST,
+        music_volume: int = 0,
     ) -> None:
         self.folder = folder
         self.volume = volume
+        self.effects_volume = effects_volume
         self.loop_volume = loop_volume
         self.music_volume = music_volume
         self._music = Music(folder / "music", len(LOOPS))
@@ -136,14 +143,15 @@ class AudioPlayer(AudioOutput):
         channel = sound.play() if sound and self.volume else None
         if channel:
             side = max(-1.0, min(1.0, 2 * x / WORLD_WIDTH - 1)) if isfinite(x) else 0.0
-            level *= self.volume / LOUDEST
+            level *= self.volume * self.effects_volume / LOUDEST**2
             channel.set_volume(level * (1 - PAN * max(side, 0.0)), level * (1 + PAN * min(side, 0.0)))
 
     # --- how ---
 
-    def set_volumes(self, volume: int, loop_volume: int, music_volume: int) -> None:
+    def set_volumes(self, volume: int, effects: int, loop_volume: int, music_volume: int) -> None:
         """Take other volumes, 0 to 99."""
-        self.volume, self.loop_volume, self.music_volume = volume, loop_volume, music_volume
+        self.volume, self.effects_volume, self.loop_volume = volume, effects, loop_volume
+        self.music_volume = music_volume
         if not volume:
             self.quiet()
         if self.works and not (volume and music_volume):
@@ -161,7 +169,7 @@ class AudioPlayer(AudioOutput):
             if sound is None:
                 return
             channel.play(sound, loops=-1, fade_ms=30)
-        channel.set_volume(level * self.volume * self.loop_volume / LOUDEST**2)
+        channel.set_volume(level * self.volume * self.effects_volume * self.loop_volume / LOUDEST**3)
 
     def _read_all(self) -> None:
         """Read every sound before it is wanted."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import inf
 from time import monotonic
 from typing import NamedTuple
 
@@ -15,8 +14,8 @@ from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.ui.input.gamepad import Gamepads, pad_label
 from ninja_game.ui.input.keys import key_label, key_name, learn_label, scancode_named, scancode_of
 
-TAP_SECONDS = 0.06
-"""A jump key that went down and up between two ticks still counts in the next one, if it is not older than this."""
+TAP_SECONDS = 0.15
+"""A move that went down and up between two ticks counts in the next one, if it is not older: longer than any tick."""
 
 MOVES = (("left", KEY_LEFT), ("right", KEY_RIGHT), ("jump", JUMP_HELD))
 
@@ -35,7 +34,7 @@ class Bindings:
     def __init__(self, keys: Inputs | None = None, pad: Inputs | None = None, *, dead_zone: float = 0.35) -> None:
         self.pads = Gamepads(dead_zone)
         self.pad_used = False
-        self._tapped = -inf
+        self._taps: dict[int, float] = {}
         self.tap_to_run = False
         self._running = 0
         self.bind(keys or {}, pad or {})
@@ -63,11 +62,15 @@ class Bindings:
             (bit, [code for code in map(scancode_named, self.keys[action]) if code]) for action, bit in MOVES
         ]
         self._move_pad = [(bit, set(self.pad[action])) for action, bit in MOVES]
+        chosen = {*self.keys["confirm"], *(name for name, meaning in MENU_KEYS.items() if meaning == "confirm")}
+        self._jump_choosing = [code for code in map(scancode_named, {*self.keys["jump"]} & chosen) if code]
+        chosen = {*self.pad["confirm"], *(name for name, meaning in MENU_PAD.items() if meaning == "confirm")}
+        self._jump_choosing_pad = {*self.pad["jump"]} & chosen
 
     def poll(self) -> int:
         """Read the devices: what is held right now, 1 left + 2 right + 4 jump.
 
-        A tap of the jump key since the last poll counts as held, once.
+        A tap of a move since the last poll counts as held, once.
         """
         pygame.event.pump()
         state = pygame.key.get_pressed()
@@ -80,14 +83,21 @@ class Bindings:
         for bit, names in self._move_pad:
             if pads & names:
                 bits |= bit
-        if monotonic() - self._tapped <= TAP_SECONDS:
-            bits |= JUMP_HELD
-        self._tapped = -inf
+        now = monotonic()
+        bits |= sum(bit for bit, when in self._taps.items() if not bits & bit and now - when <= TAP_SECONDS)
+        self._taps.clear()
         return bits & JUMP_HELD | self._running if self.tap_to_run else bits
 
+    def choosing(self) -> int:
+        """The jump bit while an input is down that both jumps and chooses: what it has just chosen is no jump."""
+        state = pygame.key.get_pressed()
+        down = any(tuple.__getitem__(state, code) for code in self._jump_choosing)
+        return JUMP_HELD * bool(down or self.pads.down & self._jump_choosing_pad)
+
     def stop_running(self) -> None:
-        """Forget that a tap runs on."""
+        """Forget that a tap runs on, and taps that are to count."""
         self._running = 0
+        self._taps.clear()
 
     def decode(self, event: pygame.Event) -> InputEvent:
         """What an event means. Called once for each: pads, layout and taps of the jump key are followed."""
@@ -121,9 +131,8 @@ class Bindings:
         return self._noted(InputEvent(event, pressed=actions, menu=menu, source=("keys", name)))
 
     def _noted(self, event: InputEvent) -> InputEvent:
-        """The event; the time of a press of the jump key is kept for the next tick, and a tap that runs on."""
-        if "jump" in event.pressed:
-            self._tapped = monotonic()
+        """The event; the time of a press of a move is kept for the next tick, and a tap that runs on."""
+        self._taps |= {bit: monotonic() for action, bit in MOVES if action in event.pressed}
         for action, bit in MOVES[:2]:
             if action in event.pressed:
                 self._running = 0 if self._running else bit
@@ -153,7 +162,7 @@ class Action(NamedTuple):
 ACTIONS: dict[str, Action] = {
     "left": Action("Run left", ("left", "a"), ("dpad-left", "leftx-", "hat-left", "axis-0-")),
     "right": Action("Run right", ("right", "d"), ("dpad-right", "leftx+", "hat-right", "axis-0+")),
-    "jump": Action("Jump", ("z", "up", "w", "lshift", "rshift"), ("a", "button-0")),
+    "jump": Action("Jump", ("z", "space", "up", "w", "lshift", "rshift"), ("a", "button-0")),
     "confirm": Action("Begin, continue", ("space", "return"), ("a", "button-0")),
     "back": Action("Back", ("escape",), ("b", "button-1")),
     "pause": Action("Pause", ("p",), ("start", "button-7")),

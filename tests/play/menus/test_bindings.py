@@ -126,10 +126,29 @@ def test_hats_and_axes_of_unknown_pads_work_too(bindings: Bindings) -> None:
     assert "jump" in bindings.decode(pygame.Event(pygame.JOYBUTTONDOWN, instance_id=9, button=0)).pressed
 
 
-def test_tap_between_two_ticks_still_jumps_once(bindings: Bindings) -> None:
-    bindings.decode(key("z"))
-    assert bindings.poll() == 4
+@pytest.mark.parametrize("name, bit", [("z", 4), ("space", 4), ("left", 1), ("right", 2)])
+@pytest.mark.parametrize("late", [0.0, 0.1])
+def test_tap_between_two_ticks_still_counts_once(
+    bindings: Bindings, monkeypatch: pytest.MonkeyPatch, name: str, bit: int, late: float
+) -> None:
+    """Also in slow motion, where a tick takes 100 ms."""
+    now = 5.0
+    monkeypatch.setattr("ninja_game.ui.input.bindings.monotonic", lambda: now)
+    bindings.decode(key(name))
+    bindings.decode(key(name, pygame.KEYUP))
+    now += late
+    assert bindings.poll() == bit
     assert bindings.poll() == 0
+
+
+def test_what_a_key_that_jumps_has_just_chosen_is_no_jump(bindings: Bindings, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name, expected in (("space", 4), ("z", 0), ("return", 0)):
+        state = tuple(code == SCANCODES[name] for code in range(512))
+        monkeypatch.setattr(pygame.key, "get_pressed", lambda state=state: state)
+        assert bindings.choosing() == expected
+    monkeypatch.setattr(pygame.key, "get_pressed", lambda: (False,) * 512)
+    bindings.decode(pygame.Event(pygame.CONTROLLERBUTTONDOWN, instance_id=5, button=pygame.CONTROLLER_BUTTON_A))
+    assert bindings.choosing() == 4
 
 
 def test_labels_follow_the_device_used_last(bindings: Bindings) -> None:

@@ -16,7 +16,9 @@ from ninja_game.formats.pack.pack import Pack
 from ninja_game.generator import daily
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.daily import DailyScreen
+from ninja_game.player.marks import WITH_HELP
 from ninja_game.runs.packs import certificate
+from tests.support.draw_log import DrawLog
 from tests.support.menu_driver import MenuDriver
 from tests.support.waiting import LONGEST
 
@@ -35,6 +37,12 @@ class Today(date):
     @classmethod
     def today(cls) -> Self:
         return cls(DAY.year, DAY.month, DAY.day)
+
+
+class Thursday(Today):
+    @classmethod
+    def today(cls) -> Self:
+        return cls(2026, 11, 26)
 
 
 @pytest.fixture
@@ -142,6 +150,32 @@ def test_leaving_gives_up_what_is_made(driver: MenuDriver, monkeypatch: pytest.M
     driver.press("escape")
     assert stopped.wait(15), "it is not told that nobody waits for it"
     driver.frames(2)
+
+
+def test_days_in_a_row_and_the_week_are_shown_and_one_way_back(
+    making: MenuDriver, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(daily, "take_packed", PACKED)
+    for number in range(23, 27):
+        assert PACKED(making.player.folder / "levels", date(2026, 11, number))
+    monkeypatch.setattr("ninja_game.play.menus.daily.date", Thursday)
+    screen = opened(making)
+    marks = making.player.marks
+    found = []
+    for day, body in (("24", "circle"), ("25", WITH_HELP), ("26", "circle"), ("23", "circle")):
+        found.append(screen.streak)
+        marks.passed(screen.days[f"2026-11-{day}"].digest, 400, 1, body)
+    assert [*found, screen.streak] == [0, 0, 2, 3, 4]
+    log = DrawLog()
+    with log.installed(), log.recording(making.app.theme.palette) as lines:
+        making.app.stack.redraw_all()
+        making.app.draw()
+    drawn = "\n".join(lines)
+    assert "4 days in a row passed" in drawn
+    assert drawn.count("10.000 s'") >= 3
+    assert "with help" in drawn
+    screen.entry = None
+    assert not screen.build(), "the frame has its own way back"
 
 
 def test_it_gets_harder_over_the_week() -> None:

@@ -11,7 +11,7 @@ from ninja_game.formats.sayings import read_sayings
 from ninja_game.play.level.hud import IN_BORDER, Hud, cause_of_death, hud_view, solid_place
 from ninja_game.play.level.play import DEATH_PAUSE, MUST, STUCK_AFTER, Phase
 from ninja_game.play.level.sayings import CLIMB, FALL_HELP, SHOWN_TICKS, START_TICKS, STILL_TICKS, Sayings
-from ninja_game.play.level.screen import LevelScreen, play_level
+from ninja_game.play.level.screen import LevelScreen, PausePanel, play_level
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.help import room_level, strokes
 from ninja_game.play.menus.main_menu import MainMenu
@@ -233,12 +233,16 @@ def test_levels_of_a_locked_episode_are_locked_everywhere(driver: MenuDriver) ->
     browser.list._select(place)
     assert not browser.play_it.enabled
     assert not browser.practice.enabled
-    assert browser.practice.hint == "Opens after episode 1"
+    assert browser.practice.hint == "Pass 5 more levels of episode 1"
     browser.play(place)
-    assert browser.message == "Opens after episode 1"
+    assert browser.message == "Pass 5 more levels of episode 1"
     assert driver.top() is browser
     for level in range(5):
         driver.player.progress.level_passed((0, level), legitimate=True)
+        assert driver.player.lock_of(browser.shown[place]) == [
+            "Pass 4 more levels of episode 1", "Pass 3 more levels of episode 1", "Pass 2 more levels of episode 1",
+            "Pass 1 more level of episode 1", "",
+        ][level]  # fmt: skip
     browser.play(place)
     assert isinstance(driver.top(), LevelScreen)
 
@@ -374,8 +378,17 @@ def test_help_with_a_level_can_always_be_asked_for_and_says_what_is_not_possible
         driver.frames(5)
         assert level.attempt.simulation.tick == tick
         driver.press("escape")
+        if begun:
+            assert isinstance(driver.top(), PausePanel), "play does not go on by itself"
+            assert level.phase is Phase.PAUSED
+            driver.press("escape")
         assert driver.top() is level
         assert level.phase is (Phase.PLAY if begun else Phase.READY)
+    level.retry()
+    driver.press("escape", "down", "down", "return", "escape")
+    assert isinstance(driver.top(), PausePanel), "help goes back to where it was asked for"
+    driver.press("escape")
+    assert level.phase is Phase.READY
     driver.press("n", "down", "return")
     assert driver.top() is level
     assert driver.app.notice == f"Watch how: after {STUCK_AFTER} failed tries"
@@ -395,7 +408,7 @@ def test_a_win_in_levels_leads_to_the_next_one_that_is_open(driver: MenuDriver) 
         message = hud_view(level.play).message
         assert message
         assert message[1][-1].startswith("Space: next level    R: play again")
-        driver.press("space")
+        driver.press("return")
     assert titles == ["First Steps", "Mind the Gap"]
     driver.press("q")
     last = next(k for k, each in enumerate(browser.shown) if each.place == "Episode 1, level 5")

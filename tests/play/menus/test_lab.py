@@ -286,7 +286,7 @@ def test_one_tick_shows_every_call_of_the_real_world() -> None:
 
 
 def test_the_lab_by_keys_and_mouse(driver: MenuDriver) -> None:
-    screen = driver.open("Extras")
+    screen = driver.open("Physics")
     assert isinstance(screen, LabScreen)
     driver.frames(10)
     driver.press("down", "down")

@@ -28,7 +28,7 @@ from tests.support.menu_driver import MenuDriver
 ENTRIES = {
     "Play": LevelScreen, "Episodes": EpisodeGrid, "Daily": DailyScreen, "Levels": Browser, "Records": RecordsScreen,
     "Replays": ReplaysScreen,
-    "Editor": EditorScreen, "Extras": LabScreen, "Settings": SettingsScreen, "Help": HelpScreen,
+    "Editor": EditorScreen, "Physics": LabScreen, "Settings": SettingsScreen, "Help": HelpScreen,
 }  # fmt: skip
 
 
@@ -137,8 +137,8 @@ def test_every_entry_is_opened_and_left(player: Buttons, entry: str) -> None:
     assert isinstance(top_of(player), ENTRIES[entry])
     player.driver.frames(3)
     if entry == "Play":
-        # From a level that is not being played yet, one step leads out.
         player.back()
+        player.choose("Leave the level")
     elif entry == "Editor":
         if player.kind == "mouse":
             player.driver.mouse(20, 14)
@@ -167,7 +167,7 @@ def test_every_page_of_the_settings_and_the_help_and_every_figure_is_seen(player
         player.row(help_screen.list, number)
         assert (help_screen.page is None) == (number == len(help_screen.pages))
     player.back()
-    player.choose("Extras")
+    player.choose("Physics")
     lab = player.driver.shown(LabScreen)
     for number, figure in enumerate(lab.figures):
         player.row(lab.list, number)

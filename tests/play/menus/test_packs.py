@@ -127,10 +127,10 @@ def test_browser_sorts_by_difficulty(driver: MenuDriver) -> None:
 def test_card_says_time_and_gold_and_the_next_par(driver: MenuDriver) -> None:
     entry = driver.player.catalogue.episodes[0].levels[0]
     assert entry.pars is not None
-    assert reached(entry, None) == "Not passed yet"
-    assert reached(entry, Mark(197, 3)) == f"Time 5.0 s, gold 3 of {entry.all_gold}"
-    assert next_par(entry.pars, Mark(200, 0)) == "0.1 s behind the gold medal"
-    assert next_par(entry.pars, Mark(entry.pars.par("author") + 4, 0)) == "0.1 s behind the author medal"
+    assert driver.player.reached(entry, None) == "Not passed yet"
+    assert reached(entry, Mark(197, 3)) == f"Time 4.925 s, gold 3 of {entry.all_gold}"
+    assert next_par(entry.pars, Mark(200, 0)) == "0.100 s behind the gold medal"
+    assert next_par(entry.pars, Mark(entry.pars.par("author") + 4, 0)) == "0.100 s behind the author medal"
     assert next_par(entry.pars, Mark(156, 0)) == ""
 
 

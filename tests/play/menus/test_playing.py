@@ -33,7 +33,7 @@ def test_first_episode_is_played_to_its_end(driver: MenuDriver) -> None:
         driver.play_replay(number)
         assert level.phase is Phase.PASSED
         assert level.play.notices[0] == "First pass"
-        driver.press("space")
+        driver.press("return")
     passed = driver.shown(EpisodePassed)
     assert driver.player.progress.state(1) == UNLOCKED
     log = DrawLog()
@@ -47,6 +47,15 @@ def test_first_episode_is_played_to_its_end(driver: MenuDriver) -> None:
     assert best is not None
     assert best.score == passed.run.score
     driver.frames(3)
+    passed._episodes()
+    assert isinstance(driver.top(), EpisodeGrid)
+    assert len(driver.app.stack) == 2, "that from which it was opened"
+    driver.app.push(EpisodePassed(driver.app, passed.run, passed._play))
+    driver.app.stack._screens.pop(1)
+    driver.shown(EpisodePassed)._episodes()
+    assert isinstance(driver.top(), EpisodeGrid), "whatever it was opened from"
+    assert len(driver.app.stack) == 2
+    driver.app.push(passed)
     driver.press("down", "return")
     assert isinstance(driver.top(), ReplayScreen)
     driver.press("escape", "up", "return")
@@ -124,7 +133,7 @@ def test_deaths_are_counted_and_retry_is_one_key(driver: MenuDriver) -> None:
     driver.press("k")
     assert level.phase is Phase.DEAD
     assert driver.player.statistics.deaths()["player"] == 1
-    driver.press("space")
+    driver.press("return")
     assert level.attempt.simulation.tick == 0
 
 
@@ -138,7 +147,7 @@ def test_practice_saves_no_record_and_unlocks_nothing(driver: MenuDriver) -> Non
         level.begin()
         driver.play_replay(number)
         assert level.phase is Phase.PASSED
-        driver.press("space")
+        driver.press("return")
     assert isinstance(driver.top(), EpisodePassed)
     assert driver.player.records.level_bests() == {}
     assert driver.player.progress.state(1) != UNLOCKED

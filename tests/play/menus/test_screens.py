@@ -40,7 +40,7 @@ ENTRIES = {
     "Records": RecordsScreen,
     "Replays": ReplaysScreen,
     "Editor": EditorScreen,
-    "Extras": LabScreen,
+    "Physics": LabScreen,
     "Settings": SettingsScreen,
     "Help": HelpScreen,
 }
@@ -323,7 +323,7 @@ def test_replay_is_written_as_a_text_to_share(driver: MenuDriver) -> None:
 
 def test_what_players_need_comes_before_what_is_for_the_curious(driver: MenuDriver) -> None:
     names = [text for text, _, _ in driver.shown(MainMenu).entries()]
-    assert names[-2:] == ["Extras", "Quit"]
+    assert names[-2:] == ["Physics", "Quit"]
     for entry in ("Levels", "Episodes"):
         screen = driver.open(entry)
         assert isinstance(screen, MenuScreen)

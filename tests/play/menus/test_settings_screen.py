@@ -10,7 +10,7 @@ from ninja_game.play.menus.panels import Menu
 from ninja_game.play.menus.settings import LEFT, LIST, PAGES, ROW, SLOTS, STEP, TOP, Capture, SettingsScreen, clash
 from ninja_game.ui.input.bindings import ACTIONS, MENU_KEYS, MENU_PAD, bindable
 from ninja_game.ui.theme import PALETTES
-from ninja_game.ui.widgets import Slider
+from ninja_game.ui.widgets import Choice, Slider
 from tests.support.menu_driver import MenuDriver
 
 
@@ -48,14 +48,25 @@ def test_up_from_the_top_row_stays_on_the_page(driver: MenuDriver, screen: Setti
     assert screen.page == "Sound"
 
 
-@pytest.mark.parametrize("name", ["volume", "loop_volume"])
-def test_a_volume_is_shown_as_it_is_in_the_file(driver: MenuDriver, screen: SettingsScreen, name: str) -> None:
+@pytest.mark.parametrize("place, name", [(1, "volume"), (2, "effects_volume"), (3, "loop_volume"), (4, "music_volume")])
+def test_a_volume_is_shown_in_percent_of_the_loudest(
+    driver: MenuDriver, screen: SettingsScreen, place: int, name: str
+) -> None:
     driver.settings_page("Sound")
-    slider = screen.widgets[1 if name == "volume" else 2]
+    slider = screen.widgets[place]
     assert isinstance(slider, Slider)
-    for value in range(100):
+    for value, text in ((0, "0 %"), (45, "45 %"), (96, "97 %"), (99, "100 %")):
         driver.app.change_settings(**{name: value})
-        assert slider.show(slider.get()) == str(value)
+        assert slider.show(slider.get()) == text
+
+
+def test_palettes_have_names_in_title_case(driver: MenuDriver, screen: SettingsScreen) -> None:
+    choice = screen.widgets[1]
+    assert isinstance(choice, Choice)
+    names = [name for name, _ in choice.options]
+    assert names[0] == "By Column"
+    assert "Safe Dark" in names
+    assert all(name == name.title() for name in names)
 
 
 def test_left_at_the_low_end_of_a_slider_goes_back_to_the_pages(driver: MenuDriver, screen: SettingsScreen) -> None:

@@ -7,7 +7,7 @@ from unittest.mock import patch
 import pygame
 import pytest
 
-from ninja_game.formats.run_time import rounded_text
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.level.hud import PRIZE, Hud, HudView, hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, STAMP_TICKS, TRIES_FROM, TRIES_TICKS, Phase
 from ninja_game.play.level.screen import LevelScreen
@@ -81,8 +81,8 @@ def test_card_says_one_thing_large_one_next_and_the_rest_short(driver: MenuDrive
     assert level.context.pars
     level.attempt.ended_tick = level.context.pars.par("gold") + 1
     title, (medal, following, rest, _), *_ = hud_view(level.play).message or ("", [""], (), ())
-    assert title == f"Time {rounded_text(level.attempt.ended_tick)} s"
-    assert (medal, following) == ("Silver medal", "0.1 s behind the gold medal")
+    assert title == f"Time {seconds_text(level.attempt.ended_tick)} s"
+    assert (medal, following) == ("Silver medal", "0.025 s behind the gold medal")
     assert rest == "1 of 5 gold    First pass    New medal"
 
 
