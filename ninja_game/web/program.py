@@ -25,7 +25,7 @@ def run_program(text: str) -> str:
             raise TimeoutError(f"stopped after {MOST_LINES:,} lines; does a loop never end?")
         return count
 
-    before, wrong = sys.gettrace(), ""
+    wrong = ""
     try:
         program = compile(text, NAME, "exec")
         with redirect_stdout(printed):
@@ -33,9 +33,8 @@ def run_program(text: str) -> str:
             exec(program, {"__name__": "__main__"})  # noqa: S102 - the reader's own words, in the reader's own page
     except BaseException as error:  # noqa: BLE001 - whatever it raises, SystemExit too, is for the reader
         lines = [each.lineno for each in extract_tb(error.__traceback__) if each.filename == NAME]
-        line = error.lineno if isinstance(error, SyntaxError) else [None, *lines][-1]
-        words = error.msg if isinstance(error, SyntaxError) else str(error)
+        line, words = (error.lineno, error.msg) if isinstance(error, SyntaxError) else ([0, *lines][-1], error)
         wrong = f"Line {line}: {type(error).__name__}: {words}"
     finally:
-        sys.settrace(before)
+        sys.settrace(None)
     return printed.getvalue()[:MOST_SHOWN] + wrong

@@ -133,16 +133,14 @@ for (const place of document.querySelectorAll(".try")) {
   const [run, edit] = place.querySelectorAll("button");
   const shown = place.previousElementSibling;
   const written = shown.textContent.trimEnd();
-  const field = element("textarea", { value: written, spellcheck: false, rows: written.split("\n").length + 1 });
-  field.setAttribute("aria-label", "Your program");
-  const output = element("pre", { className: "output", tabIndex: 0 });
-  output.setAttribute("role", "status");
-  output.setAttribute("aria-label", "What it prints");
+  const field = element("textarea", { value: written, spellcheck: false, rows: written.split("\n").length + 1, ariaLabel: "Your program" });
+  const output = element("output", { className: "output" });
   run.hidden = edit.hidden = false;
   edit.addEventListener("click", () => {
     if (field.isConnected) field.value = written;
     else shown.replaceWith(field);
     edit.textContent = "Reset";
+    field.setSelectionRange(0, 0); // the end of it is far to the right
     field.focus();
   });
   run.addEventListener("click", async () => {
@@ -155,7 +153,6 @@ for (const place of document.querySelectorAll(".try")) {
       output.textContent = python.pyimport("ninja_game.web.program").run_program(field.value) || "It prints nothing.";
     } catch (error) {
       engine = null;
-      console.error(error);
       output.textContent = `It cannot be run: ${error.message}`;
     }
     run.textContent = "Run";

@@ -34,11 +34,6 @@ KEYS: Sequence[tuple[str, object]] = (
 PLAYED = strokes("10 r30 rj20 r30 l40 lj25 l30 10")
 
 
-def pace(calls: float) -> str:
-    """A speed in words."""
-    return f"{calls:.0f}" if calls else "paused"
-
-
 class OneTick(Figure):
     """Every rule that a tick calls, one after the other."""
 
@@ -60,7 +55,8 @@ class OneTick(Figure):
         self.at = 0.0
 
     def controls(self) -> Sequence[Control]:
-        return [self.choice("Keys", KEYS, "keys"), self.slider("Calls a second", (0, 400, 1), "speed", pace)]
+        speed = self.slider("Calls a second", (0, 400, 1), "speed", lambda calls: f"{calls:.0f}" if calls else "paused")
+        return [self.choice("Keys", KEYS, "keys"), speed]
 
     def press(self, x: float, y: float) -> None:
         self.nudge(1, 0)

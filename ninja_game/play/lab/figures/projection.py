@@ -154,9 +154,6 @@ class Response(Projection):
     start = (24 * COLUMN + 6.0, 24 * ROW - 5.0)
     origin: Point = (24 * COLUMN - 12.0, 24 * ROW - 16.0)
 
-    def controls(self) -> Sequence[Control]:
-        return super().controls()[:1]
-
     @property
     def contacts(self) -> list[str]:
         """What each normal means to the rules, in the order of the pushes."""
@@ -179,9 +176,8 @@ class Response(Projection):
         p, push = sheet.palette, self.push()
         sheet.tiles(self.tiles)
         sheet.grid()
-        sheet.body(p.faint, *self.origin, RADIUS, box=False, width=1.5)
-        sheet.body(p.faint, self.x, self.y, RADIUS, box=False, width=1.5)
-        sheet.body(p.good, *push.points[-1], RADIUS, box=False, width=3)
+        for colour, place in ((p.faint, self.origin), (p.faint, (self.x, self.y)), (p.good, push.points[-1])):
+            sheet.body(colour, *place, RADIUS, box=self.box)
         sheet.arrow(p.ninja, self.origin, (self.x, self.y), 3)
         for start, end in pairwise(push.points):
             sheet.arrow(p.accent, start, end, 3)
