@@ -107,26 +107,32 @@ function turn(now) {
   for (const each of live) if (each.seen) each.turn(now);
 }
 
+// Let a place of the text do something with the engine, once at a time; what goes wrong is said.
+async function use(place, act, say) {
+  if (place.classList.contains("waiting")) return;
+  place.classList.add("waiting");
+  try {
+    engine ??= start();
+    act(await engine);
+  } catch (error) {
+    engine = null;
+    console.error(error);
+    say(`It cannot be started: ${String(error.message).trim().split("\n").pop()}`);
+  }
+  place.classList.remove("waiting");
+}
+
 for (const place of document.querySelectorAll("figure.lab")) {
   const button = place.querySelector("button");
   button.hidden = false;
-  const wake = async () => {
-    if (place.classList.contains("waiting")) return;
-    place.classList.add("waiting");
-    try {
-      engine ??= start();
-      const made = new Live(place, await engine);
-      live.push(made);
-      made.canvas.focus({ preventScroll: true });
-    } catch (error) {
-      engine = null;
-      console.error(error);
-      button.textContent = `It cannot be started: ${String(error.message).trim().split("\n").pop()}`;
-    }
-    place.classList.remove("waiting");
+  const wake = (ready) => {
+    const made = new Live(place, ready);
+    live.push(made);
+    made.canvas.focus({ preventScroll: true });
   };
-  place.querySelector("picture").addEventListener("click", wake);
-  button.addEventListener("click", wake);
+  const touched = () => use(place, wake, (words) => (button.textContent = words));
+  place.querySelector("picture").addEventListener("click", touched);
+  button.addEventListener("click", touched);
 }
 
 for (const place of document.querySelectorAll(".try")) {
@@ -143,19 +149,12 @@ for (const place of document.querySelectorAll(".try")) {
     field.setSelectionRange(0, 0); // the end of it is far to the right
     field.focus();
   });
-  run.addEventListener("click", async () => {
-    if (place.classList.contains("waiting")) return;
-    place.classList.add("waiting");
-    place.after(output);
-    try {
-      engine ??= start();
-      const { python } = await engine;
-      output.textContent = python.pyimport("ninja_game.web.program").run_program(field.value) || "It prints nothing.";
-    } catch (error) {
-      engine = null;
-      output.textContent = `It cannot be run: ${error.message}`;
-    }
+  const print = ({ python }) => {
+    output.textContent = python.pyimport("ninja_game.web.program").run_program(field.value) || "It prints nothing.";
     run.textContent = "Run";
-    place.classList.remove("waiting");
+  };
+  run.addEventListener("click", () => {
+    place.after(output);
+    use(place, print, (words) => (output.textContent = words));
   });
 }

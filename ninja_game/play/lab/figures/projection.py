@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
+from math import cos, sin
 from typing import NamedTuple
 
 from ninja_game.editor.brush import tile_name
@@ -153,6 +154,11 @@ class Response(Projection):
     view = View(24 * (COLUMN - 2), 24 * (ROW - 1) - 12, 4.5)
     start = (24 * COLUMN + 6.0, 24 * ROW - 5.0)
     origin: Point = (24 * COLUMN - 12.0, 24 * ROW - 16.0)
+
+    def demonstrate(self, tick: int) -> None:
+        """Into the tile and out of it."""
+        super().demonstrate(tick)
+        self.drag(self.start[0] + 12 * sin(tick / 20), self.start[1] + 5 * cos(tick / 20))
 
     @property
     def contacts(self) -> list[str]:
