@@ -27,7 +27,7 @@ GROUPS = {
     "game": {
         "play": "Play a level in a window.",
         "edit": "Make a level, or change one, in a window.",
-        "lab": "Drag, paint and watch: ten figures about how the world works.",
+        "lab": "Drag, paint and watch: fourteen figures about how the world works.",
         "player": "Export all data of a player to one file, or import such a file.",
         "film": "Write a film of a recording: a GIF, a WebM, an MP4, or a folder of pictures.",
         "compile": "Compile the rules for this machine now, so that no other command waits for it.",

@@ -163,7 +163,10 @@ def tas(
     ctx.exit(run_app(opening, tas_editor=open_tas_editor, **window))
 
 
-FIGURES = ("cells", "edges", "projection", "grids", "nine-cells", "pairs", "bullets", "rays", "drones", "tick")
+FIGURES = (
+    "grid", "bodies", "cells", "projection", "edges", "doors", "response", "grids", "nine-cells", "pairs", "bullets",
+    "rays", "drones", "tick",
+)  # fmt: skip
 
 
 @click.command()
@@ -175,7 +178,7 @@ FIGURES = ("cells", "edges", "projection", "grids", "nine-cells", "pairs", "bull
 )  # fmt: skip
 @click.pass_context
 def lab(ctx: click.Context, /, figure: str | None, output: Path | None, **window: Any) -> None:
-    """Drag, paint and watch: ten figures about how the world works.
+    """Drag, paint and watch: fourteen figures about how the world works.
 
     FIGURE is the one that is shown first: cells, edges, projection, grids, nine-cells, pairs, bullets, rays, drones or
     tick.

@@ -229,7 +229,7 @@ class Slider(Widget):
         x, y, w, h = self.area
         top = y + (h - TEXT) / 2
         theme.text(surface, self.text, x + PAD, top, size=TEXT, bold=focused, width=w * 0.5 - PAD)
-        theme.text(surface, self.show(self.get()), x + w - PAD, top, size=TEXT, align="right")
+        theme.text(surface, self.show(self.get()), x + w - PAD, top, size=TEXT, align="right", width=64 - PAD)
         left, width = self._track()
         knob = left + width * (self.get() - self.low) / (self.high - self.low)
         canvas.fill_rect(surface, palette.panel_edge, left, y + h / 2 - 1.5, width, 3, 1.5)

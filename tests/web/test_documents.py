@@ -98,7 +98,7 @@ def test_pages_without_figures_run_and_fetch_nothing_of_their_own(files: dict[st
 
 def test_a_chapter_shows_its_figure_its_answer_and_the_very_source(files: dict[str, bytes]) -> None:
     page = files["learn/01-grid-and-cells.html"].decode()
-    assert '<figure class="lab" data-figure="cells">' in page
+    assert '<figure class="lab" data-figure="grid">' in page
     assert "<details><summary>Answer</summary>" in page
     assert "Show me the code: cell_at, cell_index" in page
     source = (ROOT / "ninja_game" / "sim" / "grid.py").read_text("utf-8")

@@ -11,10 +11,18 @@ import pytest
 
 from ninja_game.play.lab.figure import FIGURE, Figure
 from ninja_game.play.lab.screen import FIGURES
+from ninja_game.sim.collision.tiles import EDGE_OF_FACES
+from ninja_game.sim.grid import cell_at
+from ninja_game.view.overlays import touched_cells
+from ninja_game.web.program import MOST_LINES, MOST_SHOWN, run_program
 from tests.support.slow import the_rest_is_slow
 from tests.support.visitor import eventually
 
-CHAPTERS = sorted((Path(__file__).parents[2] / "docs" / "learn").glob("[0-9]*.md"))
+CHAPTERS = sorted((Path(__file__).parents[2] / "docs" / "learn").glob("[0-9]*.md"))[:12]
+"""Those with figures."""
+PROGRAM = re.compile(r"^```python try\n(.*?)^```\n\nIt prints:\n\n^```text\n(.*?)^```", re.MULTILINE | re.DOTALL)
+"""A program of a chapter, and what the chapter says that it prints."""
+
 MOST_TICKS = 120
 """After a reset, in which a figure that moves by itself is looked at."""
 
@@ -49,12 +57,96 @@ def drag_to(page: Any, figure: Any, x: float, y: float) -> tuple[float, float]:
     return px / box["width"], py / box["height"]
 
 
+def program(chapter: str) -> tuple[str, str]:
+    """The program of a chapter, and what it prints."""
+    (found,) = PROGRAM.findall((CHAPTERS[0].parent / f"{chapter}.md").read_text("utf-8"))
+    return found[0], found[1]
+
+
 def moved(name: str, x: float, y: float) -> Figure:
     """The figure of the lab on this machine, dragged to a place."""
     figure = FIGURES[name]()
     left, top, zoom = figure.view
     figure.drag(left + x * FIGURE[2] / zoom, top + y * FIGURE[3] / zoom)
     return figure
+
+
+def test_every_chapter_has_a_figure_of_its_own_a_question_with_its_answer_and_the_code() -> None:
+    first = []
+    for chapter in CHAPTERS:
+        text = chapter.read_text("utf-8")
+        first.append(re.findall(r"lab-([\w-]+)\.", text)[0])
+        assert text.count("**Question.**") == text.count("**Answer.**") >= 1, chapter.stem
+        assert "\nCode: " in text, chapter.stem
+    assert len(set(first)) == len(CHAPTERS) == 12
+
+
+@pytest.mark.parametrize("chapter", [each.stem for each in CHAPTERS])
+def test_a_program_of_a_chapter_has_thirty_lines_and_prints_what_the_text_says(chapter: str) -> None:
+    text, printed = program(chapter)
+    assert len(text.splitlines()) <= 30
+    assert max(map(len, text.splitlines())) <= 120
+    assert run_program(text) == printed
+
+
+def test_programs_give_what_the_game_gives() -> None:
+    grid: dict[str, Any]
+    touched: dict[str, Any]
+    edges: dict[str, Any]
+    grid, touched, edges = {}, {}, {}
+    for chapter, names in (("01-grid-and-cells", grid), ("03-touched-cells", touched), ("05-edges", edges)):
+        exec(program(chapter)[0], names)
+    for x in range(24, 700, 7):
+        for y in range(24, 500, 9):
+            cell = cell_at(x, y)
+            assert grid["cell_of"](x, y) == cell
+            cells = {(row + 1) * 35 + column + 1 for column, row in touched["touched"](x, y)}
+            assert cells == set(touched_cells(x, y, cell))
+    states = ("off", "interesting", "solid")
+    shown = [state for row in edges["STATE"] for state in row]
+    assert [states[state] for state in EDGE_OF_FACES] == shown
+
+
+@pytest.mark.parametrize(
+    "text, shown",
+    [
+        ("print(1)\nprint(x)", "1\nLine 2: NameError: name 'x' is not defined"),
+        ("def f():\n    return 1 / 0\n\nf()", "Line 2: ZeroDivisionError: division by zero"),
+        ("a = 1\nif a:\nb = 2", "Line 3: IndentationError: expected an indented block after 'if' statement on line 2"),
+        ("import sys\nsys.exit(3)", "Line 2: SystemExit: 3"),
+        ("while True:\n    pass", f"TimeoutError: stopped after {MOST_LINES:,} lines; does a loop never end?"),
+        ("print('x' * 9999)", "x" * MOST_SHOWN),
+        ("a = 1", ""),
+    ],
+)
+def test_what_is_wrong_in_a_readers_program_is_said_plainly(text: str, shown: str) -> None:
+    assert run_program(text).endswith(shown)
+
+
+@pytest.mark.parametrize("chapter", the_rest_is_slow([each.stem for each in CHAPTERS], 1))
+def test_a_program_of_a_chapter_runs_in_the_page_is_changed_and_reset(
+    new_visitor: Callable[..., Any], chapter: str
+) -> None:
+    visitor = new_visitor(viewport={"width": 390, "height": 844})
+    page, (text, printed) = visitor.page, program(chapter)
+    page.goto(f"{visitor.address}learn/{chapter}.html")
+    run = page.get_by_role("button", name="Run")
+    run.click()
+    output = page.locator(".output")
+    eventually(page, lambda: output.text_content() == printed, "what it prints")
+    page.get_by_role("button", name="Edit").click()
+    field = page.get_by_label("Your program")
+    assert field.input_value() == text.rstrip()
+    field.fill("for number in range(3):\n    print(number)\nprint(wrong)")
+    run.click()
+    eventually(page, lambda: (output.text_content() or "").startswith("0\n1\n2\nLine 3: NameError"), "an error")
+    field.fill("while True:\n    pass")
+    run.click()
+    eventually(page, lambda: "does a loop never end?" in (output.text_content() or ""), "the end of a loop")
+    page.get_by_role("button", name="Reset").first.click()
+    assert field.input_value() == text.rstrip()
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    assert visitor.problems == []
 
 
 @pytest.mark.parametrize("chapter", the_rest_is_slow([each.stem for each in CHAPTERS], 2))

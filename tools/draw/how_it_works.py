@@ -14,9 +14,13 @@ PICTURES = ROOT / "docs" / "pictures"
 CLASSES = ("45°", "concave", "convex", "22° thin", "22° thick", "67° thin", "67° thick", "half")
 
 FIGURES = (
+    "grid.png",
+    "bodies.png",
     "cells.png",
     "edges.png",
     "projection.png",
+    "doors.png",
+    "response.png",
     "grids.png",
     "nine-cells.png",
     "bullets.png",

@@ -279,6 +279,8 @@ class FigureSetting(Generic[Value]):
 class Figure:
     """One figure. ``name``: as the command line has it. ``text``: two sentences. ``links``: where to read more.
 
+    ``legend``: what colours mean, by their roles in the palette.
+
     ``room``, ``objects``: what is in its world. The handle is a point of the world, px, that the mouse drags and the
     arrows move.
     """
@@ -292,6 +294,7 @@ class Figure:
         self.title = str(table["title"])
         self.text: list[str] = table["text"]
         self.links: list[str] = table["links"]
+        self.legend: dict[str, str] = table["legend"]
         self.room: list[str] = table.get("room", "").split()
         self.objects: list[str] = table.get("objects", [])
         self.reset()

@@ -11,12 +11,12 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.play.app import App
 from ninja_game.play.clock import RunClock
 from ninja_game.play.lab.figure import FIGURE, Figure, Sheet
-from ninja_game.play.lab.figures.cells import CellsTouched, NineCells
+from ninja_game.play.lab.figures.cells import CellsTouched, GridOfCells, NineCells
 from ninja_game.play.lab.figures.drones import WalkingEnemies
-from ninja_game.play.lab.figures.edges import EdgeStates
+from ninja_game.play.lab.figures.edges import Doors, EdgeStates
 from ninja_game.play.lab.figures.grids import Bullets, FiveCells, LooseGrid
 from ninja_game.play.lab.figures.one_tick import OneTick
-from ninja_game.play.lab.figures.projection import Projection
+from ninja_game.play.lab.figures.projection import Bodies, Projection, Response
 from ninja_game.play.lab.figures.rays import RayCast
 from ninja_game.play.menus.menu_screen import DIRECTIONS, MenuScreen
 from ninja_game.play.replay.film import write_gif
@@ -28,13 +28,13 @@ from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Choice, Slider, Widget
 from ninja_game.view.level_view import OffscreenContext
 
-TEXT_TOP, NUMBERS_TOP, LINE = 394.0, 452.0, 15.0
+LEGEND_TOP, TEXT_TOP, NUMBERS_TOP, LINE = 390.0, 406.0, 452.0, 15.0
 CONTROLS: Area = (552, 452, 200, 26)
 """The first control; the others are below it."""
 
 
 class LabScreen(MenuScreen):
-    """Ten figures about how the world works. ``name``: the one to begin with."""
+    """Figures about how the world works. ``name``: the one to begin with."""
 
     title = "Physics"
     offers_back = False
@@ -43,7 +43,7 @@ class LabScreen(MenuScreen):
         super().__init__(app)
         self.figures = [make() for make in FIGURES.values()]
         self.list = ListView(
-            (44, 62, 158, 26 * len(self.figures)), 26, self._draw_row, self._choose, selected=self._show
+            (44, 62, 158, 20 * len(self.figures)), 20, self._draw_row, self._choose, selected=self._show
         )
         self.list.hint = "Up and down choose a figure, right goes to it"
         self.list.index = list(FIGURES).index(name) if name else 0
@@ -113,7 +113,12 @@ class LabScreen(MenuScreen):
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)
         theme, (x, _, w, _) = self.app.theme, FIGURE
-        theme.paragraph(surface, self.figure.text, (x, TEXT_TOP, w, NUMBERS_TOP - TEXT_TOP), 10.5, 13)
+        at = x
+        for role, words in self.figure.legend.items():
+            theme.canvas.fill_rect(surface, getattr(theme.palette, role), at, LEGEND_TOP + 1, 9, 9)
+            theme.text(surface, words, at + 13, LEGEND_TOP, size=9.5)
+            at += theme.width(words, 9.5) + 26
+        theme.paragraph(surface, [" ".join(self.figure.text)], (x, TEXT_TOP, w, NUMBERS_TOP - TEXT_TOP), 10.5, 13)
         for place, (name, value) in enumerate(self.figure.numbers()):
             y = NUMBERS_TOP + LINE * place
             theme.text(surface, name, x, y, size=9.5, colour=theme.palette.faint, width=120)
@@ -125,7 +130,7 @@ class LabScreen(MenuScreen):
         if chosen:
             theme.row(surface, (x, y + 1, w, h - 2), chosen=True, focused=focused, radius=3)
         high = theme.common_height([figure.title for figure in self.figures], 11, w - 12)
-        theme.text(surface, self.figures[index].title, x + 8, y + 7, size=11, bold=chosen, width=w - 12, height=high)
+        theme.text(surface, self.figures[index].title, x + 8, y + 4, size=11, bold=chosen, width=w - 12, height=high)
 
 
 class FigureArea(Widget):
@@ -236,8 +241,8 @@ def export_figure(name: str, path: Path, *, scale: float = 1.0) -> None:
 FIGURES: dict[str, type[Figure]] = {
     figure.name: figure
     for figure in (
-        CellsTouched, EdgeStates, Projection, LooseGrid, NineCells, FiveCells, Bullets, RayCast, WalkingEnemies,
-        OneTick,
+        GridOfCells, Bodies, CellsTouched, Projection, EdgeStates, Doors, Response, LooseGrid, NineCells, FiveCells,
+        Bullets, RayCast, WalkingEnemies, OneTick,
     )
 }  # fmt: skip
 """By the name that the command line has for each."""

@@ -1,4 +1,5 @@
-// Figures of the lab in the text of a page: a still picture until it is touched, then drawn by the game's own code.
+// Figures of the lab in the text of a page: a still picture until it is touched, then drawn by the game's own code;
+// and programs of the text, which a reader can change and run.
 // All figures of a page share one Python, which knows nothing of a player: no lock, no records.
 
 const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
@@ -15,7 +16,7 @@ const element = (name, about, ...inside) => {
 async function start() {
   const [{ keepForLater, onProgress, startPython }, { createHost }] = await Promise.all([import("./loading.js"), import("./host.js")]);
   onProgress((share, words) => {
-    for (const each of document.querySelectorAll(".lab.waiting button")) each.textContent = `${words} (${Math.round(share)} %)`;
+    for (const each of document.querySelectorAll(".waiting button:first-of-type")) each.textContent = `${words} (${Math.round(share)} %)`;
   });
   const { python, keep } = await startPython();
   const host = createHost(element("canvas"));
@@ -23,7 +24,7 @@ async function start() {
   const figures = python.pyimport("ninja_game.web.figures");
   requestAnimationFrame(turn);
   setTimeout(() => Promise.all([keep(), keepForLater()]), KEEP_AFTER_MS);
-  return { host, figures };
+  return { host, figures, python };
 }
 
 class Live {
@@ -47,7 +48,8 @@ class Live {
     panel.setAttribute("role", "group");
     panel.setAttribute("aria-label", title);
     this.listen();
-    place.replaceChildren(this.canvas, panel);
+    place.querySelector("picture").replaceWith(this.canvas);
+    place.querySelector("button").replaceWith(panel);
     new IntersectionObserver(([entry]) => (this.seen = entry.isIntersecting)).observe(this.canvas);
     this.seen = true;
     this.last = performance.now();
@@ -105,24 +107,54 @@ function turn(now) {
   for (const each of live) if (each.seen) each.turn(now);
 }
 
+// Let a place of the text do something with the engine, once at a time; what goes wrong is said.
+async function use(place, act, say) {
+  if (place.classList.contains("waiting")) return;
+  place.classList.add("waiting");
+  try {
+    engine ??= start();
+    act(await engine);
+  } catch (error) {
+    engine = null;
+    console.error(error);
+    say(`It cannot be started: ${String(error.message).trim().split("\n").pop()}`);
+  }
+  place.classList.remove("waiting");
+}
+
 for (const place of document.querySelectorAll("figure.lab")) {
   const button = place.querySelector("button");
   button.hidden = false;
-  const wake = async () => {
-    if (place.classList.contains("waiting")) return;
-    place.classList.add("waiting");
-    try {
-      engine ??= start();
-      const made = new Live(place, await engine);
-      live.push(made);
-      made.canvas.focus({ preventScroll: true });
-    } catch (error) {
-      engine = null;
-      console.error(error);
-      button.textContent = `It cannot be started: ${String(error.message).trim().split("\n").pop()}`;
-    }
-    place.classList.remove("waiting");
+  const wake = (ready) => {
+    const made = new Live(place, ready);
+    live.push(made);
+    made.canvas.focus({ preventScroll: true });
   };
-  place.querySelector("picture").addEventListener("click", wake);
-  button.addEventListener("click", wake);
+  const touched = () => use(place, wake, (words) => (button.textContent = words));
+  place.querySelector("picture").addEventListener("click", touched);
+  button.addEventListener("click", touched);
+}
+
+for (const place of document.querySelectorAll(".try")) {
+  const [run, edit] = place.querySelectorAll("button");
+  const shown = place.previousElementSibling;
+  const written = shown.textContent.trimEnd();
+  const field = element("textarea", { value: written, spellcheck: false, rows: written.split("\n").length + 1, ariaLabel: "Your program" });
+  const output = element("output", { className: "output" });
+  run.hidden = edit.hidden = false;
+  edit.addEventListener("click", () => {
+    if (field.isConnected) field.value = written;
+    else shown.replaceWith(field);
+    edit.textContent = "Reset";
+    field.setSelectionRange(0, 0); // the end of it is far to the right
+    field.focus();
+  });
+  const print = ({ python }) => {
+    output.textContent = python.pyimport("ninja_game.web.program").run_program(field.value) || "It prints nothing.";
+    run.textContent = "Run";
+  };
+  run.addEventListener("click", () => {
+    place.after(output);
+    use(place, print, (words) => (output.textContent = words));
+  });
 }

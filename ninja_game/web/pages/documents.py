@@ -2,7 +2,8 @@
 
 Markdown stays what it is elsewhere too. A picture ``lab-NAME.png`` becomes the figure of that name, alive at a touch;
 a paragraph of links to functions that begins with "Code:" shows their sources; one that begins with **Answer.** opens
-at a click. What a link leads to and is not here (a wheel holds fewer documents than a checkout) becomes plain text.
+at a click; Python marked "try" can be changed and run. What a link leads to and is not here (a wheel holds fewer
+documents than a checkout) becomes plain text.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from pygments.formatters import HtmlFormatter
 from pygments.lexers import PythonLexer, TextLexer
 
 from ninja_game.files.user_folder import PACKAGE, data_folder
+from ninja_game.play.lab.figure import figure_texts
 from ninja_game.play.lab.screen import FIGURES, figure_picture
 from ninja_game.play.window import png_of
 from ninja_game.web.pages import frame
@@ -220,7 +222,10 @@ class Documents:
             source = tag("source", srcset=up + dark, media="(prefers-color-scheme: dark)")
             img = tag("img", src=up + light, alt=alt, width=540, height=324, loading="lazy")
             start = tag("button", "Touch to try it", type="button", hidden=True)
-            picture = tag("figure", tag("picture", source, img), start, class_="lab", data_figure=figure)
+            meanings = figure_texts()[figure]["legend"].items()
+            legend = [tag("span", tag("i", class_=role), words) for role, words in meanings]
+            parts = tag("picture", source, img), tag("p", *legend, class_="legend"), start
+            picture = tag("figure", *parts, class_="lab", data_figure=figure)
         elif page_of(name) == HOME and path.endswith(".gif"):
             self.files |= _film(whole)
             source = tag("source", srcset=STILL, media="(prefers-reduced-motion: reduce)")
@@ -329,13 +334,18 @@ def _function(folder: Path, link: str, address: str) -> Markup:
     return joined(Markup(_coloured("\n".join(lines), "python")), first)
 
 
-def _coloured(text: str, lang: str, _: str = "") -> str:
-    """A piece of code as HTML, Python in colours; each line has an anchor where ``lang`` is a path."""
+def _coloured(text: str, lang: str, about: str = "") -> str:
+    """A piece of code as HTML, Python in colours; each line has an anchor where ``lang`` is a path.
+
+    ``about``: what else a fence says; "try" adds what figures.js makes a program of the reader's of.
+    """
     python = lang.split(" ", maxsplit=1)[0].endswith(("python", "py"))
     shape = HtmlFormatter(cssclass="code", lineanchors="L" if "/" in lang else "")
     shown = str(highlight(text, PythonLexer(stripnl=False) if python else TextLexer(stripnl=False), shape)).rstrip()
     shown = re.sub(r'<a (id="L-\d+")[^>]*></a>', r"<span \1></span>", shown)
-    return shown.removesuffix("</div>").replace('<div class="code"><pre>', '<pre class="code" tabindex="0">', 1)
+    buttons = [tag("button", words, type="button", hidden=True) for words in ("Run", "Edit")]
+    after = tag("p", *buttons, class_="try") if about == "try" else ""
+    return shown.removesuffix("</div>").replace('<div class="code"><pre>', '<pre class="code" tabindex="0">', 1) + after
 
 
 def _definitions(text: str) -> Mapping[str, ast.FunctionDef | ast.ClassDef]:

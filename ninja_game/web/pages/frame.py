@@ -95,6 +95,7 @@ MARK = ".ninja-game-pages"
 
 _INK_ROLES = (
     "background", "tile", "text", "on_tile", "panel", "panel_edge", "accent", "good", "bad", "gold", "gold_light",
+    "ninja", "switch",
 )  # fmt: skip
 _FAINT = 0.35
 """How far small text goes from the palette's ink to its faint one: enough contrast for small letters."""

@@ -15,12 +15,12 @@ from PIL import Image
 from ninja_game.cli import windows
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.lab.figure import FIGURE, Figure, room_world
-from ninja_game.play.lab.figures.cells import CellsTouched, NineCells
+from ninja_game.play.lab.figures.cells import CellsTouched, GridOfCells, NineCells
 from ninja_game.play.lab.figures.drones import WalkingEnemies
-from ninja_game.play.lab.figures.edges import STATES, EdgeStates
+from ninja_game.play.lab.figures.edges import STATES, Doors, EdgeStates
 from ninja_game.play.lab.figures.grids import Bullets, FiveCells, LooseGrid
 from ninja_game.play.lab.figures.one_tick import PHASES, PLAYED, OneTick
-from ninja_game.play.lab.figures.projection import PUSH, Projection
+from ninja_game.play.lab.figures.projection import PUSH, Bodies, Projection, Response
 from ninja_game.play.lab.figures.rays import RayCast
 from ninja_game.play.lab.screen import FIGURES, FILM_TICKS, FigureArea, LabScreen, export_figure, figure_pictures
 from ninja_game.play.menus.help import room_level
@@ -31,8 +31,10 @@ from ninja_game.sim.collision.tiles import EDGE_OF_FACES, FACE, NEIGHBOUR_OFFSET
 from ninja_game.sim.digest import world_digest
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.kinds import DOOR, DRONE
+from ninja_game.sim.memory.interface import BODIES
 from ninja_game.sim.rules import GOLD_RADIUS, STRIDE
 from ninja_game.simulation import Simulation
+from ninja_game.ui.theme import PALETTES
 from ninja_game.web.pages.documents import slug
 from tests.support.menu_driver import MenuDriver
 from tools import ROOT
@@ -57,6 +59,8 @@ def numbers(figure: Figure) -> dict[str, str]:
 def test_every_figure_has_two_sentences_and_links_to_sections_that_exist(name: str) -> None:
     figure = FIGURES[name]()
     assert len(figure.text) == 2
+    assert len(figure.legend) > 1
+    assert all(isinstance(getattr(PALETTES["classic"], role), pygame.Color) for role in figure.legend)
     assert len(figure.links) == 2
     for link in figure.links:
         file, anchor = link.split("#")
@@ -90,6 +94,83 @@ def test_a_film_of_a_figure(tmp_path: Path) -> None:
 
 
 # --- one by one ---
+
+
+def test_the_grid_names_the_cell_and_its_neighbours() -> None:
+    figure = GridOfCells()
+    for x, y, column, row in ((30.0, 30.0, 1, 1), (23.9, 24.0, 0, 1), (168.0, 100.0, 7, 4), (-3.0, 50.0, -1, 2)):
+        figure.drag(x, y)
+        shown = numbers(figure)
+        assert shown["column"].endswith(f"= {column}")
+        assert shown["row"].endswith(f"= {row}")
+        cell = cell_at(x, y)
+        assert shown["number in the list"] == (str(cell) if column >= 0 else "0: there is no cell")
+        if cell:
+            right, below = cell_at(x + 24, y), cell_at(x, y + 24)
+            assert shown["right of it, below it"] == f"{cell} + 1 = {right}, {cell} + 35 = {below}"
+
+
+def test_no_body_gets_into_the_border() -> None:
+    figure = CellsTouched()
+    figure.drag(2, 2)
+    assert numbers(figure)["cells touched"] == "1: (1, 1)"
+
+
+def test_a_circle_passes_the_ledge_at_which_a_box_stops_as_in_the_game() -> None:
+    figure = Bodies()
+    assert numbers(figure)["circle"].startswith("over the ledge")
+    assert numbers(figure)["box"].startswith("stopped")
+    for y in (126.0, 140.0, 132.0):
+        figure.drag(120.0, y)
+        for body, path in zip(BODIES, figure.paths, strict=True):
+            plain = Simulation(figure.runs[0].level, body=body)
+            n = plain.world.ninja
+            n.x, n.y, n.prev_x, n.prev_y = 120.0, y, 116.0, y
+            for _ in range(figure.ticks):
+                plain.step(right=True)
+            assert path[-1] == (n.x, n.y)
+
+
+def test_a_door_stops_body_ray_and_drone_and_lets_them_pass_when_open() -> None:
+    figure = Doors()
+    figure.drag(199.0, 108.0)
+    assert [value for _, value in figure.numbers()] == ["solid", "solid", "(+3.0, +0.0) px", "no", "left"]
+    figure.is_open = True
+    assert [value for _, value in figure.numbers()] == ["off", "off", "(+0.0, +0.0) px", "yes", "right"]
+    figure.press(300.0, 108.0)
+    assert (figure.x, figure.y) == (300.0, 108.0), "a press moves the body and paints nothing"
+
+
+def test_response_is_the_difference_of_two_places_and_names_the_contact() -> None:
+    figure = Response()
+    for tile, place, words in (
+        (1, (198.0, 115.0), "floor"), (1, (185.0, 132.0), "wall"), (1, (200.0, 150.0), "a push only"),
+        (1, (200.0, 125.0), "crushed: a push of over 8.9 px"), (2, (150.0, 90.0), "none"),
+    ):  # fmt: skip
+        figure.tile = tile
+        figure.drag(*place)
+        shown, (x, y) = numbers(figure), figure.push().points[-1]
+        assert shown["contacts"] == words
+        assert shown["speed after"] == f"({x - figure.origin[0]:+.2f}, {y - figure.origin[1]:+.2f}) px/tick"
+    assert numbers(figure)["speed before"] == shown["speed after"], "nothing was touched"
+
+
+def test_one_tick_waits_and_goes_call_by_call_both_ways() -> None:
+    figure = OneTick()
+    figure.nudge(1, 0)
+    figure.nudge(1, 0)
+    assert (figure.at, figure.speed) == (2, 0)
+    for _ in range(40):
+        figure.tick()
+    figure.nudge(-1, 0)
+    assert figure.at == 1
+    figure.press(100, 100)
+    assert figure.at == 2
+    for _ in range(5):
+        figure.nudge(-1, 0)
+    assert figure.at == 0, "not before the tick"
+    figure.reset()
+    assert figure.speed > 0
 
 
 def test_cells_touched() -> None:
@@ -289,7 +370,7 @@ def test_the_lab_by_keys_and_mouse(driver: MenuDriver) -> None:
     screen = driver.open("Physics")
     assert isinstance(screen, LabScreen)
     driver.frames(10)
-    driver.press("down", "down")
+    driver.press("down", "down", "down")
     assert screen.figure.name == "projection"
     driver.press("return")
     assert isinstance(screen.focus, FigureArea)

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ninja_game.formats.ascii.legend import DIRECTION_WORDS
 from ninja_game.formats.ascii.object_forms import MOVEMENTS
 from ninja_game.play.lab.figure import ELSEWHERE, Control, Figure, FigureSetting, Sheet, Stage
-from ninja_game.play.lab.figures.edges import STATES
+from ninja_game.play.lab.figures.edges import DIRECTIONS, STATES
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, NEIGHBOUR_OFFSET, UNIT_X, UNIT_Y
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.kinds import DOOR, DRONE
@@ -15,8 +14,6 @@ from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.objects.door import write_edges
 from ninja_game.sim.objects.drone import ROTATIONS
 from ninja_game.sim.rules import DRONE_RADIUS
-
-DIRECTIONS = tuple(DIRECTION_WORDS)
 
 
 class WalkingEnemies(Figure):

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import sin
 
 from ninja_game.editor.brush import tile_name
-from ninja_game.formats.ascii.legend import TILE_CHARS
+from ninja_game.formats.ascii.legend import DIRECTION_WORDS, TILE_CHARS
 from ninja_game.play.lab.figure import Control, Figure, FigureSetting, Sheet, room_world
+from ninja_game.play.lab.figures.projection import Push, pushed
+from ninja_game.sim.collision.rays import ray_tiles, sees
 from ninja_game.sim.collision.tiles import (
     CENTRE_X,
     CENTRE_Y,
@@ -19,9 +22,14 @@ from ninja_game.sim.collision.tiles import (
     UNIT_Y,
 )
 from ninja_game.sim.grid import cell_at
+from ninja_game.sim.kinds import DRONE
 from ninja_game.sim.objects.door import write_edges
+from ninja_game.sim.objects.drone import first_open
+from ninja_game.sim.rules import DRONE_RADIUS, RADIUS
+from ninja_game.ui.canvas import Point
 
 FACES = ("none", "partial", "full")
+DIRECTIONS = tuple(DIRECTION_WORDS)
 STATES = ("off", "interesting", "solid")
 SIDES: Sequence[tuple[str, object]] = (("right", 0), ("down", 1), ("left", 2), ("up", 3))
 
@@ -106,3 +114,66 @@ class EdgeStates(Figure):
         cell, side = divmod(door.edge_1, 4)
         middle = CENTRE_X[cell] + 12 * UNIT_X[side], CENTRE_Y[cell] + 12 * UNIT_Y[side]
         sheet.text("door", middle[0], middle[1] - 18, colour=p.lock)
+
+
+class Doors(EdgeStates):
+    """Drag a body to a door: what the body, a ray and a drone make of the two states that the door writes."""
+
+    name = "doors"
+    start = (199.0, 108.0)
+    turret: Point = (60.0, 104.0)
+
+    def controls(self) -> Sequence[Control]:
+        return super().controls()[2:]
+
+    press = Figure.press
+    nudge = Figure.nudge
+
+    def demonstrate(self, tick: int) -> None:
+        """The door opens and closes, the body goes to and fro."""
+        self.is_open = tick // 80 % 2 == 1
+        self.drag(self.start[0] + 12 * sin(tick / 20), self.start[1])
+
+    @property
+    def body(self) -> Push:
+        return pushed(self.tiles, self.world, self.x, self.y)
+
+    def ray(self) -> tuple[bool, Point]:
+        """Whether the turret sees the body, and where its ray ends, px."""
+        n = self.world.ninja
+        n.x, n.y = self.body.points[-1]
+        seen, *end = sees(self.tiles, self.world, *self.turret, n.x, n.y)
+        _, *wall = ray_tiles(self.tiles, self.world, *self.turret, n.x, n.y)
+        return bool(seen), (end[0], end[1]) if seen else (wall[0], wall[1])
+
+    def drone_goes(self) -> str:
+        """The direction that a drone in the doorway chooses, one that came from the left."""
+        drone = next(o for o in self.world.objects if o.kind == DRONE)
+        drone.direction = 0
+        return DIRECTIONS[first_open(self.world, drone, drone.movement)]
+
+    def numbers(self) -> list[tuple[str, str]]:
+        door, points = self.world.objects[self._door], self.body.points
+        return [
+            ("left cell's state", STATES[self.world.edges[door.edge_1]]),
+            ("right cell's state", STATES[self.world.edges[door.edge_2]]),
+            ("the body is pushed", f"({points[-1][0] - self.x:+.1f}, {points[-1][1] - self.y:+.1f}) px"),
+            ("the turret sees it", "yes" if self.ray()[0] else "no"),
+            ("the drone goes", self.drone_goes()),
+        ]
+
+    def draw(self, sheet: Sheet) -> None:
+        """The edges, the body before and after its push, the turret's ray, the drone and its way."""
+        p = sheet.palette
+        sheet.tiles(self.tiles)
+        sheet.grid()
+        sheet.edges(self.world)
+        seen, end = self.ray()
+        sheet.arrow(p.good if seen else p.bad, self.turret, end, 1.5)
+        sheet.circle(p.bad, *self.turret, 4)
+        sheet.body(p.faint, self.x, self.y, RADIUS, box=False, width=1.5)
+        sheet.body(p.ninja, *self.body.points[-1], RADIUS, box=False, width=3)
+        drone = next(o for o in self.world.objects if o.kind == DRONE)
+        sheet.circle(p.switch, drone.x, drone.y, DRONE_RADIUS, 2)
+        side = DIRECTIONS.index(self.drone_goes())
+        sheet.arrow(p.switch, (drone.x, drone.y), (drone.x + 20 * UNIT_X[side], drone.y + 20 * UNIT_Y[side]), 3)

@@ -44,7 +44,7 @@ class OneTick(Figure):
     def reset(self) -> None:
         super().reset()
         self.stage = Stage(self.room, self.objects)
-        self.at = 0.0
+        self.speed = 4
         self._next()
 
     def _next(self) -> None:
@@ -55,16 +55,19 @@ class OneTick(Figure):
         self.at = 0.0
 
     def controls(self) -> Sequence[Control]:
-        return [self.choice("Keys", KEYS, "keys"), self.slider("Calls a second", (1, 400, 1), "speed")]
+        speed = self.slider("Calls a second", (0, 400, 1), "speed", lambda calls: f"{calls:.0f}" if calls else "paused")
+        return [self.choice("Keys", KEYS, "keys"), speed]
 
     def press(self, x: float, y: float) -> None:
-        self._forward(1)
+        self.nudge(1, 0)
 
     def drag(self, x: float, y: float) -> None:
         """Only a press does something."""
 
     def nudge(self, dx: int, dy: int) -> None:
-        """Right: the next call; down: the next tick."""
+        """Right: the next call; left: the one before, in this tick; down: the next tick. The figure waits then."""
+        self.speed = 0
+        self.at = max(0.0, self.at + min(dx, 0))
         self._forward(len(self.calls) if dy > 0 else max(dx, 0))
 
     def demonstrate(self, tick: int) -> None:

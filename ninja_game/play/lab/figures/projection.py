@@ -1,21 +1,26 @@
-"""The figure about projection: how a tile pushes a body out."""
+"""Figures about bodies: how a tile pushes one out, what speed is left then, and why a circle passes a ledge."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
+from math import cos, sin
 from typing import NamedTuple
 
 from ninja_game.editor.brush import tile_name
 from ninja_game.formats.ascii.legend import TILE_CHARS
-from ninja_game.play.lab.figure import Call, Control, Figure, FigureSetting, Sheet, View, room_world, watch
+from ninja_game.play.lab.figure import ELSEWHERE, Call, Control, Figure, FigureSetting, Sheet, View, room_world, watch
 from ninja_game.play.lab.figures.cells import BODIES
+from ninja_game.play.menus.help import room_level
 from ninja_game.sim.collision.box import collide_box
 from ninja_game.sim.collision.circle import collide_circle
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_index
+from ninja_game.sim.memory.interface import BODIES as BODY_NAMES
 from ninja_game.sim.memory.plain import restore_plain, save_plain
+from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.rules import RADIUS
+from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Point
 
 COLUMN, ROW = 8, 5
@@ -51,6 +56,22 @@ class Push(NamedTuple):
         return sum(call.name in SHAPE_TESTS and call.caller in STAGES for call in self.calls)
 
 
+def pushed(tiles: TileMap, w: World, x: float, y: float, *, box: bool = False) -> Push:
+    """Collide a body at (x, y) with a world, which stays as it is."""
+    before = save_plain(w)
+    n = w.ninja
+    n.x = n.prev_x = x
+    n.y = n.prev_y = y
+    n.box = int(box)
+    _, calls = watch(collide_box if box else collide_circle, tiles, w)
+    restore_plain(w, before)
+    points = [(x, y)]
+    for call in calls:
+        if call.name == PUSH:
+            points.append((points[-1][0] + call.arguments["qx"], points[-1][1] + call.arguments["qy"]))
+    return Push(points, calls)
+
+
 class Projection(Figure):
     """Drag the body into a tile: what pushes it, which way, how far."""
 
@@ -84,19 +105,7 @@ class Projection(Figure):
 
     def push(self) -> Push:
         """Collide the body with the world, which stays as it is."""
-        w = self.world
-        before = save_plain(w)
-        n = w.ninja
-        n.x = n.prev_x = self.x
-        n.y = n.prev_y = self.y
-        n.box = int(self.box)
-        _, calls = watch(collide_box if self.box else collide_circle, self.tiles, w)
-        restore_plain(w, before)
-        points = [(self.x, self.y)]
-        for call in calls:
-            if call.name == PUSH:
-                points.append((points[-1][0] + call.arguments["qx"], points[-1][1] + call.arguments["qy"]))
-        return Push(points, calls)
+        return pushed(self.tiles, self.world, self.x, self.y, box=self.box)
 
     def tick(self) -> None:
         """Count what this place costs."""
@@ -136,6 +145,106 @@ class Projection(Figure):
             sheet.arrow(p.accent, start, end, 3)
         cell = cell_index(COLUMN, ROW)
         sheet.circle(p.faint, CENTRE_X[cell], CENTRE_Y[cell], 0.6)
+
+
+class Response(Projection):
+    """Drag the tip of the speed: a body moves by it into a tile, and what speed and contact are left."""
+
+    name = "response"
+    view = View(24 * (COLUMN - 2), 24 * (ROW - 1) - 12, 4.5)
+    start = (24 * COLUMN + 6.0, 24 * ROW - 5.0)
+    origin: Point = (24 * COLUMN - 12.0, 24 * ROW - 16.0)
+
+    def demonstrate(self, tick: int) -> None:
+        """Into the tile and out of it."""
+        super().demonstrate(tick)
+        self.drag(self.start[0] + 12 * sin(tick / 20), self.start[1] + 5 * cos(tick / 20))
+
+    @property
+    def contacts(self) -> list[str]:
+        """What each normal means to the rules, in the order of the pushes."""
+        normals = [call.arguments for call in self.push().calls if call.name == "note_normal"]
+        return ["wall" if each["my"] == 0.0 else "floor" if each["my"] < 0.0 else "a push only" for each in normals]
+
+    def numbers(self) -> list[tuple[str, str]]:
+        push, (x, y) = self.push(), self.origin
+        to_x, to_y = push.points[-1]
+        crushed = any(call.name == "kill" for call in push.calls)
+        return [
+            ("speed before", f"({self.x - x:+.2f}, {self.y - y:+.2f}) px/tick"),
+            ("pushes, in all", f"{len(push.points) - 1}, ({to_x - self.x:+.2f}, {to_y - self.y:+.2f}) px"),
+            ("speed after", f"({to_x - x:+.2f}, {to_y - y:+.2f}) px/tick"),
+            ("contacts", "crushed: a push of over 8.9 px" if crushed else ", ".join(self.contacts) or "none"),
+        ]
+
+    def draw(self, sheet: Sheet) -> None:
+        """The tile, the body before, in the tile and after; speeds and pushes."""
+        p, push = sheet.palette, self.push()
+        sheet.tiles(self.tiles)
+        sheet.grid()
+        for colour, place in ((p.faint, self.origin), (p.faint, (self.x, self.y)), (p.good, push.points[-1])):
+            sheet.body(colour, *place, RADIUS, box=self.box)
+        sheet.arrow(p.ninja, self.origin, (self.x, self.y), 3)
+        for start, end in pairwise(push.points):
+            sheet.arrow(p.accent, start, end, 3)
+        sheet.arrow(p.good, self.origin, push.points[-1], 3)
+
+
+class Bodies(Figure):
+    """A circle and a box fly at the same ledge. ``paths``: the middles of both, tick by tick, px."""
+
+    name = "bodies"
+    view = View(72, 72, 3)
+    start = (120.0, 132.0)
+    ledge = 144.0
+    ticks, speed = 20, 4.0
+
+    def reset(self) -> None:
+        super().reset()
+        level = room_level(self.room, [ELSEWHERE])
+        self.runs = [Simulation(level, body=body) for body in BODY_NAMES]
+        self.saved = [run.save() for run in self.runs]
+        self.fly()
+
+    def drag(self, x: float, y: float) -> None:
+        """Another place to fly from, left of the ledge."""
+        super().drag(min(x, self.start[0] + 30), y)
+        self.fly()
+
+    def fly(self) -> None:
+        self.paths: list[list[Point]] = []
+        for run, state in zip(self.runs, self.saved, strict=True):
+            run.restore(state)
+            n = run.world.ninja
+            n.x, n.y, n.prev_x, n.prev_y = self.x, self.y, self.x - self.speed, self.y
+            path = [(n.x, n.y)]
+            for _ in range(self.ticks):
+                run.step(right=True)
+                path.append((n.x, n.y))
+            self.paths.append(path)
+
+    def numbers(self) -> list[tuple[str, str]]:
+        ends = [path[-1] for path in self.paths]
+        rows = [
+            (name, f"{'over the ledge' if y < self.ledge else 'stopped'}, at {x:.1f}, {y:.1f} px")
+            for name, (x, y) in zip(BODY_NAMES, ends, strict=True)
+        ]
+        height = self.y + RADIUS - self.ledge
+        return [
+            ("its lower end at first", f"{abs(height):.1f} px {'below' if height > 0 else 'above'} the ledge"),
+            *rows,
+        ]
+
+    def draw(self, sheet: Sheet) -> None:
+        """Both ways, and the bodies at their ends."""
+        p = sheet.palette
+        sheet.tiles(self.runs[0].tiles)
+        sheet.grid()
+        for box, (path, colour) in enumerate(zip(self.paths, (p.good, p.bad), strict=True)):
+            for start, end in pairwise(path):
+                sheet.line(colour, start, end, 2)
+            sheet.body(colour, *path[-1], RADIUS, box=bool(box), width=3)
+        sheet.body(p.ninja, self.x, self.y, RADIUS, box=False, width=1.5)
 
 
 def candidates(call: Call) -> list[Point]:

@@ -1,0 +1,40 @@
+"""A program that a reader wrote in a page, run by the page's own Python: what it prints, or what is wrong in it."""
+
+from __future__ import annotations
+
+import sys
+from contextlib import redirect_stdout
+from io import StringIO
+from traceback import extract_tb
+from types import FrameType
+from typing import Any
+
+NAME = "<your program>"
+MOST_LINES, MOST_SHOWN = 300_000, 5_000
+"""Lines that a program may run, and characters of its output that are shown."""
+
+
+def run_program(text: str) -> str:
+    """All that it prints; after that, of an error, the line and what is wrong there."""
+    printed, left = StringIO(), MOST_LINES
+
+    def count(_frame: FrameType, event: str, _: object) -> Any:
+        nonlocal left
+        left -= event == "line"
+        if left < 0:
+            raise TimeoutError(f"stopped after {MOST_LINES:,} lines; does a loop never end?")
+        return count
+
+    wrong = ""
+    try:
+        program = compile(text, NAME, "exec")
+        with redirect_stdout(printed):
+            sys.settrace(count)
+            exec(program, {"__name__": "__main__"})  # noqa: S102 - the reader's own words, in the reader's own page
+    except BaseException as error:  # noqa: BLE001 - whatever it raises, SystemExit too, is for the reader
+        lines = [each.lineno for each in extract_tb(error.__traceback__) if each.filename == NAME]
+        line, words = (error.lineno, error.msg) if isinstance(error, SyntaxError) else ([0, *lines][-1], error)
+        wrong = f"Line {line}: {type(error).__name__}: {words}"
+    finally:
+        sys.settrace(None)
+    return printed.getvalue()[:MOST_SHOWN] + wrong
