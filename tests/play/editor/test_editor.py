@@ -345,3 +345,19 @@ def test_what_can_be_reached_follows_pointer_speed_and_level(room: Maker) -> Non
     assert 440 < edge[0][0] < 474, "the last place to jump from is at the edge"
     room.press("y", "y")
     assert session.reach is None
+
+
+def test_a_property_of_several_objects_is_changed_by_one_click_and_undone_at_once(room: Maker) -> None:
+    room.press("grave", "leftbracket")
+    for x in (204, 252, 300):
+        room.drag((x, 300))
+    room.press("v")
+    room.drag((190, 280), (320, 320))
+    before = room.draft
+    choice = room.editor.properties.widgets[1]
+    room.mouse(*choice.centre)
+    changed = [spec.values[2] for spec in room.draft.objects[-3:]]
+    assert len(set(changed)) == 1
+    assert changed != [spec.values[2] for spec in before.objects[-3:]]
+    room.chord("z", pygame.KMOD_LCTRL)
+    assert room.draft == before
