@@ -18,7 +18,7 @@ from ninja_game.editor.brush import (
 )
 from ninja_game.editor.draft import Cell, Draft, cell_of
 from ninja_game.editor.motion import SYMMETRIES, Motion
-from ninja_game.editor.specs import has_switch, points
+from ninja_game.editor.specs import has_switch, points, properties, with_word
 from ninja_game.editor.stamp import (
     ObjectPart,
     Selection,
@@ -363,6 +363,23 @@ class EditorTools:
     def subject(self) -> ObjectSpec:
         """The object whose properties can be changed: the selected one, or the one that is drawn with."""
         return self.chosen or self.spec
+
+    @property
+    def several(self) -> list[ObjectSpec]:
+        """All objects of which anything is selected."""
+        return [
+            self.draft.objects[number] for number in sorted(self.selection.numbers) if number < len(self.draft.objects)
+        ]
+
+    def put_word(self, name: str, text: str) -> None:
+        """Give all selected objects this property, as one edit."""
+        objects = list(self.draft.objects)
+        for number in self.selection.numbers:
+            if name in properties(objects[number]):
+                objects[number] = with_word(objects[number], name, text)
+        parts = frozenset((number, part) for number in self.selection.numbers for part in points(objects[number]))
+        self.history.change(self.draft.with_objects(tuple(objects)))
+        self.selection = Selection(self.selection.area, parts)
 
     def put_subject(self, spec: ObjectSpec) -> None:
         """Put another object in the place of the subject."""

@@ -85,6 +85,7 @@ class EditorCommands(DocumentCommands):
             "turn": lambda: tools.turn(CLOCKWISE), "symmetry": self.next_symmetry, "grid": view.next_grid,
             "lines": lambda: setattr(view, "lines", not view.lines),
             "paths": lambda: setattr(view, "paths", not view.paths),
+            "reach": self.next_reach,
             "next_finding": lambda: self.go_to_finding(self._finding + 1),
             "next_entry": lambda: self._palette.step(1),
             "previous_entry": lambda: self._palette.step(-1),
@@ -100,6 +101,11 @@ class EditorCommands(DocumentCommands):
         tools = self.session.tools
         tools.finish()
         tools.tool, tools.selection = "select", everything(tools.draft)
+
+    def next_reach(self) -> None:
+        """Show what can be reached from the pointer with another speed, or no more."""
+        self.session.next_start()
+        self.view.hint = f"What can be reached within a second from the pointer: {self.session.start}. Y: the next"
 
     def go_to_finding(self, index: int) -> None:
         """Show one of the problems."""

@@ -42,6 +42,7 @@ COMMANDS = (
     Command("snap_px", "Snap to px", ("z",)),
     Command("lines", "Lines from switches, on or off", ("t",)),
     Command("paths", "Paths of the last test and of the solver", ("f8",)),
+    Command("reach", "What can be reached from the pointer", ("y",)),
     Command("next_finding", "Go to the next problem", ("f4",)),
     Command("next_entry", "Next tile or object", ("pagedown",), "rightshoulder"),
     Command("previous_entry", "Tile or object before", ("pageup",), "leftshoulder"),

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from ninja_game.levels.findings import Finding
+    from ninja_game.sim.level import ObjectSpec
 
 ROW = 23.0
 
@@ -37,7 +38,13 @@ def panel_key(tools: EditorTools) -> tuple[object, ...]:
     if tools.selection:
         spec = tools.chosen
         kind = (spec.kind, len(spec.values)) if spec else None
-        return tools.selection.area, tools.selection.numbers, kind, spec and tuple(points(spec))
+        return (
+            tools.selection.area,
+            tools.selection.numbers,
+            [(name, not _present(tools, name)) for name in _common(tools.several)],
+            kind,
+            spec and tuple(points(spec)),
+        )
     return tools.objects, tools.spec.kind if tools.objects else tools.tile
 
 
@@ -49,6 +56,7 @@ def property_widgets(tools: EditorTools, area: Area) -> Sequence[Widget]:
         cells = tools.selection.area[2] * tools.selection.area[3] if tools.selection.area else 0
         title = f"Selected: {cells} cells, {count} objects" if cells else f"Selected: {count} objects"
         turns = {"Mirror (H)": MIRROR, "Flip (J)": FLIP, "Turn (U)": CLOCKWISE}
+        rows += [_choice_of_several(tools, name) for name in _common(tools.several)]
         rows += [partial(Button, text=text, action=partial(tools.turn, turn), size=9.5) for text, turn in turns.items()]
         rows.append(partial(Button, text="Delete (Del)", action=tools.delete, size=9.5))
     elif tools.selection or tools.objects:
@@ -82,6 +90,31 @@ def _choice(tools: EditorTools, name: str) -> Callable[[Area], Widget]:
     words = [(label + text, text) for text in properties(tools.subject)[name].words]
     options: list[tuple[str, object]] = [*words, *([] if get() else [("(other)", "")])]
     return lambda area: Choice(area, "", options, get, put, hint=f"The object's {name}")
+
+
+def _common(specs: Sequence[ObjectSpec]) -> list[str]:
+    """The properties that all of these have, with the same words."""
+    first = properties(specs[0]) if specs else {}
+    return [name for name, what in first.items() if all(properties(spec).get(name) == what for spec in specs)]
+
+
+def _present(tools: EditorTools, name: str) -> str:
+    """The word for a property of all selected objects, "" where they differ."""
+    found = {word(spec, name) for spec in tools.several if name in properties(spec)}
+    return found.pop() if len(found) == 1 else ""
+
+
+def _choice_of_several(tools: EditorTools, name: str) -> Callable[[Area], Widget]:
+    """A property of all selected objects; "(several)" where they differ."""
+
+    def put(text: str) -> None:
+        if text:
+            tools.put_word(name, text)
+
+    words = [(f"{name}: {text}", text) for text in properties(tools.several[0])[name].words]
+    options = [*words, *([] if _present(tools, name) else [(f"{name}: (several)", "")])]
+    hint = f"The {name} of all that is selected"
+    return lambda area: Choice(area, "", options, lambda: _present(tools, name), put, hint=hint)
 
 
 def _place(tools: EditorTools, part: int) -> Callable[[Area], Widget]:

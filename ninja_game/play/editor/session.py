@@ -10,6 +10,7 @@ from ninja_game.editor.brush import object_of_type, placed
 from ninja_game.editor.certify import Certifier, Route, route_of
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Autosave, RecoveredDraft, Source, draft_of_text, new_source, save
+from ninja_game.editor.reach import STARTS, Ask, Reach, find_reach
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import NinjaGameError
@@ -22,6 +23,7 @@ from ninja_game.play.window import save_picture
 from ninja_game.player.saving import keep_replay
 from ninja_game.runtime import NewestJob
 from ninja_game.sim.level import Level
+from ninja_game.ui.widgets import following
 from ninja_game.view.sprites.thumbnail import thumbnail
 
 CHECK_SPACING = 0.1
@@ -37,13 +39,19 @@ def _examine(level: Level) -> Examined:
 
 
 class EditorSession:
-    """``tools``: where the level is changed; ``source``: its file. ``last_try``: the route of the last test."""
+    """``tools``: where the level is changed; ``source``: its file. ``last_try``: the route of the last test.
+
+    ``start``: of STARTS, how the ninja is at the pointer when what it can reach is looked for.
+    """
 
     def __init__(self, app: App, source: Source | None = None) -> None:
         self.app = app
         self.certifier = Certifier()
         self.tools = EditorTools(new_source().draft)
         self._checks: NewestJob[Level, Examined] = NewestJob(_examine)
+        self._reaches: NewestJob[Ask, Reach] = NewestJob(find_reach)
+        self.start = "off"
+        self._start_asked: Ask | None = None
         self._begin(source or new_source(app.settings.name))
 
     def _begin(self, source: Source, found: RecoveredDraft | None = None) -> None:
@@ -87,8 +95,31 @@ class EditorSession:
         """The level to which the findings belong."""
         return self._checks.result[0] if self._checks.result else None
 
+    @property
+    def reach(self) -> Reach | None:
+        """What the ninja can reach from the pointer, or from where it just was."""
+        return self._reaches.result if self.start != "off" else None
+
+    def next_start(self) -> None:
+        """Show what can be reached from the next of STARTS."""
+        self.start = following(list(STARTS), self.start)
+        self._start_asked = None
+
+    def _follow_pointer(self) -> None:
+        """Look for what can be reached now; what was found before stays until then."""
+        speed = STARTS[self.start]
+        if self._reaches.problem:
+            self.app.notify(self._reaches.problem)
+            self.start, self._reaches.problem = "off", ""
+        elif speed is not None:
+            ask, before = Ask(self.draft, self.tools.pointer, speed), self._start_asked
+            if before is None or before.draft is not ask.draft or before[1:] != ask[1:]:
+                self._start_asked = ask
+                self._reaches.ask(ask)
+
     def update(self) -> None:
-        """Keep the level safe and examine it, both in the background."""
+        """Keep the level safe, examine it, look for what can be reached: all in the background."""
+        self._follow_pointer()
         self.autosave.poll(self.draft, self.source)
         if self.autosave.problem:
             self.app.notify(self.autosave.problem)

@@ -9,6 +9,7 @@ import pygame
 
 from ninja_game.editor.brush import placed
 from ninja_game.editor.motion import SYMMETRIES, Motion
+from ninja_game.editor.reach import CELL, Reach
 from ninja_game.editor.specs import BODY, SWITCH, carried, points
 from ninja_game.editor.stamp import CellArea, area_between, nearest
 from ninja_game.editor.tools import PICK_REACH, EditorTools
@@ -47,6 +48,8 @@ class Overlay:
         self.canvas = Canvas(sheet.canvas.size)
         self.canvas.origin = origin
         self.target = DrawTarget(self.canvas, sheet.palette, sheet.book)
+        self._reach: Reach | None = None
+        self._reached, self._seen = pygame.Surface((1, 1)), pygame.Rect(0, 0, 0, 0)
 
     @property
     def area(self) -> pygame.Rect:
@@ -62,10 +65,14 @@ class Overlay:
             surface.blit(self.sheet.surface, shown, shown.move(-origin[0], -origin[1]))
         return changed
 
-    def draw(self, surface: pygame.Surface, tools: EditorTools, *, hovering: bool) -> list[pygame.Rect]:
+    def draw(
+        self, surface: pygame.Surface, tools: EditorTools, reach: Reach | None, *, hovering: bool
+    ) -> list[pygame.Rect]:
         """Draw it; the px of the window that it covers."""
         self.target.begin(surface)
         surface.set_clip(self.area)
+        if reach:
+            self._draw_reach(reach)
         if tools.selection.area:
             self._frame(tools.selection.area, self.sheet.palette.accent)
         for number, part in tools.selection.parts:
@@ -79,6 +86,32 @@ class Overlay:
             self._hover(tools)
         surface.set_clip(None)
         return self.target.covered
+
+    def _draw_reach(self, reach: Reach) -> None:
+        """The squares that are reached, some jumps, the last places to jump from, where dangers go: dots each 10 ticks.
+
+        The squares are drawn once, as a picture that is laid over the level.
+        """
+        palette, target, canvas = self.sheet.palette, self.target, self.canvas
+        if self._reach is not reach:
+            self._reach = reach
+            found = [(reach.spans, palette.good, 70), (reach.deaths, palette.bad, 255)]
+            squares = [((*c[:3], a), canvas.rect(x, y, w, CELL)) for spans, c, a in found for x, y, w in spans]
+            rects = [rect for _, rect in squares] or [pygame.Rect(canvas.origin, (1, 1))]
+            self._seen = rects[0].unionall(rects)
+            self._reached = pygame.Surface(self._seen.size, pygame.SRCALPHA)
+            for paint, rect in squares:
+                self._reached.fill(paint, rect.move(-self._seen.x, -self._seen.y))
+        target.covered.append(target.surface.blit(self._reached, self._seen))
+        for route in (*reach.arcs, *reach.dangers):
+            colour = palette.bad if route in reach.dangers else palette.good
+            shown = [canvas.exact(*point) for point in route if is_near(*point)]
+            if len(shown) > 1 and shown[0] != shown[-1]:
+                self._note(pygame.draw.lines(target.surface, colour, closed=False, points=shown, width=canvas.px(0.8)))
+                for point in route[10::10]:
+                    target.disc(colour, *point, 2.2)
+        for x, y in reach.latest:
+            target.line(palette.accent, x, y - 26, x, y + 10, 1.6)
 
     def _note(self, rect: pygame.Rect) -> None:
         self.target.covered.append(rect.inflate(4, 4))
@@ -213,6 +246,7 @@ class EditorView(Part):
         return (
             tools.pointer, self.hovering, tools.tool, tools.objects, tools.tile, tools.spec, tools.snap,
             tools.symmetry, tools.selection, tools.marquee, tools.placing_switch, tools.draft,
+            self.session.reach and id(self.session.reach),
         )  # fmt: skip
 
     def draw(self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool) -> list[pygame.Rect]:
@@ -232,7 +266,7 @@ class EditorView(Part):
             surface.blit(self.sheet.surface, self.overlay.area)
         else:
             changed = self.overlay.restore(surface, dirty)
-        return [*changed, *self.overlay.draw(surface, tools, hovering=self.hovering)]
+        return [*changed, *self.overlay.draw(surface, tools, self.session.reach, hovering=self.hovering)]
 
     def _follow_marks(self) -> None:
         """The marks over the level as they should be now."""

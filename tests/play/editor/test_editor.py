@@ -8,14 +8,18 @@ from time import thread_time
 import pygame
 import pytest
 
+from ninja_game.backend.memories import compiled_available
 from ninja_game.editor.brush import OBJECT_TYPES, object_of_type, placed
 from ninja_game.editor.files import Source
+from ninja_game.editor.reach import CELL, LANDED, STARTS, Reach
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.play.editor.controls import COMMANDS
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.panels import Menu
+from ninja_game.runs.run import run_level
+from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.kinds import NINJA
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.ui.input.keys import SCANCODES
@@ -297,3 +301,63 @@ def test_what_has_a_switch_is_not_filled_in(room: Maker) -> None:
     room.drag((204, 204))
     room.drag((252, 204))
     assert len(room.draft.objects) == before + 1
+
+
+@pytest.mark.skipif(not compiled_available(), reason="needs Numba")
+def test_what_can_be_reached_follows_pointer_speed_and_level(room: Maker) -> None:
+    session = room.editor.session
+
+    def shown(x: float, y: float) -> Reach:
+        room.mouse(*room.at(x, y), click=False)
+        room.wait(
+            lambda: session.reach and session.reach.ask == (session.draft, session.tools.pointer, STARTS[session.start])
+        )
+        assert session.reach
+        return session.reach
+
+    def edges(found: Reach) -> tuple[float, float]:
+        return min(x for x, _, _ in found.spans), max(x + width for x, _, width in found.spans)
+
+    before = room.app.surface.copy()
+    room.press("y")
+    assert "standing" in room.editor.view.hint
+    standing = shown(396, 541)
+    left, right = edges(standing)
+    assert abs((396 - left) - (right - 396)) <= 2 * CELL, "standing, both sides are alike"
+    # A jump straight up is the world's own: the highest square is where the highest of a run is.
+    jump = run_level(
+        room.editor.session.level_to_test(here=True),
+        with_press_bits(bytes([0] * LANDED + [4] * (40 - LANDED))),
+        memory="plain",
+    )
+    top = min(y for _, y, _ in standing.spans)
+    assert top <= jump.positions[:, 1].min() < top + 2 * CELL
+    room.frames(2)
+    changed = pygame.mask.from_threshold(before, (0, 0, 0), (8, 8, 8, 255), room.app.surface).count()
+    assert before.get_width() * before.get_height() - changed > 3000
+    room.press("y")
+    running = shown(396, 541)
+    assert edges(running)[1] > right + 24, "with a run up it goes farther"
+    assert not running.latest, "the floor does not end within a second"
+    room.drag((470, 564), (600, 564), button=3)
+    edge = shown(396, 541).latest
+    assert len(edge) == 1
+    assert 440 < edge[0][0] < 474, "the last place to jump from is at the edge"
+    room.press("y", "y")
+    assert session.reach is None
+
+
+def test_a_property_of_several_objects_is_changed_by_one_click_and_undone_at_once(room: Maker) -> None:
+    room.press("grave", "leftbracket")
+    for x in (204, 252, 300):
+        room.drag((x, 300))
+    room.press("v")
+    room.drag((190, 280), (320, 320))
+    before = room.draft
+    choice = room.editor.properties.widgets[1]
+    room.mouse(*choice.centre)
+    changed = [spec.values[2] for spec in room.draft.objects[-3:]]
+    assert len(set(changed)) == 1
+    assert changed != [spec.values[2] for spec in before.objects[-3:]]
+    room.chord("z", pygame.KMOD_LCTRL)
+    assert room.draft == before
