@@ -100,10 +100,10 @@ def test_screen_is_drawn_as_recorded(screens: dict[str, str], name: str) -> None
 
 
 def test_a_number_of_seconds_says_whether_it_is_a_time_or_the_clock(screens: dict[str, str]) -> None:
-    """But for pars, each with its medal, the tables whose heads say it, and the time that a film will take."""
+    """A time has three decimals, the clock one; but for the tables whose heads say it and what a film will take."""
     own = re.compile(r"screens/(episode|levels|daily|passed|playing|shooting|ready|paused|dead|practice)")
     texts = [text for name, lines in screens.items() if own.match(name) for text in re.findall("text '([^']*)'", lines)]
     numbers = [text for text in texts if re.search(r"[0-9]\.[0-9]+ s\b", text)]
-    pars = re.compile(r"[0-9]+\.[0-9] s")
-    assert not [each for each in numbers if not re.search("[Tt]ime|left|behind", each) and not pars.fullmatch(each)]
+    times = re.compile(r"[0-9]+\.[0-9]{3} s")
+    assert not [each for each in numbers if not re.search("[Tt]ime|left|behind", each) and not times.fullmatch(each)]
     assert len(numbers) > 20

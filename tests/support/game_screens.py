@@ -154,7 +154,9 @@ def _an_episode(driver: MenuDriver) -> Iterator[str]:
     yield "dead"
     driver.frames(60)
     yield "dead-message"
-    driver.press("space", "space", "k", "space")
+    driver.press("space", "space", "k")
+    driver.frames(20)
+    driver.press("space")
     for number in range(1, 6):
         level = driver.shown(LevelScreen)
         if number == 4:
@@ -167,8 +169,8 @@ def _an_episode(driver: MenuDriver) -> Iterator[str]:
             level.retry()
         level.begin()
         driver.play_replay(number)
+        driver.frames(20)
         if number in (1, 5):
-            driver.frames(20)
             yield "passed" if number == 1 else "passed-last-of-episode"
         driver.press("space")
     driver.frames(6)
@@ -299,7 +301,7 @@ def _help(driver: MenuDriver) -> Iterator[str]:
 
 def _lab(driver: MenuDriver) -> Iterator[str]:
     """Every figure, a second into its demonstration."""
-    screen = driver.open("Extras")
+    screen = driver.open("Physics")
     assert isinstance(screen, LabScreen)
     for index, figure in enumerate(screen.figures):
         screen.list._select(index)

@@ -195,9 +195,8 @@ class Hud:
             draw_medal(surface, theme, medal, *at, size, shine=view.shine)
         across = middle + beside / 2
         theme.text(surface, title, across, y + 9, size=TITLE, align="centre", bold=True)
-        theme.text(
-            surface, named, across, y + 43, size=NAMED, colour=theme.palette.accent, align="centre", bold=True
-        )  # fmt: skip
+        accent = theme.palette.accent
+        theme.text(surface, named, across, y + 43, size=NAMED, colour=accent, align="centre", bold=True)
         for k, line in enumerate(lines):
             theme.text(surface, line, middle, y + 41 + below + 18 * k, size=LINE, align="centre")
         if behind:

@@ -90,7 +90,7 @@ class LevelScreen(Screen):
     # --- what keys and the pause panel do ---
 
     def begin(self) -> None:
-        """By the key that chooses: on a keyboard it is no jump yet; on a pad it is the only one."""
+        """By the key that chooses: on a keyboard it does not jump yet; on a pad it is the only one."""
         controls = self.app.controls
         controls.stop_running()
         self.play.begin(ignored=0 if controls.pad_used else controls.choosing())

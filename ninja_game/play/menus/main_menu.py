@@ -88,6 +88,9 @@ class MainMenu(MenuScreen):
         if self.run is not None:
             self.app.push(LevelScreen(self.app, self.run))
 
+    def show_episodes(self, pack: str) -> None:
+        self.app.push(EpisodeGrid(self.app, pack))
+
     def entries(self) -> list[Row]:
         """One for each screen: the first as wide as the panel, then two in a row."""
         return [

@@ -72,6 +72,9 @@ class MenuScreen(Screen):
         self.await_text()
         self.app.report_problems()
 
+    def show_episodes(self, pack: str) -> None:
+        """Called after an episode that began here, to see those of its pack: this screen, unless it says otherwise."""
+
     def await_text(self) -> None:
         """Have the system say what is typed, where there is a field for it."""
         if any(isinstance(widget, TextEntry) for widget in self.widgets):

@@ -8,6 +8,7 @@ import pygame
 
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
+from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal
 from ninja_game.player.catalogue import Episode
@@ -44,13 +45,10 @@ class EpisodePassed(ThumbnailScreen):
         return [*buttons, watch, Button((400, 482, 156, 30), "Episodes", self._episodes)]
 
     def _episodes(self) -> None:
-        """The screen of episodes, whatever screen this one was opened from."""
-        from ninja_game.play.menus.episodes import EpisodeGrid  # it opens levels, which open this screen
-
-        if isinstance(self.app.stack.below, EpisodeGrid):
-            self.back()
-        else:
-            self.app.replace(EpisodeGrid(self.app, self.run.episode.pack))
+        below = self.app.stack.below
+        self.back()
+        if isinstance(below, MenuScreen):
+            below.show_episodes(self.run.episode.pack)
 
     def go_on(self) -> None:
         if self.next_episode is not None:

@@ -83,7 +83,7 @@ class Capture(Screen):
         return None
 
 
-SLOTS = 6
+SLOTS = {"keys": 6, "pad": 5}
 ROW = 30
 LIST: Area = (216, 72, 540, 13 * ROW)
 LABEL_SHARE = 0.34
@@ -117,6 +117,7 @@ class BindingTable(ListView):
         self.screen = screen
         self.device = device
         self.actions = actions
+        self.slots = SLOTS[device]
         self.slot = 0
         self.hint = "Left and right: choose a slot. Enter: set it. Delete: clear it"
         self.fill(actions)
@@ -139,7 +140,7 @@ class BindingTable(ListView):
         """Left and right within the row, Delete."""
         if action in ("left", "right"):
             slot = self.slot + (1 if action == "right" else -1)
-            if not 0 <= slot < SLOTS:
+            if not 0 <= slot < self.slots:
                 return False
             self.slot = slot
             return True
@@ -154,13 +155,13 @@ class BindingTable(ListView):
         left, width = self._cells()
         if x < left:  # the name of the row: only a slot waits for a press
             return self.hover(x, y)
-        if x < left + SLOTS * width:
+        if x < left + self.slots * width:
             self.slot = int((x - left) // width)
         return super().click(x, y)
 
     def _cells(self) -> tuple[float, float]:
         x, _, w, _ = self.area
-        return x + w * LABEL_SHARE, (w * (1 - LABEL_SHARE) - 12) / SLOTS
+        return x + w * LABEL_SHARE, (w * (1 - LABEL_SHARE) - 12) / self.slots
 
     def _capture(self, index: int) -> None:
         self.screen.app.push(Capture(self, self.actions[index], self.slot))
@@ -192,7 +193,7 @@ class BindingTable(ListView):
         """Put an input in its place; twice in one row is once."""
         inputs = [each for each in self.inputs(action) if each != name]
         inputs[slot : slot + 1] = [name]
-        self.bind(action, tuple(inputs[:SLOTS]))
+        self.bind(action, tuple(inputs[: self.slots]))
 
     def _draw_action(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         _, y, _, h = area
@@ -203,7 +204,7 @@ class BindingTable(ListView):
         )
         left, width = self._cells()
         inputs = self.inputs(action)
-        for slot in range(SLOTS):
+        for slot in range(self.slots):
             x = left + slot * width
             here = focused and slot == self.slot
             if slot > len(inputs) - 1 + focused and not here:

@@ -34,13 +34,13 @@ _NAMES = {code: name for name, code in sorted(SCANCODES.items(), key=lambda item
 _UNNAMED = re.compile(r"scancode-([0-9]{1,3})")
 
 LABELS = {
-    "lshift": "Shift", "rshift": "Right Shift", "lctrl": "Ctrl", "rctrl": "Right Ctrl", "lalt": "Alt",
-    "ralt": "Right Alt", "return": "Enter", "kp_enter": "Keypad Enter", "escape": "Esc", "backspace": "Backspace",
+    "lshift": "Shift", "rshift": "R Shift", "lctrl": "Ctrl", "rctrl": "R Ctrl", "lalt": "Alt",
+    "ralt": "R Alt", "return": "Enter", "kp_enter": "Keypad Enter", "escape": "Esc", "backspace": "Backspace",
     "pageup": "Page Up", "pagedown": "Page Down", "left": "Left", "right": "Right", "up": "Up", "down": "Down",
     "capslock": "Caps Lock", "comma": "Comma", "period": "Period", "minus": "Minus", "equals": "Equals",
     "leftbracket": "[", "rightbracket": "]", "semicolon": "Semicolon", "apostrophe": "Apostrophe",
     "slash": "/", "backslash": "\\", "grave": "Backtick",
-    "lgui": "Left Meta", "rgui": "Right Meta",
+    "lgui": "L Meta", "rgui": "R Meta",
 }  # fmt: skip
 
 _learnt: dict[int, str] = {}

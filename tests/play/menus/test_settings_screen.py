@@ -110,8 +110,8 @@ def test_only_a_click_on_a_slot_waits_for_a_press(driver: MenuDriver, screen: Se
 
 def test_defaults_do_not_clash_and_every_input_has_a_place() -> None:
     for name, action in ACTIONS.items():
-        assert len(action.keys) <= SLOTS
-        assert len(action.pad) <= SLOTS
+        assert len(action.keys) <= SLOTS["keys"]
+        assert len(action.pad) <= SLOTS["pad"]
         for other, its in ACTIONS.items():
             if set(action.keys) & set(its.keys) or set(action.pad) & set(its.pad):
                 assert not clash(name, other)
