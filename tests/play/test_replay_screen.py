@@ -130,8 +130,8 @@ def test_a_key_shows_and_hides_the_others() -> None:
 
 def test_the_mouse_drags_the_bar() -> None:
     with viewer(RUN, size=(792, 600)) as (app, screen):
-        pygame.event.post(pygame.Event(pygame.MOUSEBUTTONDOWN, pos=(304, 588), button=1))
-        pygame.event.post(pygame.Event(pygame.MOUSEBUTTONUP, pos=(304, 588), button=1))
+        pygame.event.post(pygame.Event(pygame.MOUSEBUTTONDOWN, pos=(224, 588), button=1))
+        pygame.event.post(pygame.Event(pygame.MOUSEBUTTONUP, pos=(224, 588), button=1))
         frames(app, 1, 0)
         assert abs(screen.tick - screen.length / 2) <= 2
 
@@ -180,7 +180,7 @@ def test_count_of_ticks_stops_at_the_end_of_the_recording(monkeypatch: pytest.Mo
 
         monkeypatch.setattr(Theme, "text", note)
         screen.draw(app.surface)
-        assert any(f"s    tick {screen.end} / {screen.end}    " in text for text in written)
+        assert any(f"s    {screen.end} / {screen.end} ticks    " in text for text in written)
 
 
 def test_mark_of_an_exit_is_not_that_of_a_death() -> None:
@@ -191,7 +191,7 @@ def test_mark_of_an_exit_is_not_that_of_a_death() -> None:
             app.push(screen)
             frames(app, 1, 0)
             assert screen.outcome == outcome
-            x = 24 + 560 * screen.end / screen.length
+            x = 24 + 400 * screen.end / screen.length
             marks.append(app.surface.get_at((round(x), 584))[:3])
             if outcome == "exit":
                 assert marks[0] == app.theme.palette.bar_full[:3]

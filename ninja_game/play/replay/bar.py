@@ -8,7 +8,7 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.theme import Theme, mixed
 
-_LEFT, _WIDTH, _Y = 24.0, 560.0, 588.0
+_LEFT, _WIDTH, _Y = 24.0, 400.0, 588.0
 
 
 class ReplayBar:
@@ -48,5 +48,5 @@ class ReplayBar:
     @staticmethod
     def write(surface: pygame.Surface, theme: Theme, tick: int, end: int, speed: str) -> pygame.Rect:
         at = min(tick, end)
-        text = f"{seconds_text(at)} / {seconds_text(end)} s    tick {at} / {end}    {speed}"
+        text = f"{seconds_text(at)} / {seconds_text(end)} s    {at} / {end} ticks    {speed}"
         return theme.text(surface, text, 768, 583, size=9, colour=theme.palette.on_tile, align="right")
