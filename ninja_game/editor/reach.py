@@ -26,7 +26,7 @@ STARTS = {"off": None, "standing": 0.0, "running right": TOP_SPEED, "running lef
 """Speeds at the start to the right, px/tick; "off": nothing is shown."""
 
 CELL = 4.0
-"""Px: what is reached is told in squares of this side."""
+"""Px: what is reached is shown in squares of this side."""
 
 Span = tuple[float, float, float]
 """Squares side by side: left edge, top, width, px."""
@@ -145,7 +145,7 @@ def find_reach(ask: Ask) -> Reach:
 
 
 def _route(places: Any) -> Route:
-    """The points of an array (ticks, 2) up to the first that is no number."""
+    """The points of an array (ticks, 2) up to the first that is not a number."""
     return tuple(takewhile(lambda point: isfinite(sum(point)), map(tuple, places.tolist())))
 
 
