@@ -19,7 +19,7 @@ from ninja_game.ui.widgets import Button, Widget
 
 PICTURE = 132
 
-CLOCK = "left on the clock: your score for this episode. Each gold added 2 s"
+CLOCK = "Your score for this episode is the time left. Each gold added 2 s"
 
 
 class EpisodePassed(ThumbnailScreen):
