@@ -20,8 +20,8 @@ from ninja_game.sim.states import CRUSHED
 from ninja_game.simulation import Simulation
 from ninja_game.view.level_view import LevelView
 
-_FILL_SHARE, _FILL_AT_START = 0.05, 0.15
-"""Share of what the bar lacks that fills in per picture, at least; before play starts, which is done in a second."""
+_FILL_SHARE = 0.05
+"""Share of what the bar lacks that fills in per picture, at least."""
 
 DEATH_PAUSE = 20
 """Ticks after a death before the jump key retries, and the run can be watched."""
@@ -54,11 +54,11 @@ _SPACING = 10
 """Ticks between save-states, at first."""
 
 
-def followed(shown: float, true: float, *, filling: bool) -> float:
+def followed(shown: float, true: float) -> float:
     """The lifetime to show in the next picture: it follows the true one softly, so that gold fills in."""
     if abs(true - shown) < 1:
         return true
-    share = _FILL_AT_START if filling else max(_FILL_SHARE, (1 - max(0.0, shown) / LIFETIME) ** 2)
+    share = max(_FILL_SHARE, (1 - max(0.0, shown) / LIFETIME) ** 2)
     return shown + (true - shown) * min(1.0, share)
 
 
@@ -106,7 +106,7 @@ class LevelPlay:
         self.all_gold = context.level.gold
         self.show_tutorial = context.show_tutorial
         self.sayings = Sayings(context.sayings(), helps=context.helps)
-        self.shown_lifetime = 0.0
+        self.shown_lifetime = float(self.attempt.lifetime)
         self.ghosts: list[Ghost] = []
         self.tries: deque[bytes] = deque(maxlen=MOST_TRIES)
         self._frozen_ms = 0
@@ -245,9 +245,7 @@ class LevelPlay:
                 tick_ms = SLOW_TICK_MS if self.tools.slow else self.app.tick_ms * 100 // self.app.settings.game_speed
                 self.run_ticks(self.clock.ticks_due(real_ms, tick_ms))
         if self.attempt.outcome != "exit":
-            self.shown_lifetime = followed(
-                self.shown_lifetime, self.attempt.lifetime, filling=self.phase is Phase.READY
-            )
+            self.shown_lifetime = followed(self.shown_lifetime, self.attempt.lifetime)
 
     @property
     def fraction(self) -> float:

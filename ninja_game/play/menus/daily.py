@@ -192,8 +192,9 @@ class DailyScreen(ThumbnailScreen):
             entry = self.days.get(day.isoformat())
             mark = self.player.marks.of(entry.digest) if entry else None
             passed = self.is_passed(day)
-            text = f"{seconds_text(mark.fastest)} s" if mark else "with help" if passed else "not passed"
-            text = "" if day > self.day else text
+            text = "not passed" if entry else ""
+            if passed:
+                text = f"{seconds_text(mark.fastest)} s" if mark else "with help"
             y = WEEK + 16 * place
             colour = theme.palette.good if passed else theme.palette.faint
             theme.text(surface, f"{day:%a}", SIDE, y, size=10, bold=day == self.day, width=40)

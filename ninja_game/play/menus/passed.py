@@ -73,8 +73,9 @@ class EpisodePassed(ThumbnailScreen):
             middle = x + PICTURE / 2
             theme.text(surface, entry.title, middle, 232, size=10, align="centre", width=PICTURE, height=15)
             mark = self.player.marks.of(entry.digest)
-            time = self.player.reached(entry, mark)
-            theme.text(surface, time, middle, 247, size=10, colour=palette.faint, align="centre", width=PICTURE)
+            for line, words in enumerate(self.player.reached(entry, mark).split(", ")):
+                y = 247 + 14 * line
+                theme.text(surface, words, middle, y, size=10, colour=palette.faint, align="centre", width=PICTURE)
             all_gold_and_medal(surface, theme, entry, mark, x + PICTURE - 11, 135)
         score = f"{seconds_text(self.run.score)} s left"
         theme.text(surface, score, WIDTH / 2, 290, size=44, align="centre", bold=True, height=60)

@@ -303,7 +303,7 @@ class SettingsScreen(ThumbnailScreen):
         colours = list(zip(COLOUR_NAMES, NINJA_COLOURS, strict=True))[:count]
         more = "Complete columns of episodes for more" if count < len(NINJA_COLOURS) else ""
         return [
-            self._choice(0, "Palette", "palette", palettes, "Contrast, Safe: what kills has spikes"),
+            self._choice(0, "Palette", "palette", palettes, "In Contrast and in Safe, whatever kills has spikes"),
             self._choice(1, "Ninja colour", "ninja_colour", colours, more),
             self._choice(2, "Full screen", "fullscreen", SWITCH, "F11 at any time"),
             self._choice(3, "Smooth motion", "smooth", SWITCH, "More than 40 pictures a second"),

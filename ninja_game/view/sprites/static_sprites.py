@@ -138,8 +138,8 @@ def one_way(s: Sketch, p: Palette) -> None:
 
 
 def _soft(colour: pygame.Color, solid: float) -> pygame.Color:
-    """A colour that lets through what is behind it."""
-    return pygame.Color(colour.r, colour.g, colour.b, round(255 * solid)).premul_alpha()
+    """A colour that lets through what is behind it, as sprites hold it: multiplied by how solid it is."""
+    return pygame.Color(*(round(part * solid) for part in (colour.r, colour.g, colour.b, 255)))
 
 
 @drawing(7)
