@@ -278,11 +278,6 @@ def draw_medal(
             canvas.line(surface, bright, *ends, size * 0.09)
     letter = radius * 1.16
     at = y - letter / 2
-    if large:
-        engraved = x + size * 0.02, at + size * 0.02
-        theme.text(
-            surface, medal[0].upper(), *engraved, size=letter, colour=bright, align="centre", bold=True, height=size
-        )
     ink = _INK if reached else palette.faint
     theme.text(surface, medal[0].upper(), x, at, size=letter, colour=ink, align="centre", bold=True, height=size)
 

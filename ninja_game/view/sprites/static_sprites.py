@@ -7,8 +7,6 @@ from __future__ import annotations
 
 from math import atan2, cos, degrees, radians, sin
 
-import pygame
-
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.memory.object_fields import Object
@@ -128,18 +126,11 @@ def launch_pad(s: Sketch, p: Palette, step: int) -> None:
 
 @drawing(13)
 def one_way(s: Sketch, p: Palette) -> None:
-    """A blue bar on the side that carries, here the upper one; a fade with chevrons on that which lets through."""
-    for k in range(6):
-        s.box(_soft(p.switch, 0.36 - 0.06 * k), -12, -8 + 2.5 * k, 24, 2.5)
-    for top, solid in ((-4.5, 0.9), (0.5, 0.5)):
-        s.path(_soft(p.switch, solid), [(-4, top + 3.4), (0, top), (4, top + 3.4)], 1.7)
-    s.framed_box(p.switch, p.outline, -12, -12, 24, 4.4, 0.7)
-    s.box(mixed(p.switch, p.spark, 0.6), -12, -11.3, 24, 1.2)
-
-
-def _soft(colour: pygame.Color, solid: float) -> pygame.Color:
-    """A colour that lets through what is behind it, as sprites hold it: multiplied by how solid it is."""
-    return pygame.Color(*(round(part * solid) for part in (colour.r, colour.g, colour.b, 255)))
+    """A bar on the side that carries, here the upper one; chevrons below it, where it lets through."""
+    for top, width in ((-4.5, 2.0), (0.7, 1.2)):
+        s.path(p.switch, [(-4, top + 3.4), (0, top), (4, top + 3.4)], width)
+    s.framed_box(p.switch, p.outline, -12, -12, 24, 4.4, 0.9)
+    s.box(mixed(p.switch, p.spark, 0.6), -12, -11.1, 24, 0.9)
 
 
 @drawing(7)
