@@ -130,6 +130,7 @@ class TakeOver:
 
     def pause(self) -> None:
         self.stand_still(still=not (self.still or self.waiting))
+        self.editor.app.controls.stop_running()
 
     def stand_still(self, *, still: bool = True) -> None:
         self.still, self.waiting = still, False
@@ -161,7 +162,7 @@ class TakeOver:
         editor, tick = self.editor, self.tick + 1
         session = editor.session
         if not self._ended(self.tick):
-            keys = editor.app.controls.poll()
+            keys = editor.app.controls.poll() & ~editor.app.controls.choosing(pads=False)
             if not editor.attempt(lambda: session.change(editor.track.replaced(tick, tick + 1, [keys]), ticks=0)):
                 self.end()
                 return
@@ -187,7 +188,9 @@ class TakeOver:
     @staticmethod
     def meaning(event: InputEvent) -> str:
         """The command that an event means now; '' for none."""
-        if event.source is None or _MOVES.intersection(event.pressed):
+        moves = _MOVES.intersection(event.pressed)
+        # A key that jumps and goes on, as Space, is a command here; a button of a pad that does both jumps.
+        if event.source is None or (moves and (event.source[0] == "pad" or "confirm" not in event.pressed)):
             return ""
         # By the bare key: Shift may be down, which jumps.
         of_key = (_BY_KEY if event.source[0] == "keys" else _BY_PAD).get(event.source[1], "")

@@ -88,11 +88,11 @@ class Bindings:
         self._taps.clear()
         return bits & JUMP_HELD | self._running if self.tap_to_run else bits
 
-    def choosing(self) -> int:
+    def choosing(self, *, pads: bool = True) -> int:
         """The jump bit while an input is down that both jumps and chooses: what it has just chosen is no jump."""
         state = pygame.key.get_pressed()
         down = any(tuple.__getitem__(state, code) for code in self._jump_choosing)
-        return JUMP_HELD * bool(down or self.pads.down & self._jump_choosing_pad)
+        return JUMP_HELD * bool(down or (pads and self.pads.down & self._jump_choosing_pad))
 
     def stop_running(self) -> None:
         """Forget that a tap runs on, and taps that are to count."""
