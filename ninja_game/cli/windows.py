@@ -180,8 +180,8 @@ FIGURES = (
 def lab(ctx: click.Context, /, figure: str | None, output: Path | None, **window: Any) -> None:
     """Drag, paint and watch: fourteen figures about how the world works.
 
-    FIGURE is the one that is shown first: cells, edges, projection, grids, nine-cells, pairs, bullets, rays, drones or
-    tick.
+    FIGURE is the one that is shown first: grid, bodies, cells, projection, edges, doors, response, grids, nine-cells,
+    pairs, bullets, rays, drones or tick.
 
     \b
     Examples:

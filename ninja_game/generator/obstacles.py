@@ -158,11 +158,11 @@ def _beside_tiles(scene: Scene) -> Iterator[Cell]:
 
 def fill_voids(scene: Scene, rng: Random, difficulty: int) -> None:
     """Where nothing is far around: a few pieces of gold about a drone that goes to and fro, a turret or a mine."""
+    air = [middle(cell) for cell in sorted(scene.steps)]
     for _ in range(MOST_VOIDS):
         taken = np.array([point for record in scene.objects for point in places(record)])
-        cells = sorted(scene.steps)
-        away = np.hypot(*(np.array([middle(cell) for cell in cells])[:, None] - taken[None]).transpose(2, 0, 1)).min(1)
-        x, y = middle(cells[int(away.argmax())])
+        away = np.hypot(*(np.array(air)[:, None] - taken[None]).transpose(2, 0, 1)).min(1)
+        x, y = air[int(away.argmax())]
         if away.max() < VOID or not lay_about(scene, (x, y), rng):
             break
         kind = rng.choice(("zap drone", "zap drone", "gauss turret" if difficulty >= SOURCES[turrets][0] else "mine"))
@@ -320,9 +320,8 @@ def blocks(scene: Scene, rng: Random) -> Iterator[str]:
 
 def place_fixtures(scene: Scene, rng: Random) -> None:
     """Put one or two sorts of fixtures into a scene."""
-    for line in (
-        line for kind in rng.sample((blocks, pads, one_ways), rng.choice((1, 2, 2))) for line in kind(scene, rng)
-    ):
+    sorts = rng.sample((blocks, pads, one_ways), rng.choice((1, 2, 2)))
+    for line in (line for sort in sorts for line in sort(scene, rng)):
         record = spec(line)
         # A pad lies on the edge of its cell.
         point = (record.values[0], record.values[1] - (PAD_RADIUS if record.kind == kinds.LAUNCH_PAD else 0.0))

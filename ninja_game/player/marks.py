@@ -10,8 +10,9 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.store import Store
 
-HELPED = "Passed with help: no medal"
-"""What a pass by a run that is assisted is called on every screen."""
+NO_MEDAL = "with help: no medal"
+HELPED = f"Passed {NO_MEDAL}"
+"""What a run that is assisted, and a pass by it, are called on every screen."""
 
 WITH_HELP = "with help"
 """In the place of the body in marks of such passes: they open what follows, and are no records."""

@@ -14,7 +14,7 @@ from ninja_game.formats.run_time import rounded_text, seconds_text
 from ninja_game.formats.sayings import named_keys
 from ninja_game.play.level.play import MUST, STAMP_TICKS, LevelPlay, Phase, Things
 from ninja_game.play.level.sayings import FALL_HELP, WHY
-from ninja_game.player.marks import Mark, next_par
+from ninja_game.player.marks import NO_MEDAL, Mark, next_par
 from ninja_game.player.playthrough import Navigation
 from ninja_game.player.statistics import SELF
 from ninja_game.sim.collision.tiles import FULL, SHAPE
@@ -357,7 +357,7 @@ def hud_view(play: LevelPlay) -> HudView:
     name = shown_text(context.title)
     title = f"{name} ({play.aim})" if play.phase is Phase.READY and play.aim else name
     if (settings.game_speed < 100 or play.invincible or attempt.assisted) and not context.practice_mode:
-        title += "    with help: no medal"
+        title += f"    {NO_MEDAL}"
     practice = "Practice" + (", slow motion" if play.tools.slow else "")
     return HudView(
         play.shown_lifetime,

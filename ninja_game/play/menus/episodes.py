@@ -118,7 +118,7 @@ class EpisodeGrid(ThumbnailScreen):
         self.packs: list[EpisodeSet] = []
         self.pack = self.player.catalogue.ours
         self.marks: dict[str, Mark] = {}
-        self.helped: dict[str, Mark] = {}
+        self.passed: set[str] = set()
         self.grid = Cells((LEFT, TOP, WIDE, MOST_HIGH), 1, self._draw_cell, self._play, opens=True)
         self.grid.selected = self._selected
         self.play = Button((SIDE + 274, 64, 90, 30), "Play", lambda: self._play(self.grid.index))
@@ -179,7 +179,7 @@ class EpisodeGrid(ThumbnailScreen):
         if self.pack is not before:
             self.grid.arrange(self.pack.episodes)
         self.marks = self.player.marks.all()
-        self.helped = self.player.marks.all(WITH_HELP)
+        self.passed = self.marks.keys() | self.player.marks.all(WITH_HELP).keys()
         self._selected(self.grid.index)
         self.practice = Choice(
             (LEFT, self._below, WIDE, 30), "Practice mode", [("off", False), ("on", True)],
@@ -267,7 +267,7 @@ class EpisodeGrid(ThumbnailScreen):
     def _draw_total(self, surface: pygame.Surface, theme: Theme, y: float) -> None:
         """How much of the pack has been passed, with which medals, with all gold."""
         levels = self.pack.levels
-        total = tally(levels, self.marks, self.helped)
+        total = tally(levels, self.marks, self.passed)
         theme.text(surface, f"{total.passed} of {total.levels} levels passed", LEFT, y, size=11, bold=True)
         x = LEFT + 8.0
         if any(entry.pars for entry in levels):
@@ -316,8 +316,7 @@ class EpisodeGrid(ThumbnailScreen):
 
     def _look_of(self, number: int) -> str:
         state = self._state(number)
-        passed = self.marks.keys() | self.helped.keys()
-        if all(entry.digest in passed for entry in self.pack.episodes[number].levels):
+        if all(entry.digest in self.passed for entry in self.pack.episodes[number].levels):
             return "beaten"
         return {LOCKED: "locked", CHEATED: "cheated"}.get(state, "open")
 

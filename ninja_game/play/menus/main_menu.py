@@ -103,7 +103,7 @@ class MainMenu(MenuScreen):
             ("Editor", self._opener(EditorScreen), self._lost or "Make levels of your own"),
             ("Help", self._opener(HelpScreen), "How to move, and what everything does"),
             ("Settings", self._opener(SettingsScreen), "Keys, sound, colours, comfort"),
-            ("Physics", self._opener(LabScreen), "For the curious: how ninja and walls meet, in ten moving figures"),
+            ("Physics", self._opener(LabScreen), "For the curious: how ninja and walls meet, in moving figures"),
             *in_page_or_not([], [("Quit", self.back, "Leave the game")]),
         ]
 

@@ -13,6 +13,7 @@ from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.play.app import App, Screen
 from ninja_game.play.menus.panels import CANCEL, Menu, Row
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
+from ninja_game.player.marks import NO_MEDAL
 from ninja_game.player.progress import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
 from ninja_game.player.settings import BY_COLUMN, GHOSTS
 from ninja_game.ui.canvas import WIDTH
@@ -221,7 +222,6 @@ RACED = [("your best", "best"), ("next medal", "next"), *((medal, medal) for med
 RATES = [("match display", 0), ("30", 30), ("60", 60), ("120", 120), ("144", 144), ("240", 240)]
 COLOUR_NAMES = ("default", "pink", "olive", "teal", "mauve", "maroon", "white", "gold", "slate", "silver")
 PRACTICE_HINT = "No clock; save, rewind, slow motion; no records"
-ASSISTED_HINT = "with help: no medal"
 LEFT, TOP, STEP, HEIGHT_OF_ROW = 216, 72, 42, 32
 WIDTH_OF_ROW = WIDTH - 36 - LEFT - 12
 
@@ -344,9 +344,9 @@ class SettingsScreen(ThumbnailScreen):
     def _accessibility(self) -> list[Widget]:
         return [
             self._choice(0, "Text size", "text_size", list(TEXT_SIZES.items())),
-            self._slider(1, "Game speed", "game_speed", (50, 100, 5), f"Slower is easier; {ASSISTED_HINT}"),
+            self._slider(1, "Game speed", "game_speed", (50, 100, 5), f"Slower is easier; {NO_MEDAL}"),
             self._choice(2, "Invincible", "invincible", SWITCH,
-                         f"Only being crushed or out of time ends a run; {ASSISTED_HINT}"),
+                         f"Only being crushed or out of time ends a run; {NO_MEDAL}"),
             self._choice(3, "Running keys", "tap_to_run", [("hold", False), ("tap", True)],
                          "Tap: a press runs on until the next press"),
             self._choice(4, "Marks for warning sounds", "sound_cues", SWITCH, "Rocket, laser, chase and turret"),

@@ -62,10 +62,9 @@ class Bindings:
             (bit, [code for code in map(scancode_named, self.keys[action]) if code]) for action, bit in MOVES
         ]
         self._move_pad = [(bit, set(self.pad[action])) for action, bit in MOVES]
-        chosen = {*self.keys["confirm"], *(name for name, meaning in MENU_KEYS.items() if meaning == "confirm")}
-        self._jump_choosing = [code for code in map(scancode_named, {*self.keys["jump"]} & chosen) if code]
-        chosen = {*self.pad["confirm"], *(name for name, meaning in MENU_PAD.items() if meaning == "confirm")}
-        self._jump_choosing_pad = {*self.pad["jump"]} & chosen
+        both = _jumps_and_chooses(self.keys, MENU_KEYS)
+        self._jump_choosing = [code for code in map(scancode_named, both) if code]
+        self._jump_choosing_pad = _jumps_and_chooses(self.pad, MENU_PAD)
 
     def poll(self) -> int:
         """Read the devices: what is held right now, 1 left + 2 right + 4 jump.
@@ -149,6 +148,12 @@ class Bindings:
         """All that can be pressed for an action: on the keyboard, on a gamepad as most have it."""
         buttons = [name for name in self.pad[action] if not name.startswith(("hat-", "axis-", "button-"))]
         return ", ".join(map(key_label, self.keys[action])), ", ".join(map(pad_label, buttons))
+
+
+def _jumps_and_chooses(inputs: Inputs, menu: Mapping[str, str]) -> set[str]:
+    """The names of inputs that jump and also choose, in play or in a menu."""
+    chosen = {*inputs["confirm"], *(name for name, meaning in menu.items() if meaning == "confirm")}
+    return {*inputs["jump"]} & chosen
 
 
 class Action(NamedTuple):
