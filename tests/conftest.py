@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import signal
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -39,6 +41,30 @@ COSTLY = ("chromium", "site", "screens", "warm_start")
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Let one worker do the tests that share what is costly: the first ones, since others take the last from it."""
     items.sort(key=lambda item: [name not in getattr(item, "fixturenames", ()) for name in COSTLY])
+
+
+CRASHED: list[str] = []
+"""What is to be said of workers that a library ended."""
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_handlecrashitem(crashitem: str, report: pytest.TestReport) -> None:
+    """Run the test in which a worker died once more, alone: only if it fails there too it has failed."""
+    worker = report.node
+    words = [sys.executable, "-m", "pytest", "-p", "no:xdist", "-q", crashitem]
+    again = subprocess.run(words, cwd=worker.config.rootpath, capture_output=True, text=True, check=False)
+    code = worker.gateway._io.popen.poll()
+    told = "passed" if again.returncode == 0 else f"did NOT pass:\n{again.stdout}{again.stderr}"
+    CRASHED.append(f"{report.longrepr} (exit code {code}). Alone it {told}")
+    if again.returncode == 0:
+        report.outcome, report.longrepr = "passed", None
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Loudly: a crash is a fault of some test before, or of a library, also where everything passes."""
+    if CRASHED:
+        terminalreporter.section("WORKERS CRASHED: look for the fault, Python's traces of it stand above", red=True)
+        terminalreporter.write("\n".join(CRASHED) + "\n")
 
 
 @pytest.fixture

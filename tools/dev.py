@@ -67,7 +67,9 @@ def program(name: str) -> str:
 
 def run(*words: str) -> int:
     """Exit code of a program of the environment. An interrupt reaches it too, and it ends as it does."""
-    process = subprocess.Popen([program(words[0]), *words[1:]], cwd=ROOT)
+    # What is said of a worker that crashed stands beside its test.
+    errors = subprocess.STDOUT if "pytest" in words else None
+    process = subprocess.Popen([program(words[0]), *words[1:]], cwd=ROOT, stderr=errors)
     while True:
         try:
             code = process.wait()

@@ -80,7 +80,6 @@ def run_app(
                 _save(app, Path(screenshot))
         finally:
             app.player.close()
-            app.audio_output.close()
             pygame.quit()
     except pygame.error as error:
         raise NinjaGameError(f"the window cannot be opened: {error}") from None

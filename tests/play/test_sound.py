@@ -127,7 +127,7 @@ def test_no_sound_device_is_no_error(folder: Path, monkeypatch: pytest.MonkeyPat
     def no_device(*_: object) -> None:
         raise pygame.error("no device")
 
-    pygame.mixer.quit()
+    pygame.quit()
     monkeypatch.setattr(pygame.mixer, "init", no_device)
     sound = AudioPlayer(folder)
     assert not sound.works
@@ -140,8 +140,8 @@ def test_no_sound_device_is_no_error(folder: Path, monkeypatch: pytest.MonkeyPat
     sound.quiet()
 
 
-def test_nothing_is_read_once_it_is_closed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A thread that still reads while the device is closed ends the whole program."""
+def test_nothing_is_read_once_the_device_is_closed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A thread that still reads then spoils the memory, and any later test ends the whole program."""
     read = list[Path]()
 
     def slow(file: Path) -> None:
@@ -155,7 +155,7 @@ def test_nothing_is_read_once_it_is_closed(tmp_path: Path, monkeypatch: pytest.M
     monkeypatch.setattr(pygame.mixer, "Sound", slow)
     sound = AudioPlayer(tmp_path, music_volume=LOUDEST)
     sound.music("menu", 1000)
-    sound.close()
+    pygame.quit()
     before = len(read)
     sleep(0.1)
     assert len(read) == before

@@ -17,6 +17,7 @@ from ninja_game.play.main import main
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.window import Window, fitting_size
 from ninja_game.player.settings import Settings
+from ninja_game.ui.audio.player import AudioOutput
 from ninja_game.ui.canvas import Canvas
 from tests.support.scripted import frames, scripted_app
 
@@ -160,7 +161,7 @@ def test_the_first_size_is_a_multiple_of_half_the_stage(
 def test_the_window_opens_as_large_as_it_was(tmp_path: Path) -> None:
     def closed(size: tuple[int, int] | None, made: tuple[int, int] | None) -> tuple[int, int]:
         """Open the game, make the window so large, close it; the size that it had at first."""
-        app = build_app(tmp_path, size=size)
+        app = build_app(tmp_path, size=size, audio_output=AudioOutput())
         first: tuple[int, int] = app.surface.get_size()
         app.push(MainMenu(app))
         if made:

@@ -18,6 +18,7 @@ from ninja_game.play.menus.panels import FormPanel
 from ninja_game.play.menus.settings import PAGES, SettingsScreen
 from ninja_game.player.player_data import PlayerData
 from ninja_game.tas_editor.opening import open_tas_editor
+from ninja_game.ui.audio.player import AudioOutput
 from ninja_game.ui.input.bindings import Bindings
 from ninja_game.ui.input.keys import SCANCODES
 from ninja_game.ui.theme import Area
@@ -44,7 +45,9 @@ class MenuDriver:
     def __init__(self, folder: Path, size: tuple[int, int] = (792, 600)) -> None:
         self.keys = ScriptedKeys()
         self.keys.script = []
-        self.app = build_app(folder, size=size, controls=self.keys, tas_editor=open_tas_editor)
+        self.app = build_app(
+            folder, size=size, controls=self.keys, audio_output=AudioOutput(), tas_editor=open_tas_editor
+        )
         self.app.push(MainMenu(self.app))
         self.frames(2)
 

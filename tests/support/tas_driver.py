@@ -12,6 +12,7 @@ from ninja_game.play.app import build_app
 from ninja_game.simulation import Simulation
 from ninja_game.tas.files import open_run
 from ninja_game.tas_editor.screen import TasScreen
+from ninja_game.ui.audio.player import AudioOutput
 from tests.support.menu_driver import MenuDriver, ScriptedKeys
 
 
@@ -21,7 +22,7 @@ class TasDriver(MenuDriver):
     def __init__(self, folder: Path, run: Path, size: tuple[int, int] = (792, 600)) -> None:
         self.keys = ScriptedKeys()
         self.keys.script = []
-        self.app = build_app(folder, size=size, controls=self.keys)
+        self.app = build_app(folder, size=size, controls=self.keys, audio_output=AudioOutput())
         self.screen = TasScreen(self.app, open_run(run))
         self.editor = self.screen.editor
         self.session = self.screen.session

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import sysconfig
@@ -151,3 +152,25 @@ def test_signals_and_exit_codes_are_those_of_the_command() -> None:
     for code, expected in (("import sys; sys.exit(3)", 3), ("import os; os.kill(os.getpid(), 15)", -15)):
         done = subprocess.run([sys.executable, "-c", program.replace("CODE", repr(code))], cwd=ROOT, check=False)
         assert done.returncode == expected
+
+
+def test_a_test_whose_worker_crashed_is_run_again_alone_and_named(tmp_path: Path) -> None:
+    hooks = "CRASHED, pytest_handlecrashitem, pytest_terminal_summary"
+    (tmp_path / "conftest.py").write_text(f"from tests.conftest import {hooks}\n", "utf-8")
+    (tmp_path / "pytest.ini").write_text("[pytest]\n", "utf-8")
+    (tmp_path / "test_crash.py").write_text(
+        "import os\n"
+        "def test_dies_beside_others(): 'PYTEST_XDIST_WORKER' in os.environ and os._exit(9)\n"
+        "def test_dies(): os._exit(8)\n"
+        "def test_fails(): assert False\n",
+        "utf-8",
+    )
+    words = [sys.executable, "-m", "pytest", "-n", "1", "-p", "no:cacheprovider"]
+    alone = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")}
+    alone["PYTHONPATH"] = str(ROOT)
+    ended = subprocess.run(words, cwd=tmp_path, env=alone, capture_output=True, text=True, check=False)
+    assert ended.returncode == 1
+    told = ended.stdout[ended.stdout.index("WORKERS CRASHED") :]
+    assert "::test_dies_beside_others' (exit code 9). Alone it passed" in told
+    assert "::test_dies' (exit code 8). Alone it did NOT pass" in told
+    assert "2 failed, 1 passed" in told

@@ -11,6 +11,7 @@ import pytest
 from numpy.typing import NDArray
 
 from ninja_game.play.app import App, build_app
+from ninja_game.ui.audio.player import AudioOutput
 from ninja_game.ui.theme import PALETTES
 from tests.support.page_scenes import Scene, scenes, show_scene
 from tests.support.web_page import BUSY, SCENES, SIZE, run_in
@@ -48,7 +49,7 @@ PIXELS = """
 @pytest.fixture(scope="module")
 def app(tmp_path_factory: pytest.TempPathFactory) -> Any:
     """The game here, without a display."""
-    app = build_app(tmp_path_factory.mktemp("player"), size=SIZE)
+    app = build_app(tmp_path_factory.mktemp("player"), size=SIZE, audio_output=AudioOutput())
     yield app
     app.player.close()
 

@@ -52,9 +52,6 @@ class AudioOutput:
     def quiet(self) -> None:
         """End all sounds but the music, which becomes calm."""
 
-    def close(self) -> None:
-        """Read nothing more. Before the device is closed: a thread that still reads then would crash the program."""
-
 
 class AudioPlayer(AudioOutput):
     """Plays what happens. Volumes: 0 to 99; ``volume`` is of everything. Without a sound device it is silent.
@@ -87,6 +84,9 @@ class AudioPlayer(AudioOutput):
         self._corpse_at = 0.0
         self._closed = False
         self.works = _open_mixer()
+        if self.works:
+            # Reading while the device is closed spoils the memory of the whole program, which then dies anywhere.
+            pygame.register_quit(self.close)
         self._reader = run_in_background(self._read_all, lambda _: None) if self.works else None
 
     # --- what is heard ---
@@ -131,6 +131,7 @@ class AudioPlayer(AudioOutput):
                     pygame.mixer.Channel(number).stop()
 
     def close(self) -> None:
+        """Read nothing more. Done by ``pygame.quit`` and at the program's end, before the device is closed."""
         self._closed = True
         self._music.close()
         if self._reader:

@@ -8,6 +8,7 @@ import pygame
 import pytest
 
 from ninja_game.play.app import build_app
+from ninja_game.ui.audio.player import AudioOutput
 from ninja_game.ui.input.bindings import ACTIONS, MENU_KEYS, Bindings
 from ninja_game.ui.input.gamepad import FULL_AXIS, Gamepads, pad_label
 from ninja_game.ui.input.keys import SCANCODES, key_label, key_name, learn_label, scancode_named
@@ -45,7 +46,7 @@ def test_pads_that_are_there_at_the_start_are_opened(monkeypatch: pytest.MonkeyP
 
 def test_keys_that_there_are_not_leave_the_defaults_and_are_named(tmp_path: Path) -> None:
     (tmp_path / "settings.toml").write_text('[keys]\njump = ["scancode-512", "scancode-999"]\nleft = ["odd", "q"]\n')
-    app = build_app(tmp_path)
+    app = build_app(tmp_path, audio_output=AudioOutput())
     assert app.controls.keys["jump"] == ACTIONS["jump"].keys
     assert app.controls.keys["left"] == ("q",)
     assert app.controls.poll() == 0

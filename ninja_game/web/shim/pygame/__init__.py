@@ -17,7 +17,7 @@ from .rect import Rect
 from .surface import BLEND_PREMULTIPLIED, BLEND_RGBA_MULT, BLEND_RGBA_SUB, SRCALPHA, Surface
 
 globals().update(constants.KEY_CONSTANTS)
-init = quit = display.init
+init = quit = register_quit = display.init
 
 
 def __getattr__(name: str) -> Any:
