@@ -186,8 +186,7 @@ class EnvWorlds:
         }  # fmt: skip
         self.reset()
 
-    def __copy__(self) -> EnvWorlds:
-        return deepcopy(self)
+    __copy__ = deepcopy
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _made_with, (self._settings,), (self.save(), self._levels, self._facts, self.rewards)

@@ -240,7 +240,7 @@ def observe_pixels(
     """Draw the pictures of some worlds: the tiles, copied; the objects in the order of their slots; the ninja.
 
     Without a view, tiles and objects that stay where they are lie in ``layers``, drawn again after a change. Over them
-    come those that move; where one may overlap what is drawn later, all of that place is drawn in order instead, at last.
+    come those that move; where one may overlap what is drawn later, all of that place is drawn in order, at last.
     With a view, whole pixels move.
     """
     for k in range(first, last):
