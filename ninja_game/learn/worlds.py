@@ -235,8 +235,8 @@ class EnvWorlds:
         return ticks
 
     def _write(self, which: Indices, first: int, last: int) -> int:
-        for write in self._writers:
-            write(*self._places, which, first, last)
+        for kernel, arguments in self._writers:
+            kernel(*self._places, which, first, last, *arguments)
         return 0
 
     def _observe(self, which: Indices) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import ceil, sqrt
 from typing import Any, ClassVar
@@ -163,10 +162,6 @@ class Pixels(Part):
         shape = (self.height, self.width)
         return Box(0.0, 1.0, shape, np.float32) if self.normalised else Box(0, 255, shape, np.uint8)
 
-    @property
-    def kernel(self) -> Callable[..., None]:
-        return observe_pixels
-
     def tables(self, setting: Setting) -> tuple[Any, ...]:
         """Pictures of the tiles with a margin, and their size; the view; the objects, how large and how bright."""
         pixel_x = (self.view or WORLD_WIDTH) / self.width
@@ -199,6 +194,7 @@ class Pixels(Part):
         sizes[kinds.DOOR] = HALF, False
         layers = np.zeros((1, 1) if self.view else (setting.count, self.length), self.box.dtype)
         return (
+            observe_pixels,
             setting.values(picture, self.box.dtype),
             across + 2 * margins[1][0], down + 2 * margins[0][0], self.width, self.height, int(self.view is not None),
             pixel_x, pixel_y, NINJA_SHADE * factor, int(not self.normalised), setting.changed, layers,
