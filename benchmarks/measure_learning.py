@@ -5,7 +5,7 @@ same worlds through the same ticks, in turn. On two threads by the clock: leave 
 
     python3 -m benchmarks.measure_learning docs/pictures/learning
 
-It takes about five minutes, writes the table, and the chart into the folder, if one is given.
+It takes some minutes, and writes the table; and the chart into the folder, if one is given.
 """
 
 from __future__ import annotations
