@@ -1,7 +1,11 @@
 """What the interface of Gymnasium costs: ticks/s of environments against the bare kernel and a plain wrapper.
 
-All of it on one thread, by the processor's time, in our own levels with random keys. Environments and the bare kernel
-run the same worlds through the same ticks, in turn.
+On one thread by the processor's time, in our own levels with random keys; environments and the bare kernel run the
+same worlds through the same ticks, in turn. On two threads by the clock: leave the machine alone meanwhile.
+
+    python3 -m benchmarks.measure_learning docs/pictures/learning
+
+It takes some minutes, and writes the table; and the chart into the folder, if one is given.
 """
 
 from __future__ import annotations
@@ -63,9 +67,12 @@ def random_actions(steps: int, count: int) -> NDArray[np.int64]:
     return np.repeat(drawn, 4, axis=0)[:steps]
 
 
-def vector_speed(count: int, parts: Sequence[str], *, level: str = "set", rounds: int = ROUNDS) -> Speed:
-    """The speed of a vector environment of ``count`` worlds that shows ``parts``."""
-    envs = NinjaVectorEnv(count, level, observation=parts, memory="compiled", threads=1, copy=False)
+def vector_speed(
+    count: int, parts: Sequence[str], *, level: str = "set", rounds: int = ROUNDS, threads: int = 1
+) -> Speed:
+    """The speed of a vector environment of ``count`` worlds that shows ``parts``; the kernel has one thread."""
+    envs = NinjaVectorEnv(count, level, observation=parts, memory="compiled", threads=threads, copy=False)
+    clock = time.process_time if threads == 1 else time.perf_counter
     actions = random_actions(max(STEPS, 4096 // count), count)
     speeds = []
     for _ in range(rounds + 1):
@@ -74,9 +81,9 @@ def vector_speed(count: int, parts: Sequence[str], *, level: str = "set", rounds
         ended, levels, ticks, seconds = [], [], 0, 0.0
         for row in actions:
             ended.append(envs.worlds.ended())
-            start = time.process_time()
+            start = clock()
             envs.step(row)
-            seconds += time.process_time() - start
+            seconds += clock() - start
             levels.append(envs.worlds.levels_now[ended[-1]])
         kernel = Replay(envs.worlds.levels, begun)
         ticks = kernel.run(actions, ended, levels)
@@ -187,25 +194,33 @@ def against_worlds(only: str = "") -> Chart:
     return chart
 
 
+def _row(what: str, ticks: float, share: str = "", two_threads: float = 0.0) -> str:
+    two = f"{two_threads / FRAME_SKIP:,.0f}" if two_threads else ""
+    return f"| {what} | {ticks:,.0f} | {ticks / FRAME_SKIP:,.0f} | {share} | {two} |"
+
+
 def table() -> str:
     """The table of all speeds, Markdown, with what it was measured on."""
     levels = level_source("set").levels[::5]
-    rows = [("a plain wrapper round `Simulation` (compiled), four numbers", single_speed(PlainWrapper, levels), "")]
-    rows.append(("`NinjaEnv`, state", single_speed(single_env, levels), ""))
+    single = {
+        "a plain wrapper round `Simulation` (compiled), four numbers": PlainWrapper,
+        "`NinjaEnv`, state": single_env,
+    }
+    lines = [_row(what, single_speed(make, levels)) for what, make in single.items()]
     for name, parts in OBSERVATIONS.items():
-        speed = vector_speed(1024, parts)
-        rows.append((f"vector, {name}", speed.environment, f"{speed.share:.2f}"))
+        one, two = (vector_speed(1024, parts, threads=threads) for threads in (1, 2))
+        lines.append(_row(f"vector, {name}", one.environment, f"{one.share:.2f}", two.environment))
     load = f"{os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else "unknown"
-    lines = "\n".join(f"| {what} | {ticks:,.0f} | {ticks / FRAME_SKIP:,.0f} | {share} |" for what, ticks, share in rows)
+    rows = "\n".join(lines)
     return f"""# Speed of the environments
 
 Written by `python3 -m benchmarks.measure_learning`; [learning.md](../../docs/learning.md#speed) says what it measures.
 {platform.machine()}, {cores()} cores, load in the last minute {load}: below 1 the machine is quiet; a busy one lowers
-the speeds, less so the shares.
+the speeds, less so the shares. Two threads are measured by the clock, all else by the processor's time.
 
-| what | ticks/s | steps/s | share of the bare kernel |
-|---|---|---|---|
-{lines}
+| what | ticks/s | steps/s | share of the bare kernel | steps/s, two threads |
+|---|---|---|---|---|
+{rows}
 
 {MANY:,} worlds of our levels take {memory_of(MANY) / 2**20:,.0f} MiB.
 """

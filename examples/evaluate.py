@@ -10,15 +10,58 @@ plays the run that it found, once in each level.
 
 from __future__ import annotations
 
+import csv
+import io
+import json
 from collections.abc import Sequence
+from dataclasses import asdict, astuple, fields
+from math import isnan
 from pathlib import Path
 
 import click
 
 from examples.agents import load_agent
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.shown_text import shown_text
 from ninja_game.files.writing import write_atomically
-from ninja_game.learn.evaluation import evaluate
+from ninja_game.learn.evaluation import Evaluation, LevelResult, evaluate
+
+
+def as_text(table: Evaluation) -> str:
+    """The table for people, one line per level, and a last one over all."""
+    lines = [f"{'level':<26} {'passed':>11} {'dead':>6} {'late':>6} {'ticks':>7} {'gold':>6} {'reward':>8}"]
+    for each in table.results:
+        ticks = "-" if isnan(each.ticks) else f"{each.ticks:.0f}"
+        passed = f"{each.passed}/{each.episodes}"
+        ends = f"{passed:>11} {each.dead:>6} {each.late:>6}"
+        lines.append(f"{shown_text(each.level):<26.26} {ends} {ticks:>7} {each.gold:>6.1f} {each.reward:>8.2f}")
+    passed, episodes = (sum(getattr(each, name) for each in table.results) for name in ("passed", "episodes"))
+    often = f"{table.often_passed()} of {len(table.results)} levels in 90 % of their episodes or more"
+    who, rate = shown_text(table.agent), passed / episodes
+    lines.append(f"{who}: {passed} of {episodes} episodes passed ({rate:.1%}), {often}")
+    return "\n".join(lines)
+
+
+def as_json(table: Evaluation) -> str:
+    """Everything as one JSON object; what is not a number is null."""
+    rows = [{**asdict(each), "rate": each.rate} for each in table.results]
+    for row in rows:
+        row["ticks"] = None if isnan(row["ticks"]) else row["ticks"]
+    return json.dumps({**asdict(table), "results": rows, "often_passed": table.often_passed()}, indent=1)
+
+
+def as_csv(table: Evaluation) -> str:
+    """The table for spreadsheets, one row per level."""
+    text = io.StringIO()
+    rows = csv.writer(text, lineterminator="\n")
+    rows.writerow(["agent", *(field.name for field in fields(LevelResult)), "rate"])
+    for each in table.results:
+        row = [table.agent, *astuple(each), each.rate]
+        rows.writerow(["" if isinstance(value, float) and isnan(value) else value for value in row])
+    return text.getvalue()
+
+
+FORMS = {"text": as_text, "json": as_json, "csv": as_csv}
 
 
 @click.command(help=__doc__.replace("\n    python3", "\n\b\n    python3", 1))
@@ -69,7 +112,7 @@ def main(
             load_agent(agent_name), list(levels), name=agent_name, episodes=episodes, seed=seed, repeat=repeat,
             longest_wait=wait, time_limit=time_limit, memory=memory,
         )  # fmt: skip
-        text = {"json": table.json, "csv": table.csv}.get(form or "", table.text)().rstrip("\n")
+        text = FORMS[form or "text"](table).rstrip("\n")
         if output is not None:
             write_atomically(output, text + "\n")
     except (NinjaGameError, OSError) as error:

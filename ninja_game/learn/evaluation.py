@@ -6,18 +6,13 @@ planner gives the actions for a level, and is believed only what an environment 
 
 from __future__ import annotations
 
-import csv
-import io
-import json
 from collections.abc import Iterator
-from dataclasses import asdict, astuple, dataclass, fields
-from math import isnan
+from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.learn.actions import DISCRETE_KEYS
 from ninja_game.learn.levels import Origin, level_source
@@ -29,12 +24,16 @@ from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_EXIT
 Actions: TypeAlias = Iterator[NDArray[np.integer]]
 
 
-class Policy(Protocol):
-    """An agent that looks and acts. ``settings``: the keywords of the environment that it is made for."""
+class Agent(Protocol):
+    """``settings``: the keywords of the environment that an agent is made for."""
 
     @property
     def settings(self) -> dict[str, Any]:
         """Keywords of ``NinjaEnv``, but level and body; the actions are discrete."""
+
+
+class Policy(Agent, Protocol):
+    """An agent that looks and acts."""
 
     def reset(self, count: int, seed: int) -> None:
         """Begin with this many worlds."""
@@ -44,12 +43,8 @@ class Policy(Protocol):
 
 
 @runtime_checkable
-class Planner(Protocol):
-    """An agent that finds all actions for a level before it plays. ``settings``: as of a ``Policy``."""
-
-    @property
-    def settings(self) -> dict[str, Any]:
-        """Keywords of ``NinjaEnv``, but level and body; the actions are discrete."""
+class Planner(Agent, Protocol):
+    """An agent that finds all actions for a level before it plays."""
 
     def plan(self, level: Level, seed: int) -> NDArray[np.integer]:
         """The actions, one a step."""
@@ -92,37 +87,6 @@ class Evaluation:
     def often_passed(self, rate: float = 0.9) -> int:
         """How many levels were passed in that share of their episodes or more."""
         return sum(each.rate >= rate for each in self.results)
-
-    def text(self) -> str:
-        """The table for people, one line per level, and a last one over all."""
-        lines = [f"{'level':<26} {'passed':>11} {'dead':>6} {'late':>6} {'ticks':>7} {'gold':>6} {'reward':>8}"]
-        for each in self.results:
-            ticks = "-" if isnan(each.ticks) else f"{each.ticks:.0f}"
-            passed = f"{each.passed}/{each.episodes}"
-            ends = f"{passed:>11} {each.dead:>6} {each.late:>6}"
-            lines.append(f"{shown_text(each.level):<26.26} {ends} {ticks:>7} {each.gold:>6.1f} {each.reward:>8.2f}")
-        passed, episodes = (sum(getattr(each, name) for each in self.results) for name in ("passed", "episodes"))
-        often = f"{self.often_passed()} of {len(self.results)} levels in 90 % of their episodes or more"
-        who, rate = shown_text(self.agent), passed / episodes
-        lines.append(f"{who}: {passed} of {episodes} episodes passed ({rate:.1%}), {often}")
-        return "\n".join(lines)
-
-    def json(self) -> str:
-        """Everything as one JSON object; what is not a number is null."""
-        rows = [{**asdict(each), "rate": each.rate} for each in self.results]
-        for row in rows:
-            row["ticks"] = None if isnan(row["ticks"]) else row["ticks"]
-        return json.dumps({**asdict(self), "results": rows, "often_passed": self.often_passed()}, indent=1)
-
-    def csv(self) -> str:
-        """The table for spreadsheets, one row per level."""
-        text = io.StringIO()
-        rows = csv.writer(text, lineterminator="\n")
-        rows.writerow(["agent", *(field.name for field in fields(LevelResult)), "rate"])
-        for each in self.results:
-            row = [self.agent, *astuple(each), each.rate]
-            rows.writerow(["" if isinstance(value, float) and isnan(value) else value for value in row])
-        return text.getvalue()
 
 
 def evaluate(

@@ -137,8 +137,7 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
         """A copy makes its own picture."""
         return vars(self) | {"_picture": None}
 
-    def __copy__(self) -> NinjaEnv:
-        return deepcopy(self)
+    __copy__ = deepcopy
 
     def _observation(self) -> Any:
         observed = self.worlds.observations

@@ -164,8 +164,7 @@ class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
         """A copy makes its own picture."""
         return vars(self) | {"_picture": None}
 
-    def __copy__(self) -> NinjaVectorEnv:
-        return deepcopy(self)
+    __copy__ = deepcopy
 
     def _final(self, ended: NDArray[np.intp], mask: NDArray[np.bool_]) -> Infos:
         """What the worlds that have ended showed last."""

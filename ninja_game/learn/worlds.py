@@ -186,8 +186,7 @@ class EnvWorlds:
         }  # fmt: skip
         self.reset()
 
-    def __copy__(self) -> EnvWorlds:
-        return deepcopy(self)
+    __copy__ = deepcopy
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _made_with, (self._settings,), (self.save(), self._levels, self._facts, self.rewards)
@@ -236,8 +235,8 @@ class EnvWorlds:
         return ticks
 
     def _write(self, which: Indices, first: int, last: int) -> int:
-        for write in self._writers:
-            write(*self._places, which, first, last)
+        for kernel, arguments in self._writers:
+            kernel(*self._places, which, first, last, *arguments)
         return 0
 
     def _observe(self, which: Indices) -> None:

@@ -34,9 +34,26 @@ def test_speeds_and_memory_are_measured(monkeypatch: pytest.MonkeyPatch) -> None
     monkeypatch.setattr(measured, "STEPS", 4)
     speed = measured.vector_speed(2, ["state"], level="00-0-first-steps", rounds=1)
     assert min(speed) > 0
+    assert measured.vector_speed(2, ["state"], level="00-0-first-steps", rounds=1, threads=2).environment > 0
     levels = NinjaVectorEnv(1).worlds.levels
     assert measured.single_speed(measured.PlainWrapper, levels, steps=3) > 0
     assert measured.single_speed(measured.single_env, levels, steps=3) > 0
+
+
+def test_the_table_has_speeds_of_one_thread_and_of_two(monkeypatch: pytest.MonkeyPatch) -> None:
+    def speed(_count: int, _parts: list[str], *, threads: int) -> measured.Speed:
+        return measured.Speed(4000.0 * threads, 8000.0, 0.5)
+
+    monkeypatch.setattr(measured, "vector_speed", speed)
+    monkeypatch.setattr(measured, "single_speed", lambda *_: 400.0)
+    monkeypatch.setattr(measured, "memory_of", lambda _: 2**20)
+    rows = [line for line in measured.table().splitlines() if line.startswith("|")]
+    assert rows[2:5] == [
+        "| a plain wrapper round `Simulation` (compiled), four numbers | 400 | 100 |  |  |",
+        "| `NinjaEnv`, state | 400 | 100 |  |  |",
+        "| vector, state | 4,000 | 1,000 | 0.50 | 2,000 |",
+    ]
+    assert {row.count("|") for row in rows} == {6}
 
 
 def test_ten_thousand_worlds_take_less_than_a_gibibyte() -> None:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import json
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
 
-from examples.evaluate import main
+from examples.evaluate import as_csv, as_json, as_text, main
+from ninja_game.learn.evaluation import Evaluation, LevelResult
 
 
 def test_the_command_writes_the_table(tmp_path: Path) -> None:
@@ -29,3 +32,20 @@ def test_the_command_says_what_is_wrong(wrong: list[str]) -> None:
     result = CliRunner().invoke(main, wrong)
     assert (result.exit_code > 0, result.stdout) == (True, "")
     assert isinstance(result.exception, SystemExit)
+
+
+def test_tables_say_the_same_in_every_form() -> None:
+    rows = [LevelResult("a", 10, 9, 1, 0, 310.0, 1.5, 0.9), LevelResult("b", 10, 0, 4, 6, float("nan"), 0.0, -0.4)]
+    made = Evaluation("me", "0" * 64, 1, 0.25, 7, 2000, rows)
+    text = as_text(made).splitlines()
+    assert text[1].split() == ["a", "9/10", "1", "0", "310", "1.5", "0.90"]
+    assert text[2].split() == ["b", "0/10", "4", "6", "-", "0.0", "-0.40"]
+    assert text[3].startswith("me: 9 of 20 episodes passed (45.0%), 1 of 2 levels in 90 %")
+    found = json.loads(as_json(made))
+    assert (found["agent"], found["seed"], found["often_passed"]) == ("me", 1, 1)
+    assert [row["ticks"] for row in found["results"]] == [310.0, None]
+    read = list(csv.DictReader(io.StringIO(as_csv(made))))
+    assert [(row["level"], row["passed"], row["ticks"], row["rate"]) for row in read] == [
+        ("a", "9", "310.0", "0.9"),
+        ("b", "0", "", "0.0"),
+    ]

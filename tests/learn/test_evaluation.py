@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
-import json
 from typing import Any, ClassVar
 
 import numpy as np
@@ -14,7 +11,7 @@ from numpy.typing import NDArray
 from ninja_game import load_replays
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.learn.evaluation import Evaluation, LevelResult, evaluate
+from ninja_game.learn.evaluation import Evaluation, evaluate
 from ninja_game.learn.levels import LevelSource
 from ninja_game.sim.level import Level
 
@@ -110,20 +107,3 @@ def test_a_certificate_is_a_plan() -> None:
 
     result = evaluate(Certified(0), recording.level, memory="plain").results[0]
     assert (result.passed, result.ticks) == (1, recording.ticks)
-
-
-def test_tables_say_the_same_in_every_form() -> None:
-    rows = [LevelResult("a", 10, 9, 1, 0, 310.0, 1.5, 0.9), LevelResult("b", 10, 0, 4, 6, float("nan"), 0.0, -0.4)]
-    made = Evaluation("me", "0" * 64, 1, 0.25, 7, 2000, rows)
-    text = made.text().splitlines()
-    assert text[1].split() == ["a", "9/10", "1", "0", "310", "1.5", "0.90"]
-    assert text[2].split() == ["b", "0/10", "4", "6", "-", "0.0", "-0.40"]
-    assert text[3].startswith("me: 9 of 20 episodes passed (45.0%), 1 of 2 levels in 90 %")
-    found = json.loads(made.json())
-    assert (found["agent"], found["seed"], found["often_passed"]) == ("me", 1, 1)
-    assert [row["ticks"] for row in found["results"]] == [310.0, None]
-    read = list(csv.DictReader(io.StringIO(made.csv())))
-    assert [(row["level"], row["passed"], row["ticks"], row["rate"]) for row in read] == [
-        ("a", "9", "310.0", "0.9"),
-        ("b", "0", "", "0.0"),
-    ]

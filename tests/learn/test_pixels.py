@@ -23,7 +23,7 @@ SHAPES = [(66, 50), (100, 6), (6, 90)]
 def whole_picture(worlds: EnvWorlds, index: int) -> Any:
     """A world's picture, all of it drawn in the order of the slots."""
     names = list(signature(observe_pixels).parameters)[8:]
-    t = dict(zip(names, worlds._writers[0]._arguments[2:], strict=True))
+    t = dict(zip(names, worlds._writers[0][1][2:], strict=True))
     level, w = int(worlds.levels_now[index]), worlds.world(index)
     width, height = t["width"], t["height"]
     size = width * height

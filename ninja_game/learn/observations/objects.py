@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -146,16 +145,13 @@ class NearObjects(Part):
         divisors = divisors if self.normalised else np.ones(len(OBJECT_COLUMNS))
         return (lowest / divisors).astype(np.float32), (highest / divisors).astype(np.float32), divisors
 
-    @property
-    def kernel(self) -> Callable[..., None]:
-        return observe_objects
-
     def tables(self, setting: Setting) -> tuple[Any, ...]:
         """How many; factors and limits; each level's objects, their columns; room for the nearest of each world."""
         low, high, divisors = self._range()
         columns = {kind.number: place for place, kind in enumerate(OBSERVED) if kind.name in self.kinds}
         room = [[0] * (setting.count * self.count)] * 2
         return (
+            observe_objects,
             self.count,
             *(setting.table(values, np.float64) for values in (1.0 / divisors, low, high)),
             *setting.rows(lambda number: [(o.slot, columns[o.kind]) for o in setting.objects(number, *columns)], 2),
@@ -232,10 +228,6 @@ class LevelPlanes(Part):
         shape = (len(PLANES), ROWS, COLUMNS)
         return Box(0.0, 1.0, shape, np.float32) if self.normalised else Box(0, HIGHEST, shape, np.uint8)
 
-    @property
-    def kernel(self) -> Callable[..., None]:
-        return observe_planes
-
     def tables(self, setting: Setting) -> tuple[Any, ...]:
         """The solid plane of each level; each level's objects and their planes; the values."""
 
@@ -248,6 +240,7 @@ class LevelPlanes(Part):
         values: Any = np.float64 if self.normalised else np.int64
         planes = {kind.number: 1 + place for place, kind in enumerate(OBSERVED)}
         return (
+            observe_planes,
             setting.values(shades, values),
             *setting.rows(lambda number: [(o.slot, planes[o.kind]) for o in setting.objects(number, *planes)], 2),
             HIGHEST * factor,

@@ -12,7 +12,6 @@ from typing import Any, TypeAlias
 
 import numpy as np
 from gymnasium.spaces import Box, Dict, Space
-from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.observations.objects import LevelPlanes, NearObjects
@@ -28,6 +27,7 @@ PARTS: dict[str, type[Part]] = {
 """The parts, by name."""
 
 PartLike: TypeAlias = Part | str
+Writer: TypeAlias = tuple[Callable[..., None], tuple[Any, ...]]
 Observed: TypeAlias = Array | dict[str, Array]
 """Observations of several worlds: (worlds, …), or such an array for each part."""
 
@@ -76,25 +76,14 @@ class Observation:
         return _zeros(self.space, count)
 
     def writers(self, memory: Observed, setting: Setting) -> list[Writer]:
-        """What writes the parts into ``memory``."""
+        """What writes the parts into ``memory``: of each the kernel and the last of its arguments."""
         writers, offset = [], 0
         for part in self.parts:
             array = memory[part.name] if isinstance(memory, dict) else memory
-            writers.append(Writer(part, array.reshape(len(array), -1), offset if self.flat else 0, setting))
-            offset += part.length
+            kernel, *tables = part.tables(setting)
+            writers.append((setting.kernel(kernel), (array.reshape(len(array), -1), offset, *tables)))
+            offset += part.length if self.flat else 0
         return writers
-
-
-class Writer:
-    """One part, ready to be written."""
-
-    def __init__(self, part: Part, out: Array, offset: int, setting: Setting) -> None:
-        self._kernel: Callable[..., None] = setting.kernel(part.kernel)
-        self._arguments = (out, offset, *part.tables(setting))
-
-    def __call__(self, maps: Any, level_of: NDArray[np.intp], worlds: Any, which: Array, first: int, last: int) -> None:
-        """Write the values of the worlds ``which[first:last]``."""
-        self._kernel(maps, level_of, worlds, which, first, last, *self._arguments)
 
 
 def _zeros(space: Space[Any], count: int) -> Array:

@@ -118,17 +118,13 @@ class Part(ABC):
     def box(self) -> Box:
         """Shape, dtype and range of its values."""
 
-    @property
-    @abstractmethod
-    def kernel(self) -> Callable[..., None]:
-        """The entry point that writes it: ``kernel(maps, level_of, worlds, which, first, last, out, offset, *tables)``.
-
-        It writes the values of the worlds ``which[first:last]`` into their rows of ``out``, from column ``offset`` on.
-        """
-
     @abstractmethod
     def tables(self, setting: Setting) -> tuple[Any, ...]:
-        """The rest of the kernel's arguments: what never changes during an episode."""
+        """The entry point that writes it, then the last of its arguments: what never changes during an episode.
+
+        ``kernel(maps, level_of, worlds, which, first, last, out, offset, *tables)`` writes the values of the worlds
+        ``which[first:last]`` into their rows of ``out``, from column ``offset`` on.
+        """
 
     @property
     def length(self) -> int:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import ceil, sqrt
 from typing import Any, ClassVar
@@ -163,10 +162,6 @@ class Pixels(Part):
         shape = (self.height, self.width)
         return Box(0.0, 1.0, shape, np.float32) if self.normalised else Box(0, 255, shape, np.uint8)
 
-    @property
-    def kernel(self) -> Callable[..., None]:
-        return observe_pixels
-
     def tables(self, setting: Setting) -> tuple[Any, ...]:
         """Pictures of the tiles with a margin, and their size; the view; the objects, how large and how bright."""
         pixel_x = (self.view or WORLD_WIDTH) / self.width
@@ -199,6 +194,7 @@ class Pixels(Part):
         sizes[kinds.DOOR] = HALF, False
         layers = np.zeros((1, 1) if self.view else (setting.count, self.length), self.box.dtype)
         return (
+            observe_pixels,
             setting.values(picture, self.box.dtype),
             across + 2 * margins[1][0], down + 2 * margins[0][0], self.width, self.height, int(self.view is not None),
             pixel_x, pixel_y, NINJA_SHADE * factor, int(not self.normalised), setting.changed, layers,
@@ -240,7 +236,7 @@ def observe_pixels(
     """Draw the pictures of some worlds: the tiles, copied; the objects in the order of their slots; the ninja.
 
     Without a view, tiles and objects that stay where they are lie in ``layers``, drawn again after a change. Over them
-    come those that move; where one of these may overlap what is drawn later, all of that place is drawn again in order.
+    come those that move; where one may overlap what is drawn later, all of that place is drawn in order, at last.
     With a view, whole pixels move.
     """
     for k in range(first, last):
@@ -271,16 +267,17 @@ def observe_pixels(
                 copy_values(layers[index], pictures[corner : corner + width * height], width * height)
                 draw_objects(w, layers, index, 0, frame, start, end, look, EVERYWHERE, False, whole)
             copy_values(out[index, offset : offset + width * height], layers[index], width * height)
-            for place in range(mover_bounds[2 * level], mover_bounds[2 * level + 1]):
-                number = start + int(movers[place])
-                o = w.objects[int(slots[number])]
-                box = boxes[number] == 1.0
-                draw_object(o, out, index, offset, frame, sizes[number], box, shades[number], whole)
-            for place in range(mover_bounds[2 * level], mover_bounds[2 * level + 1]):
-                number = start + int(movers[place])
-                o = w.objects[int(slots[number])]
-                area = area_of(o, sizes[number], 0.0)
-                if is_covered(number - start, level, later, area):
+            for again in range(2):
+                for place in range(mover_bounds[2 * level], mover_bounds[2 * level + 1]):
+                    number = start + int(movers[place])
+                    o = w.objects[int(slots[number])]
+                    area = area_of(o, sizes[number], 0.0)
+                    if is_covered(number - start, level, later, area) != (again == 1):
+                        continue
+                    if not again:
+                        box = boxes[number] == 1.0
+                        draw_object(o, out, index, offset, frame, sizes[number], box, shades[number], whole)
+                        continue
                     near = area_of(o, sizes[number], max(pixel_x, pixel_y) + 2.0 * ROUNDING)
                     first_column, last_column, first_row, last_row = pixels_of(area, frame)
                     wide = last_column + 1 - first_column
@@ -299,13 +296,18 @@ def draw_objects(
     moving: bool, whole: int,
 ) -> None:  # fmt: skip
     """Draw the objects that are there and may lie in an area, with or without those that are ``moving``."""
-    slots, sizes, boxes, shades, moves, _, _ = look
+    slots, sizes, boxes, shades, moves, xs, ys = look
+    left, right, top, bottom = area
     for number in range(first, last):
-        if moving if moves[number] else is_near(number, look, area):
+        if moving or not moves[number]:
             o = w.objects[int(slots[number])]
-            if is_there(w, o):
-                box = boxes[number] == 1.0
-                draw_object(o, out, index, offset, frame, sizes[number], box, shades[number], whole)
+            size = float(sizes[number])
+            here = (xs[number] - size, xs[number] + size, ys[number] - size, ys[number] + size)
+            if moves[number]:
+                here = area_of(o, size, 0.0)
+            overlaps = left < here[1] and here[0] < right and top < here[3] and here[2] < bottom
+            if overlaps and is_there(w, o):
+                draw_object(o, out, index, offset, frame, size, boxes[number] == 1.0, shades[number], whole)
 
 
 @fast
@@ -325,16 +327,6 @@ def area_of(o: Object, size: float, gap: float) -> tuple[float, float, float, fl
         x + clamp(dx, -FAR, 0.0) - room, x + clamp(dx, 0.0, FAR) + room,
         y + clamp(dy, -FAR, 0.0) - room, y + clamp(dy, 0.0, FAR) + room,
     )  # fmt: skip
-
-
-@fast
-def is_near(number: int, look: Any, area: Any) -> bool:
-    """Whether an object that stays where it is may lie in an area."""
-    _, sizes, _, _, _, xs, ys = look
-    left, right, top, bottom = area
-    size = float(sizes[number])
-    inside: bool = left - size < xs[number] < right + size and top - size < ys[number] < bottom + size
-    return inside
 
 
 @fast

@@ -135,10 +135,6 @@ class LocalTiles(Part):
         reach = 1.0 if self.normalised else REACH
         return Box(-reach, reach, (self.size, self.size), np.float32)
 
-    @property
-    def kernel(self) -> Callable[..., None]:
-        return observe_distances if self.form == "distance" else observe_tiles
-
     def tables(self, setting: Setting) -> tuple[Any, ...]:
         """Of each level a padded picture: distances, or tile ids; the width and height of a picture, and the size."""
         margin = self.size // 2
@@ -151,7 +147,8 @@ class LocalTiles(Part):
                 return np.pad(tiles[1 : GRID_ROWS + 1, 1 : GRID_COLUMNS + 1], margin, constant_values=FULL_TILE)
             return np.pad(of_tiles(surface_distances, setting, number, REACH), margin, constant_values=-REACH) / unit
 
-        return setting.values(picture, np.int64 if self.form == "one-hot" else np.float32), width, height, self.size
+        kernel, kind = (observe_tiles, np.int64) if self.form == "one-hot" else (observe_distances, np.float32)
+        return kernel, setting.values(picture, kind), width, height, self.size
 
 
 @entry_point
@@ -222,10 +219,6 @@ class Rays(Part):
     def box(self) -> Box:
         return Box(0.0, 1.0 if self.normalised else self.reach, (self.count,), np.float32)
 
-    @property
-    def kernel(self) -> Callable[..., None]:
-        return observe_rays
-
     def tables(self, setting: Setting) -> tuple[Any, ...]:
         """The directions, to 12 digits, so that every machine has the same; from one line of the grid to the next, px;
         the reach; the factor; the states of edges.
@@ -241,7 +234,7 @@ class Rays(Part):
 
         factor = 1.0 / self.reach if self.normalised else 1.0
         directions = [setting.table(every, np.float64) for every in (*ways, *paces)]
-        return *directions, float(self.reach), factor, setting.values(edges, np.uint8)
+        return observe_rays, *directions, float(self.reach), factor, setting.values(edges, np.uint8)
 
 
 OUTSIDE, DOORWAY = 3, 4

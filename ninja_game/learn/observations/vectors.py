@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -82,10 +81,6 @@ class StateVector(Part):
         divided = scale if self.normalised else np.ones(len(FIELDS))
         return Box((low / divided).astype(np.float32), (high / divided).astype(np.float32), dtype=np.float32)
 
-    @property
-    def kernel(self) -> Callable[..., None]:
-        return observe_state
-
     def tables(self, setting: Setting) -> tuple[Any, ...]:
         """Factors and limits of the values; slots and places of exits and gold; what is known of each world.
 
@@ -95,6 +90,7 @@ class StateVector(Part):
         box = self.box
         factors = [1.0 / scale if self.normalised else 1.0 for _, _, scale in FIELDS.values()]
         return (
+            observe_state,
             *(setting.table(values, np.float64) for values in (factors, box.low, box.high)),
             *setting.rows(lambda number: exit_rows(setting.fresh[number]), 5),
             *setting.rows(lambda number: [(o.slot, o.x, o.y) for o in setting.objects(number, GOLD)], 3),
@@ -252,13 +248,10 @@ class TimeLeft(Part):
     def box(self) -> Box:
         return Box(0.0, 1.0 if self.normalised else LONGEST, (1,), np.float32)
 
-    @property
-    def kernel(self) -> Callable[..., None]:
-        return observe_time
-
     def tables(self, setting: Setting) -> tuple[Any, ...]:
         """The time limit, the factor, the highest value."""
-        return setting.time_limit, 1.0 / setting.time_limit if self.normalised else 1.0, float(self.box.high[0])
+        factor = 1.0 / setting.time_limit if self.normalised else 1.0
+        return observe_time, setting.time_limit, factor, float(self.box.high[0])
 
 
 @entry_point
@@ -298,16 +291,12 @@ class Guide(Part):
         low = np.array([-1.0] * slopes + [0.0], np.float32)
         return Box(low, np.array([1.0] * slopes + [1.0 if self.normalised else FARTHEST], np.float32), dtype=np.float32)
 
-    @property
-    def kernel(self) -> Callable[..., None]:
-        return observe_guide
-
     def tables(self, setting: Setting) -> tuple[Any, ...]:
         """The ways to the points, px; the fields and each world's; the last value's factor and highest."""
         ways = [(radius * x, radius * y, 1.0 / radius) for radius in RADII for x, y in DIRECTIONS]
         columns = [setting.table(column, np.float64) for column in zip(*ways, strict=True)]
-        highest = float(self.box.high[-1])
-        return *columns, setting.goal.fields, setting.goal.rows, 1.0 / FAR_TICKS if self.normalised else 1.0, highest
+        factor, highest = 1.0 / FAR_TICKS if self.normalised else 1.0, float(self.box.high[-1])
+        return observe_guide, *columns, setting.goal.fields, setting.goal.rows, factor, highest
 
 
 @entry_point
