@@ -104,6 +104,7 @@ def test_the_page_knows_its_version_and_sizes(pyodide: Path, tmp_path: Path) -> 
     assert all((tmp_path / "out" / name).is_file() for name in kept["small"] + kept["large"])
     texts = [path.read_text() for path in (tmp_path / "out").rglob("*") if path.suffix in {".html", ".js"}]
     assert "{{" not in page + worker
+    assert "user-scalable" not in page  # its dialogs are texts, which people enlarge
     assert not [text for text in texts if build.FOLDER in text]
     for icon in json.loads((tmp_path / "out" / "manifest.webmanifest").read_text())["icons"]:
         assert (tmp_path / "out" / icon["src"]).read_bytes().startswith(b"\x89PNG")

@@ -226,6 +226,7 @@ def test_everything_has_a_name_and_headings_go_down_by_one(site: Path, open_page
             assert page.evaluate(
                 "Array.from(document.querySelectorAll('table')).every((table) => table.caption !== null)"
             )
+            assert page.evaluate("Array.from(document.querySelectorAll('th')).every((head) => head.textContent)")
 
 
 CONTRAST = """
@@ -292,6 +293,7 @@ def test_axe_has_no_serious_finding(site: Path, scheme: str, axe: str, open_page
     address = page.url.split("/board/")[0]
     names = [name for name in all_pages(site) if "/levels/" in name][:4]
     names += [name for name in all_pages(site) if "/players/" in name][:4]
+    names += ["gallery/index.html", *(f"gallery/levels/{path.name}" for path in [*site.glob("gallery/levels/*")][:2])]
     names += ["index.html", "search.html", "docs/learning.html", "code/ninja_game/sim/grid.html"]
     names += [f"learn/{path.name}" for path in sorted(site.glob("learn/*.html"))]
     names += ["board/index.html", *(f"board/{each}.html" for each in ("players", "levels", "episodes", "rejected"))]

@@ -76,7 +76,7 @@ def level_page(
         tag("p", named.comment, class_="lead") if named.comment else None,
         tag("div", level_image(entry, UP), facts, class_="level"),
         section("Par times", _pars(entry.pars)) if entry.pars else None,
-        section("Certificates", table("Runs that prove the level", ("Run", "Time", ""), runs)) if runs else None,
+        section("Certificates", table("Runs that prove the level", ("Run", "Time", "Watch"), runs)) if runs else None,
         more,
     ]
     return page(entry.title, *contents, up=UP, links=links, picture=UP + picture_name(entry.digest)), texts
@@ -106,9 +106,9 @@ def objects_text(entry: Entry) -> str:
 
 
 def _pars(pars: Pars) -> Markup:
-    rows = [(medal_mark(medal), medal.capitalize(), f"{seconds_text(pars.par(medal))} s") for medal in MARGINS]
-    rows.append((medal_mark(MEDALS[-1]), MEDALS[-1].capitalize(), "any"))
-    return table("To the exit in at most", ("", "Medal", "Time"), rows)
+    times = [*(f"{seconds_text(pars.par(medal))} s" for medal in MARGINS), "any"]
+    rows = [(joined(medal_mark(medal), f" {medal.capitalize()}"), time) for medal, time in zip(MEDALS, times, strict=True)]
+    return table("To the exit in at most", ("Medal", "Time"), rows)
 
 
 def medal_mark(medal: str) -> Content:
