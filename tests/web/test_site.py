@@ -198,7 +198,7 @@ def test_the_commands_of_the_document_run(pyodide: Path, tmp_path: Path, monkeyp
     monkeypatch.setenv("NINJA_GAME_HOME", str(tmp_path / "home"))
     monkeypatch.setattr("ninja_game.cli.web._serve", lambda folder, _: (folder / "index.html").open().close())
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    monkeypatch.setattr("ninja_game.web.pages.gallery.write_gallery", lambda folder, _: folder)
+    monkeypatch.setattr("ninja_game.web.pages.gallery.write_gallery", lambda folder, _, address: folder)
     for line in lines:
         words = [*line.split(), *(["--pyodide", str(pyodide)] if line.startswith("site") else [])]
         result = CliRunner().invoke(cli, words)

@@ -53,10 +53,11 @@ class SiteFile(NamedTuple):
     compressed: int
 
 
-def build_site(out: Path, pyodide: Path | None, cache: Path) -> list[SiteFile]:
+def build_site(out: Path, pyodide: Path | None, cache: Path, address: str = "") -> list[SiteFile]:
     """Write the site into the folder ``out``, new, empty, or a site of ours; what it holds now.
 
     ``pyodide``: a folder with the files of its npm package; None gets it by npm into the folder ``cache``.
+    ``address``: where the site will be, if that is known: previews of links name their pictures by it.
     Raises FileError for a folder with other things in it, NinjaGameError where Pyodide cannot be had; OSError.
     """
     before = _own_files(out)
@@ -66,7 +67,7 @@ def build_site(out: Path, pyodide: Path | None, cache: Path) -> list[SiteFile]:
     python["python_stdlib.zip"] = library_of(library)
     app = {f"pyodide/{name}": content for name, content in python.items() if not name.endswith(".json")}
     app |= {"game.tar.gz": game_archive(game)} | _page()
-    files = _stamped(app, _icons(), about, Documents().build()) | _licences() | _music()
+    files = _stamped(app, _icons(), about, Documents(address).build(), address) | _licences() | _music()
     site = Tree(out)
     for name, content in files.items():
         site.write(name, content)
@@ -123,7 +124,7 @@ def _music() -> dict[str, bytes]:
 
 
 def _stamped(
-    app: dict[str, bytes], icons: dict[str, bytes], about: dict[str, str], documents: dict[str, bytes]
+    app: dict[str, bytes], icons: dict[str, bytes], about: dict[str, str], documents: dict[str, bytes], address: str
 ) -> dict[str, bytes]:
     """What the page is made of: ``app`` in a folder with a digest in its name, so that no two versions are ever mixed.
 
@@ -145,6 +146,7 @@ def _stamped(
     stamps = {
         FOLDER: folder,
         "{{kept}}": json.dumps(kept),
+        "{{address}}": address,
         "{{preloads}}": "\n".join(f'<link rel="modulepreload" href="{name}">' for name in modules),
     }
     for key, text in stamps.items():
