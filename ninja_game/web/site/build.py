@@ -19,6 +19,7 @@ from ninja_game.files.tree import Tree, leads_below
 from ninja_game.files.user_folder import PACKAGE, data_folder
 from ninja_game.web.pages.documents import Documents
 from ninja_game.web.pages.frame import GAME
+from ninja_game.web.pages.published import page_name, picture_name, published_levels
 from ninja_game.web.site.game_archive import compiled, game_archive, game_files, licence_of
 from ninja_game.web.site.pyodide_files import library_files, library_of, pyodide_files
 
@@ -42,7 +43,7 @@ PAGES = (
     "index.html", "docs/style.css", "docs/search.js",
     *(f"gallery/{name}" for name in ("index.html", "style.css", "search.js", "icon.png")),
 )  # fmt: skip
-"""What is kept for visits without a network beside the game; other pages are kept as they are visited."""
+"""What is kept for visits without a network beside the game, *Learn* and the gallery; others as they are visited."""
 
 
 class SiteFile(NamedTuple):
@@ -142,7 +143,9 @@ def _stamped(
     modules = [name for name in files if name.endswith((".js", "/pyodide.mjs")) and "figures" not in name]
     taught = sorted(name for name in documents if name.startswith(("learn/", "lab/")))
     large = sorted({*files} - {*small})
-    kept = {"id": known, "small": [GAME, *small], "pages": [*PAGES, *taught], "large": large}
+    levels = published_levels(data_folder("levels")).entries
+    shown = [f"gallery/{name(digest)}" for digest in levels for name in (page_name, picture_name)]
+    kept = {"id": known, "small": [GAME, *small], "pages": [*PAGES, *taught, *shown], "large": large}
     stamps = {
         FOLDER: folder,
         "{{kept}}": json.dumps(kept),
