@@ -44,6 +44,19 @@ def memo_of(kind: str, about: Path, folder: Path, *, again: bool) -> Memo:
     return Memo(path, again=again)
 
 
+def _address(_ctx: click.Context, _param: click.Parameter, value: str) -> str:
+    from ninja_game.player.settings import RULES
+
+    if not RULES["site"].fits(value):
+        raise click.BadParameter("not an address such as https://example.org/game/")
+    return value and value.rstrip("/") + "/"
+
+
+address_option = click.option(
+    "--address", metavar="URL", default="", callback=_address,
+    help="Where the folder will be: chats that show a preview of a link want whole addresses of pictures.",
+)  # fmt: skip
+
 levels_option = click.option(
     "--levels", metavar="PACK", type=InputPath(),
     help="The levels that count: a pack, a file, a folder or a link of levels. [default: the game's own]",

@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from ninja_game.cli.board_options import levels_option, memo_of, rules_option
+from ninja_game.cli.board_options import address_option, levels_option, memo_of, rules_option
 from ninja_game.cli.run_options import jobs_option
 
 
@@ -22,7 +22,8 @@ from ninja_game.cli.run_options import jobs_option
 @click.option(
     "--port", type=click.IntRange(0, 65535), default=8000, show_default=True, help="Port for --serve; 0: any free port."
 )
-def site(out: Path | None, pyodide: Path | None, serve: bool, port: int) -> None:
+@address_option
+def site(out: Path | None, pyodide: Path | None, serve: bool, port: int, address: str) -> None:
     """Build the game as a page in a browser: a folder for any static host.
 
     OUT is a new folder, or one that this command has made, which it brings up to date; with --serve it may be left
@@ -34,6 +35,7 @@ def site(out: Path | None, pyodide: Path | None, serve: bool, port: int) -> None
       ninja-game site public
       ninja-game site --serve
       ninja-game site public --pyodide node_modules/pyodide
+      ninja-game site public --address https://example.org/game/
     """
     if out is None and not serve:
         raise click.UsageError("name the folder OUT, or give --serve")
@@ -46,13 +48,13 @@ def site(out: Path | None, pyodide: Path | None, serve: bool, port: int) -> None
 
     cache = user_cache_path("ninja-game", appauthor=False)
     folder = out or cache / "site"
-    files = build_site(folder, pyodide, cache)
+    files = build_site(folder, pyodide, cache, address)
     for file in files:
         if file.compressed > 50_000:
             click.echo(f"{file.name:<28} {file.size:>11,} bytes, {file.compressed:>10,} compressed by gzip")
     size, compressed = sum(file.size for file in files), sum(file.compressed for file in files)
     click.echo(f"{f'{folder}: {len(files)} files':<28} {size:>11,} bytes, {compressed:>10,} compressed by gzip")
-    gallery = write_gallery(folder, published_levels(data_folder("levels")))
+    gallery = write_gallery(folder, published_levels(data_folder("levels")), address=address)
     click.echo(f"{gallery}: pictures and pages of the game's levels")
     if serve:
         _serve(folder, port)
@@ -98,10 +100,11 @@ class _Board(click.Command):
 @rules_option
 @click.option("--again", is_flag=True, help="Simulate every run, and write every page, also those known from before.")
 @jobs_option
+@address_option
 @click.pass_context
 def board(
     ctx: click.Context, folder: Path, levels: Path | None, site: Path | None, data: Path | None, check: Path | None,
-    rules: Path | None, again: bool, jobs: int | None,
+    rules: Path | None, again: bool, jobs: int | None, address: str,
 ) -> None:  # fmt: skip
     """Rank the runs of a folder, all simulated again: tables, pages, checks.
 
@@ -144,7 +147,7 @@ def board(
     memo.save()
     ranking = Ranking(judged, shown, categories)
     if site:
-        BoardPages(site, ranking, memo=memo_of("pages", site, folder, again=again)).write()
+        BoardPages(site, ranking, memo=memo_of("pages", site, folder, again=again), address=address).write()
         if not (site / GAME).exists():
             click.echo(f"{site} has no page with the game yet: ninja-game site {site}", err=True)
     if data:

@@ -23,14 +23,19 @@ from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.settings import RULES
 from ninja_game.ui.input.keys import scancode_named
 
+PHONE_TEXT = 150
+"""Size of texts on a phone, percent: of those of 9 px in a picture that is half as wide as it is drawn for."""
+
 
 class PageServices:
-    """What the page asks of a running game. ``address``: the page's own, for links."""
+    """What the page asks of a running game. ``address``: the page's own, for links; ``small``: it is a phone's."""
 
-    def __init__(self, app: App, address: str) -> None:
+    def __init__(self, app: App, address: str, small: bool = False) -> None:
         self.app = app
         if app.settings.site != address and RULES["site"].fits(address):
-            app.change_settings(site=address)
+            # Texts are as large as they can be on a first visit with a phone; the player's own choice stays.
+            text_size = PHONE_TEXT if small and not app.settings.site else app.settings.text_size
+            app.change_settings(site=address, text_size=text_size)
 
     def state(self) -> str:
         """What is on the screen: the phase of a level ("ready", "play", "dead", "passed"), "replay", else "menu"."""
@@ -42,6 +47,11 @@ class PageServices:
     def scancodes(self, action: str) -> list[int]:
         """The keys that mean an action, as the player has bound them."""
         return [code for code in map(scancode_named, self.app.controls.keys.get(action, ())) if code]
+
+    def use_touch(self, wanted: bool) -> None:
+        """Name keys, or the page's buttons on the screen, in what the game says."""
+        self.app.controls.touched = wanted
+        self.app.stack.redraw_all()
 
     def notify(self, text: str) -> None:
         self.app.notify(text)

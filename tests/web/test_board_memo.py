@@ -78,7 +78,7 @@ def test_only_what_is_new_is_simulated_and_written(
     put(runs, "bea.txt", slow_walk(author="Bea"))
     board(runs, levels, "--site", site)
     assert simulated == ["bea.txt"]
-    assert len([name for name in drawn if name.startswith("replays/")]) == 1
+    assert len([name for name in drawn if name.startswith("replays/")]) == 2, "the run and its page"
     assert len([name for name in drawn if name.startswith("board/levels/")]) == 2
     simulated.clear()
     board(runs, levels / "00-0-level.txt", "--site", site)
@@ -142,7 +142,7 @@ def test_a_run_that_is_withdrawn_leaves_no_file(
     board(runs, levels, "--site", str(tmp_path / "site"))
     (runs / "bea.txt").unlink()
     board(runs, levels, "--site", str(tmp_path / "site"), *words)
-    assert len(list((tmp_path / "site" / "replays").iterdir())) == 2
+    assert sorted(path.suffix for path in (tmp_path / "site" / "replays").iterdir()) == [".html", ".txt", ".txt"]
     assert other.exists()
 
 

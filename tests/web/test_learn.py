@@ -3,20 +3,26 @@
 from __future__ import annotations
 
 import re
+import shutil
 from collections.abc import Callable
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from ninja_game.files.user_folder import data_folder
 from ninja_game.play.lab.figure import FIGURE, Figure
 from ninja_game.play.lab.screen import FIGURES
 from ninja_game.sim.collision.tiles import EDGE_OF_FACES
 from ninja_game.sim.grid import cell_at
 from ninja_game.view.overlays import touched_cells
+from ninja_game.web.pages.gallery import write_gallery
+from ninja_game.web.pages.published import published_levels
 from ninja_game.web.program import MOST_LINES, MOST_SHOWN, run_program
 from tests.support.slow import the_rest_is_slow
-from tests.support.visitor import eventually
+from tests.support.visitor import Visitor, eventually
+from tests.support.web_page import served
 
 CHAPTERS = sorted((Path(__file__).parents[2] / "docs" / "learn").glob("[0-9]*.md"))[:12]
 """Those with figures."""
@@ -208,3 +214,26 @@ def test_a_chapter_is_read_without_a_script_and_takes_no_lock(new_visitor: Calla
     visitor.page = visitor.new_page()
     open_figure(visitor, "01-grid-and-cells")
     assert visitor.problems == []
+
+
+@pytest.mark.slow
+def test_learn_and_gallery_are_there_without_a_network_once_a_figure_has_moved(
+    site: Path, chromium: Any, tmp_path: Path
+) -> None:
+    shutil.copytree(site, tmp_path / "site")
+    levels = published_levels(data_folder("levels"))
+    write_gallery(tmp_path / "site", levels)
+    with served(tmp_path / "site") as address, ExitStack() as stack:
+        visitor = Visitor(chromium, address, stack)
+        open_figure(visitor, "01-grid-and-cells")
+        visitor.page.evaluate("() => navigator.serviceWorker.ready.then(() => 1)")
+        visitor.context.set_offline(True)
+        open_figure(visitor, "03-touched-cells")
+        assert visitor.page.locator("figure.lab dl > div").count() > 0
+        visitor.page.goto(f"{address}gallery/index.html")
+        assert visitor.page.locator(".card:visible").count() == len(levels.entries)
+        visitor.page.get_by_role("link", name="First Steps").click()
+        visitor.page.get_by_role("heading", name="Par times").wait_for()
+        assert visitor.problems == []
+        visitor.page.goto(f"{address}docs/testing.html")
+        visitor.page.get_by_role("heading", name="No network").wait_for()

@@ -19,6 +19,7 @@ from ninja_game.cli.main import cli
 from ninja_game.formats.links.making import level_link, replay_link
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.runs.run import record_replay
+from ninja_game.web.services import PHONE_TEXT
 from tests.support.visitor import eventually
 from tests.support.web_page import served
 
@@ -137,6 +138,8 @@ def test_a_level_is_passed_by_touch(new_visitor: NewVisitor) -> None:
     for k in range(buttons.count()):
         box = buttons.nth(k).bounding_box()
         assert min(box["width"], box["height"]) >= 44, buttons.nth(k).inner_text()
+    assert visitor.python("app.controls.name('left') + ' ' + app.controls.name('confirm')") == "Left Jump"
+    assert visitor.python("app.settings.text_size") == PHONE_TEXT
     visitor.page.get_by_role("button", name="Jump").tap()
     visitor.until("play")
     session = visitor.context.new_cdp_session(visitor.page)
@@ -149,6 +152,26 @@ def test_a_level_is_passed_by_touch(new_visitor: NewVisitor) -> None:
     session.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": [place | {"x": box["x"] + 10}]})
     visitor.until("passed")
     session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    # One press begins the level and passes it: the finger that began it holds on.
+    visitor.page.get_by_role("button", name="Retry").tap()
+    visitor.until("ready")
+    session.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [place | {"x": box["x"] + 10}]})
+    visitor.until("passed")
+    session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    # For who jumps with the left hand.
+    right = visitor.page.get_by_role("button", name="Jump").bounding_box()
+    visitor.page.locator("#panel-open").tap()
+    visitor.page.get_by_label("Size").fill("80")
+    visitor.page.get_by_role("button", name="Jump with the left hand").tap()
+    visitor.page.get_by_role("button", name="Back to the game").tap()
+    for again in (False, True):
+        if again:
+            visitor.visit(level_link(LEVEL))
+            visitor.until("ready")
+        left = visitor.page.get_by_role("button", name="Jump").bounding_box()
+        assert (left["x"] < 20, right["x"] > 400) == (True, True)
+        assert left["height"] == pytest.approx(0.8 * right["height"], abs=1)
+        assert visitor.page.get_by_role("button", name="Run left").bounding_box()["x"] > 500
     assert visitor.problems == []
 
 

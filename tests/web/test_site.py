@@ -104,6 +104,7 @@ def test_the_page_knows_its_version_and_sizes(pyodide: Path, tmp_path: Path) -> 
     assert all((tmp_path / "out" / name).is_file() for name in kept["small"] + kept["large"])
     texts = [path.read_text() for path in (tmp_path / "out").rglob("*") if path.suffix in {".html", ".js"}]
     assert "{{" not in page + worker
+    assert "user-scalable" not in page  # its dialogs are texts, which people enlarge
     assert not [text for text in texts if build.FOLDER in text]
     for icon in json.loads((tmp_path / "out" / "manifest.webmanifest").read_text())["icons"]:
         assert (tmp_path / "out" / icon["src"]).read_bytes().startswith(b"\x89PNG")
@@ -197,7 +198,7 @@ def test_the_commands_of_the_document_run(pyodide: Path, tmp_path: Path, monkeyp
     monkeypatch.setenv("NINJA_GAME_HOME", str(tmp_path / "home"))
     monkeypatch.setattr("ninja_game.cli.web._serve", lambda folder, _: (folder / "index.html").open().close())
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    monkeypatch.setattr("ninja_game.web.pages.gallery.write_gallery", lambda folder, _: folder)
+    monkeypatch.setattr("ninja_game.web.pages.gallery.write_gallery", lambda folder, _, address: folder)
     for line in lines:
         words = [*line.split(), *(["--pyodide", str(pyodide)] if line.startswith("site") else [])]
         result = CliRunner().invoke(cli, words)

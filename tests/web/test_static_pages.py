@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 import subprocess
 import tarfile
@@ -35,6 +36,8 @@ HOSTILE = (
     "\"><svg onload=document.title='owned'>", "javascript:document.title='owned'", "'-alert(1)-'", "{{7*7}}${7*7}",
     "</title><script>document.title='owned'</script>", "\u202egnp.exe", "\x00\x1b[2J", "W" * 300, "&lt;b&gt;",
 )  # fmt: skip
+PUBLIC = "https://example.org/game/"
+"""Where the site says that it will be."""
 PHONE, NARROWEST = {"width": 390, "height": 844}, {"width": 320, "height": 640}
 
 
@@ -57,7 +60,7 @@ def board_of_hostile_names(folder: Path) -> Path:
     shown = published_levels(levels)
     ranking = Ranking(judge(runs, shown, jobs=1), shown)
     assert len(ranking.judged.runs) == 2 * len(HOSTILE)
-    BoardPages(folder / "site", ranking).write()
+    BoardPages(folder / "site", ranking, address=PUBLIC).write()
     return folder / "site"
 
 
@@ -65,9 +68,9 @@ def board_of_hostile_names(folder: Path) -> Path:
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with the hostile board and a gallery of a few levels of ours."""
     folder = board_of_hostile_names(tmp_path_factory.mktemp("pages"))
-    write_gallery(folder, published_levels(data_folder("levels")))
+    write_gallery(folder, published_levels(data_folder("levels")), address=PUBLIC)
     # Nobody touches a figure here.
-    for name, content in (Documents().build() | {"app-folder/figures.js": b""}).items():
+    for name, content in (Documents(PUBLIC).build() | {"app-folder/figures.js": b""}).items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_bytes(content)
     (folder / "play.html").write_text("<!doctype html><title>the game</title>", "utf-8")
@@ -103,16 +106,49 @@ def open_page(chromium: Any, address: str) -> Iterator[Callable[..., Any]]:
 
 
 def all_pages(site: Path) -> list[str]:
-    return [path.relative_to(site).as_posix() for path in sorted(site.glob("board/**/*.html"))]
+    """The board's pages, and those of its runs."""
+    found = [*site.glob("board/**/*.html"), *site.glob("replays/*.html")]
+    names = [path.relative_to(site).as_posix() for path in sorted(found)]
+    return [name for name in names if "board/style.css" in (site / name).read_text("utf-8") or name.startswith("board")]
+
+
+def test_a_chat_shows_every_level_and_run_with_its_own_title_words_and_picture(site: Path) -> None:
+    pages = [path for name in ("gallery/levels", "board/levels", "replays") for path in site.glob(f"{name}/*.html")]
+    pages = [path for path in pages if not path.stem.endswith("-runs")]
+    levels, runs = len(published_levels(data_folder("levels")).entries), len([*site.glob("replays/*.txt")])
+    assert len(pages) == levels + len(HOSTILE) + runs > 300
+    shown = set()
+    for path in [*pages, site / "index.html"]:
+        about = dict(re.findall(r'<meta (?:property|name)="([a-z:]+)" content="([^"]*)">', path.read_text("utf-8")))
+        assert about["twitter:card"] == "summary_large_image"
+        assert about["og:image"].startswith(PUBLIC)
+        assert (site / about["og:image"].removeprefix(PUBLIC)).read_bytes().startswith(b"\x89PNG")
+        shown.add((about["og:title"], about["og:description"], about["og:image"]))
+    assert len(shown) == len(pages) + 1
+    assert sum("Time: " in words for _, words, _ in shown) == runs
+
+
+def test_a_runs_page_leads_to_the_game_the_level_and_the_file(site: Path, open_page: Callable[..., Any]) -> None:
+    page = open_page("gallery/index.html", viewport=PHONE)
+    page.get_by_role("link", name="First Steps").click()
+    page.get_by_role("link", name="To the exit").click()
+    page.get_by_role("heading", name="First Steps to the exit").wait_for()
+    stem = Path(page.url).stem
+    for name, leads in (("Watch this run", f"../play.html#watch={stem}"), ("The replay as a file", f"{stem}.txt")):
+        assert page.get_by_role("link", name=name).get_attribute("href") == leads
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    assert (site / "replays" / f"{stem}.txt").is_file()
+    page.get_by_role("link", name="The level", exact=True).click()
+    page.get_by_role("heading", name="First Steps").wait_for()
 
 
 @pytest.mark.slow
-def test_no_script_of_a_name_runs(site: Path, open_page: Callable[..., Any]) -> None:
+def test_no_script_of_a_name_runs(site: Path, address: str, open_page: Callable[..., Any]) -> None:
     page = open_page("board/index.html")
     names = all_pages(site)
-    assert len(names) == 5 + 2 * len(HOSTILE) + 2 * (len(HOSTILE) + 1)
+    assert len(names) == 5 + 4 * len(HOSTILE) + 2 * (len(HOSTILE) + 1)
     for name in names:
-        page.goto(page.url.split("/board/")[0] + "/" + name)
+        page.goto(address + name)
         assert "owned" not in page.title().replace("document.title='owned'", "")
         assert page.evaluate("document.scripts.length") == 1
         foreign = "main img:not([alt]), main svg:not([role=img], [aria-hidden]), iframe, object"
@@ -226,6 +262,7 @@ def test_everything_has_a_name_and_headings_go_down_by_one(site: Path, open_page
             assert page.evaluate(
                 "Array.from(document.querySelectorAll('table')).every((table) => table.caption !== null)"
             )
+            assert page.evaluate("Array.from(document.querySelectorAll('th')).every((head) => head.textContent)")
 
 
 CONTRAST = """
@@ -292,6 +329,7 @@ def test_axe_has_no_serious_finding(site: Path, scheme: str, axe: str, open_page
     address = page.url.split("/board/")[0]
     names = [name for name in all_pages(site) if "/levels/" in name][:4]
     names += [name for name in all_pages(site) if "/players/" in name][:4]
+    names += ["gallery/index.html", *(f"gallery/levels/{path.name}" for path in [*site.glob("gallery/levels/*")][:2])]
     names += ["index.html", "search.html", "docs/learning.html", "code/ninja_game/sim/grid.html"]
     names += [f"learn/{path.name}" for path in sorted(site.glob("learn/*.html"))]
     names += ["board/index.html", *(f"board/{each}.html" for each in ("players", "levels", "episodes", "rejected"))]

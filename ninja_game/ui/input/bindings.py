@@ -22,6 +22,12 @@ MOVES = (("left", KEY_LEFT), ("right", KEY_RIGHT), ("jump", JUMP_HELD))
 Inputs = Mapping[str, tuple[str, ...]]
 """Names of inputs by action."""
 
+TOUCH_LABELS = {
+    "left": "Left", "right": "Right", "jump": "Jump", "confirm": "Jump", "back": "Back", "pause": "Pause",
+    "retry": "Retry",
+}  # fmt: skip
+"""What the page's buttons on a touch screen are called, by action."""
+
 
 class Bindings:
     """Which keys and pad inputs mean which actions.
@@ -33,7 +39,7 @@ class Bindings:
 
     def __init__(self, keys: Inputs | None = None, pad: Inputs | None = None, *, dead_zone: float = 0.35) -> None:
         self.pads = Gamepads(dead_zone)
-        self.pad_used = False
+        self.pad_used = self.touched = False
         self._taps: dict[int, float] = {}
         self.tap_to_run = False
         self._running = 0
@@ -138,7 +144,9 @@ class Bindings:
         return event
 
     def name(self, action: str) -> str:
-        """What to press for an action: on the pad if that was used last, else on the keyboard."""
+        """What to press for an action: on the screen or the pad if that was used last, else on the keyboard."""
+        if self.touched and action in TOUCH_LABELS:
+            return TOUCH_LABELS[action]
         pad, keys = self.pad.get(action, ()), self.keys.get(action, ())
         if self.pad_used and pad:
             return pad_label(pad[0])

@@ -36,10 +36,10 @@ class LevelPages(Parts):
         about = [named.name, named.author, named.comment, entry.episode, repr(entry.pars), digest, self.ranking.ladders]
 
         def content() -> str:
-            return level_page(entry, {}, UP + self.game, self.deeper, self._runs(entry))[0]
+            return level_page(entry, {}, UP + self.game, self.deeper, self._runs(entry), site=self.site)
 
         self.pages.make(picture_name(digest), digest, lambda: picture(named.level))
-        self.pages.make(page_name(digest), [about, told, rules, self.deeper], content)
+        self.pages.make(page_name(digest), [about, told, rules, self.deeper, self.site], content)
         known = {self.stems[run.key]: run for run in runs}
 
         def cells(row: Sequence[Any]) -> tuple[Content, ...]:

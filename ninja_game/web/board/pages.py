@@ -72,7 +72,8 @@ class BoardPages(LevelPages):
 
     def write(self) -> None:
         for run in self.ranking.judged.runs:
-            self.pages.make_replay(self.stems[run.key], partial(_text, run))
+            self.pages.make_replay(f"{self.stems[run.key]}.txt", self.stems[run.key], partial(_text, run))
+            self.run_page(run)
         self._players()
         for entry in self.entries.values():
             self.level(entry)
@@ -209,7 +210,7 @@ class BoardPages(LevelPages):
                 *result,
                 *row[3:5],
                 run.made or "unknown",
-                *self.files(run, UP),
+                *self.leads(run, UP),
                 run.day,
             )
 
@@ -217,7 +218,7 @@ class BoardPages(LevelPages):
             [self.stems[run.key], run.entry.episode, run.medal, *places.get(run.key, ("", "")), run.day]
             for run in sorted(runs, key=lambda run: (order[run.entry.digest], run.added, run.key))
         ]
-        heads = ("No.", "Level", "Time", "Medal", "Score", "Gold", "Place", "Behind", "Made", "Watch", "File", "Date")
+        heads = ("No.", "Level", "Time", "Medal", "Score", "Gold", "Place", "Behind", "Made", "Watch", "Share", "Date")
         self.list(player_page(player), player, "All runs", heads, rows, *lead, cells=cells)
 
     # --- levels, episodes, and what does not count ---

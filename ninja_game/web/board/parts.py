@@ -14,7 +14,7 @@ from ninja_game.web.board.ranking import Part, Ranking
 from ninja_game.web.board.rules import Category
 from ninja_game.web.board.runs import Run
 from ninja_game.web.pages.frame import GAME, REPLAYS, Content, Markup, Pages, joined, page, table, tag
-from ninja_game.web.pages.gallery import BOARD, medal_mark
+from ninja_game.web.pages.gallery import BOARD, medal_mark, run_page
 from ninja_game.web.pages.memo import Memo
 from ninja_game.web.pages.published import page_name, watch_address
 
@@ -25,7 +25,7 @@ LONGEST_NAME = 40
 """Characters of a name in a table."""
 
 UP = "../"
-RUN_HEADS = ("Watch", "File", "Medal", "Gold", "Made", "Date", "Remark")
+RUN_HEADS = ("Watch", "Share", "Medal", "Gold", "Made", "Date", "Remark")
 LINKS = [
     ("index.html", "Board"), ("players.html", "Players"), ("levels.html", "Levels"), ("episodes.html", "Episodes"),
     ("rejected.html", "Rejected"),
@@ -33,14 +33,20 @@ LINKS = [
 
 
 class Parts:
-    """A board that is written into ``out/board/``. ``up``: the way from a page to that folder, "" or UP."""
+    """A board that is written into ``out/board/``. ``up``: the way from a page to that folder, "" or UP.
 
-    def __init__(self, out: Path, ranking: Ranking, game: str = GAME, memo: Memo | None = None) -> None:
+    ``address``: where ``out`` will be, if that is known.
+    """
+
+    def __init__(
+        self, out: Path, ranking: Ranking, game: str = GAME, memo: Memo | None = None, *, address: str = ""
+    ) -> None:
         self.pages = Pages(out, BOARD, memo)
         self.ranking = ranking
         self.entries = ranking.shown.entries
         self.main = ranking.categories[0]
         self.game = f"../{game}"
+        self.site = address and f"{address}{BOARD}/"
         assisted = [("assisted.html", "Assisted")] if len(ranking.ladders) > 1 else []
         self.links = [(self.game, "Play"), *LINKS[:2], *assisted, *LINKS[2:]]
         self.deeper = [(UP + address, name) for address, name in self.links]
@@ -73,16 +79,24 @@ class Parts:
         address = watch_address(up + self.game, *(self.stems[run.key] for run in runs))
         return tag("a", text, href=address, aria_label=f"{text}: {runs[0].player} on {runs[0].entry.title}")
 
-    def files(self, run: Run, up: str) -> tuple[Markup, Markup]:
-        """Links that watch a run and that download it."""
-        address, said = f"{up}../{REPLAYS}/{self.stems[run.key]}.txt", f"File: {run.player} on {run.entry.title}"
-        return self.watch([run], up), tag("a", "File", href=address, download=True, aria_label=said)
+    def leads(self, run: Run, up: str) -> tuple[Markup, Markup]:
+        """Links that watch a run and that lead to its page."""
+        address, said = f"{up}../{REPLAYS}/{self.stems[run.key]}.html", f"Share: {run.player} on {run.entry.title}"
+        return self.watch([run], up), tag("a", "Share", href=address, aria_label=said)
+
+    def run_page(self, run: Run) -> None:
+        """The small page of a run."""
+        stem, title = self.stems[run.key], f"{shown_text(run.player, LONGEST_NAME)} on {run.entry.title}"
+        facts = [("Time", f"{seconds_text(run.tick)} s"), ("Score", seconds_text(run.score)), ("Gold", str(run.gold)),
+                 ("Medal", run.medal), ("Made", run.made or "unknown"), ("Date", run.day)]  # fmt: skip
+        about = run.entry, stem, title, facts, BOARD, self.game, self.links, self.site
+        self.pages.make_replay(f"{stem}.html", [title, *facts, self.links, self.site], lambda: run_page(*about))
 
     def run(self, run: Run, *results: Content) -> tuple[Content, ...]:
         """Cells of a run, for heads that end in RUN_HEADS."""
         about = medal_mark(run.medal), run.gold, run.made or "unknown", run.day, run.remark
         others = f" with {shown_text(run.co_authors, LONGEST_NAME)}" if run.co_authors else None
-        return (joined(player_link(run.player, UP), others), *results, *self.files(run, UP), *about)
+        return (joined(player_link(run.player, UP), others), *results, *self.leads(run, UP), *about)
 
     def part_name(self, part: Part) -> str:
         """What a ladder's category is called; the ladder only where there are two."""

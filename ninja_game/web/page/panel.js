@@ -1,6 +1,7 @@
 // The page's own menu: full screen, the player's data as a file, verdicts on recordings.
 import { build } from "./build.js";
 import { download } from "./storage.js";
+import { touchLook } from "./touch.js";
 import { button, element, lastLine } from "./trouble.js";
 
 const dialog = document.getElementById("panel");
@@ -57,6 +58,7 @@ export class Panel {
         document.fullscreenEnabled ? this.closing(document.fullscreenElement ? "Leave full screen" : "Full screen", fullScreen) : "",
         button("Verify a recording", () => this.showVerify()),
         button("All levels", () => (location.href = "gallery/index.html"))),
+      ...this.touchRows(),
       element("h3", { textContent: "Your data" }),
       element("p", { textContent: this.page.folder.lasting
         ? "Settings, records, levels and replays are kept in this browser. It may drop them, so keep a file now and then; ninja-game elsewhere reads it too."
@@ -67,6 +69,15 @@ export class Panel {
       element("p", { className: "small" }, `Version ${build.version}. Everything runs in this page; nothing is sent anywhere. `,
         element("a", { href: "licences/NOTICE.txt", target: "_blank", textContent: "Licences" })),
     );
+  }
+
+  // Where the buttons on the screen lie, and how large they are.
+  touchRows() {
+    if (!document.body.classList.contains("touch")) return [];
+    const { size, jumpsLeft } = touchLook();
+    const side = button(`Jump with the ${jumpsLeft ? "right" : "left"} hand`, () => (touchLook({ jumpsLeft: !jumpsLeft }), this.open()));
+    const slider = element("input", { type: "range", min: 60, max: 110, step: 10, value: size, oninput: () => touchLook({ size: slider.valueAsNumber }) });
+    return [element("h3", { textContent: "Buttons on the screen" }), element("div", { className: "row" }, side, element("label", {}, "Size ", slider))];
   }
 
   // The dialog with these parts and a button that closes it; the game waits.

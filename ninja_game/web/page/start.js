@@ -10,6 +10,7 @@ import { button, lastLine, reloading, showStop, showTrouble } from "./trouble.js
 const PAGE_STATE_MS = 100; // how often the page looks at what the game shows
 const KEEP_AFTER_MS = 3000; // when the game runs, what the next visit needs is put aside
 const MENU_KEYS = { back: "Escape", choose: "Enter", up: "ArrowUp", down: "ArrowDown", before: "ArrowLeft", next: "ArrowRight" };
+const PHONE = "(pointer: coarse) and (max-width: 600px), (pointer: coarse) and (max-height: 500px)";
 const canvas = document.getElementById("stage");
 const game = document.getElementById("game");
 
@@ -45,7 +46,9 @@ class Page {
     this.host = createHost(canvas);
     this.host.attach(python);
     boot.start(this.host);
-    this.services = services.PageServices(boot.app(), location.href.split("#")[0]);
+    this.services = services.PageServices(boot.app(), location.href.split("#")[0], matchMedia(PHONE).matches);
+    this.touch.tell = (wanted) => this.services.use_touch(wanted);
+    this.touch.tell(document.body.classList.contains("touch"));
     this.panel = new Panel(this);
     this.listen();
     await this.openLink();
@@ -132,7 +135,6 @@ class Page {
     const state = this.services.state();
     if (state !== this.state) {
       this.state = document.body.dataset.state = state;
-      this.touch.release();
       this.touch.show(state);
       if (state !== "play") document.body.classList.remove("still");
     }

@@ -76,9 +76,10 @@ def page_of(name: str) -> str:
 
 
 class Documents:
-    """``files``: content by name in the site, once ``build`` was called."""
+    """``files``: content by name in the site, once ``build`` was called. ``address``: the site's, if it is known."""
 
-    def __init__(self) -> None:
+    def __init__(self, address: str = "") -> None:
+        self._address_of_site = address
         self._reader = MarkdownIt("commonmark", {"html": False, "highlight": _coloured}).enable("table")
         self._reader.add_render_rule("table_open", lambda *_: '<div class="wide" tabindex="0"><table>')
         self._reader.add_render_rule("table_close", lambda *_: "</table></div>")
@@ -116,8 +117,9 @@ class Documents:
         up = "../" * name.count("/")
         links = [(up + address, text) for address, text in NAVIGATION]
         script = up + FIGURES_SCRIPT if figures else ""
+        picture = self._address_of_site + STILL if name == HOME else ""
         self.files[name] = frame.page(
-            title, *contents, up=f"{up}docs/", links=links, current=up + name, figures=script
+            title, *contents, up=f"{up}docs/", links=links, current=up + name, figures=script, picture=picture
         ).encode()
 
     # --- documents ---

@@ -137,9 +137,9 @@ class Pages:
         self._make(f"{self.folder.name}/{name}", data, content)
         self._written.add(name)
 
-    def make_replay(self, stem: str, content: Callable[[], str]) -> None:
-        """A replay that pages lead to, in the site's folder of them; its stem says what it holds."""
-        self._make(f"{REPLAYS}/{stem}.txt", stem, content)
+    def make_replay(self, name: str, data: object, content: Callable[[], str]) -> None:
+        """A replay that pages lead to, or the page of one, in the site's folder of them; otherwise as ``make``."""
+        self._make(f"{REPLAYS}/{name}", data, content)
 
     def _make(self, name: str, data: object, content: Callable[[], str | bytes]) -> None:
         digest = digest_of([program(), data])
@@ -155,9 +155,9 @@ class Pages:
             return []
         return [about.st_size, about.st_mtime_ns, about.st_ctime_ns, about.st_ino]
 
-    def write_replay(self, stem: str, text: str) -> None:
-        """A replay that pages lead to, in the site's folder of them."""
-        self._site.write(f"{REPLAYS}/{stem}.txt", text)
+    def write_replay(self, name: str, text: str) -> None:
+        """A replay that pages lead to, or the page of one, in the site's folder of them."""
+        self._site.write(f"{REPLAYS}/{name}", text)
 
     def finish(self) -> None:
         """Remove what this memo's earlier pages had and these have not, and keep the memo."""
@@ -177,22 +177,25 @@ DESCRIPTION = "A platform game in the style of N, in a page: play it, see how it
 
 def page(
     title: str, *contents: Content, up: str = "", links: Iterable[tuple[str, str]] = (), current: str = "",
-    figures: str = "", picture: str = "",
+    figures: str = "", picture: str = "", about: str = "",
 ) -> str:  # fmt: skip
     """A whole page. ``up``: the way to the folder of the pages; ``links``: addresses and names that stand above.
 
     ``current``: the address of the link that leads to the page itself; ``figures``: that of the script for figures;
-    ``picture``: that of what shows the page where somebody names it.
+    ``picture``: that of what shows the page where somebody names it, whole where the site's own is known; ``about``:
+    what is said of it there.
     """
-    about = {"og:title": title, "og:description": DESCRIPTION, "og:type": "website", "og:image": picture}
+    said = shown_text(about, LONGEST) or DESCRIPTION
+    shown = {"og:title": shown_text(title), "og:description": said, "og:type": "website", "og:image": picture}
     head = tag(
         "head",
         tag("meta", charset="utf-8"),
         tag("meta", http_equiv="Content-Security-Policy", content=POLICY_OF_FIGURES if figures else POLICY),
         tag("meta", name="viewport", content="width=device-width, initial-scale=1"),
         tag("meta", name="referrer", content="no-referrer"),
-        tag("meta", name="description", content=DESCRIPTION),
-        *(tag("meta", property=name, content=content) for name, content in about.items() if content),
+        tag("meta", name="description", content=said),
+        *(tag("meta", property=name, content=content) for name, content in shown.items() if content),
+        tag("meta", name="twitter:card", content="summary_large_image") if picture else None,
         tag("title", f"{title} - ninja-game"),
         tag("link", rel="stylesheet", href=f"{up}{STYLE}"),
         tag("link", rel="icon", href=f"{up}{ICON}"),

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from posixpath import normpath
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.links.making import level_link
 from ninja_game.formats.pack.pars import MARGINS, MEDALS, Pars
-from ninja_game.formats.recording import Recording
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.player.catalogue import Entry
 from ninja_game.sim.kinds import KIND_NAMES
@@ -19,6 +19,7 @@ from ninja_game.web.pages.frame import (
     GAME,
     HOME,
     NAVIGATION,
+    REPLAYS,
     Content,
     Markup,
     Pages,
@@ -42,28 +43,27 @@ from ninja_game.web.pages.published import (
 
 UP = "../"
 PICTURE_HEIGHT = PICTURE_WIDTH * 600 // 792
+FOLDER, BOARD = "gallery", "board"
+"""Folders of a site: the gallery's pages, and those of a board."""
+
+Links = Sequence[tuple[str, str]]
 KINDS = {"exit": "To the exit", "gold": "With all gold"}
 
 
 def level_page(
-    entry: Entry,
-    certificates: Mapping[str, Recording],
-    game: str,
-    links: Sequence[tuple[str, str]],
-    more: Content = None,
-) -> tuple[str, dict[str, str]]:
-    """The page of a level, and the texts of the replays that it leads to, by their stems.
+    entry: Entry, certificates: Mapping[str, tuple[str, int]], game: str, links: Links, more: Content = None,
+    *, site: str = "",
+) -> str:  # fmt: skip
+    """The page of a level. ``certificates``: stems of the replays that it leads to and their ticks, by what they are.
 
-    ``game``: address of the page with the game, as seen from this one; ``more``: what stands below.
+    ``game``: address of the page with the game, as seen from this one; ``more``: what stands below; ``site``: the
+    address of the folder of pages, where it is known.
     """
-    texts: dict[str, str] = {}
-    runs = []
-    for kind, recording in certificates.items():
-        text = shared_text(recording.replay, entry.named.level)
-        stem = shared_name(text)
-        texts[stem] = text
-        tick = recording.replay.final_tick
-        runs.append((KINDS[kind], seconds_text(tick), tag("a", "Watch", href=watch_address(game, stem))))
+    runs = [
+        (tag("a", kind, href=f"../../{REPLAYS}/{stem}.html"), seconds_text(tick),
+         tag("a", "Watch", href=watch_address(game, stem)))
+        for kind, (stem, tick) in certificates.items()
+    ]  # fmt: skip
     named = entry.named
     about = [("Author", named.author or "unknown")]
     if entry.episode:
@@ -76,10 +76,32 @@ def level_page(
         tag("p", named.comment, class_="lead") if named.comment else None,
         tag("div", level_image(entry, UP), facts, class_="level"),
         section("Par times", _pars(entry.pars)) if entry.pars else None,
-        section("Certificates", table("Runs that prove the level", ("Run", "Time", ""), runs)) if runs else None,
+        section("Certificates", table("Runs that prove the level", ("Run", "Time", "Watch"), runs)) if runs else None,
         more,
     ]
-    return page(entry.title, *contents, up=UP, links=links, picture=UP + picture_name(entry.digest)), texts
+    said = ". ".join(f"{name}: {text}" for name, text in about)
+    picture = (site or UP) + picture_name(entry.digest)
+    return page(entry.title, *contents, up=UP, links=links, picture=picture, about=named.comment or said)
+
+
+def run_page(
+    entry: Entry, stem: str, title: str, facts: Links, folder: str, game: str, links: Links, site: str
+) -> str:  # fmt: skip
+    """The small page of a run, beside it in ``replays``: what a link to it shows in a chat, and what leads to it.
+
+    ``folder``: of the pages with the level's; ``game``, ``links``: as seen from their first one; ``site``: as above.
+    """
+    place = f"../{folder}/"
+    facts = [*((name, text) for name, text in facts if text), ("Author of the level", entry.named.author or "unknown")]
+    leads = (
+        tag("p", tag("a", "Watch this run", href=watch_address(game, stem), class_="button")), definitions(facts),
+        tag("p", tag("a", "The level", href=place + page_name(entry.digest))),
+        tag("p", tag("a", "The replay as a file", href=f"{stem}.txt", download=True)),
+    )  # fmt: skip
+    shown = tag("div", level_image(entry, place), tag("div", *leads, class_="about"), class_="level")
+    about, picture = ". ".join(f"{name}: {text}" for name, text in facts), (site or place) + picture_name(entry.digest)
+    links = [(normpath(place + address), name) for address, name in links]
+    return page(title, shown, up=place, links=links, picture=picture, about=about)
 
 
 def level_image(entry: Entry, up: str = "", *, lazy: bool = False) -> Markup:
@@ -106,9 +128,11 @@ def objects_text(entry: Entry) -> str:
 
 
 def _pars(pars: Pars) -> Markup:
-    rows = [(medal_mark(medal), medal.capitalize(), f"{seconds_text(pars.par(medal))} s") for medal in MARGINS]
-    rows.append((medal_mark(MEDALS[-1]), MEDALS[-1].capitalize(), "any"))
-    return table("To the exit in at most", ("", "Medal", "Time"), rows)
+    times = [*(f"{seconds_text(pars.par(medal))} s" for medal in MARGINS), "any"]
+    rows = [
+        (joined(medal_mark(medal), f" {medal.capitalize()}"), time) for medal, time in zip(MEDALS, times, strict=True)
+    ]
+    return table("To the exit in at most", ("Medal", "Time"), rows)
 
 
 def medal_mark(medal: str) -> Content:
@@ -116,44 +140,46 @@ def medal_mark(medal: str) -> Content:
     return tag("span", medal[0].upper(), class_=f"medal {medal}", title=medal) if medal in MEDALS else joined()
 
 
-FOLDER, BOARD = "gallery", "board"
-"""Folders of a site: the gallery's pages, and those of a board."""
-
 SORT_ORDERS = (("", "in playing order"), ("name", "by name"), ("difficulty", "by difficulty"), ("par", "by par time"))
 
 LONGEST_NAME = 60
 """Characters of a name in the list."""
 
-Links = Sequence[tuple[str, str]]
 
-
-def write_gallery(out: Path, shown: PublishedLevels, *, game: str = GAME) -> Path:
+def write_gallery(out: Path, shown: PublishedLevels, *, game: str = GAME, address: str = "") -> Path:
     """Write ``out/gallery/`` and the certificates into ``out/replays/``; the gallery's first page.
 
-    ``game``: name of the page with the game in ``out``. Raises FileError where ``out/gallery`` holds something else.
+    ``game``: name of the page with the game in ``out``; ``address``: where ``out`` will be, if that is known.
+    Raises FileError where ``out/gallery`` holds something else.
     """
     pages = Pages(out, FOLDER)
     whole = (out / HOME).is_file()
     links = [(f"../{address}", title) for address, title in NAVIGATION] if whole else [(f"../{game}", "Play")]
     if (out / BOARD / "index.html").is_file():
         links.append((f"../{BOARD}/index.html", "Board"))
-    write_levels(pages, shown, f"../{game}", "index.html", links)
+    write_levels(pages, shown, f"../{game}", "index.html", links, address and f"{address}{FOLDER}/")
     return pages.folder / "index.html"
 
 
-def write_levels(pages: Pages, shown: PublishedLevels, game: str, name: str, links: Links) -> None:
+def write_levels(pages: Pages, shown: PublishedLevels, game: str, name: str, links: Links, site: str) -> None:
     """Write pictures, level pages and their list into a folder of pages.
 
     ``game``: address of the page with the game, as seen from the list; ``name``: file of the list; ``links``: what
-    stands above every page, addresses as seen from the list.
+    stands above every page, addresses as seen from the list; ``site``: the address of the folder, if it is known.
     """
-    deeper = [(f"../{address}", title) for address, title in (*links, (name, "Levels"))]
+    near = (*links, (name, "Levels"))
+    deeper = [(f"../{address}", title) for address, title in near]
     for digest, entry in shown.entries.items():
         pages.write(picture_name(digest), picture(entry.named.level))
-        text, replays = level_page(entry, shown.runs.get(digest, {}), f"../{game}", deeper)
-        pages.write(page_name(digest), text)
-        for stem, replay in replays.items():
-            pages.write_replay(stem, replay)
+        certificates = {}
+        for kind, recording in shown.runs.get(digest, {}).items():
+            text, tick = shared_text(recording.replay, entry.named.level), recording.replay.final_tick
+            stem, title = shared_name(text), f"{entry.title} {KINDS[kind].lower()}"
+            certificates[KINDS[kind]] = stem, tick
+            facts = [("Time", f"{seconds_text(tick)} s"), ("Made", str(recording.replay.made))]
+            pages.write_replay(f"{stem}.txt", text)
+            pages.write_replay(f"{stem}.html", run_page(entry, stem, title, facts, pages.folder.name, game, near, site))
+        pages.write(page_name(digest), level_page(entry, certificates, f"../{game}", deeper, site=site))
     pages.write(name, page("Levels", *_list(shown), links=links))
     # Last of all: where the disk is full, the pages of an earlier time are all there.
     pages.clear("levels")

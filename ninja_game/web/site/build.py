@@ -19,6 +19,7 @@ from ninja_game.files.tree import Tree, leads_below
 from ninja_game.files.user_folder import PACKAGE, data_folder
 from ninja_game.web.pages.documents import Documents
 from ninja_game.web.pages.frame import GAME
+from ninja_game.web.pages.published import page_name, picture_name, published_levels
 from ninja_game.web.site.game_archive import compiled, game_archive, game_files, licence_of
 from ninja_game.web.site.pyodide_files import library_files, library_of, pyodide_files
 
@@ -42,7 +43,7 @@ PAGES = (
     "index.html", "docs/style.css", "docs/search.js",
     *(f"gallery/{name}" for name in ("index.html", "style.css", "search.js", "icon.png")),
 )  # fmt: skip
-"""What is kept for visits without a network beside the game; other pages are kept as they are visited."""
+"""What is kept for visits without a network beside the game, *Learn* and the gallery; others as they are visited."""
 
 
 class SiteFile(NamedTuple):
@@ -53,10 +54,11 @@ class SiteFile(NamedTuple):
     compressed: int
 
 
-def build_site(out: Path, pyodide: Path | None, cache: Path) -> list[SiteFile]:
+def build_site(out: Path, pyodide: Path | None, cache: Path, address: str = "") -> list[SiteFile]:
     """Write the site into the folder ``out``, new, empty, or a site of ours; what it holds now.
 
     ``pyodide``: a folder with the files of its npm package; None gets it by npm into the folder ``cache``.
+    ``address``: where the site will be, if that is known: previews of links name their pictures by it.
     Raises FileError for a folder with other things in it, NinjaGameError where Pyodide cannot be had; OSError.
     """
     before = _own_files(out)
@@ -66,7 +68,7 @@ def build_site(out: Path, pyodide: Path | None, cache: Path) -> list[SiteFile]:
     python["python_stdlib.zip"] = library_of(library)
     app = {f"pyodide/{name}": content for name, content in python.items() if not name.endswith(".json")}
     app |= {"game.tar.gz": game_archive(game)} | _page()
-    files = _stamped(app, _icons(), about, Documents().build()) | _licences() | _music()
+    files = _stamped(app, _icons(), about, Documents(address).build(), address) | _licences() | _music()
     site = Tree(out)
     for name, content in files.items():
         site.write(name, content)
@@ -123,7 +125,7 @@ def _music() -> dict[str, bytes]:
 
 
 def _stamped(
-    app: dict[str, bytes], icons: dict[str, bytes], about: dict[str, str], documents: dict[str, bytes]
+    app: dict[str, bytes], icons: dict[str, bytes], about: dict[str, str], documents: dict[str, bytes], address: str
 ) -> dict[str, bytes]:
     """What the page is made of: ``app`` in a folder with a digest in its name, so that no two versions are ever mixed.
 
@@ -141,10 +143,13 @@ def _stamped(
     modules = [name for name in files if name.endswith((".js", "/pyodide.mjs")) and "figures" not in name]
     taught = sorted(name for name in documents if name.startswith(("learn/", "lab/")))
     large = sorted({*files} - {*small})
-    kept = {"id": known, "small": [GAME, *small], "pages": [*PAGES, *taught], "large": large}
+    levels = published_levels(data_folder("levels")).entries
+    shown = [f"gallery/{name(digest)}" for digest in levels for name in (page_name, picture_name)]
+    kept = {"id": known, "small": [GAME, *small], "pages": [*PAGES, *taught, *shown], "large": large}
     stamps = {
         FOLDER: folder,
         "{{kept}}": json.dumps(kept),
+        "{{address}}": address,
         "{{preloads}}": "\n".join(f'<link rel="modulepreload" href="{name}">' for name in modules),
     }
     for key, text in stamps.items():
