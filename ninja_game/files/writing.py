@@ -64,12 +64,7 @@ def open_atomically(path: Path, *, keep: Iterable[Path] = ()) -> Iterator[IO[byt
 
 @contextmanager
 def replaced(
-    target: Path,
-    about: os.stat_result | None,
-    at: int | None = None,
-    *,
-    shown: Path | None = None,
-    kept: bool = True,
+    target: Path, about: os.stat_result | None, at: int | None = None, *, shown: Path | None = None, kept: bool = True
 ) -> Iterator[IO[bytes]]:
     """A binary file that takes the place of ``target`` when the block ends, and never if it ends in an exception.
 

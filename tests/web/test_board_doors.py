@@ -11,6 +11,7 @@ import shutil
 import subprocess
 import zlib
 from dataclasses import replace
+from functools import partial
 from itertools import takewhile
 from pathlib import Path
 from unittest.mock import Mock
@@ -25,15 +26,7 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.made import Made
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.runs.run import record_replay, run_level
-from ninja_game.web.board.copies import (
-    ALIGNED,
-    SHIFTED,
-    Course,
-    Courses,
-    course_of,
-    edit_distance,
-    near_ones,
-)
+from ninja_game.web.board.copies import ALIGNED, SHIFTED, Course, Courses, course_of, edit_distance, near_ones
 from ninja_game.web.board.pages import check_site
 from ninja_game.web.board.players import Players, folded
 from ninja_game.web.board.runs import _near_to_another, judge
@@ -467,7 +460,7 @@ def test_runs_by_two_in_turn_are_compared_once_and_the_fastest_only() -> None:
         courses = Courses(most)
         for number in range(200):
             places = frozenset(map(float, range(750 + number)))
-            courses.add(number, number, lambda places=places: replace(course, places=places))
+            courses.add(number, number, partial(replace, course, places=places))
         assert _near_to_another("Ann", course, courses, players) is None
         near = _near_to_another("Cid", course, courses, players)
         assert near == (nearest, f"{750 + nearest} of the 1000 places on its way are those of")
@@ -477,7 +470,7 @@ def test_a_slower_run_leaves_for_a_faster_one_with_all_that_it_shares() -> None:
     courses, one = Courses(1), Course(b"", frozenset(range(9)), frozenset(range(16)), frozenset({1.0}))
     other = replace(one, presses=frozenset(range(80, 96)), places=frozenset({2.0}))
     for number, (tick, each) in enumerate([(30, one), (40, other), (20, other)]):
-        courses.add(number, tick, lambda each=each: each)
+        courses.add(number, tick, partial(replace, each))
     assert courses.numbers.tolist() == [2]
     every = courses.numbers >= 0
     assert courses.near(replace(one, presses=frozenset()))(every) == []

@@ -77,8 +77,9 @@ def weigh(site: Path) -> None:
     for path in site.rglob("*.*"):
         folder, stem = path.parent.relative_to(site), path.stem.partition("-")
         list_ = stem[2].rstrip("-0123456789") if folder.name in ("levels", "players") else ""
-        kinds[f"{folder}/{list_}" if list_ or folder.name != "board" else f"board/{stem[0]}"].append(path.stat().st_size)
-    for name, sizes in [*sorted(kinds.items()), ("all", sum(kinds.values(), []))]:
+        name = f"{folder}/{list_}" if list_ or folder.name != "board" else f"board/{stem[0]}"
+        kinds[name].append(path.stat().st_size)
+    for name, sizes in [*sorted(kinds.items()), ("all", list(itertools.chain(*kinds.values())))]:
         print(f"  {name:24}{len(sizes):8}{sum(sizes) / 1e6:9.1f} MB   largest {max(sizes) / 1e3:7.1f} KB", flush=True)
 
 
@@ -105,14 +106,13 @@ def main() -> None:
     parser.add_argument("--folder", type=Path, help="where runs and pages stay; default: nowhere")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as temporary:
-        folder = arguments.folder or Path(temporary)
+        folder, found = arguments.folder or Path(temporary), texts()
         if arguments.counts == ["reference"]:
             demos = [f"$run#{row.source}##{row.data}#{row.demo}#" for row in recordings()]
-            found = (text for demo in demos for text in replay_texts(parse_replays(demo)))
+            found = iter([text for demo in demos for text in replay_texts(parse_replays(demo))])
             levels = write_pack(folder / "levels")
             measure(folder, found, len(demos) - 1, ["--levels", str(levels)])
         else:
-            found = texts()
             for count in map(int, arguments.counts):
                 measure(folder, found, count, ["--levels", str(data_folder("levels"))])
 

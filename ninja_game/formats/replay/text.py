@@ -14,14 +14,7 @@ from ninja_game.formats.ascii.reader import write_ascii_level
 from ninja_game.formats.lines import Line, numbered_lines
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.numbers import format_number
-from ninja_game.formats.replay.headers import (
-    COUNT_LIMIT,
-    LEVELS_KEPT,
-    Headers,
-    Waypoint,
-    read_level,
-    read_waypoints,
-)
+from ninja_game.formats.replay.headers import COUNT_LIMIT, LEVELS_KEPT, Headers, Waypoint, read_level, read_waypoints
 from ninja_game.formats.replay.input_runs import Marker, is_marker_name, write_inputs
 from ninja_game.formats.replay.input_text import included_beside, read_inputs
 from ninja_game.formats.replay.made import UNKNOWN, Made, is_told

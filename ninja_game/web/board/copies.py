@@ -35,8 +35,8 @@ class Course:
     """What is compared of a run.
 
     ``keys``: those down in each tick; ``strokes``: spans of the same keys, each as its number among equal ones, 2^20
-    times its keys and 2^24 times its ticks; ``presses``: keys pressed and those released, each as eight times its tick and its bit among eight;
-    ``places``: where the ninja was, in whole pixels, x + 10^6 y.
+    times its keys and 2^24 times its ticks; ``presses``: keys pressed and keys released, each as a bit of eight, plus
+    eight times its tick; ``places``: where the ninja was, in whole pixels, x + 10^6 y.
     """
 
     keys: bytes
