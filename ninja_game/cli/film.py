@@ -72,16 +72,26 @@ def film(
     if path.exists() and any(not is_link(each) and path.samefile(each) for each in (replay, *ghosts, *beside)):
         raise click.UsageError("the film would replace the replay")
     along, others = ([run for file in files for run in load_replays(file, level=level)] for files in (ghosts, beside))
-    if any(run.level != parts[0].level for run in (*along, *others)):
+    if any(all(run.level != part.level for part in parts) for run in (*along, *others)):
         raise click.UsageError("--ghost, --beside: a run of another level")
-    if len(others) > MOST_BESIDE:
-        raise click.UsageError(f"--beside: {len(others)} runs; at most {MOST_BESIDE}")
-    if len(parts) > 1 and (along or others or first or last):
-        raise click.UsageError("an episode is shown whole and alone; choose a level of it with --record")
+    ghosts_of, beside_of = (
+        [tuple(run for run in runs if run.level == part.level) for part in parts] for runs in (along, others)
+    )
+    most = max(map(len, beside_of))
+    if most > MOST_BESIDE:
+        raise click.UsageError(f"--beside: {most} runs; at most {MOST_BESIDE}")
+    if any(len(runs) != most for runs in beside_of):
+        raise click.UsageError("--beside: as many runs for each level of the episode; another whole episode has them")
     os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
-    from ninja_game.play.replay.film import Film, write_film
+    from ninja_game.play.replay.film import Film, section_of, write_film
 
-    films = [Film(run, size, speed, None, tuple(along), keys, first, last, tuple(others), splits) for run in parts]
+    alone = len(parts) == 1
+    films = [
+        Film(run, size, speed, None, along, keys, first * alone, last if alone else None, others, splits)
+        for run, along, others in zip(parts, ghosts_of, beside_of, strict=True)
+    ]
+    if not alone and (first or last is not None):
+        films = section_of(films, first, last)
     film = reduce(lambda after, each: replace(each, then=after), films[::-1])
     progress = "looking for the end of the run"
 

@@ -23,19 +23,22 @@ from ninja_game.runtime import FOLDER_HANDLES
 class Tree:
     """The folder ``root``, made when it is first written into, and what is below it.
 
+    ``kept``: a file that is written is on the disk then; else when the system has time for it.
+
     ``root`` may be a link, since the user names it; below it none is followed. Names have ``/`` between their parts.
     Raises FileError for a name that leads out, and for a link, or no folder, in the way; OSError.
     """
 
-    def __init__(self, root: Path) -> None:
+    def __init__(self, root: Path, *, kept: bool = True) -> None:
         self.root = root
+        self._kept = kept
 
     def write(self, name: str, content: bytes | str) -> None:
         """Put a file there, whole or not at all, as ``write_atomically`` does; only a regular file is replaced."""
         *folders, last = _parts(name)
         with (
             self._folder(folders, make=True) as (folder, at),
-            replaced(folder / last, _replaceable(folder / last, at), at) as file,
+            replaced(folder / last, _replaceable(folder / last, at), at, kept=self._kept) as file,
         ):
             file.write(as_bytes(content))
 

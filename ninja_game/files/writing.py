@@ -64,12 +64,12 @@ def open_atomically(path: Path, *, keep: Iterable[Path] = ()) -> Iterator[IO[byt
 
 @contextmanager
 def replaced(
-    target: Path, about: os.stat_result | None, at: int | None = None, *, shown: Path | None = None
+    target: Path, about: os.stat_result | None, at: int | None = None, *, shown: Path | None = None, kept: bool = True
 ) -> Iterator[IO[bytes]]:
     """A binary file that takes the place of ``target`` when the block ends, and never if it ends in an exception.
 
     ``about``: the file that is there, None: none; ``at``: a handle of its folder, None: the folder is found by its
-    path; ``shown``: what OSErrors call the file, None: ``target``.
+    path; ``shown``: what OSErrors call the file, None: ``target``; ``kept``: it is on the disk then.
     """
     remove_leftovers(target.parent, at)
     part = None
@@ -81,13 +81,15 @@ def replaced(
             file.flush()
             if about is not None:
                 _keep_rights(part, handle, about)
-            os.fsync(handle)
+            if kept:
+                os.fsync(handle)
             if sys.platform != "win32":
                 # While it is open and locked, so that no other process takes it for a leftover.
                 os.replace(named(part, at), named(target, at), src_dir_fd=at, dst_dir_fd=at)
         if sys.platform == "win32":
             part.replace(target)
-        _sync_folder(target.parent, at)
+        if kept:
+            _sync_folder(target.parent, at)
     except BaseException as error:
         if part is not None:
             with suppress(OSError):

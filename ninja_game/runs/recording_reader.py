@@ -18,11 +18,9 @@ from ninja_game.formats.n14.level_file import LevelRecord, read_level_file
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.named_level import parse_levels
 from ninja_game.formats.recording import Recording, parse_replays, recording_of
+from ninja_game.formats.replay.headers import LEVELS_KEPT
 from ninja_game.formats.replay.text import is_replay
 from ninja_game.sim.level import Level
-
-LEVELS_KEPT = 512
-"""Levels that are kept read, some 10 MB: recordings of one level often stand near each other."""
 
 _MEANT_AS_DEMO = re.compile(r"[-+]?[0-9.]++\s*+:|(?=\S++\Z)([^|:]*+[|:]|A[A-Za-z]*+[^A-Za-z])")
 """What stands in a demo's place and is none, but looks like one: not the free text of level files."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from io import BytesIO
 from pathlib import Path
 
 import pytest
@@ -12,11 +13,13 @@ from PIL import Image, ImageSequence
 from ninja_game.cli.film import film as command
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.demo import write_demo
+from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.episode import write_episode
 from ninja_game.formats.replay.text import parse_replay
 from ninja_game.play.replay import film
 from ninja_game.play.replay.playback import Playback
 from ninja_game.runs.compare import run_splits
+from ninja_game.runs.run import record_replay
 from ninja_game.sim.inputs import Demo
 from tests.support.samples import SPIKED, WALK, WALK_END, replay_of_walk, running, write_records
 
@@ -148,7 +151,25 @@ def test_a_film_of_an_episode_shows_all_its_levels_and_the_time_that_is_left(rep
     assert files[0] != files[length], "the second level begins with another time"
     assert film_of(episode, "--record", 1, "-o", tmp_path / "one", "--size", "264x200").exit_code == 0
     assert [each.read_bytes() for each in sorted((tmp_path / "one").iterdir())] == files[length:]
-    assert "an episode is shown whole" in film_of(episode, "--from", 3, "-o", tmp_path / "no").output
+    words = ["--from", length - 2, "--to", length + 1, "--size", "264x200"]
+    assert film_of(episode, *words, "-o", tmp_path / "part").exit_code == 0
+    assert [each.read_bytes() for each in sorted((tmp_path / "part").iterdir())] == files[length - 2 : length + 2]
+    assert film_of(episode, *words, "--ghost", replay, "-o", tmp_path / "with").exit_code == 0
+    assert len(list((tmp_path / "with").iterdir())) == 4
+    assert f"there are {2 * length}" in str(film_of(episode, "--from", 999, "-o", tmp_path / "no").exception)
+
+
+def test_runs_beside_an_episode_are_those_of_each_level(replay: Path, tmp_path: Path) -> None:
+    run, episode = parse_replay(replay.read_text()), tmp_path / "two.episode.txt"
+    other = parse_level_string(WALK.replace("0^115,566", "0^117,566"))
+    second = record_replay(other, run.playback(WALK_END + 1))
+    episode.write_text(write_episode([run, second]))
+    words = ["--from", WALK_END, "--to", WALK_END + 60, "--size", "264x200", "-o"]
+    assert film_of(episode, "--beside", episode, *words, tmp_path / "both").exit_code == 0
+    sizes = {Image.open(BytesIO(each.read_bytes())).size for each in (tmp_path / "both").iterdir()}
+    assert sizes == {(528, 200)}
+    found = film_of(episode, "--beside", replay, *words, tmp_path / "no")
+    assert "as many runs for each level of the episode" in found.output
 
 
 def test_a_video_without_its_encoder_says_what_helps(

@@ -82,19 +82,19 @@ def test_a_disk_that_is_full_leaves_every_earlier_page(
     board(source, site)
     before = {path: path.read_bytes() for path in site.rglob("*") if path.is_file()}
     (source / "walk.txt").write_text(write_ascii_level(parse_level_string(SPIKED), name="Spiked"), "utf-8")
-    sync, left = os.fsync, iter(range(8))
+    replace, left = os.replace, iter(range(6))
 
-    def full(handle: int) -> None:
+    def full(part: str, target: str, **at: int) -> None:
         if next(left, None) is None:
-            raise OSError(errno.ENOSPC, "No space left on device")
-        sync(handle)
+            raise OSError(errno.ENOSPC, "No space left on device", part)
+        replace(part, target, **at)
 
-    monkeypatch.setattr(os, "fsync", full)
+    monkeypatch.setattr(os, "replace", full)
     assert "No space left" in board(source, site).output
     now = {path: path.read_bytes() for path in site.rglob("*") if path.is_file()}
     assert now.keys() >= before.keys()
     assert not [path for path in now if path.suffix == writing.PART_SUFFIX]
-    monkeypatch.setattr(os, "fsync", sync)
+    monkeypatch.setattr(os, "replace", replace)
     board(source, site)
     assert len(list((site / "board" / "levels").iterdir())) == 1
 

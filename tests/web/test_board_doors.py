@@ -11,9 +11,9 @@ import shutil
 import subprocess
 import zlib
 from dataclasses import replace
+from functools import partial
 from itertools import takewhile
 from pathlib import Path
-from typing import Any
 from unittest.mock import Mock
 
 import pytest
@@ -26,8 +26,7 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.made import Made
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.runs.run import record_replay, run_level
-from ninja_game.web.board import runs as board_runs
-from ninja_game.web.board.copies import ALIGNED, Course, course_of, edit_distance, near_ones
+from ninja_game.web.board.copies import ALIGNED, SHIFTED, Course, Courses, course_of, edit_distance, near_ones
 from ninja_game.web.board.pages import check_site
 from ninja_game.web.board.players import Players, folded
 from ninja_game.web.board.runs import _near_to_another, judge
@@ -448,33 +447,34 @@ def test_few_of_many_runs_are_aligned(monkeypatch: pytest.MonkeyPatch) -> None:
     course = course_of(inputs, run_level(recording.level, inputs))
     aligned = Mock(return_value=10**6)
     monkeypatch.setattr("ninja_game.web.board.copies.edit_distance", aligned)
-    other = replace(course, presses=0, places=frozenset())
+    other = replace(course, presses=frozenset(), places=frozenset())
     assert near_ones(course, [other] * 500) == []
     assert aligned.call_count == ALIGNED
 
 
-def test_runs_by_two_in_turn_take_no_longer(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_runs_by_two_in_turn_are_compared_once_and_the_fastest_only() -> None:
     """Each of them is nearer than all before it; and of many only the fastest are compared."""
-    compared = 0
-    places_shared = Course.places_shared
+    course = Course(b"", frozenset(range(9)), frozenset(), frozenset(map(float, range(1000))))
+    players = ["Bea" if number % 2 else "Ann" for number in range(200)]
+    for most, nearest in ((1000, 199), (9, 8)):
+        courses = Courses(most)
+        for number in range(200):
+            places = frozenset(map(float, range(750 + number)))
+            courses.add(number, number, partial(replace, course, places=places))
+        assert _near_to_another("Ann", course, courses, players) is None
+        near = _near_to_another("Cid", course, courses, players)
+        assert near == (nearest, f"{750 + nearest} of the 1000 places on its way are those of")
 
-    def counted(self: Course, other: Course) -> int:
-        nonlocal compared
-        compared += 1
-        return places_shared(self, other)
 
-    monkeypatch.setattr(Course, "places_shared", counted)
-    course = Course(b"", frozenset(range(9)), 0, frozenset(map(float, range(1000))))
-    turns: list[Any] = [
-        (
-            Mock(player="Bea" if number % 2 else "Ann", tick=number),
-            replace(course, places=frozenset(range(750 + number))),
-        )
-        for number in range(200)
-    ]
-    found = _near_to_another("Ann", course, turns)
-    assert found is None
-    assert compared <= len(turns)
-    assert (_near_to_another("Cid", course, turns) or turns[0])[0].tick == 199
-    monkeypatch.setattr(board_runs, "MOST_COMPARED", 9)
-    assert (_near_to_another("Cid", course, turns) or turns[0])[0].tick == 8
+def test_a_slower_run_leaves_for_a_faster_one_with_all_that_it_shares() -> None:
+    courses, one = Courses(1), Course(b"", frozenset(range(9)), frozenset(range(16)), frozenset({1.0}))
+    other = replace(one, presses=frozenset(range(80, 96)), places=frozenset({2.0}))
+    for number, (tick, each) in enumerate([(30, one), (40, other), (20, other)]):
+        courses.add(number, tick, partial(replace, each))
+    assert courses.numbers.tolist() == [2]
+    every = courses.numbers >= 0
+    assert courses.near(replace(one, presses=frozenset()))(every) == []
+    moved = replace(one, presses=frozenset(each + 8 * SHIFTED for each in other.presses))
+    assert courses.near(moved)(every) == [(2, "16 of 16 presses and releases are at the ticks of")]
+    beyond = replace(one, presses=frozenset(each + 8 for each in moved.presses))
+    assert courses.near(beyond)(every) == []

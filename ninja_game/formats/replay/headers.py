@@ -7,9 +7,10 @@ import math
 import re
 from collections.abc import Sequence
 from difflib import get_close_matches
+from functools import lru_cache
 from typing import NamedTuple, TypeVar
 
-from ninja_game.errors import ReplayError
+from ninja_game.errors import LevelError, ReplayError
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.lines import MOST_NAME, Line
 from ninja_game.formats.numbers import NAN, parse_number
@@ -39,6 +40,9 @@ KEYS = (
 )
 
 COUNT_LIMIT = 10**9
+
+LEVELS_KEPT, LONGEST_KEPT = 512, 2**15
+"""Levels that are kept read, some 10 MB, and characters of their texts: recordings of one level stand together."""
 
 _HEADER_LINE = re.compile(r"([a-z-]+):(.*)", re.DOTALL)
 _DIGEST = re.compile(r"[0-9a-f]{64}")
@@ -173,10 +177,20 @@ def read_level(lines: Sequence[Line], file: str) -> tuple[Level | None, str, str
     """The embedded ASCII level (None without one), its name and author. Raises LevelError with the replay's line."""
     if not lines:
         return None, "", ""
-    text = [""] * lines[-1][0]
-    for number, line in lines:
-        text[number - 1] = line
-    read = parse_ascii_level("\n".join(text), file=file)
+    try:
+        text = "\n".join(line for _, line in lines)
+        return _level_of(text) if len(text) <= LONGEST_KEPT else _level_of.__wrapped__(text)
+    except LevelError:
+        placed = [""] * lines[-1][0]
+        for number, line in lines:
+            placed[number - 1] = line
+        parse_ascii_level("\n".join(placed), file=file)  # raises it with the replay's line
+        raise
+
+
+@lru_cache(LEVELS_KEPT)
+def _level_of(text: str) -> tuple[Level, str, str]:
+    read = parse_ascii_level(text)
     level = read.level
     # With one and the same NaN everywhere a replay equals the one that was written.
     one_nan = [tuple(NAN if math.isnan(value) else value for value in record.values) for record in level.objects]

@@ -6,6 +6,7 @@ import json
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any, Self
 
 from ninja_game.errors import ReplayError
@@ -13,7 +14,7 @@ from ninja_game.formats.ascii.reader import write_ascii_level
 from ninja_game.formats.lines import Line, numbered_lines
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.numbers import format_number
-from ninja_game.formats.replay.headers import COUNT_LIMIT, Headers, Waypoint, read_level, read_waypoints
+from ninja_game.formats.replay.headers import COUNT_LIMIT, LEVELS_KEPT, Headers, Waypoint, read_level, read_waypoints
 from ninja_game.formats.replay.input_runs import Marker, is_marker_name, write_inputs
 from ninja_game.formats.replay.input_text import included_beside, read_inputs
 from ninja_game.formats.replay.made import UNKNOWN, Made, is_told
@@ -246,10 +247,28 @@ def write_replay(replay: Replay) -> str:
     if replay.waypoints:
         lines += ["waypoints:", *(f"  {tick} {x!r} {y!r} {state}" for tick, x, y, state in replay.waypoints)]
     if replay.level is not None:
-        text = write_ascii_level(replay.level, name=replay.level_name, author=replay.level_author)
-        lines += ["level-data:", *(f"  {line}".rstrip() for line in text.splitlines())]
+        lines += ["level-data:", *_level_lines(_Same(replay.level), replay.level_name, replay.level_author)]
     lines += [] if replay.unclaimed else [LAST_LINE]
     return "\n".join(lines) + "\n"
+
+
+@dataclass(frozen=True, eq=False)
+class _Same:
+    """A level that equals itself alone: two that are equal may be written with zeros of another sign."""
+
+    level: Level
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Same) and self.level is other.level
+
+    def __hash__(self) -> int:
+        return id(self.level)
+
+
+@lru_cache(LEVELS_KEPT)
+def _level_lines(same: _Same, name: str, author: str) -> list[str]:
+    text = write_ascii_level(same.level, name=name, author=author)
+    return [f"  {line}".rstrip() for line in text.splitlines()]
 
 
 def _claims(replay: Replay) -> dict[str, str]:

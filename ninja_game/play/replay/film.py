@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
@@ -95,6 +95,23 @@ class Film:
         if self.first > last:
             raise ArgumentError(f"a film from tick {self.first} to {last} has no pictures; the run's last is {end}")
         return range(self.first, last + 1)
+
+
+def section_of(films: Sequence[Film], first: int, last: int | None) -> list[Film]:
+    """What of films that follow each other is between two pictures, counted from 0 over all. ``last``: None: the end.
+
+    Raises ArgumentError where nothing is.
+    """
+    found, before = [], 0
+    for film in films:
+        count = len(film.moments)
+        start, end = max(0, first - before), count - 1 if last is None else min(count - 1, last - before)
+        if start <= end:
+            found.append(replace(film, first=start, last=end))
+        before += count
+    if not found:
+        raise ArgumentError(f"a film from tick {first} to {last} has no pictures; there are {before:,}")
+    return found
 
 
 class _Panel:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from hashlib import sha256
 from pathlib import Path
 
@@ -32,7 +33,7 @@ class SentFile:
     data: bytes = field(default=b"", repr=False)
     problem: str = ""
 
-    @property
+    @cached_property
     def digest(self) -> str:
         """Sha256 (hex) of its name and content."""
         return sha256(f"{self.name}\0{self.problem}\0".encode("utf-8", "surrogateescape") + self.data).hexdigest()

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Sequence
-from dataclasses import dataclass
-from heapq import nlargest
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from heapq import heappop, heappush, nlargest
 from itertools import groupby, pairwise
+
+import numpy as np
+from numpy.typing import NDArray
 
 from ninja_game.runs.run import RunResult
 from ninja_game.sim.inputs import KEYS_DOWN
@@ -31,13 +35,13 @@ class Course:
     """What is compared of a run.
 
     ``keys``: those down in each tick; ``strokes``: spans of the same keys, each as its number among equal ones, 2^20
-    times its keys and 2^24 times its ticks; ``presses``: bits of the keys pressed and of those released, eight a tick;
-    ``places``: where the ninja was, in whole pixels, x + 10^6 y.
+    times its keys and 2^24 times its ticks; ``presses``: keys pressed and keys released, each as a bit of eight, plus
+    eight times its tick; ``places``: where the ninja was, in whole pixels, x + 10^6 y.
     """
 
     keys: bytes
     strokes: frozenset[int]
-    presses: int
+    presses: frozenset[int]
     places: frozenset[float]
 
     def inputs_shared(self, other: Course) -> int:
@@ -45,23 +49,6 @@ class Course:
         changed = edit_distance(self.keys, other.keys)
         alike = changed <= CHANGED * max(len(self.strokes), len(other.strokes))
         return max(0, len(self.keys) - changed) if alike else 0
-
-    def presses_shared(self, other: Course) -> int:
-        """How many presses and releases are at the ticks of the other's; 0 where too few are."""
-        needed = max(FEWEST_PRESSES, SAME_PRESSES * other.presses.bit_count())
-        if self.presses.bit_count() < needed:
-            return 0
-        later = self.presses << 8 * SHIFTED
-        shared = max((other.presses << 8 * shift & later).bit_count() for shift in range(2 * SHIFTED + 1))
-        return shared if shared >= needed else 0
-
-    def places_shared(self, other: Course) -> int:
-        """How many places are on the other's path; 0 where too few are."""
-        needed = ON_PATH * len(self.places)
-        if len(other.places) < needed or len(self.strokes) < FEWEST_STROKES:
-            return 0
-        shared = len(self.places & other.places)
-        return shared if shared >= needed else 0
 
 
 def course_of(inputs: bytes, run: RunResult) -> Course:
@@ -73,29 +60,115 @@ def course_of(inputs: bytes, run: RunResult) -> Course:
         stroke = down + 16 * len(list(ticks)) << 20
         met[stroke] += 1
         strokes.append(stroke + met[stroke])
-    presses = bytes(down & ~before | (before & ~down) << 4 for before, down in pairwise(keys))
+    changes = [down & ~before | (before & ~down) << 4 for before, down in pairwise(keys)]
+    presses = frozenset(8 * tick + bit for tick, bits in enumerate(changes) for bit in range(8) if bits >> bit & 1)
     x, y = run.positions.round().T
-    return Course(keys, frozenset(strokes), int.from_bytes(presses, "little"), frozenset((x + 1e6 * y).tolist()))
+    return Course(keys, frozenset(strokes), presses, frozenset((x + 1e6 * y).tolist()))
+
+
+class Common:
+    """Which courses have a thing, such as a place: a bit for each of the columns that courses are in."""
+
+    def __init__(self) -> None:
+        self._rows: dict[float, int] = {}
+        self._bits = np.zeros((64, 1), np.uint8)
+
+    def mark(self, things: Iterable[float], column: int, *, has: bool) -> None:
+        """The course in a column has these things, or has not any more."""
+        rows = [self._rows.setdefault(each, len(self._rows)) for each in things]
+        high, wide = self._bits.shape
+        if len(self._rows) > high or column // 8 >= wide:
+            more = max(0, 2 * len(self._rows) - high), max(0, column // 8 + column // 16 + 1 - wide)
+            self._bits = np.pad(self._bits, ((0, more[0]), (0, more[1])))
+        bit = 1 << column % 8
+        if has:
+            self._bits[rows, column // 8] |= bit
+        else:
+            self._bits[rows, column // 8] &= 255 - bit
+
+    def counts(self, things: Iterable[float], columns: int) -> NDArray[np.int64]:
+        """How many of the things each of the first columns has."""
+        rows = np.array([self._rows[each] for each in things if each in self._rows], np.intp)
+        bits = np.unpackbits(self._bits[rows, : (columns + 7) // 8], axis=1, count=columns, bitorder="little")
+        found: NDArray[np.int64] = bits.sum(0, np.int64)
+        return found
+
+
+class Courses:
+    """The courses of the ``most`` fastest earlier runs of a level, each in a column: a new one is compared with all.
+
+    ``numbers``: by column that of its run.
+    """
+
+    def __init__(self, most: int) -> None:
+        self.numbers = np.array([], np.int64)
+        self._most = most
+        self._courses: dict[int, Course] = {}
+        self._slowest: list[tuple[int, int, int]] = []
+        self._strokes, self._presses, self._places = Common(), Common(), Common()
+
+    def add(self, number: int, tick: int, course: Callable[[], Course]) -> None:
+        """A run by its number, higher than those before, and its time, unless all columns have faster ones."""
+        column = len(self._slowest)
+        if column == self._most:
+            if self._slowest[0] > (-tick, -number, 0):
+                return
+            column = heappop(self._slowest)[2]
+            self._mark(self._courses[column], column, has=False)
+        self._courses[column] = here = course()
+        self._mark(here, column, has=True)
+        if column == len(self.numbers):
+            self.numbers = np.append(self.numbers, number)
+        self.numbers[column] = number
+        heappush(self._slowest, (-tick, -number, column))
+
+    def _mark(self, course: Course, column: int, *, has: bool) -> None:
+        for common, things in ((self._strokes, course.strokes), (self._presses, course.presses)):
+            common.mark(things, column, has=has)
+        self._places.mark(course.places, column, has=has)
+
+    def near(self, course: Course) -> Callable[[NDArray[np.bool_]], list[tuple[int, str]]]:
+        """What tells, of columns, the numbers of those that share enough of a course, and what; the nearest first."""
+        columns = len(self.numbers)
+        places, presses = self._places.counts(course.places, columns), np.zeros(columns, np.int64)
+        of = np.array([len(self._courses[column].presses) for column in range(columns)], np.int64)
+        if len(course.presses) >= FEWEST_PRESSES:
+            for shift in range(-SHIFTED, SHIFTED + 1):
+                moved = (each + 8 * shift for each in course.presses)
+                presses = np.maximum(presses, self._presses.counts(moved, columns))
+        on_path = (places >= ON_PATH * len(course.places)) & (len(course.strokes) >= FEWEST_STROKES)
+        pressed = (presses >= SAME_PRESSES * of) & (presses >= FEWEST_PRESSES)
+
+        def found(chosen: NDArray[np.bool_]) -> list[tuple[int, str]]:
+            near: list[tuple[float, int, str]] = []
+
+            def note(column: int, shared: int, all_: int, words: str) -> None:
+                near.append((shared / all_, -int(self.numbers[column]), words.format(shared, all_)))
+
+            of_these = np.flatnonzero(chosen).tolist()
+            for column in of_these:
+                if on_path[column]:
+                    words = "{} of the {} places on its way are those of"
+                    note(column, places[column], len(course.places), words)
+                if pressed[column]:
+                    words = "{} of {} presses and releases are at the ticks of"
+                    note(column, presses[column], of[column], words)
+            # Aligning is slow: only where nothing else tells.
+            strokes = self._strokes.counts(course.strokes if not near else (), columns)
+            for column in nlargest(ALIGNED, () if near else of_these, key=strokes.__getitem__):
+                if shared := course.inputs_shared(self._courses[column]):
+                    note(column, shared, len(course.keys), "{} of its {} ticks have the inputs of")
+            return [(-number, words) for _, number, words in sorted(near, reverse=True)]
+
+        return found
 
 
 def near_ones(course: Course, earlier: Sequence[Course]) -> list[tuple[int, str]]:
     """Which earlier courses share enough of this one, and what in words; the nearest first."""
-    found: list[tuple[float, int, str]] = []
-    for index, other in enumerate(earlier):
-        if shared := course.places_shared(other):
-            places = len(course.places)
-            found.append((shared / places, -index, f"{shared} of the {places} places on its way are those of"))
-        if shared := course.presses_shared(other):
-            presses = other.presses.bit_count()
-            words = f"{shared} of {presses} presses and releases are at the ticks of"
-            found.append((shared / presses, -index, words))
-    # Aligning is slow: only where nothing else tells.
-    rest = () if found else range(len(earlier))
-    for index in nlargest(ALIGNED, rest, key=lambda each: len(course.strokes & earlier[each].strokes)):
-        if shared := course.inputs_shared(earlier[index]):
-            ticks = len(course.keys)
-            found.append((shared / ticks, -index, f"{shared} of its {ticks} ticks have the inputs of"))
-    return [(-index, words) for _, index, words in sorted(found, reverse=True)]
+    courses = Courses(len(earlier))
+    for number, other in enumerate(earlier):
+        courses.add(number, 0, partial(replace, other))
+    return courses.near(course)(courses.numbers >= 0)
 
 
 def edit_distance(ours: bytes, theirs: bytes) -> int:

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import re
 from collections import defaultdict, deque
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from functools import partial
 from heapq import nsmallest
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple, get_type_hints
+
+import numpy as np
 
 from ninja_game.budget import RUN_BUDGET, tick_cost
 from ninja_game.errors import NinjaGameError
@@ -24,7 +27,7 @@ from ninja_game.runs.run import run_level
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.web.board.collect import RunFolder, Sent
-from ninja_game.web.board.copies import Course, course_of, near_ones
+from ninja_game.web.board.copies import Course, Courses, course_of
 from ninja_game.web.board.players import Players, player_named
 from ninja_game.web.pages.memo import Memo, digest_of, program
 from ninja_game.web.pages.published import PublishedLevels, shared_text
@@ -350,16 +353,20 @@ def _remarked(runs: list[Run], memo: Memo) -> list[Run]:
     if len({run.player for run in runs}) == 1:
         return runs
     found: list[Run] = []
-    courses: list[tuple[Run, Course]] = []
+    courses, known = Courses(MOST_COMPARED), 0
     key = ""
     for number, run in enumerate(runs):
         # A remark depends on all earlier runs of the level, and on nothing else.
         key = digest_of([key, program(), run.entry.digest, run.digest, run.record, run.player])
         said = memo.recall(key)
         if not isinstance(said, str):
-            courses += [(each, _course(each)) for each in runs[len(courses) : number + 1]]
-            near = _near_to_another(run.player, courses[number][1], courses[:number])
-            said = f"{near[1]} the run by {near[0].player} in {near[0].file}" if near else ""
+            fast = nsmallest(MOST_COMPARED, range(known, number), key=lambda each: runs[each].tick)
+            for each in sorted(fast):
+                courses.add(each, runs[each].tick, partial(_course, runs[each]))
+            course, known = _course(run), number + 1
+            near = _near_to_another(run.player, course, courses, [each.player for each in runs[:number]])
+            courses.add(number, run.tick, partial(replace, course))
+            said = f"{near[1]} the run by {runs[near[0]].player} in {runs[near[0]].file}" if near else ""
             memo.note(key, said)
         found.append(replace(run, remark="; ".join(filter(None, (said, run.remark)))))
     return found
@@ -370,15 +377,14 @@ def _course(run: Run) -> Course:
     return course_of(inputs, run_level(run.entry.named.level, inputs))
 
 
-def _near_to_another(player: str, course: Course, earlier: list[tuple[Run, Course]]) -> tuple[Run, str] | None:
-    """The run by another player that a run is nearest to, and how, of those before the player's own first near one."""
-    fastest = sorted(nsmallest(MOST_COMPARED, range(len(earlier)), key=lambda each: earlier[each][0].tick))
+def _near_to_another(player: str, course: Course, earlier: Courses, players: Sequence[str]) -> tuple[int, str] | None:
+    """Which run by another player a run is nearest to, and how, of those before the player's own first near one.
 
-    def near(*, own: bool) -> list[tuple[int, str]]:
-        chosen = [each for each in fastest if each < until and (earlier[each][0].player == player) == own]
-        return [(chosen[index], words) for index, words in near_ones(course, [earlier[each][1] for each in chosen])]
-
-    until = len(earlier)
+    ``players``: of the earlier runs.
+    """
+    numbers = earlier.numbers
+    own = np.array([players[number] == player for number in numbers.tolist()], bool)
+    near, until = earlier.near(course), len(players)
     for _ in range(2):  # inputs are aligned only where nothing else is near
-        until = min((index for index, _ in near(own=True)), default=until)
-    return next(((earlier[index][0], words) for index, words in near(own=False)), None)
+        until = min((number for number, _ in near(own & (numbers < until))), default=until)
+    return next(iter(near(~own & (numbers < until))), None)

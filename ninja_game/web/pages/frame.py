@@ -116,7 +116,7 @@ class Pages:
     def __init__(self, site: Path, name: str, memo: Memo | None = None) -> None:
         self.folder = site / name
         self._memo = memo or Memo()
-        self._site = Tree(site)
+        self._site = Tree(site, kept=False)  # they can always be made again
         self._written: set[str] = set()
         there = self._site.names(name)
         if there and MARK not in there:
