@@ -83,6 +83,8 @@ class EditorCommands(DocumentCommands):
             "swap": lambda: tools.pick_up(tools.tile if tools.objects else tools.spec),
             "mirror": lambda: tools.turn(MIRROR), "flip": lambda: tools.turn(FLIP),
             "turn": lambda: tools.turn(CLOCKWISE), "symmetry": self.next_symmetry, "grid": view.next_grid,
+            "slopes": self.switch_slopes,
+            "list": lambda: setattr(view, "listing", not view.listing),
             "lines": lambda: setattr(view, "lines", not view.lines),
             "paths": lambda: setattr(view, "paths", not view.paths),
             "reach": self.next_reach,
@@ -96,6 +98,14 @@ class EditorCommands(DocumentCommands):
         tools = self.session.tools
         tools.finish()
         tools.symmetry = following(names, tools.symmetry)
+
+    def switch_slopes(self) -> None:
+        """Have corners of drawn rock cut, or not."""
+        tools = self.session.tools
+        tools.slopes = not tools.slopes
+        self.view.hint = (
+            f"Slopes {'set themselves where full tiles are drawn or erased' if tools.slopes else 'stay as drawn'}"
+        )
 
     def choose_all(self) -> None:
         tools = self.session.tools
@@ -127,7 +137,7 @@ class EditorCommands(DocumentCommands):
         if places:
             tools.pointer = places[0]
             self.view.hovering = True
-        self.view.hint = f"{finding.sentence}. {finding.hint}"
+        self.view.hint = finding.advice
 
     # --- trying and certifying ---
 

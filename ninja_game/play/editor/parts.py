@@ -11,7 +11,7 @@ import pygame
 from ninja_game.editor.brush import tile_name
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, Motion
 from ninja_game.editor.specs import SWITCH, carried, has_switch, object_type_name, points, properties, with_word, word
-from ninja_game.editor.tools import EditorTools
+from ninja_game.editor.tools import CURVES, SPACINGS, EditorTools
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.places import place_text, read_place
 from ninja_game.play.editor.controls import TABLE
@@ -45,7 +45,7 @@ def panel_key(tools: EditorTools) -> tuple[object, ...]:
             kind,
             spec and tuple(points(spec)),
         )
-    return tools.objects, tools.spec.kind if tools.objects else tools.tile
+    return tools.objects, tools.spec.kind if tools.objects else tools.tile, tools.effective_tool in CURVES
 
 
 def property_widgets(tools: EditorTools, area: Area) -> Sequence[Widget]:
@@ -67,12 +67,22 @@ def property_widgets(tools: EditorTools, area: Area) -> Sequence[Widget]:
             rows += [_place(tools, part) for part in points(spec)]
         elif has_switch(spec):
             rows.append(partial(Label, text="Then click where its switch is", size=9.5, faint=True))
+        elif tools.effective_tool in CURVES:
+            words = [(f"one every {spacing:.0f} px", spacing) for spacing in SPACINGS]
+            rows.append(lambda area: _setting(area, tools, "spacing", words, "How far apart they lie along it"))
     else:
         title = f"Draw: {tile_name(tools.tile)}"
         texts = ("1 to 8: shape", "Q W A S: its solid corner", "E: full    D: empty", "H, J, U: mirror, flip, turn")
         rows += [partial(Label, text=text, size=9.5, faint=True) for text in texts]
+        words = [("slopes: by hand", False), ("slopes: by themselves", True)]
+        rows.append(lambda area: _setting(area, tools, "slopes", words, TABLE.hint("slopes")))
     head = Label((x, y, w, 15), title, size=10)
     return [head, *(make((x, y + 17 + ROW * k, w, ROW - 3)) for k, make in enumerate(rows))]
+
+
+def _setting(area: Area, tools: EditorTools, name: str, words: Sequence[tuple[str, object]], hint: str) -> Widget:
+    """A setting of the tools by its words."""
+    return Choice(area, "", words, lambda: getattr(tools, name), partial(setattr, tools, name), hint=hint)
 
 
 def _choice(tools: EditorTools, name: str) -> Callable[[Area], Widget]:
@@ -136,14 +146,14 @@ def _place(tools: EditorTools, part: int) -> Callable[[Area], Widget]:
     return lambda area: TextEntry(area, "place", text, put, hint=hint)
 
 
-TOP, TALL, GAP = 4.0, 21.0, 3.0
+TOP, TALL, GAP = 4.0, 21.0, 2.0
 
 _BUTTONS = (
-    ("menu", "File", 36, 0), ("undo", "Undo", 40, 0), ("redo", "Redo", 40, 5),
-    ("brush", "Brush", 42, 0), ("rectangle", "Box", 34, 0), ("fill", "Fill", 32, 0), ("select", "Select", 44, 0),
-    ("pick", "Pick", 34, 5), ("symmetry", "Mirror: {symmetry}", 114, 0), ("grid", "Grid: {grid}", 100, 0),
-    ("snap_next", "Snap: {snap}", 78, 5), ("test", "Test", 42, 0), ("certify", "Certify", 52, 0),
-    ("help", "Help", 40, 0),
+    ("menu", "File", 34, 0), ("undo", "Undo", 38, 0), ("redo", "Redo", 38, 4),
+    ("brush", "Brush", 40, 0), ("rectangle", "Box", 32, 0), ("line", "Line", 34, 0), ("ellipse", "Ellipse", 46, 0),
+    ("fill", "Fill", 30, 0), ("select", "Select", 44, 0), ("pick", "Pick", 34, 4),
+    ("symmetry", "Mirror: {symmetry}", 90, 0), ("grid", "Grid: {grid}", 90, 0), ("snap_next", "Snap: {snap}", 64, 4),
+    ("test", "Test", 38, 0), ("certify", "Certify", 48, 0), ("help", "Help", 38, 0),
 )  # fmt: skip
 """Command, text, width, more than the usual gap behind it, px."""
 
@@ -210,21 +220,25 @@ class PalettePart(EditorPart):
 
     area = LAYOUT.palette
 
-    def __init__(self, view: EditorView, palette: PaletteView) -> None:
+    def __init__(self, view: EditorView, palette: PaletteView, run: Callable[[str], object]) -> None:
         super().__init__(view)
         self._palette = palette
-        self.widgets = [palette]
+        x, y, w, _ = self.area
+        self.widgets = [palette, ToolButton((x + w - 42, y + 4, 34, 17), "list", "List", run, view)]
 
     def render_key(self) -> tuple[object, ...]:
         tools = self.session.tools
-        return tools.objects, tools.tile, tools.spec
+        return tools.objects, tools.tile, tools.spec, self._palette.hovered
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
-        """What an entry is called is said in the status line."""
+        """What an entry is called is said here and in the status line."""
         used = super().mouse(event, x, y)
         if used:
-            self.view.hint = self._palette.hover(x, y)
+            self.view.hint = self._palette.hover(x, y) or self.view.hint
         return used
+
+    def mouse_left(self) -> None:
+        self._palette.hovered = None
 
 
 class Properties(EditorPart):
@@ -245,7 +259,7 @@ class Properties(EditorPart):
 
     def render_key(self) -> tuple[object, ...]:
         tools = self.session.tools
-        return self._subject, tools.tile, tools.subject, tools.selection
+        return self._subject, tools.tile, tools.subject, tools.selection, tools.slopes, tools.spacing
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)
@@ -282,7 +296,7 @@ class Findings(EditorPart):
         finding = self._shown[index]
         x, y, w, _ = area
         theme.text(surface, "!", x + 4, y + 5, size=9.5, bold=True, colour=theme.palette.bad)
-        theme.text(surface, f"{finding.sentence}. {finding.hint}", x + 14, y + 5, size=9.5, width=w - 16)
+        theme.text(surface, finding.advice, x + 14, y + 5, size=9.5, width=w - 16)
 
 
 class FilePart(EditorPart):
@@ -346,6 +360,8 @@ class StatusLine(EditorPart):
 _TOOL_HINTS = {
     "brush": "Left button draws, right erases, middle picks; wheel: next in the palette. F1: help",
     "rectangle": "Drag a rectangle; right button erases. F1: help",
+    "line": "Drag a line; the wheel bends it meanwhile; objects lie along it. F1: help",
+    "ellipse": "Drag an ellipse; tiles fill it, objects lie along it. F1: help",
     "fill": "A click fills what is joined and alike. F1: help",
     "select": "Click or drag a frame; drag what is selected; Shift adds. Ctrl+C, Ctrl+V, H, J, U. F1: help",
     "pick": "Click what to draw with. F1: help",

@@ -12,6 +12,7 @@ from ninja_game.editor.specs import PROPERTIES, properties, with_word, word
 from ninja_game.play.app import App
 from ninja_game.play.editor.commands import EditorCommands
 from ninja_game.play.editor.controls import DIRECTION_KEYS, OBJECT_TYPE_OF_KEY, TABLE, tile_of_key
+from ninja_game.play.editor.object_list import ObjectList
 from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.parts import FilePart, Findings, PalettePart, Properties, StatusLine, Toolbar
 from ninja_game.play.editor.session import EditorSession
@@ -38,8 +39,9 @@ class EditorScreen(WorkspaceScreen):
         self.view = EditorView(app, self.session, self.palette.step)
         self.commands = EditorCommands(app, self.session, self.view, self.palette)
         self.properties = Properties(self.view)
+        self.sides: tuple[Part, Part] = PalettePart(self.view, self.palette, self.run), ObjectList(self.view, self.run)
         self._parts: list[Part] = [
-            self.view, Toolbar(self.view, self.run), PalettePart(self.view, self.palette), self.properties,
+            self.view, Toolbar(self.view, self.run), self.properties,
             Findings(self.view, self.commands.go_to_finding), FilePart(self.view), StatusLine(self.view),
         ]  # fmt: skip
         self._dragged_to: InputEvent | None = None
@@ -51,10 +53,11 @@ class EditorScreen(WorkspaceScreen):
 
     @property
     def parts(self) -> Sequence[Part]:
-        return self._parts
+        return [*self._parts, self.sides[self.view.listing]]
 
     def run(self, name: str) -> None:
         self.commands.run(name)
+        self.redraw = self.redraw or name == "list"
 
     def hint(self, text: str) -> None:
         self.view.hint = text

@@ -14,12 +14,12 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.editor.certify import Route
-from ninja_game.editor.draft import Draft
+from ninja_game.editor.draft import Draft, changed_cells
 from ninja_game.editor.specs import BODY, SWITCH, has_switch, points
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.object_pictures import ObjectPictures, ObjectSprites
 from ninja_game.sim import kinds
-from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
+from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.loader import grid_tiles
 from ninja_game.sim.memory.schema import TileMap
 from ninja_game.sim.rules import STRIDE
@@ -73,15 +73,11 @@ class LevelSheet:
             self._change_objects(draft)
 
     def _change_tiles(self, before: Draft, draft: Draft) -> None:
-        old, new = before.level.tiles, draft.level.tiles
-        if old == new:
-            return
-        grid = grid_tiles(draft.level)
-        for index in range(COLUMNS * ROWS):
-            if old[index] != new[index]:
-                column, row = index // ROWS + 1, index % ROWS + 1
-                self._tiles.draw(column, row, grid[(row + 1) * STRIDE + column + 1])
-                self._dirty.append(self._tiles.cell(column, row))
+        changed = changed_cells(before, draft)
+        grid = grid_tiles(draft.level) if changed else []
+        for column, row in changed:
+            self._tiles.draw(column, row, grid[(row + 1) * STRIDE + column + 1])
+            self._dirty.append(self._tiles.cell(column, row))
 
     def _change_objects(self, draft: Draft) -> None:
         before = self._looks
