@@ -171,5 +171,6 @@ class EditorScreen(WorkspaceScreen):
         super().update(real_ms)
         self._drag_on()
         self.session.update()
+        self.commands.follow_file()
         for part in self.parts:
             part.update(real_ms)

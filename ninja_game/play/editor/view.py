@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import pygame
 
 from ninja_game.editor.brush import placed
+from ninja_game.editor.certify import NO_TESTS
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.reach import CELL, Reach
 from ninja_game.editor.specs import BODY, SWITCH, carried, points
@@ -176,7 +177,7 @@ LAYOUT = EditorLayout()
 class EditorView(Part):
     """The level under edit, and what lies over it. ``hovering``: the pointer is shown; ``hint``: for the line below.
 
-    ``listing``: the list of objects is shown in the place of the palette.
+    ``listing``: the list of objects is shown in the place of the palette; ``tests``: the map of the tests is shown.
     """
 
     area = LAYOUT.level
@@ -188,7 +189,7 @@ class EditorView(Part):
         self.hint = ""
         self.grid: Grid = GRIDS[1]
         self.lines = self.paths = True
-        self.listing = False
+        self.listing = self.tests = False
         self._step_palette = step_palette
         self._held = False
         self._marked: tuple[object, ...] = ()
@@ -280,7 +281,7 @@ class EditorView(Part):
         stale = certifier.is_stale(session.draft.level)
         wanted = (
             session.draft.objects, self.lines, self.paths, session.last_try, certifier.search.route, stale,
-            session.findings, session.tools.symmetry,
+            session.findings, session.tools.symmetry, self.tests and session.test_map,
         )  # fmt: skip
         if len(wanted) == len(self._marked) and all(a is b for a, b in zip(wanted, self._marked, strict=True)):
             return
@@ -289,7 +290,8 @@ class EditorView(Part):
         routes.append((certifier.search.route, palette.faint if stale else palette.good))
         marks = level_marks(
             self.sheet.canvas, palette, session.draft, self.sheet.marks, lines=self.lines, signs=self._signs(),
-            routes=routes if self.paths else (), axes=_AXES.get(session.tools.symmetry, ()),
+            routes=routes if self.paths else (), tests=(self.tests and session.test_map) or NO_TESTS,
+            axes=_AXES.get(session.tools.symmetry, ()),
         )  # fmt: skip
         self.sheet.show_marks(marks)
 

@@ -135,6 +135,37 @@ def test_a_test_leads_back_in_one_press_with_everything_as_it_was(room: Maker) -
     assert not room.player.statistics.played().attempts
 
 
+def test_a_map_shows_where_all_tests_came_and_died(room: Maker) -> None:
+    session = room.editor.session
+    room.press("grave", "3")
+    room.drag((100, 540))  # a mine on the way to the exit
+    plain = room.app.surface.copy()
+    room.press("f9")
+    assert "No tests yet" in room.editor.view.hint
+    room.press("f5")
+    for _ in range(2):
+        room.keys.script = [2] * 60
+        room.press("space")
+        room.frames(70)
+        room.press("r")
+    room.press("escape")
+    room.wait(lambda: session.test_map and len(session.test_map.deaths) == 2, "map")
+    assert session.test_map
+    died, _ = session.test_map.deaths
+    assert 70 < died[0] < 100
+    assert session.test_map.visits == {(2, 22): 2, (3, 22): 2}
+    assert len(session.tries) == 2, "what is pressed after a death is no test"
+    room.frames(2)
+    x, y = room.app.canvas.point(*room.at(60, 500))
+    assert room.app.surface.get_at((x, y)) == plain.get_at((x, y)), "nobody came there"
+    x, y = room.app.canvas.point(*room.at(90, 532))
+    assert room.app.surface.get_at((x, y)) != plain.get_at((x, y))
+    room.press("f9")
+    assert not [key for key in room.editor.view.sheet.marks if key[0] in ("visit", "death")]  # type: ignore[index]
+    session.begin(Source(ROOM))
+    assert session.test_map is None
+
+
 def test_a_test_that_passes_comes_back_by_confirming(room: Maker) -> None:
     room.press("f5")
     room.keys.script = [2] * 200

@@ -7,6 +7,7 @@ import os
 import shutil
 from dataclasses import replace
 from hashlib import sha256
+from math import inf
 from pathlib import Path
 from zipfile import ZipFile
 
@@ -133,8 +134,49 @@ def test_saving_first_goes_on_with_what_was_asked(maker: Maker, tmp_path: Path, 
     assert load_levels(next((tmp_path / "levels").iterdir()))[0].level == drawn.level
 
 
+def unwatched(maker: Maker) -> None:
+    """The editor does not see by itself that its file changes."""
+    maker.editor.session._looked_at = inf
+
+
+def watched(maker: Maker) -> None:
+    """The editor looks at its file now."""
+    maker.editor.session._looked_at = -inf
+    maker.frames(2)
+
+
+def test_a_file_that_changes_on_the_disk_is_shown_at_once(room: Maker, tmp_path: Path) -> None:
+    room.chord("s", pygame.KMOD_LCTRL)
+    path = tmp_path / "levels" / "room.txt"
+    watched(room)
+    assert isinstance(room.top(), EditorScreen), "its own save is no change"
+    saved = path.read_text("utf-8")
+    path.write_text(saved.replace("name: Room", "name: Hall!"), "utf-8")
+    watched(room)
+    assert (room.draft.name, room.editor.session.is_saved) == ("Hall!", True)
+    room.chord("z", pygame.KMOD_LCTRL)
+    assert room.draft == ROOM
+    path.write_text("ninja-game level 1\nrubbish", "utf-8")
+    watched(room)
+    assert (room.draft, "rubbish" in room.app.notice) == (ROOM, True)
+    path.write_text(saved.replace("name: Room", "name: Gallery"), "utf-8")
+    watched(room)
+    assert room.top().title == "Another program has changed room.txt"  # type: ignore[attr-defined]
+    room.choose("Keep what is here")
+    watched(room)
+    assert (room.draft, isinstance(room.top(), EditorScreen)) == (ROOM, True), "it asks once"
+    path.write_text(saved.replace("name: Room", "name: Corridor"), "utf-8")
+    watched(room)
+    room.choose("Load the file")
+    assert (room.draft.name, room.editor.session.is_saved) == ("Corridor", True)
+    path.unlink()
+    watched(room)
+    assert room.draft.name == "Corridor"
+
+
 def test_saving_first_stays_where_it_was_not_saved(room: Maker, tmp_path: Path) -> None:
     room.chord("s", pygame.KMOD_LCTRL)
+    unwatched(room)
     path = tmp_path / "levels" / "room.txt"
     path.write_text(path.read_text("utf-8") + "; by hand\n", "utf-8")
     room.drag((300, 300))
@@ -154,6 +196,7 @@ def test_saving_first_stays_where_it_was_not_saved(room: Maker, tmp_path: Path) 
 def test_a_file_that_another_program_changed_is_loaded_again(room: Maker, tmp_path: Path) -> None:
     room.chord("s", pygame.KMOD_LCTRL)
     path = tmp_path / "levels" / "room.txt"
+    unwatched(room)
     path.write_text(path.read_text("utf-8").replace("name: Room", "name: Hall"), "utf-8")
     room.drag((300, 300))
     room.chord("s", pygame.KMOD_LCTRL)
