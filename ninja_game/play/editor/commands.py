@@ -28,6 +28,7 @@ from ninja_game.play.editor.sheet import finding_points
 from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.editor.view import EditorView
 from ninja_game.play.menus.browser import LevelChoice
+from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.panels import Action, FormPanel, Menu, Row, nothing
 from ninja_game.play.workspace.document import DocumentCommands
@@ -187,6 +188,7 @@ class EditorCommands(DocumentCommands):
             ("Paste an N string", session.paste_string, "From the clipboard; any format of levels, or a link"),
             ("Export a picture", session.export_picture, "A PNG file among your exports"),
             ("Keep the solver's run", session.keep_certificate, "As a replay among yours"),
+            ("Good levels", self.good_levels, "Ten of the game's, and what makes each of them good"),
             ("Leave the editor", self.leave, ""),
         ]  # fmt: skip
         self.app.push(Menu(self.app, "Level", rows))
@@ -265,6 +267,10 @@ class EditorCommands(DocumentCommands):
 
     def open(self) -> None:
         self.unless_unsaved(lambda: self.app.push(LevelChoice(self.app, self.edit_entry)))
+
+    def good_levels(self) -> None:
+        """Show what makes levels of the game good; each can be opened here."""
+        self.app.push(GoodLevelsScreen(self.app, lambda entry: self.unless_unsaved(lambda: self.edit_entry(entry))))
 
     def edit_entry(self, entry: Entry) -> None:
         """Edit a level of the browser: the player's in its file, in a pack too; the game's or a zip's as a new one."""

@@ -16,19 +16,22 @@ import pytest
 
 from ninja_game.cli.main import cli
 from ninja_game.editor.ascii_text import ascii_text
+from ninja_game.editor.draft import is_inside
 from ninja_game.editor.files import Autosave, Source, new_source, open_source, recovered
-from ninja_game.files.user_folder import EDITING, bundled_levels
+from ninja_game.files.user_folder import CHECKOUT, EDITING, bundled_levels
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.play.app import App
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.menus.browser import Browser, LevelChoice
+from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.panels import FormPanel, Menu
 from ninja_game.player.backup import read_backup, write_backup
 from ninja_game.signals import Terminated
 from tests.support.level_maker import ROOM, Maker
 from tests.support.own_pack import PACK
+from tools.draw.good_levels import written
 
 
 def test_saved_levels_are_in_the_browser_at_once(room: Maker, tmp_path: Path) -> None:
@@ -352,3 +355,24 @@ def test_the_command_edit_opens_a_level(tmp_path: Path, monkeypatch: pytest.Monk
         cli.main(["edit", str(file), "--record", "3"])
     assert ended.value.code == 2
     assert replace(open_source(file).draft) == open_source(file).draft
+
+
+def test_good_levels_are_shown_with_notes_and_opened_as_copies(
+    room: Maker, root: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(CHECKOUT, "levels", root / "levels")
+    room.choose_in_menu("Good levels")
+    screen = room.top()
+    assert isinstance(screen, GoodLevelsScreen)
+    assert len(screen.levels) == 10
+    for level in screen.levels:
+        assert (bool(level.about), len(level.notes)) == (True, 4)
+        assert all(is_inside((column, row)) for column, row, _ in level.notes)
+    page = (root / "docs" / "good-levels.md").read_text("utf-8")
+    assert written(page, screen.levels) == page, "`python3 tools/dev.py docs` writes the chapter"
+    room.press("down")
+    room.editor.session.tools.history.change(new_source().draft)
+    room.choose("Edit a copy")
+    room.choose("Discard changes")
+    assert isinstance(room.top(), EditorScreen)
+    assert (room.draft.name, room.editor.session.source.path) == ("Rolling Hills", None)
