@@ -404,14 +404,16 @@ class EditorTools:
         return self.chosen or self.spec
 
     @property
-    def several(self) -> list[ObjectSpec]:
-        """All objects of which anything is selected."""
-        return [
-            self.draft.objects[number] for number in sorted(self.selection.numbers) if number < len(self.draft.objects)
-        ]
+    def subjects(self) -> list[ObjectSpec]:
+        """All objects of which anything is selected; without a selection the one that is drawn with."""
+        objects = self.draft.objects
+        chosen = [objects[number] for number in sorted(self.selection.numbers) if number < len(objects)]
+        return chosen if self.selection else [self.spec]
 
     def put_word(self, name: str, text: str) -> None:
-        """Give all selected objects this property, as one edit."""
+        """Give the subjects this property, as one edit."""
+        if not self.selection:
+            self.spec = with_word(self.spec, name, text)
         objects = list(self.draft.objects)
         for number in self.selection.numbers:
             if name in properties(objects[number]):

@@ -10,7 +10,7 @@ import pygame
 
 from ninja_game.editor.brush import tile_name
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, Motion
-from ninja_game.editor.specs import SWITCH, carried, has_switch, object_type_name, points, properties, with_word, word
+from ninja_game.editor.specs import SWITCH, carried, has_switch, object_type_name, points, properties, word
 from ninja_game.editor.tools import CURVES, SPACINGS, EditorTools
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.places import place_text, read_place
@@ -41,7 +41,7 @@ def panel_key(tools: EditorTools) -> tuple[object, ...]:
         return (
             tools.selection.area,
             tools.selection.numbers,
-            [(name, not _present(tools, name)) for name in _common(tools.several)],
+            [(name, not _present(tools, name)) for name in _common(tools.subjects)],
             kind,
             spec and tuple(points(spec)),
         )
@@ -56,7 +56,7 @@ def property_widgets(tools: EditorTools, area: Area) -> Sequence[Widget]:
         cells = tools.selection.area[2] * tools.selection.area[3] if tools.selection.area else 0
         title = f"Selected: {cells} cells, {count} objects" if cells else f"Selected: {count} objects"
         turns = {"Mirror (H)": MIRROR, "Flip (J)": FLIP, "Turn (U)": CLOCKWISE}
-        rows += [_choice_of_several(tools, name) for name in _common(tools.several)]
+        rows += [_choice(tools, name) for name in _common(tools.subjects)]
         rows += [partial(Button, text=text, action=partial(tools.turn, turn), size=9.5) for text, turn in turns.items()]
         rows.append(partial(Button, text="Delete (Del)", action=tools.delete, size=9.5))
     elif tools.selection or tools.objects:
@@ -85,23 +85,6 @@ def _setting(area: Area, tools: EditorTools, name: str, words: Sequence[tuple[st
     return Choice(area, "", words, lambda: getattr(tools, name), partial(setattr, tools, name), hint=hint)
 
 
-def _choice(tools: EditorTools, name: str) -> Callable[[Area], Widget]:
-    """A property by its words. Values that no word means show as "(other)"."""
-
-    def put(text: object) -> None:
-        if text:
-            tools.put_subject(with_word(tools.subject, name, str(text)))
-
-    def get() -> str:
-        spec = tools.subject
-        return word(spec, name) if name in properties(spec) else ""
-
-    label = f"{name}: " if name not in ("type", "movement") else ""
-    words = [(label + text, text) for text in properties(tools.subject)[name].words]
-    options: list[tuple[str, object]] = [*words, *([] if get() else [("(other)", "")])]
-    return lambda area: Choice(area, "", options, get, put, hint=f"The object's {name}")
-
-
 def _common(specs: Sequence[ObjectSpec]) -> list[str]:
     """The properties that all of these have, with the same words."""
     first = properties(specs[0]) if specs else {}
@@ -109,21 +92,23 @@ def _common(specs: Sequence[ObjectSpec]) -> list[str]:
 
 
 def _present(tools: EditorTools, name: str) -> str:
-    """The word for a property of all selected objects, "" where they differ."""
-    found = {word(spec, name) for spec in tools.several if name in properties(spec)}
+    """The word for a property of all subjects, "" where they differ."""
+    found = {word(spec, name) for spec in tools.subjects if name in properties(spec)}
     return found.pop() if len(found) == 1 else ""
 
 
-def _choice_of_several(tools: EditorTools, name: str) -> Callable[[Area], Widget]:
-    """A property of all selected objects; "(several)" where they differ."""
+def _choice(tools: EditorTools, name: str) -> Callable[[Area], Widget]:
+    """A property of the subjects by its words; "(other)" for values that no word means, "(several)" for several."""
 
     def put(text: str) -> None:
         if text:
             tools.put_word(name, text)
 
-    words = [(f"{name}: {text}", text) for text in properties(tools.several[0])[name].words]
-    options = [*words, *([] if _present(tools, name) else [(f"{name}: (several)", "")])]
-    hint = f"The {name} of all that is selected"
+    label = "" if name in ("type", "movement") else f"{name}: "
+    words = [(label + text, text) for text in properties(tools.subjects[0])[name].words]
+    unsaid = f"{name}: (several)" if len(tools.subjects) > 1 else "(other)"
+    options = [*words, *([] if _present(tools, name) else [(unsaid, "")])]
+    hint = f"The {name} of all that is selected" if len(tools.subjects) > 1 else f"The object's {name}"
     return lambda area: Choice(area, "", options, lambda: _present(tools, name), put, hint=hint)
 
 

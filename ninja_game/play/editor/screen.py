@@ -8,7 +8,7 @@ import pygame
 
 from ninja_game.editor.brush import SNAPS, snapped
 from ninja_game.editor.files import Source
-from ninja_game.editor.specs import PROPERTIES, properties, with_word, word
+from ninja_game.editor.specs import PROPERTIES, properties, word
 from ninja_game.play.app import App
 from ninja_game.play.editor.commands import EditorCommands
 from ninja_game.play.editor.controls import DIRECTION_KEYS, OBJECT_TYPE_OF_KEY, TABLE, tile_of_key
@@ -152,19 +152,19 @@ class EditorScreen(WorkspaceScreen):
         return True
 
     def _direct(self, direction: str) -> None:
-        """Turn the object in hand, or the selected one; doors have sides instead."""
-        spec = self.session.tools.subject
+        """Turn the object in hand, or those that are selected; doors have sides instead."""
+        tools = self.session.tools
         side = {"up": "top", "down": "bottom"}.get(direction, direction)
         for name, text in (("direction", direction), ("side", side)):
-            if name in properties(spec):
-                self.session.tools.put_subject(with_word(spec, name, text))
+            if any(name in properties(spec) for spec in tools.subjects):
+                tools.put_word(name, text)
 
     def _next_word(self, name: str, by: int) -> None:
         spec = self.session.tools.subject
         if name in properties(spec):
             words = list(PROPERTIES[spec.kind][name].words)
             place = words.index(word(spec, name)) if word(spec, name) in words else 0
-            self.session.tools.put_subject(with_word(spec, name, words[(place + by) % len(words)]))
+            self.session.tools.put_word(name, words[(place + by) % len(words)])
 
     def update(self, real_ms: int) -> None:
         """Keep the level safe, examine it, and follow what comes of that."""

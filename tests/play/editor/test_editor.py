@@ -396,6 +396,9 @@ def test_a_property_of_several_objects_is_changed_by_one_click_and_undone_at_onc
     assert changed != [spec.values[2] for spec in before.objects[-3:]]
     room.chord("z", pygame.KMOD_LCTRL)
     assert room.draft == before
+    room.drag((190, 280), (320, 320))
+    room.press("a")
+    assert {spec.values[2] for spec in room.draft.objects[-3:]} == {2.0}, "a key turns all of them too"
 
 
 def test_the_list_of_objects_finds_selects_and_orders_them_by_clicks(room: Maker) -> None:
