@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import lru_cache
+from math import isfinite
 from struct import iter_unpack
 from time import monotonic
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from ninja_game.backend.memories import compiled_available
+from ninja_game.editor.draft import Cell, cell_of, is_inside
 from ninja_game.errors import BudgetError, LevelError
 from ninja_game.files.user_folder import how_to_install
-from ninja_game.runs.run import run_level
+from ninja_game.runs.run import RunResult, run_level
 from ninja_game.runtime import NewestJob
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
@@ -28,12 +33,49 @@ Route = tuple[tuple[float, float], ...]
 """Where the ninja was after each tick, px."""
 
 
+class Try(NamedTuple):
+    """A test of the level as it was then. ``inputs``: a byte a tick; ``over``: whether it may not go on."""
+
+    level: Level
+    inputs: bytes
+    over: bool
+
+
+class TestMap(NamedTuple):
+    """Of many tests: in how many the ninja was in each cell, and where it died, px."""
+
+    visits: Mapping[Cell, int]
+    deaths: Route
+
+
+NO_TESTS = TestMap({}, ())
+
+
+@lru_cache(maxsize=300)
+def _played(level: Level, inputs: bytes) -> RunResult | None:
+    """The run of these inputs; None where it cannot be played, or costs too much."""
+    try:
+        return run_level(level, inputs, memory="plain")
+    except (BudgetError, LevelError):
+        return None
+
+
 def route_of(level: Level, inputs: bytes) -> Route:
     """The ninja's route to the end of the run or of the inputs; () where it cannot be played, or costs too much."""
-    try:
-        return tuple(iter_unpack("<2d", run_level(level, inputs, memory="plain").places))
-    except (BudgetError, LevelError):
-        return ()
+    run = _played(level, inputs)
+    return tuple(iter_unpack("<2d", run.places)) if run else ()
+
+
+def map_of(tries: Iterable[Try]) -> TestMap:
+    visits: Counter[Cell] = Counter()
+    deaths: list[tuple[float, float]] = []
+    for level, inputs, over in tries:
+        # The tick of a death reads no input.
+        whole = inputs + bytes([0]) * over
+        run, route = _played(level, whole), route_of(level, whole)
+        visits.update(set(filter(is_inside, (cell_of(*place) for place in route if all(map(isfinite, place))))))
+        deaths += route[-1:] if run and run.outcome == "dead" else ()
+    return TestMap(visits, tuple(deaths))
 
 
 class _StoppedError(Exception):

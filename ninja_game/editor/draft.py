@@ -49,6 +49,13 @@ class Draft:
         return replace(self, level=Level(self.level.tiles, objects))
 
 
+def changed_cells(before: Draft, after: Draft) -> list[Cell]:
+    """The cells that have another tile."""
+    old, new = before.level.tiles, after.level.tiles
+    changed = (index for index in range(COLUMNS * ROWS) if old[index] != new[index]) if old != new else ()
+    return [(index // ROWS + 1, index % ROWS + 1) for index in changed]
+
+
 def is_inside(cell: Cell) -> bool:
     """Whether a cell has a tile of the level's own: the border has not."""
     return 1 <= cell[0] <= COLUMNS and 1 <= cell[1] <= ROWS

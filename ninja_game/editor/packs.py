@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -192,8 +193,10 @@ def rename_level(file: Path, name: str) -> None:
 
 
 def duplicate(path: Path, level: NamedLevel) -> str:
-    """A copy of a level in the folder, by another name; its file's name."""
-    return _write(path, replace(draft_of(level), name=f"{level.name} copy"))
+    """A copy of a level in the folder, by a name that no level there has; its file's name."""
+    names = {each.name for each in Pack(path).levels.values()}
+    copies = (f"{level.name} copy{f' {number}' if number > 1 else ''}" for number in count(1))
+    return _write(path, replace(draft_of(level), name=next(name for name in copies if name not in names)))
 
 
 def transfer(level: NamedLevel, path: Path, *, keep: bool) -> str:

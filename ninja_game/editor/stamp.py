@@ -138,6 +138,16 @@ def removed(draft: Draft, selection: Selection) -> Draft:
     return draft.with_tiles(tiles).with_objects(kept)
 
 
+def reordered(draft: Draft, selection: Selection, by: int) -> tuple[Draft, Selection]:
+    """The draft with the chosen objects together, so many places later in the order, and their selection."""
+    chosen = sorted(selection.numbers)
+    rest = [number for number in range(len(draft.objects)) if number not in selection.numbers]
+    at = min(max(0, by + (chosen[0] if by < 0 else chosen[-1] + 1 - len(chosen))), len(rest))
+    order = [*rest[:at], *chosen, *rest[at:]]
+    parts = frozenset((order.index(number), part) for number, part in selection.parts)
+    return draft.with_objects(tuple(draft.objects[number] for number in order)), Selection(selection.area, parts)
+
+
 def moved(draft: Draft, selection: Selection, motion: Motion) -> tuple[Draft, Selection]:
     """The draft with what is chosen moved or turned, and the selection there. Tiles cover what they come to lie on."""
     objects = list(draft.objects)

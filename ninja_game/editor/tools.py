@@ -7,17 +7,20 @@ from __future__ import annotations
 
 from ninja_game.document import History
 from ninja_game.editor.brush import (
+    EMPTY,
+    FULL,
     OBJECT_TYPE_NAMES,
     SNAPS,
-    cells_between,
     object_of_type,
     object_type_of,
     placed,
     snapped,
     with_switch,
 )
-from ninja_game.editor.draft import Cell, Draft, cell_of
+from ninja_game.editor.curves import covered, curve, spread
+from ninja_game.editor.draft import Cell, Draft, Tiles, cell_of, changed_cells
 from ninja_game.editor.motion import SYMMETRIES, Motion
+from ninja_game.editor.slopes import sloped
 from ninja_game.editor.specs import has_switch, points, properties, with_word
 from ninja_game.editor.stamp import (
     ObjectPart,
@@ -34,12 +37,18 @@ from ninja_game.editor.stamp import (
     pasted,
     put,
     removed,
+    reordered,
 )
 from ninja_game.sim.kinds import GOLD, MINE, NINJA
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import WORLD_HEIGHT, WORLD_WIDTH
 
-TOOLS = ("brush", "rectangle", "fill", "select", "pick")
+CURVES = ("line", "ellipse")
+SHAPES = ("rectangle", *CURVES)
+TOOLS = ("brush", *SHAPES, "fill", "select", "pick")
+SPACINGS = (12.0, 16.0, 20.0, 24.0, 36.0, 48.0, 72.0)
+BEND = 12.0
+"""Px by which one step bends a line."""
 DRAGGED = PICK_REACH = 12.0
 """A press that moves farther than this is a drag; an object that is nearer is picked, px."""
 REACH = 17.32
@@ -51,6 +60,7 @@ class EditorTools:
 
     ``tile`` and ``spec``: what the brush draws, ``objects`` which of them. ``snap``, ``symmetry``: by name.
     ``tool``: one of TOOLS; ``marquee``: the corners of the frame that is being drawn around what to select.
+    ``spacing``: of objects along a line or ellipse, px, of SPACINGS. ``slopes``: whether slopes set themselves.
     """
 
     def __init__(self, draft: Draft) -> None:
@@ -60,6 +70,8 @@ class EditorTools:
         self.spec: ObjectSpec = object_of_type("gold")
         self.snap = "cell"
         self.symmetry = "off"
+        self.spacing, self.slopes = 24.0, False
+        self._bend = 0.0
         self.pointer = (396.0, 300.0)
         self._pressed_at = self.pointer
         self._switchless: ObjectSpec | None = None
@@ -92,7 +104,7 @@ class EditorTools:
     @property
     def effective_tool(self) -> str:
         """The tool that a press uses: some objects are put one at a time."""
-        return "brush" if self.draws_one and self.tool in ("rectangle", "fill") else self.tool
+        return "brush" if self.draws_one and self.tool not in ("select", "pick") else self.tool
 
     @property
     def dragging(self) -> bool:
@@ -114,8 +126,8 @@ class EditorTools:
             self._put_switch()
         elif self._doing == "drop":
             self._drop()
-        elif self._doing == "rectangle":
-            self._draw_rectangle()
+        elif self._doing in SHAPES:
+            self._draw_shape()
         elif self._doing == "drag":
             self._drag()
         elif self._doing == "choose":
@@ -130,7 +142,7 @@ class EditorTools:
             else:
                 self.finish()
             return
-        self._pressed_at = self.pointer
+        self._pressed_at, self._bend = self.pointer, 0.0
         if pick or (self.tool == "pick" and not erase):
             self.pick()
         elif self.tool == "select" and not erase:
@@ -148,7 +160,7 @@ class EditorTools:
             self._change(Stamp({} if self.objects else dict.fromkeys(cells, self.tile), objects))
             return
         many = not self.objects or self.spec.kind in (GOLD, MINE)
-        drawn = "rectangle" if self.effective_tool == "rectangle" else "draw" if many else "drop"
+        drawn = self.tool if self.effective_tool in SHAPES else "draw" if many else "drop"
         self._doing = "erase" if erase else drawn
         self.move(*self.pointer)
 
@@ -201,30 +213,51 @@ class EditorTools:
     # --- drawing ---
 
     def _change(self, stamp: Stamp, draft: Draft | None = None) -> None:
-        self.history.change(put(draft or self.draft, stamp, SYMMETRIES[self.symmetry]))
+        self.history.change(self._with(stamp, draft or self.draft))
+
+    def _with(self, stamp: Stamp, draft: Draft) -> Draft:
+        """The draft with a stamp on it, in all images of the symmetry, and with slopes where they set themselves."""
+        after = put(draft, stamp, SYMMETRIES[self.symmetry])
+        return sloped(draft, after) if self.slopes and set(stamp.tiles.values()) <= {EMPTY, FULL} else after
+
+    @property
+    def preview(self) -> Tiles:
+        """The tiles that a press of the brush would change."""
+        after = self._with(Stamp({self.cell: self.tile}), self.draft)
+        return {cell: after.tile(cell) for cell in changed_cells(self.draft, after)}
 
     def _draw_line(self, before: Cell, *, erasing: bool) -> None:
         """Tiles from the last cell to this one, or objects where the pointer goes."""
         if not self.objects:
             tile = 0 if erasing else self.tile
-            self._change(Stamp(dict.fromkeys(cells_between(before, self.cell), tile)))
+            self._change(Stamp(dict.fromkeys(covered("line", before, self.cell, 0.0), tile)))
         elif erasing:
             self.delete_nearest()
         else:
             self._change(Stamp({}, (placed(self.spec, *self.pointer, self.snap),)))
 
-    def _draw_rectangle(self) -> None:
-        area = area_between(cell_of(*self._pressed_at), self.cell)
+    def _draw_shape(self) -> None:
+        """Tiles that fill it, or objects: a box is full of them, a line or an ellipse has them along it."""
         if not self.objects:
-            self._change(Stamp(dict.fromkeys(cells_of(area), self.tile)), self.history.began)
+            cells = covered(self._doing, cell_of(*self._pressed_at), self.cell, self._bend)
+            self._change(Stamp(dict.fromkeys(cells, self.tile)), self.history.began)
             return
-        step = max(SNAPS[self.snap], 12.0)
-        (ax, ay), (bx, by) = snapped(*self._pressed_at, self.snap), snapped(*self.pointer, self.snap)
-        columns, rows = int(abs(bx - ax) // step), int(abs(by - ay) // step)
-        x, y = min(ax, bx), min(ay, by)
-        places = [(x + step * i, y + step * j) for j in range(rows + 1) for i in range(columns + 1)]
-        objects = tuple(placed(self.spec, *place, self.snap) for place in places)
-        self._change(Stamp({}, objects), self.history.began)
+        ends = snapped(*self._pressed_at, self.snap), snapped(*self.pointer, self.snap)
+        if self._doing in CURVES:
+            places, snap = spread(curve(self._doing, *ends, self._bend), self.spacing), "px"
+        else:
+            step, snap = max(SNAPS[self.snap], 12.0), self.snap
+            (x, right), (y, bottom) = (sorted(along) for along in zip(*ends, strict=True))
+            rows, columns = (range(int(length // step) + 1) for length in (bottom - y, right - x))
+            places = [(x + step * i, y + step * j) for j in rows for i in columns]
+        self._change(Stamp({}, tuple(placed(self.spec, *place, snap) for place in places)), self.history.began)
+
+    def bend(self, steps: int) -> bool:
+        """Bend the line that is being drawn to its right; whether one is."""
+        if self._doing == "line":
+            self._bend += BEND * steps
+            self._draw_shape()
+        return self._doing == "line"
 
     def _dropped(self) -> ObjectSpec:
         """The brush's object as it would be placed now."""
@@ -305,6 +338,12 @@ class EditorTools:
         draft, self.selection = moved(self.draft, self.selection, Motion(dx=dx * step, dy=dy * step))
         self.history.change(draft)
 
+    def reorder(self, by: int) -> None:
+        """Put the chosen objects so many places later in the order."""
+        if self.selection.parts:
+            draft, self.selection = reordered(self.draft, self.selection, by)
+            self.history.change(draft)
+
     def turn(self, motion: Motion) -> None:
         """Flip or turn what is chosen, in its place; without a selection what the brush draws."""
         self.finish()
@@ -365,14 +404,16 @@ class EditorTools:
         return self.chosen or self.spec
 
     @property
-    def several(self) -> list[ObjectSpec]:
-        """All objects of which anything is selected."""
-        return [
-            self.draft.objects[number] for number in sorted(self.selection.numbers) if number < len(self.draft.objects)
-        ]
+    def subjects(self) -> list[ObjectSpec]:
+        """All objects of which anything is selected; without a selection the one that is drawn with."""
+        objects = self.draft.objects
+        chosen = [objects[number] for number in sorted(self.selection.numbers) if number < len(objects)]
+        return chosen if self.selection else [self.spec]
 
     def put_word(self, name: str, text: str) -> None:
-        """Give all selected objects this property, as one edit."""
+        """Give the subjects this property, as one edit."""
+        if not self.selection:
+            self.spec = with_word(self.spec, name, text)
         objects = list(self.draft.objects)
         for number in self.selection.numbers:
             if name in properties(objects[number]):

@@ -6,6 +6,7 @@ import codecs
 import os
 import stat
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
@@ -127,6 +128,15 @@ def open_regular(path: Path) -> IO[bytes]:
         os.close(handle)
         raise FileError("only a regular file is read", str(path), found=what_it_is(mode))
     return os.fdopen(handle, "rb")
+
+
+def stamp_of(path: Path) -> tuple[int, int]:
+    """What changes when a file is written; the same for all that are not there or no regular files."""
+    with suppress(OSError):
+        about = path.stat()
+        if stat.S_ISREG(about.st_mode):
+            return about.st_mtime_ns, about.st_size
+    return 0, 0
 
 
 def read_bytes(path: Path, limit: int = MAX_BYTES) -> bytes:

@@ -185,6 +185,11 @@ class Finding(NamedTuple):
         return f"{self.names}: {self.text}" if self.names else self.text
 
     @property
+    def advice(self) -> str:
+        """What is odd and how to fix it, as sentences."""
+        return f"{self.sentence[0].upper()}{self.sentence[1:]}. {self.hint}"
+
+    @property
     def hint(self) -> str:
         """How to fix it, a sentence."""
         return LEVEL_RULES[self.code].hint

@@ -5,7 +5,6 @@ game.md §1.4, §2, §8.
 
 from __future__ import annotations
 
-import stat
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -15,6 +14,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ninja_game.errors import LevelError
+from ninja_game.files.reading import stamp_of
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pars import Pars
@@ -179,11 +179,11 @@ class LevelRun(LevelContext):
         super().__init__(data, entry, body=body, practice_mode=practice_mode)
         self._following = following
         self._levels: Sequence[NamedLevel] = [entry.named]
-        self._stamp = _stamp(entry)
+        self._stamp = stamp_of(Path(entry.named.file))
 
     def restart(self) -> bool:
         """Read the level's file again if it has changed; whether the level is another one now."""
-        stamp, before = _stamp(self.entry), self.level
+        stamp, before = stamp_of(Path(self.entry.named.file)), self.level
         if stamp == self._stamp:
             return False
         self._stamp = stamp
@@ -208,7 +208,7 @@ class LevelRun(LevelContext):
             # Files may hold levels without a ninja.
             with suppress(LevelError):
                 Simulation(entry.named.level, body=self.body)
-                self.entry, self._following, self._stamp = entry, ahead[number:], _stamp(entry)
+                self.entry, self._following, self._stamp = entry, ahead[number:], stamp_of(Path(entry.named.file))
                 return Navigation.NEXT_LEVEL
         return Navigation.SAME_LEVEL
 
@@ -430,12 +430,3 @@ def left_half_way(data: PlayerData, asked: Episode | None = None) -> EpisodeRun 
     else:
         run.go_behind()
     return run if run.position or not data.progress_in(asked.pack).is_beaten(asked.number) else None
-
-
-def _stamp(entry: Entry) -> tuple[int, int]:
-    """What changes when a level's file is written; the same for all that are not there or no regular files."""
-    with suppress(OSError):
-        status = Path(entry.named.file).stat()
-        if stat.S_ISREG(status.st_mode):
-            return status.st_mtime_ns, status.st_size
-    return 0, 0

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import pytest
 
 from ninja_game.editor.brush import (
@@ -14,11 +16,12 @@ from ninja_game.editor.brush import (
     tile_key,
     tile_name,
 )
-from ninja_game.editor.draft import Draft
+from ninja_game.editor.draft import Draft, changed_cells
 from ninja_game.editor.motion import CLOCKWISE, MIRROR
 from ninja_game.editor.specs import points, word
 from ninja_game.editor.stamp import Selection, chosen_in
 from ninja_game.editor.tools import EditorTools
+from ninja_game.formats.ascii.legend import TILE_CHARS
 from ninja_game.formats.ascii.writer import best_form
 from ninja_game.sim import kinds
 from ninja_game.sim.level import Level
@@ -265,3 +268,89 @@ def test_snaps() -> None:
     assert snapped(37, 59, "half") == (36, 60)
     assert snapped(40, 57, "quarter") == (42, 60)
     assert snapped(40.4, 57.6, "px") == (40, 58)
+
+
+def test_gold_lies_evenly_along_a_line_that_the_wheel_bends(tools: EditorTools) -> None:
+    tools.pick_up(object_of_type("gold"))
+    tools.tool, tools.spacing = "line", 36.0
+    drag(tools, (60, 300), (276, 300))
+    assert [spec.values for spec in tools.draft.objects] == [(60.0 + 36 * k, 300.0) for k in range(7)]
+    tools.undo()
+    tools.move(60, 300)
+    tools.press()
+    tools.move(276, 300)
+    assert tools.bend(-4)
+    places = [spec.values for spec in tools.draft.objects]
+    assert (places[0], places[-1]) == ((60.0, 300.0), (276.0, 300.0))
+    assert 252 <= min(y for _, y in places) <= 254, "four steps to the left of its way: 48 px above"
+    gaps = [((ax - bx) ** 2 + (ay - by) ** 2) ** 0.5 for (ax, ay), (bx, by) in pairwise(places)]
+    assert max(gaps) - min(gaps) < 3
+    tools.release()
+    assert not tools.bend(1), "nothing is being drawn"
+    tools.undo()
+    assert not tools.draft.objects, "one drag is undone at once"
+
+
+def test_an_ellipse_is_full_of_tiles_and_has_objects_along_it(tools: EditorTools) -> None:
+    tools.tool = "ellipse"
+    drag(tools, (36, 36), (132, 132))
+    rows = ["".join(str(tools.draft.tile((column, row))) for column in range(1, 6)) for row in range(1, 6)]
+    assert rows == ["01110", "11111", "11111", "11111", "01110"]
+    tools.pick_up(object_of_type("mine"))
+    drag(tools, (300, 300), (420, 420))
+    assert len(tools.draft.objects) == round(120 * 3.1416 / 24)
+    assert all(58.9 < ((x - 360) ** 2 + (y - 360) ** 2) ** 0.5 < 61 for x, y in (s.values for s in tools.draft.objects))
+    tools.undo()
+    drag(tools, (300, 300))
+    assert len(tools.draft.objects) == 1, "a click is an ellipse of no size"
+
+
+def picture(tools: EditorTools, columns: range, rows: range) -> list[str]:
+    return ["".join(TILE_CHARS[tools.draft.tile((column, row))] for column in columns) for row in rows]
+
+
+def test_slopes_set_themselves_on_steps_and_corners(tools: EditorTools) -> None:
+    tools.slopes = True
+    tools.tool = "rectangle"
+    drag(tools, (60, 60), (156, 132))
+    assert picture(tools, range(1, 8), range(2, 6)) == [".s###a.", ".#####.", ".#####.", ".w###q."]
+    drag(tools, (372, 564), (756, 564))
+    for left, row in ((16, 22), (18, 21), (19, 20), (20, 19), (20, 18), (21, 17)):
+        drag(tools, (24 * left + 12, 24 * row + 12), (732, 24 * row + 12))
+    hill = ["......s####", ".....h#####", ".....H#####", "....s######", "...s#######", ".fF########", "s##########"]
+    assert picture(tools, range(15, 26), range(17, 24)) == hill
+    tools.tile = 0
+    drag(tools, (588, 420), (660, 492))
+    assert picture(tools, range(15, 26), range(17, 24))[:2] == ["......s#a..", ".....h###.."]
+    tools.undo()
+    assert picture(tools, range(15, 26), range(17, 24)) == hill
+
+
+def test_the_preview_of_a_press_shows_the_slopes_too(tools: EditorTools) -> None:
+    tools.slopes = True
+    drag(tools, (372, 564), (756, 564))
+    tools.move(468, 540)
+    shown = tools.preview
+    before = tools.draft
+    drag(tools, (468, 540))
+    assert shown == {cell: tools.draft.tile(cell) for cell in changed_cells(before, tools.draft)}
+    tools.move(492, 540)
+    assert tools.preview == {(19, 22): TILE_CHARS.index("s"), (20, 22): TILE_CHARS.index("a")}
+    tools.slopes = False
+    assert tools.preview == {(20, 22): 1}
+
+
+def test_chosen_objects_move_in_the_order_with_their_selection(tools: EditorTools) -> None:
+    for x in (36, 60, 84, 108):
+        tools.pick_up(object_of_type("mine"))
+        drag(tools, (x, 36))
+    tools.choose(frozenset({(1, 0), (3, 0)}))
+    tools.reorder(-1)
+    assert [spec.values[0] for spec in tools.draft.objects] == [60, 108, 36, 84]
+    assert tools.selection.parts == {(0, 0), (1, 0)}
+    tools.reorder(1)
+    assert [spec.values[0] for spec in tools.draft.objects] == [36, 60, 108, 84]
+    tools.reorder(-9999)
+    assert [spec.values[0] for spec in tools.draft.objects] == [60, 108, 36, 84]
+    tools.reorder(9999)
+    assert [spec.values[0] for spec in tools.draft.objects] == [36, 84, 60, 108]

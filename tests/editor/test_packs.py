@@ -94,6 +94,8 @@ def test_levels_go_to_another_pack_with_their_certificates(pack: Path, tmp_path:
     copied = packs.duplicate(other, Pack(other).levels[LAST])
     assert [level.name for level in Pack(other).levels.values()] == ["The Works", "Factory", "Factory copy"]
     assert copied == "factory-copy.txt"
+    packs.duplicate(other, Pack(other).levels[LAST])
+    assert "Factory copy 2" in {level.name for level in Pack(other).levels.values()}, "no two have one name"
 
 
 def test_a_pack_is_made_ready_and_only_what_changed_is_done_again(pack: Path, tmp_path: Path) -> None:

@@ -146,7 +146,7 @@ def test_every_picture_of_the_documents_is_drawn_by_a_tool() -> None:
     links = [link for page in pages for link in re.findall(r"pictures/([^)\s]+)\)", page.read_text("utf-8"))]
     drawn = {*screens.SCREENS, *how_it_works.VECTORS, *(f"lab-{file}" for file in how_it_works.FIGURES)}
     # By other tools, since they measure, train or take minutes: docs/tools.md, `python3 -m benchmarks`.
-    others = {"ninja-game.gif"}, ("levels/", "performance/", "learn/", "learning/")
+    others = {"ninja-game.gif"}, ("good-levels/", "levels/", "performance/", "learn/", "learning/")
     assert not [link for link in links if link not in drawn | others[0] and not link.startswith(others[1])]
     assert drawn <= {*links}, "drawn, and shown nowhere"
 

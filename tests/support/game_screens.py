@@ -19,16 +19,17 @@ import pygame
 from numpy.typing import NDArray
 
 from ninja_game import __version__
-from ninja_game.editor.certify import Search
+from ninja_game.editor.certify import Search, TestMap
 from ninja_game.editor.files import Source, draft_of
 from ninja_game.editor.stamp import Stamp, put
-from ninja_game.files.user_folder import bundled_replays
+from ninja_game.files.user_folder import CHECKOUT, bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.named_level import parse_levels
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.level.screen import LevelScreen, PausePanel
 from ninja_game.play.menus.daily import DailyScreen
+from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.packs import PackScreen
@@ -369,6 +370,19 @@ def _editor_states(driver: MenuDriver) -> Iterator[str]:
     driver.press("f5")
     driver.frames(12)
     yield "editor-test"
+    driver.press("escape")
+    screen.session.tried(screen.session.draft.level, bytes(3), over=True)
+    screen.session._maps.finish()
+    screen.session._maps.result = TestMap({(2, 22): 2, (3, 22): 1}, ((108.0, 540.0), (132.0, 540.0)))
+    driver.press("f9")
+    yield "editor-tests"
+    driver.press("f9", "f3")
+    yield "editor-list"
+    driver.press("f3")
+    with patch.dict(CHECKOUT, levels=PACK.parent.parent / "levels"):
+        driver.app.push(GoodLevelsScreen(driver.app, lambda _: None))
+        driver.frames(4)
+        yield "good-levels"
     driver.press("escape")
     screen.commands.leave()
     driver.frames()

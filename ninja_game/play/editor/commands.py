@@ -14,7 +14,7 @@ from ninja_game.editor.specs import points
 from ninja_game.editor.stamp import everything
 from ninja_game.editor.tools import TOOLS
 from ninja_game.errors import LevelError, NinjaGameError, reason
-from ninja_game.files.shown_text import file_stem
+from ninja_game.files.shown_text import counted, file_stem
 from ninja_game.files.user_folder import LEVELS, free_path
 from ninja_game.formats.ascii.writer import HEADER_KEYS
 from ninja_game.formats.lines import MOST_NAME
@@ -28,6 +28,7 @@ from ninja_game.play.editor.sheet import finding_points
 from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.editor.view import EditorView
 from ninja_game.play.menus.browser import LevelChoice
+from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.panels import Action, FormPanel, Menu, Row, nothing
 from ninja_game.play.workspace.document import DocumentCommands
@@ -45,6 +46,8 @@ W A S D turn them. Without a mouse: arrows move the pointer, Space draws, Shift 
 
 NAMELESS = "My level"
 """What a level is called if its maker gives it no name."""
+
+_UNDO = "Undo brings back what was here"
 
 _ABOUT = {"teaches": "What it teaches", "says": "Says: start: Run!"}
 """Prompts of the fields whose names say too little."""
@@ -83,8 +86,11 @@ class EditorCommands(DocumentCommands):
             "swap": lambda: tools.pick_up(tools.tile if tools.objects else tools.spec),
             "mirror": lambda: tools.turn(MIRROR), "flip": lambda: tools.turn(FLIP),
             "turn": lambda: tools.turn(CLOCKWISE), "symmetry": self.next_symmetry, "grid": view.next_grid,
+            "slopes": self.switch_slopes,
+            "list": lambda: setattr(view, "listing", not view.listing),
             "lines": lambda: setattr(view, "lines", not view.lines),
             "paths": lambda: setattr(view, "paths", not view.paths),
+            "tests": self.switch_tests,
             "reach": self.next_reach,
             "next_finding": lambda: self.go_to_finding(self._finding + 1),
             "next_entry": lambda: self._palette.step(1),
@@ -96,6 +102,21 @@ class EditorCommands(DocumentCommands):
         tools = self.session.tools
         tools.finish()
         tools.symmetry = following(names, tools.symmetry)
+
+    def switch_slopes(self) -> None:
+        """Have corners of drawn rock cut, or not."""
+        tools = self.session.tools
+        tools.slopes = not tools.slopes
+        self.view.hint = (
+            f"Slopes {'set themselves where full tiles are drawn or erased' if tools.slopes else 'stay as drawn'}"
+        )
+
+    def switch_tests(self) -> None:
+        """Show where all tests of this session came and died, or no more."""
+        view, count = self.view, len(self.session.tries)
+        view.tests = not view.tests
+        what = f"{counted(count, 'test')}: darker where more of them came, a cross where one died"
+        view.hint = (what if count else "No tests yet: F5 plays the level") if view.tests else ""
 
     def choose_all(self) -> None:
         tools = self.session.tools
@@ -127,7 +148,7 @@ class EditorCommands(DocumentCommands):
         if places:
             tools.pointer = places[0]
             self.view.hovering = True
-        self.view.hint = f"{finding.sentence}. {finding.hint}"
+        self.view.hint = finding.advice
 
     # --- trying and certifying ---
 
@@ -136,9 +157,7 @@ class EditorCommands(DocumentCommands):
         session = self.session
         level = session.level_to_test(here=here)
         try:
-            screen = TryScreen(
-                self.app, session.name, level, lambda inputs: session.tried(level, inputs), says=session.draft.says
-            )
+            screen = TryScreen(self.app, session.name, level, partial(session.tried, level), says=session.draft.says)
         except LevelError as error:
             self.app.notify(f"{error.what}: key 9 among the objects places a ninja, F6 tests with one at the pointer")
             return
@@ -169,6 +188,7 @@ class EditorCommands(DocumentCommands):
             ("Paste an N string", session.paste_string, "From the clipboard; any format of levels, or a link"),
             ("Export a picture", session.export_picture, "A PNG file among your exports"),
             ("Keep the solver's run", session.keep_certificate, "As a replay among yours"),
+            ("Good levels", self.good_levels, "Ten of the game's, and what makes each of them good"),
             ("Leave the editor", self.leave, ""),
         ]  # fmt: skip
         self.app.push(Menu(self.app, "Level", rows))
@@ -187,7 +207,28 @@ class EditorCommands(DocumentCommands):
         """Load the file again."""
         if path != self.session.source.path or not path.exists():
             return []
-        return [("Load it again", lambda: self.open_file(path), "What you changed is lost")]
+        return [("Load it again", lambda: self._load(lambda: self.session.take(open_source(path))), _UNDO)]
+
+    def follow_file(self) -> None:
+        """Show what another program has written into the level's file; ask first where something is not saved."""
+        session = self.session
+        saved, path = session.is_saved, session.source.path
+
+        def follow() -> None:
+            found = session.changed_source()
+            if found is None:
+                return
+            if saved:
+                session.take(found)
+                self.app.notify(f"Another program has changed the file: this is the new level. {_UNDO}")
+                return
+            rows: list[Row] = [
+                ("Keep what is here", nothing, "Saving asks again"),
+                ("Load the file", lambda: session.take(found), _UNDO),
+            ]
+            self.app.push(Menu(self.app, f"Another program has changed {path.name if path else ''}", rows))
+
+        self._load(follow)
 
     def saved_text(self, path: Path) -> str:
         """Where it is, and whether the menu shows it."""
@@ -227,6 +268,10 @@ class EditorCommands(DocumentCommands):
     def open(self) -> None:
         self.unless_unsaved(lambda: self.app.push(LevelChoice(self.app, self.edit_entry)))
 
+    def good_levels(self) -> None:
+        """Show what makes levels of the game good; each can be opened here."""
+        self.app.push(GoodLevelsScreen(self.app, lambda entry: self.unless_unsaved(lambda: self.edit_entry(entry))))
+
     def edit_entry(self, entry: Entry) -> None:
         """Edit a level of the browser: the player's in its file, in a pack too; the game's or a zip's as a new one."""
         path = Path(entry.named.file)
@@ -237,8 +282,12 @@ class EditorCommands(DocumentCommands):
 
     def open_file(self, path: Path) -> None:
         """Edit the level of a file."""
+        self._load(lambda: self.session.begin(open_source(path)))
+
+    def _load(self, action: Action) -> None:
+        """Do something with a file that perhaps cannot be read."""
         try:
-            self.session.begin(open_source(path))
+            action()
         except (NinjaGameError, OSError) as error:
             self.app.notify(reason(error))
 

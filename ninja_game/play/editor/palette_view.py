@@ -10,6 +10,7 @@ from ninja_game.editor.brush import (
     EMPTY,
     FAMILIES,
     FULL,
+    OBJECT_TYPE_NAMES,
     OBJECT_TYPES,
     ObjectType,
     object_type_of,
@@ -29,8 +30,12 @@ from ninja_game.ui.widgets import Widget
 from ninja_game.view.sprites.drawing import DrawTarget, SpriteBook
 from ninja_game.view.sprites.tile_sheet import tile_picture
 
-TILE, OBJECT, BLOCK = 17.0, 28.0, 42.5
-"""Sides of the squares, and from one family of tiles to the next, px."""
+TILE, OBJECT, KEY = 16.0, 28.0, 8.0
+"""Sides of the squares, and the height of the key below an object, px."""
+BLOCK, BLOCK_ROW = 42.5, 35.0
+"""From one family of tiles to the next, px."""
+_OBJECTS = 104.0
+"""From the top to the objects, px."""
 OBJECTS_PER_ROW = 6
 
 TILE_ORDER = (EMPTY, FULL, *(tile for family in FAMILIES for tile in family.tiles))
@@ -52,19 +57,24 @@ class PaletteView(Widget):
         x, y, _, _ = self.area
         found: list[tuple[int | ObjectType, Area]] = []
         for number, tile in enumerate((EMPTY, FULL)):
-            found.append((tile, (x + 126 + number * (TILE + 2), y + 1, TILE, TILE)))
+            found.append((tile, (x + 34 + number * (TILE + 3), y + 1, TILE, TILE)))
         for number, family in enumerate(FAMILIES):
             row, column = divmod(number, 4)
-            left, top = x + 10 + column * BLOCK, y + 24 + row * BLOCK
+            left, top = x + 11 + column * BLOCK, y + 21 + row * BLOCK_ROW
             for k, tile in enumerate(family.tiles):
-                found.append((tile, (left + k % 2 * (TILE - 1), top + k // 2 * (TILE - 1), TILE - 1, TILE - 1)))
+                found.append((tile, (left + k % 2 * TILE, top + k // 2 * TILE, TILE, TILE)))
         for number, object_type in enumerate(OBJECT_TYPES):
             row, column = divmod(number, OBJECTS_PER_ROW)
-            found.append((object_type, (x + column * (OBJECT + 0.6), y + 134 + row * (OBJECT + 1), OBJECT, OBJECT)))
+            top = y + _OBJECTS + row * (OBJECT + KEY)
+            found.append((object_type, (x + column * (OBJECT + 0.6), top, OBJECT, OBJECT)))
         return found
 
     def _at(self, x: float, y: float) -> int | ObjectType | None:
         return next((what for what, area in self.places() if inside(area, x, y)), None)
+
+    def contains(self, x: float, y: float) -> bool:
+        """Whether an entry is there: what lies between them is others'."""
+        return self._at(x, y) is not None
 
     def click(self, x: float, y: float) -> bool:
         what = self._at(x, y)
@@ -73,17 +83,17 @@ class PaletteView(Widget):
         return True
 
     def hover(self, x: float, y: float) -> str:
-        """The mouse is there: the name and the key of what it is over."""
+        """The mouse is there: what it is over, and how to take it by keys."""
         self.hovered = self._at(x, y)
         if self.hovered is None:
             return ""
-        if isinstance(self.hovered, ObjectType):
-            return f"{self.hovered.name}    key {key_label_of(self.hovered.key)} among the objects"
-        return f"{tile_name(self.hovered)}    keys {tile_key(self.hovered)} among the tiles"
+        return f"{_said(self.hovered)} among the {'objects' if isinstance(self.hovered, ObjectType) else 'tiles'}"
 
     def step(self, by: int) -> None:
-        """The entry before or after the one in hand."""
+        """The entry before or after the one in hand; a line that is being drawn is bent instead."""
         tools = self.tools
+        if tools.bend(by):
+            return
         if tools.objects:
             names = [object_type.name for object_type in OBJECT_TYPES]
             tools.pick_up(OBJECT_TYPES[(names.index(object_type_of(tools.spec)) + by) % len(OBJECT_TYPES)].spec)
@@ -96,26 +106,27 @@ class PaletteView(Widget):
         x, y, w, h = self.area
         canvas.fill_rect(surface, palette.panel, x - 4, y - 4, w + 6, h + 4, 3)
         tools = self.tools
-        for text, top, lit in (("Tiles", y + 5, not tools.objects), ("Objects", y + 120, tools.objects)):
+        for text, top, lit in (("Tiles", y + 4, not tools.objects), ("Objects", y + 91, tools.objects)):
             colour = palette.accent if lit else palette.text
             theme.text(surface, text, x + 1, top, size=10, colour=colour, bold=lit)
         for number, family in enumerate(FAMILIES):
             row, column = divmod(number, 4)
-            at = x + 2 + column * BLOCK, y + 36 + row * BLOCK
+            at = x + 3 + column * BLOCK, y + 32 + row * BLOCK_ROW
             if not tools.objects:
                 theme.text(surface, family.key, *at, size=8)
-        in_hand: int | str = object_type_of(tools.spec) if tools.objects else tools.tile
+        in_hand = OBJECT_TYPES[OBJECT_TYPE_NAMES.index(object_type_of(tools.spec))] if tools.objects else tools.tile
+        said = _said(in_hand if self.hovered is None else self.hovered)
+        theme.text(surface, said, x + 1, y + h - 14, size=9.5, width=w - 4, bold=True)
         for what, area in self.places():
-            chosen = (what.name if isinstance(what, ObjectType) else what) == in_hand
             canvas.fill_rect(surface, palette.background, *area)
             at = canvas.point(area[0], area[1])
             surface.blit(self._icon(theme, what, area), at, special_flags=pygame.BLEND_PREMULTIPLIED)
             if isinstance(what, ObjectType) and (tools.objects or what.key not in _TILE_KEYS):
-                canvas.fill_rect(surface, palette.panel, area[0] + 0.5, area[1] + OBJECT - 10, 8, 9.5, 2)
-                theme.text(surface, key_label_of(what.key), area[0] + 1.5, area[1] + OBJECT - 9, size=7.5)
+                middle, top = area[0] + OBJECT / 2, area[1] + OBJECT
+                theme.text(surface, key_label_of(what.key), middle, top, size=7.5, align="centre", height=KEY)
             if what in (EMPTY, FULL):
                 canvas.frame_rect(surface, palette.panel_edge, *area)
-            if chosen:
+            if what == in_hand:
                 canvas.frame_rect(surface, palette.accent, *area, 2)
 
     def _icon(self, theme: Theme, what: int | ObjectType, area: Area) -> pygame.Surface:
@@ -125,6 +136,14 @@ class PaletteView(Widget):
         # The one in hand as it is drawn now.
         in_hand = self.tools.objects and object_type_of(self.tools.spec) == what.name
         return object_icon(self.tools.spec if in_hand else what.spec, size, theme.canvas.scale, theme.palette.base.name)
+
+
+def _said(what: int | ObjectType) -> str:
+    """What an entry is called, and its keys."""
+    if isinstance(what, ObjectType):
+        return f"{what.name.capitalize()}    key {key_label_of(what.key)}"
+    name, keys = tile_name(what), tile_key(what)
+    return f"{name[0].upper()}{name[1:]}    key{'s' * (len(keys) > 1)} {keys}"
 
 
 @lru_cache(maxsize=200)

@@ -10,8 +10,8 @@ import pygame
 
 from ninja_game.editor.brush import tile_name
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, Motion
-from ninja_game.editor.specs import SWITCH, carried, has_switch, object_type_name, points, properties, with_word, word
-from ninja_game.editor.tools import EditorTools
+from ninja_game.editor.specs import SWITCH, carried, has_switch, object_type_name, points, properties, word
+from ninja_game.editor.tools import CURVES, SPACINGS, EditorTools
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.places import place_text, read_place
 from ninja_game.play.editor.controls import TABLE
@@ -41,11 +41,11 @@ def panel_key(tools: EditorTools) -> tuple[object, ...]:
         return (
             tools.selection.area,
             tools.selection.numbers,
-            [(name, not _present(tools, name)) for name in _common(tools.several)],
+            [(name, not _present(tools, name)) for name in _common(tools.subjects)],
             kind,
             spec and tuple(points(spec)),
         )
-    return tools.objects, tools.spec.kind if tools.objects else tools.tile
+    return tools.objects, tools.spec.kind if tools.objects else tools.tile, tools.effective_tool in CURVES
 
 
 def property_widgets(tools: EditorTools, area: Area) -> Sequence[Widget]:
@@ -56,7 +56,7 @@ def property_widgets(tools: EditorTools, area: Area) -> Sequence[Widget]:
         cells = tools.selection.area[2] * tools.selection.area[3] if tools.selection.area else 0
         title = f"Selected: {cells} cells, {count} objects" if cells else f"Selected: {count} objects"
         turns = {"Mirror (H)": MIRROR, "Flip (J)": FLIP, "Turn (U)": CLOCKWISE}
-        rows += [_choice_of_several(tools, name) for name in _common(tools.several)]
+        rows += [_choice(tools, name) for name in _common(tools.subjects)]
         rows += [partial(Button, text=text, action=partial(tools.turn, turn), size=9.5) for text, turn in turns.items()]
         rows.append(partial(Button, text="Delete (Del)", action=tools.delete, size=9.5))
     elif tools.selection or tools.objects:
@@ -67,29 +67,22 @@ def property_widgets(tools: EditorTools, area: Area) -> Sequence[Widget]:
             rows += [_place(tools, part) for part in points(spec)]
         elif has_switch(spec):
             rows.append(partial(Label, text="Then click where its switch is", size=9.5, faint=True))
+        elif tools.effective_tool in CURVES:
+            words = [(f"one every {spacing:.0f} px", spacing) for spacing in SPACINGS]
+            rows.append(lambda area: _setting(area, tools, "spacing", words, "How far apart they lie along it"))
     else:
         title = f"Draw: {tile_name(tools.tile)}"
         texts = ("1 to 8: shape", "Q W A S: its solid corner", "E: full    D: empty", "H, J, U: mirror, flip, turn")
         rows += [partial(Label, text=text, size=9.5, faint=True) for text in texts]
+        words = [("slopes: by hand", False), ("slopes: by themselves", True)]
+        rows.append(lambda area: _setting(area, tools, "slopes", words, TABLE.hint("slopes")))
     head = Label((x, y, w, 15), title, size=10)
     return [head, *(make((x, y + 17 + ROW * k, w, ROW - 3)) for k, make in enumerate(rows))]
 
 
-def _choice(tools: EditorTools, name: str) -> Callable[[Area], Widget]:
-    """A property by its words. Values that no word means show as "(other)"."""
-
-    def put(text: object) -> None:
-        if text:
-            tools.put_subject(with_word(tools.subject, name, str(text)))
-
-    def get() -> str:
-        spec = tools.subject
-        return word(spec, name) if name in properties(spec) else ""
-
-    label = f"{name}: " if name not in ("type", "movement") else ""
-    words = [(label + text, text) for text in properties(tools.subject)[name].words]
-    options: list[tuple[str, object]] = [*words, *([] if get() else [("(other)", "")])]
-    return lambda area: Choice(area, "", options, get, put, hint=f"The object's {name}")
+def _setting(area: Area, tools: EditorTools, name: str, words: Sequence[tuple[str, object]], hint: str) -> Widget:
+    """A setting of the tools by its words."""
+    return Choice(area, "", words, lambda: getattr(tools, name), partial(setattr, tools, name), hint=hint)
 
 
 def _common(specs: Sequence[ObjectSpec]) -> list[str]:
@@ -99,21 +92,23 @@ def _common(specs: Sequence[ObjectSpec]) -> list[str]:
 
 
 def _present(tools: EditorTools, name: str) -> str:
-    """The word for a property of all selected objects, "" where they differ."""
-    found = {word(spec, name) for spec in tools.several if name in properties(spec)}
+    """The word for a property of all subjects, "" where they differ."""
+    found = {word(spec, name) for spec in tools.subjects if name in properties(spec)}
     return found.pop() if len(found) == 1 else ""
 
 
-def _choice_of_several(tools: EditorTools, name: str) -> Callable[[Area], Widget]:
-    """A property of all selected objects; "(several)" where they differ."""
+def _choice(tools: EditorTools, name: str) -> Callable[[Area], Widget]:
+    """A property of the subjects by its words; "(other)" for values that no word means, "(several)" for several."""
 
     def put(text: str) -> None:
         if text:
             tools.put_word(name, text)
 
-    words = [(f"{name}: {text}", text) for text in properties(tools.several[0])[name].words]
-    options = [*words, *([] if _present(tools, name) else [(f"{name}: (several)", "")])]
-    hint = f"The {name} of all that is selected"
+    label = "" if name in ("type", "movement") else f"{name}: "
+    words = [(label + text, text) for text in properties(tools.subjects[0])[name].words]
+    unsaid = f"{name}: (several)" if len(tools.subjects) > 1 else "(other)"
+    options = [*words, *([] if _present(tools, name) else [(unsaid, "")])]
+    hint = f"The {name} of all that is selected" if len(tools.subjects) > 1 else f"The object's {name}"
     return lambda area: Choice(area, "", options, lambda: _present(tools, name), put, hint=hint)
 
 
@@ -136,14 +131,14 @@ def _place(tools: EditorTools, part: int) -> Callable[[Area], Widget]:
     return lambda area: TextEntry(area, "place", text, put, hint=hint)
 
 
-TOP, TALL, GAP = 4.0, 21.0, 3.0
+TOP, TALL, GAP = 4.0, 21.0, 2.0
 
 _BUTTONS = (
-    ("menu", "File", 36, 0), ("undo", "Undo", 40, 0), ("redo", "Redo", 40, 5),
-    ("brush", "Brush", 42, 0), ("rectangle", "Box", 34, 0), ("fill", "Fill", 32, 0), ("select", "Select", 44, 0),
-    ("pick", "Pick", 34, 5), ("symmetry", "Mirror: {symmetry}", 114, 0), ("grid", "Grid: {grid}", 100, 0),
-    ("snap_next", "Snap: {snap}", 78, 5), ("test", "Test", 42, 0), ("certify", "Certify", 52, 0),
-    ("help", "Help", 40, 0),
+    ("menu", "File", 34, 0), ("undo", "Undo", 38, 0), ("redo", "Redo", 38, 4),
+    ("brush", "Brush", 40, 0), ("rectangle", "Box", 32, 0), ("line", "Line", 34, 0), ("ellipse", "Ellipse", 46, 0),
+    ("fill", "Fill", 30, 0), ("select", "Select", 44, 0), ("pick", "Pick", 34, 4),
+    ("symmetry", "Mirror: {symmetry}", 90, 0), ("grid", "Grid: {grid}", 90, 0), ("snap_next", "Snap: {snap}", 64, 4),
+    ("test", "Test", 38, 0), ("certify", "Certify", 48, 0), ("help", "Help", 38, 0),
 )  # fmt: skip
 """Command, text, width, more than the usual gap behind it, px."""
 
@@ -210,21 +205,25 @@ class PalettePart(EditorPart):
 
     area = LAYOUT.palette
 
-    def __init__(self, view: EditorView, palette: PaletteView) -> None:
+    def __init__(self, view: EditorView, palette: PaletteView, run: Callable[[str], object]) -> None:
         super().__init__(view)
         self._palette = palette
-        self.widgets = [palette]
+        x, y, w, _ = self.area
+        self.widgets = [palette, ToolButton((x + w - 42, y + 4, 34, 17), "list", "List", run, view)]
 
     def render_key(self) -> tuple[object, ...]:
         tools = self.session.tools
-        return tools.objects, tools.tile, tools.spec
+        return tools.objects, tools.tile, tools.spec, self._palette.hovered
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
-        """What an entry is called is said in the status line."""
+        """What an entry is called is said here and in the status line."""
         used = super().mouse(event, x, y)
         if used:
-            self.view.hint = self._palette.hover(x, y)
+            self.view.hint = self._palette.hover(x, y) or self.view.hint
         return used
+
+    def mouse_left(self) -> None:
+        self._palette.hovered = None
 
 
 class Properties(EditorPart):
@@ -245,7 +244,7 @@ class Properties(EditorPart):
 
     def render_key(self) -> tuple[object, ...]:
         tools = self.session.tools
-        return self._subject, tools.tile, tools.subject, tools.selection
+        return self._subject, tools.tile, tools.subject, tools.selection, tools.slopes, tools.spacing
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)
@@ -282,7 +281,7 @@ class Findings(EditorPart):
         finding = self._shown[index]
         x, y, w, _ = area
         theme.text(surface, "!", x + 4, y + 5, size=9.5, bold=True, colour=theme.palette.bad)
-        theme.text(surface, f"{finding.sentence}. {finding.hint}", x + 14, y + 5, size=9.5, width=w - 16)
+        theme.text(surface, finding.advice, x + 14, y + 5, size=9.5, width=w - 16)
 
 
 class FilePart(EditorPart):
@@ -346,6 +345,8 @@ class StatusLine(EditorPart):
 _TOOL_HINTS = {
     "brush": "Left button draws, right erases, middle picks; wheel: next in the palette. F1: help",
     "rectangle": "Drag a rectangle; right button erases. F1: help",
+    "line": "Drag a line; the wheel bends it meanwhile; objects lie along it. F1: help",
+    "ellipse": "Drag an ellipse; tiles fill it, objects lie along it. F1: help",
     "fill": "A click fills what is joined and alike. F1: help",
     "select": "Click or drag a frame; drag what is selected; Shift adds. Ctrl+C, Ctrl+V, H, J, U. F1: help",
     "pick": "Click what to draw with. F1: help",

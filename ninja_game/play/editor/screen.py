@@ -8,10 +8,11 @@ import pygame
 
 from ninja_game.editor.brush import SNAPS, snapped
 from ninja_game.editor.files import Source
-from ninja_game.editor.specs import PROPERTIES, properties, with_word, word
+from ninja_game.editor.specs import PROPERTIES, properties, word
 from ninja_game.play.app import App
 from ninja_game.play.editor.commands import EditorCommands
 from ninja_game.play.editor.controls import DIRECTION_KEYS, OBJECT_TYPE_OF_KEY, TABLE, tile_of_key
+from ninja_game.play.editor.object_list import ObjectList
 from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.parts import FilePart, Findings, PalettePart, Properties, StatusLine, Toolbar
 from ninja_game.play.editor.session import EditorSession
@@ -38,8 +39,9 @@ class EditorScreen(WorkspaceScreen):
         self.view = EditorView(app, self.session, self.palette.step)
         self.commands = EditorCommands(app, self.session, self.view, self.palette)
         self.properties = Properties(self.view)
+        self.sides: tuple[Part, Part] = PalettePart(self.view, self.palette, self.run), ObjectList(self.view, self.run)
         self._parts: list[Part] = [
-            self.view, Toolbar(self.view, self.run), PalettePart(self.view, self.palette), self.properties,
+            self.view, Toolbar(self.view, self.run), self.properties,
             Findings(self.view, self.commands.go_to_finding), FilePart(self.view), StatusLine(self.view),
         ]  # fmt: skip
         self._dragged_to: InputEvent | None = None
@@ -51,10 +53,11 @@ class EditorScreen(WorkspaceScreen):
 
     @property
     def parts(self) -> Sequence[Part]:
-        return self._parts
+        return [*self._parts, self.sides[self.view.listing]]
 
     def run(self, name: str) -> None:
         self.commands.run(name)
+        self.redraw = self.redraw or name == "list"
 
     def hint(self, text: str) -> None:
         self.view.hint = text
@@ -149,24 +152,25 @@ class EditorScreen(WorkspaceScreen):
         return True
 
     def _direct(self, direction: str) -> None:
-        """Turn the object in hand, or the selected one; doors have sides instead."""
-        spec = self.session.tools.subject
+        """Turn the object in hand, or those that are selected; doors have sides instead."""
+        tools = self.session.tools
         side = {"up": "top", "down": "bottom"}.get(direction, direction)
         for name, text in (("direction", direction), ("side", side)):
-            if name in properties(spec):
-                self.session.tools.put_subject(with_word(spec, name, text))
+            if any(name in properties(spec) for spec in tools.subjects):
+                tools.put_word(name, text)
 
     def _next_word(self, name: str, by: int) -> None:
         spec = self.session.tools.subject
         if name in properties(spec):
             words = list(PROPERTIES[spec.kind][name].words)
             place = words.index(word(spec, name)) if word(spec, name) in words else 0
-            self.session.tools.put_subject(with_word(spec, name, words[(place + by) % len(words)]))
+            self.session.tools.put_word(name, words[(place + by) % len(words)])
 
     def update(self, real_ms: int) -> None:
         """Keep the level safe, examine it, and follow what comes of that."""
         super().update(real_ms)
         self._drag_on()
         self.session.update()
+        self.commands.follow_file()
         for part in self.parts:
             part.update(real_ms)

@@ -7,13 +7,14 @@ from pathlib import Path
 from time import monotonic
 
 from ninja_game.editor.brush import object_of_type, placed
-from ninja_game.editor.certify import Certifier, Route, route_of
+from ninja_game.editor.certify import Certifier, Route, TestMap, Try, map_of, route_of
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.files import Autosave, RecoveredDraft, Source, draft_of_text, new_source, save
+from ninja_game.editor.files import Autosave, RecoveredDraft, Source, draft_of_text, new_source, open_source, save
 from ninja_game.editor.reach import STARTS, Ask, Reach, find_reach
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.reading import stamp_of
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.levels.findings import Finding
 from ninja_game.levels.warnings import level_findings
@@ -25,6 +26,9 @@ from ninja_game.runtime import NewestJob
 from ninja_game.sim.level import Level
 from ninja_game.ui.widgets import following
 from ninja_game.view.sprites.thumbnail import thumbnail
+
+LOOK_SPACING = 0.5
+"""Seconds from one look at the level's file to the next."""
 
 CHECK_SPACING = 0.1
 """Seconds from one examination of the level to the next, at least."""
@@ -39,9 +43,10 @@ def _examine(level: Level) -> Examined:
 
 
 class EditorSession:
-    """``tools``: where the level is changed; ``source``: its file. ``last_try``: the route of the last test.
+    """``tools``: where the level is changed; ``source``: its file. ``tries``: all tests since it was opened.
 
-    ``start``: of STARTS, how the ninja is at the pointer when what it can reach is looked for.
+    ``last_try``: the route of the last test. ``start``: of STARTS, how the ninja is at the pointer when what it can
+    reach is looked for.
     """
 
     def __init__(self, app: App, source: Source | None = None) -> None:
@@ -50,6 +55,7 @@ class EditorSession:
         self.tools = EditorTools(new_source().draft)
         self._checks: NewestJob[Level, Examined] = NewestJob(_examine)
         self._reaches: NewestJob[Ask, Reach] = NewestJob(find_reach)
+        self._maps: NewestJob[tuple[Try, ...], TestMap] = NewestJob(map_of)
         self.start = "off"
         self._start_asked: Ask | None = None
         self._begin(source or new_source(app.settings.name))
@@ -58,7 +64,9 @@ class EditorSession:
         self.autosave = Autosave(self.app.player.folder, found.file if found else None)
         self.source = found.source if found else source
         self.tools.load(found.draft if found else source.draft)
+        self.tries: tuple[Try, ...] = ()
         self.last_try: Route = ()
+        self._file_stamp, self._looked_at = (0, 0), 0.0
         self._asked: Level | None = None
         self._asked_at = 0.0
 
@@ -132,6 +140,30 @@ class EditorSession:
             self._asked, self._asked_at = self.draft.level, monotonic()
             self._checks.ask(self.draft.level)
 
+    @property
+    def test_map(self) -> TestMap | None:
+        """Where the tests came and died, None until that is known."""
+        return self._maps.result if self.tries else None
+
+    def changed_source(self) -> Source | None:
+        """The level's file if another program has just written it. Raises NinjaGameError, OSError."""
+        path, now = self.source.path, monotonic()
+        if path is None or now - self._looked_at < LOOK_SPACING or self.tools.history.in_stroke:
+            return None
+        self._looked_at = now
+        stamp, before = stamp_of(path), self._file_stamp
+        self._file_stamp = stamp
+        if stamp == before or not any(stamp):
+            return None
+        found = open_source(path)
+        return found if found.digest != self.source.digest else None
+
+    def take(self, source: Source) -> None:
+        """Go on with the level as its file has it now; undo brings back what was here."""
+        self.tools.finish()
+        self.source = source
+        self.tools.history.change(source.draft)
+
     def close(self) -> None:
         self.certifier.close()
         self.autosave.close()
@@ -189,10 +221,15 @@ class EditorSession:
         ninja = placed(object_of_type("ninja"), *self.tools.pointer, "px")
         return put(self.draft, Stamp({}, (ninja,))).level
 
-    def tried(self, level: Level, inputs: bytes) -> None:
-        """A test was left: its route is shown."""
-        if inputs:
-            self.last_try = route_of(level, inputs)
+    def tried(self, level: Level, inputs: bytes, *, over: bool = False) -> None:
+        """A test was left, or is ``over``: its route is shown. One that was left and goes on is the same."""
+        if not inputs:
+            return
+        last = self.tries[-1] if self.tries else None
+        goes_on = last is not None and not last.over and last.level is level and inputs.startswith(last.inputs)
+        self.tries = (*(self.tries[:-1] if goes_on else self.tries), Try(level, inputs, over))
+        self.last_try = route_of(level, inputs)
+        self._maps.ask(self.tries)
 
     def keep_certificate(self) -> None:
         """Put the solver's run among the player's replays."""

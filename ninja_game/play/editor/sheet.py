@@ -13,13 +13,13 @@ from typing import NamedTuple
 
 import pygame
 
-from ninja_game.editor.certify import Route
-from ninja_game.editor.draft import Draft
+from ninja_game.editor.certify import Route, TestMap
+from ninja_game.editor.draft import Cell, Draft, changed_cells
 from ninja_game.editor.specs import BODY, SWITCH, has_switch, points
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.object_pictures import ObjectPictures, ObjectSprites
 from ninja_game.sim import kinds
-from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
+from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.loader import grid_tiles
 from ninja_game.sim.memory.schema import TileMap
 from ninja_game.sim.rules import STRIDE
@@ -73,15 +73,11 @@ class LevelSheet:
             self._change_objects(draft)
 
     def _change_tiles(self, before: Draft, draft: Draft) -> None:
-        old, new = before.level.tiles, draft.level.tiles
-        if old == new:
-            return
-        grid = grid_tiles(draft.level)
-        for index in range(COLUMNS * ROWS):
-            if old[index] != new[index]:
-                column, row = index // ROWS + 1, index % ROWS + 1
-                self._tiles.draw(column, row, grid[(row + 1) * STRIDE + column + 1])
-                self._dirty.append(self._tiles.cell(column, row))
+        changed = changed_cells(before, draft)
+        grid = grid_tiles(draft.level) if changed else []
+        for column, row in changed:
+            self._tiles.draw(column, row, grid[(row + 1) * STRIDE + column + 1])
+            self._dirty.append(self._tiles.cell(column, row))
 
     def _change_objects(self, draft: Draft) -> None:
         before = self._looks
@@ -242,6 +238,26 @@ def sign_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
     return LevelMark(draw, (canvas.rect(x - 9, y - 9, 18, 18),))
 
 
+def visit_mark(canvas: Canvas, palette: Palette, cell: Cell, share: float) -> LevelMark:
+    """A cell in which this share of the tests came."""
+    rect = canvas.rect(24.0 * cell[0], 24.0 * cell[1], 24, 24)
+    veil = pygame.Surface(rect.size, pygame.SRCALPHA)
+    veil.fill((*palette.accent[:3], round(40 + 140 * share)))
+    return LevelMark(lambda target: target.covered.append(target.surface.blit(veil, rect)), (rect,))
+
+
+def death_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
+    """A cross where the ninja died in a test."""
+    (x, y), size = at, 5.0
+
+    def draw(target: DrawTarget) -> None:
+        for colour, width in ((palette.outline, 4.4), (palette.bad, 2.2)):
+            for side in (-size, size):
+                target.line(colour, x - side, y - size, x + side, y + size, width)
+
+    return LevelMark(draw, (canvas.rect(x - 8, y - 8, 16, 16),))
+
+
 def finding_points(level: Level, finding: Finding) -> list[Point]:
     places = [(24.0 * column + 12.0, 24.0 * row + 12.0) for column, row in finding.cells]
     for number in finding.records:
@@ -253,7 +269,8 @@ def finding_points(level: Level, finding: Finding) -> list[Point]:
 
 def level_marks(
     canvas: Canvas, palette: Palette, draft: Draft, before: Mapping[Hashable, LevelMark], *, lines: bool,
-    routes: Sequence[tuple[Route, Colour]], signs: Sequence[Point], axes: Sequence[tuple[Point, Point]],
+    routes: Sequence[tuple[Route, Colour]], tests: TestMap, signs: Sequence[Point],
+    axes: Sequence[tuple[Point, Point]],
 ) -> dict[Hashable, LevelMark]:  # fmt: skip
     """All marks by what they show: equal keys, equal marks. Those of ``before`` are used again."""
     marks: dict[Hashable, LevelMark] = {}
@@ -261,6 +278,11 @@ def level_marks(
     def add(key: Hashable, make: Callable[[], LevelMark]) -> None:
         marks[key] = before[key] if key in before else make()
 
+    for cell, count in tests.visits.items():
+        share = round(count / max(tests.visits.values()), 1)
+        add(("visit", cell, share), partial(visit_mark, canvas, palette, cell, share))
+    for place in filter(lambda each: is_near(*each), tests.deaths):
+        add(("death", place), partial(death_mark, canvas, palette, place))
     for a, b in axes:
         add(("axis", a, b), partial(line_mark, canvas, palette.accent, a, b))
     for spec in draft.objects if lines else ():

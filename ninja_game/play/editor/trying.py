@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from typing import Protocol
 
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.sayings import Saying, read_sayings
@@ -10,16 +10,23 @@ from ninja_game.play.app import App
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
+from ninja_game.player.player_data import PlayerData
 from ninja_game.player.playthrough import LevelContext, Navigation, PacedRun
 from ninja_game.sim.level import Level
 from ninja_game.ui.audio.music import SILENCE
 
-Left = Callable[[bytes], object]
-"""Called with the inputs of the last try when the test is left."""
+
+class Tried(Protocol):
+    def __call__(self, inputs: bytes, *, over: bool) -> object:
+        """Called with the inputs of a try when it is left, or is ``over``."""
 
 
 class TryContext(LevelContext):
     """A level that is only tried out: with practice tools and without a clock; nothing counts."""
+
+    def __init__(self, data: PlayerData, entry: Entry, tried: Tried) -> None:
+        super().__init__(data, entry, practice_mode=True)
+        self._tried = tried
 
     def ghosts(self) -> list[PacedRun]:
         """None: nobody has a best on a level that is being made."""
@@ -30,13 +37,19 @@ class TryContext(LevelContext):
         return read_sayings(self.entry.named.says)
 
     def passed(self, attempt: Attempt) -> list[str]:
+        self._tried(bytes(attempt.inputs), over=True)
         return ["It can be passed"]
 
     def died(self, attempt: Attempt) -> None:
-        """Nothing is counted."""
+        self._tried(bytes(attempt.inputs), over=True)
 
     def gave_up(self, attempt: Attempt) -> None:
-        """Nothing is counted."""
+        self.left(attempt, over=True)
+
+    def left(self, attempt: Attempt, *, over: bool = False) -> None:
+        """Tell of a try that has not ended by itself."""
+        if attempt.outcome == "running":
+            self._tried(bytes(attempt.inputs), over=over)
 
     def advance(self) -> Navigation:
         return Navigation.BACK
@@ -47,22 +60,16 @@ class TryScreen(LevelScreen):
 
     music = SILENCE
 
-    def __init__(self, app: App, name: str, level: Level, left: Left, *, says: str = "") -> None:
+    def __init__(self, app: App, name: str, level: Level, tried: Tried, *, says: str = "") -> None:
         title = f"{name} ({app.controls.name('back')}: back to the editor)"
         named = NamedLevel(title, "", "", level, "", says=says)
-        super().__init__(app, TryContext(app.player, Entry(named, "yours"), practice_mode=True))
-        self._left = left
-        self._last = b""
-
-    def retry(self, *, ignored: int = 0) -> None:
-        """The try before is remembered."""
-        self._last = bytes(self.attempt.inputs) or self._last
-        super().retry(ignored=ignored)
+        self._trying = TryContext(app.player, Entry(named, "yours"), tried)
+        super().__init__(app, self._trying)
 
     def leave(self) -> None:
         """Tell the editor of the last try."""
         super().leave()
-        self._left(bytes(self.attempt.inputs) or self._last)
+        self._trying.left(self.attempt)
 
     def _dispatch_action(self, pressed: tuple[str, ...]) -> None:
         if "back" in pressed or "quit" in pressed:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import pygame
 
 from ninja_game.editor.brush import placed
+from ninja_game.editor.certify import NO_TESTS
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.reach import CELL, Reach
 from ninja_game.editor.specs import BODY, SWITCH, carried, points
@@ -126,7 +127,7 @@ class Overlay:
         """What a press would do here, and in the images of the symmetry."""
         if tools.placing_switch:
             return
-        draws = tools.effective_tool in ("brush", "rectangle", "fill")
+        draws = tools.effective_tool not in ("select", "pick")
         motions = (Motion(), *(SYMMETRIES[tools.symmetry] if draws else ()))
         if not draws:
             found = nearest(tools.draft, *tools.pointer, PICK_REACH)
@@ -134,11 +135,10 @@ class Overlay:
                 self.target.sprite(_ring("faint"), *points(tools.draft.objects[found[0]])[found[1]])
                 return
         if not tools.objects or not draws:
+            for cell, tile in tools.preview.items() if draws else ():
+                self._ghost_tile(cell, tile)
             for motion in motions:
-                cell = motion.cell(tools.cell)
-                if draws:
-                    self._ghost_tile(cell, motion.tile(tools.tile))
-                self._frame((*cell, 1, 1), self.sheet.palette.accent)
+                self._frame((*motion.cell(tools.cell), 1, 1), self.sheet.palette.accent)
             return
         spec = placed(tools.spec, *tools.pointer, tools.snap)
         x, y = points(spec).get(BODY, tools.pointer)
@@ -152,6 +152,8 @@ class Overlay:
 
     def _ghost_tile(self, cell: tuple[int, int], tile: int) -> None:
         rect = self.canvas.rect(24 * cell[0], 24 * cell[1], 24, 24)
+        if self.sheet.draft and self.sheet.draft.tile(cell):
+            self.target.surface.fill(self.sheet.palette.background, rect)
         picture = tile_icon(tile, rect.size, self.sheet.palette.base.name, alpha=150)
         self.target.surface.blit(picture, rect, special_flags=pygame.BLEND_PREMULTIPLIED)
         self._note(rect)
@@ -173,7 +175,10 @@ LAYOUT = EditorLayout()
 
 
 class EditorView(Part):
-    """The level under edit, and what lies over it. ``hovering``: the pointer is shown; ``hint``: for the line below."""
+    """The level under edit, and what lies over it. ``hovering``: the pointer is shown; ``hint``: for the line below.
+
+    ``listing``: the list of objects is shown in the place of the palette; ``tests``: the map of the tests is shown.
+    """
 
     area = LAYOUT.level
 
@@ -184,6 +189,7 @@ class EditorView(Part):
         self.hint = ""
         self.grid: Grid = GRIDS[1]
         self.lines = self.paths = True
+        self.listing = self.tests = False
         self._step_palette = step_palette
         self._held = False
         self._marked: tuple[object, ...] = ()
@@ -245,7 +251,7 @@ class EditorView(Part):
         tools = self.session.tools
         return (
             tools.pointer, self.hovering, tools.tool, tools.objects, tools.tile, tools.spec, tools.snap,
-            tools.symmetry, tools.selection, tools.marquee, tools.placing_switch, tools.draft,
+            tools.symmetry, tools.slopes, tools.selection, tools.marquee, tools.placing_switch, tools.draft,
             self.session.reach and id(self.session.reach),
         )  # fmt: skip
 
@@ -275,7 +281,7 @@ class EditorView(Part):
         stale = certifier.is_stale(session.draft.level)
         wanted = (
             session.draft.objects, self.lines, self.paths, session.last_try, certifier.search.route, stale,
-            session.findings, session.tools.symmetry,
+            session.findings, session.tools.symmetry, self.tests and session.test_map,
         )  # fmt: skip
         if len(wanted) == len(self._marked) and all(a is b for a, b in zip(wanted, self._marked, strict=True)):
             return
@@ -284,7 +290,8 @@ class EditorView(Part):
         routes.append((certifier.search.route, palette.faint if stale else palette.good))
         marks = level_marks(
             self.sheet.canvas, palette, session.draft, self.sheet.marks, lines=self.lines, signs=self._signs(),
-            routes=routes if self.paths else (), axes=_AXES.get(session.tools.symmetry, ()),
+            routes=routes if self.paths else (), tests=(self.tests and session.test_map) or NO_TESTS,
+            axes=_AXES.get(session.tools.symmetry, ()),
         )  # fmt: skip
         self.sheet.show_marks(marks)
 

@@ -449,7 +449,11 @@ class PackScreen(ThumbnailScreen):
         alone = f", {len(self.pack.singles)} in none" if self.pack.singles else ""
         episodes = sum(cell.head for cell in self.cells) - 1
         where = f"{counted(len(levels), 'level')} in {counted(episodes, 'episode')}{alone}"
-        return f"{where}; {f'{to_do} to certify' if to_do else 'all certified'}" if levels else "Drag levels here"
+        return (
+            f"{where}; {f'{to_do} to certify' if to_do else 'all certified'}"
+            if levels
+            else "Drag levels here, or click a free place twice: New level"
+        )
 
     def draw_widgets(self, surface: pygame.Surface) -> None:
         """What the mouse takes along lies over all."""

@@ -26,6 +26,7 @@ class WorkspaceScreen(MenuScreen):
 
     table: ClassVar[CommandTable]
     music = SILENCE
+    offers_back = False
 
     def __init__(self, app: App) -> None:
         super().__init__(app)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 from time import thread_time
+from typing import Any
 
 import pygame
 import pytest
@@ -14,6 +15,7 @@ from ninja_game.editor.files import Source
 from ninja_game.editor.reach import CELL, LANDED, STARTS, Reach
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.play.editor.controls import COMMANDS
+from ninja_game.play.editor.object_list import ObjectList
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.menus.help import HelpPage
@@ -23,6 +25,8 @@ from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.kinds import NINJA
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.ui.input.keys import SCANCODES
+from ninja_game.ui.theme import Theme
+from ninja_game.ui.widgets import Choice
 from tests.support.level_maker import ROOM, Maker
 
 
@@ -129,6 +133,37 @@ def test_a_test_leads_back_in_one_press_with_everything_as_it_was(room: Maker) -
     room.press("escape")
     assert room.draft is before
     assert not room.player.statistics.played().attempts
+
+
+def test_a_map_shows_where_all_tests_came_and_died(room: Maker) -> None:
+    session = room.editor.session
+    room.press("grave", "3")
+    room.drag((100, 540))  # a mine on the way to the exit
+    plain = room.app.surface.copy()
+    room.press("f9")
+    assert "No tests yet" in room.editor.view.hint
+    room.press("f5")
+    for _ in range(2):
+        room.keys.script = [2] * 60
+        room.press("space")
+        room.frames(70)
+        room.press("r")
+    room.press("escape")
+    room.wait(lambda: session.test_map and len(session.test_map.deaths) == 2, "map")
+    assert session.test_map
+    died, _ = session.test_map.deaths
+    assert 70 < died[0] < 100
+    assert session.test_map.visits == {(2, 22): 2, (3, 22): 2}
+    assert len(session.tries) == 2, "what is pressed after a death is no test"
+    room.frames(2)
+    x, y = room.app.canvas.point(*room.at(60, 500))
+    assert room.app.surface.get_at((x, y)) == plain.get_at((x, y)), "nobody came there"
+    x, y = room.app.canvas.point(*room.at(90, 532))
+    assert room.app.surface.get_at((x, y)) != plain.get_at((x, y))
+    room.press("f9")
+    assert not [key for key in room.editor.view.sheet.marks if key[0] in ("visit", "death")]  # type: ignore[index]
+    session.begin(Source(ROOM))
+    assert session.test_map is None
 
 
 def test_a_test_that_passes_comes_back_by_confirming(room: Maker) -> None:
@@ -361,3 +396,94 @@ def test_a_property_of_several_objects_is_changed_by_one_click_and_undone_at_onc
     assert changed != [spec.values[2] for spec in before.objects[-3:]]
     room.chord("z", pygame.KMOD_LCTRL)
     assert room.draft == before
+    room.drag((190, 280), (320, 320))
+    room.press("a")
+    assert {spec.values[2] for spec in room.draft.objects[-3:]} == {2.0}, "a key turns all of them too"
+
+
+def test_the_list_of_objects_finds_selects_and_orders_them_by_clicks(room: Maker) -> None:
+    room.press("grave", "0")
+    for x in (204, 252, 300):
+        room.drag((x, 300))
+    room.press("3")
+    room.drag((348, 300))
+    listed, tools = room.editor.sides[1], room.editor.session.tools
+    assert isinstance(listed, ObjectList)
+    shown_before = room.app.surface.copy()
+    room.press("f3")
+    assert listed.shown == [0, 1, 2, 3, 4, 5]
+    room.frames()
+    assert pygame.transform.average_color(room.app.surface) != pygame.transform.average_color(shown_before)
+    find, rows, earlier, later, every = (listed.widgets[k] for k in (0, 2, 3, 4, 5))
+    left, top, _, _ = listed.list.row_area(3)
+    room.mouse(left + 50, top + 5)
+    assert tools.selection.parts == {(3, 0)}
+    room.mouse(*earlier.centre)
+    assert [spec.values[0] for spec in room.draft.objects[2:]] == [252, 204, 300, 348]
+    assert tools.selection.parts == {(2, 0)}
+    room.mouse(*later.centre)
+    assert [spec.values[0] for spec in room.draft.objects[2:]] == [204, 252, 300, 348]
+    room.mouse(*find.centre)
+    for char in "gold 8":
+        pygame.event.post(pygame.Event(pygame.TEXTINPUT, text=char))
+    room.frames(2)
+    assert listed.shown == [2], "gold 8,12"
+    for _ in range(2):
+        room.press("backspace")
+    room.frames(2)
+    assert listed.shown == [2, 3, 4]
+    room.mouse(*every.centre)
+    assert tools.selection.numbers == {2, 3, 4}
+    room.drag((348, 300))
+    assert tools.selection.numbers == {5}, "what is clicked in the level"
+    assert rows is listed.list
+    toggle = listed.widgets[1]
+    room.mouse(*toggle.centre)
+    assert not room.editor.view.listing
+
+
+def test_the_palette_says_what_is_in_hand_or_under_the_mouse(room: Maker, monkeypatch: pytest.MonkeyPatch) -> None:
+    said: list[str] = []
+    text = Theme.text
+
+    def noted(theme: Theme, surface: pygame.Surface, words: str, *where: float, **how: Any) -> pygame.Rect:
+        said.append(words)
+        return text(theme, surface, words, *where, **how)
+
+    monkeypatch.setattr(Theme, "text", noted)
+    room.press("4", "s")
+    assert "Hollow curve lower right    keys 4 S" in said
+    gold = next(area for what, area in room.editor.palette.places() if getattr(what, "name", "") == "gold")
+    room.mouse(gold[0] + 5, gold[1] + 5, click=False)
+    assert "Gold    key 0" in said
+    said.clear()
+    room.mouse(*room.at(300, 300), click=False)
+    assert "Hollow curve lower right    keys 4 S" in said
+
+
+def test_a_click_on_the_lower_edge_of_help_does_not_leave_the_editor(room: Maker) -> None:
+    """Other screens have their button to go back there."""
+    room.mouse(760, 22)
+    assert isinstance(room.top(), HelpPage)
+
+
+def test_slopes_and_spacing_are_set_in_the_panel_and_the_wheel_bends_a_line(room: Maker) -> None:
+    tools = room.editor.session.tools
+    slopes = room.editor.properties.widgets[-1]
+    assert isinstance(slopes, Choice)
+    room.mouse(*slopes.centre)
+    assert "by themselves" in slopes.options[slopes.index][0]
+    room.chord("s", pygame.KMOD_LSHIFT)
+    assert "by hand" in slopes.options[slopes.index][0]
+    room.press("grave", "0")
+    room.chord("l", pygame.KMOD_LSHIFT)
+    spacing = room.editor.properties.widgets[-1]
+    room.mouse(*spacing.centre)
+    assert tools.spacing == 36.0
+    room.mouse(*room.at(60, 204), click=False)
+    tools.press()
+    tools.move(276, 204)
+    room.wheel(2, *room.at(276, 204))
+    assert min(spec.values[1] for spec in room.draft.objects[2:]) == 180.0, "the wheel away from oneself bends it up"
+    room.editor.view.release()
+    assert tools.spec == object_of_type("gold"), "the palette stayed where it was"

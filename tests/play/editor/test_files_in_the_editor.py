@@ -7,6 +7,7 @@ import os
 import shutil
 from dataclasses import replace
 from hashlib import sha256
+from math import inf
 from pathlib import Path
 from zipfile import ZipFile
 
@@ -15,19 +16,22 @@ import pytest
 
 from ninja_game.cli.main import cli
 from ninja_game.editor.ascii_text import ascii_text
+from ninja_game.editor.draft import is_inside
 from ninja_game.editor.files import Autosave, Source, new_source, open_source, recovered
-from ninja_game.files.user_folder import EDITING, bundled_levels
+from ninja_game.files.user_folder import CHECKOUT, EDITING, bundled_levels
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.play.app import App
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.menus.browser import Browser, LevelChoice
+from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.panels import FormPanel, Menu
 from ninja_game.player.backup import read_backup, write_backup
 from ninja_game.signals import Terminated
 from tests.support.level_maker import ROOM, Maker
 from tests.support.own_pack import PACK
+from tools.draw.good_levels import written
 
 
 def test_saved_levels_are_in_the_browser_at_once(room: Maker, tmp_path: Path) -> None:
@@ -133,8 +137,49 @@ def test_saving_first_goes_on_with_what_was_asked(maker: Maker, tmp_path: Path, 
     assert load_levels(next((tmp_path / "levels").iterdir()))[0].level == drawn.level
 
 
+def unwatched(maker: Maker) -> None:
+    """The editor does not see by itself that its file changes."""
+    maker.editor.session._looked_at = inf
+
+
+def watched(maker: Maker) -> None:
+    """The editor looks at its file now."""
+    maker.editor.session._looked_at = -inf
+    maker.frames(2)
+
+
+def test_a_file_that_changes_on_the_disk_is_shown_at_once(room: Maker, tmp_path: Path) -> None:
+    room.chord("s", pygame.KMOD_LCTRL)
+    path = tmp_path / "levels" / "room.txt"
+    watched(room)
+    assert isinstance(room.top(), EditorScreen), "its own save is no change"
+    saved = path.read_text("utf-8")
+    path.write_text(saved.replace("name: Room", "name: Hall!"), "utf-8")
+    watched(room)
+    assert (room.draft.name, room.editor.session.is_saved) == ("Hall!", True)
+    room.chord("z", pygame.KMOD_LCTRL)
+    assert room.draft == ROOM
+    path.write_text("ninja-game level 1\nrubbish", "utf-8")
+    watched(room)
+    assert (room.draft, "rubbish" in room.app.notice) == (ROOM, True)
+    path.write_text(saved.replace("name: Room", "name: Gallery"), "utf-8")
+    watched(room)
+    assert room.top().title == "Another program has changed room.txt"  # type: ignore[attr-defined]
+    room.choose("Keep what is here")
+    watched(room)
+    assert (room.draft, isinstance(room.top(), EditorScreen)) == (ROOM, True), "it asks once"
+    path.write_text(saved.replace("name: Room", "name: Corridor"), "utf-8")
+    watched(room)
+    room.choose("Load the file")
+    assert (room.draft.name, room.editor.session.is_saved) == ("Corridor", True)
+    path.unlink()
+    watched(room)
+    assert room.draft.name == "Corridor"
+
+
 def test_saving_first_stays_where_it_was_not_saved(room: Maker, tmp_path: Path) -> None:
     room.chord("s", pygame.KMOD_LCTRL)
+    unwatched(room)
     path = tmp_path / "levels" / "room.txt"
     path.write_text(path.read_text("utf-8") + "; by hand\n", "utf-8")
     room.drag((300, 300))
@@ -154,6 +199,7 @@ def test_saving_first_stays_where_it_was_not_saved(room: Maker, tmp_path: Path) 
 def test_a_file_that_another_program_changed_is_loaded_again(room: Maker, tmp_path: Path) -> None:
     room.chord("s", pygame.KMOD_LCTRL)
     path = tmp_path / "levels" / "room.txt"
+    unwatched(room)
     path.write_text(path.read_text("utf-8").replace("name: Room", "name: Hall"), "utf-8")
     room.drag((300, 300))
     room.chord("s", pygame.KMOD_LCTRL)
@@ -309,3 +355,24 @@ def test_the_command_edit_opens_a_level(tmp_path: Path, monkeypatch: pytest.Monk
         cli.main(["edit", str(file), "--record", "3"])
     assert ended.value.code == 2
     assert replace(open_source(file).draft) == open_source(file).draft
+
+
+def test_good_levels_are_shown_with_notes_and_opened_as_copies(
+    room: Maker, root: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(CHECKOUT, "levels", root / "levels")
+    room.choose_in_menu("Good levels")
+    screen = room.top()
+    assert isinstance(screen, GoodLevelsScreen)
+    assert len(screen.levels) == 10
+    for level in screen.levels:
+        assert (bool(level.about), len(level.notes)) == (True, 4)
+        assert all(is_inside((column, row)) for column, row, _ in level.notes)
+    page = (root / "docs" / "good-levels.md").read_text("utf-8")
+    assert written(page, screen.levels) == page, "`python3 tools/dev.py docs` writes the chapter"
+    room.press("down")
+    room.editor.session.tools.history.change(new_source().draft)
+    room.choose("Edit a copy")
+    room.choose("Discard changes")
+    assert isinstance(room.top(), EditorScreen)
+    assert (room.draft.name, room.editor.session.source.path) == ("Rolling Hills", None)

@@ -79,6 +79,47 @@ def test_a_level_from_nothing(tmp_path: Path, root: Path) -> None:
     assert [record.values[6] for record in level.objects if record.kind == DOOR] == [1.0]
 
 
+@pytest.mark.slow
+def test_a_pack_from_nothing(tmp_path: Path, root: Path) -> None:
+    """A pack, an episode, a level drawn with a line of gold, a copy of it, and the copy dragged before it."""
+    with virtual_screen() as display:
+        maker = Player(display, tmp_path, root)
+        try:
+            maker.drag((227, 273))  # Levels
+            maker.drag((394, 82))  # Packs
+            maker.drag((302, 74))  # New pack...
+            maker.press("Return")
+            folder = tmp_path / "levels" / "my-pack"
+            maker.wait_for((folder / "pack.toml").exists, "pack")
+            maker.press("Return", "Return", "Return")  # its episode, a new level, the proposed name
+            level = folder / "new-level.txt"
+            maker.wait_for(level.exists, "level")
+            for _ in range(2):
+                maker.drag((175, 150))  # the level on its shelf: choose it, then what can be done with it
+            maker.press("Return")  # Edit
+            maker.drag(at(1, 23), at(16, 23), at(31, 23))
+            maker.press("grave", "9")
+            maker.drag(at(3, 22))
+            maker.press("bracketright")
+            maker.drag(at(28, 22))
+            maker.drag(at(22, 22))
+            maker.press("0")
+            maker.drag((218, 14))  # the button Line
+            maker.drag(at(5, 20), at(10, 20), at(15, 20))
+            maker.press("ctrl+s", "Escape", "Up", "Return")
+            maker.wait_for(lambda: len(load_levels(level)[0].level.objects) == 13, "saved level")
+            maker.drag((175, 150))
+            maker.press("Return", "Down", "Down", "Down", "Return")  # Copy
+            copy = folder / "new-level-copy.txt"
+            maker.wait_for(copy.exists, "copy")
+            maker.drag((268, 140), (260, 145), (200, 150), (180, 150))
+            index = folder / "pack.toml"
+            maker.wait_for(lambda: 0 < index.read_text().find(copy.name) < index.read_text().find(level.name), "order")
+        finally:
+            maker.game.kill()
+            maker.game.wait(TIMEOUT)
+
+
 def kept_certificate(maker: Player, before: int) -> bool:
     """Ask the file menu to keep the solver's run; whether there is one more replay than before."""
     maker.press("Escape", "Up", "Up", "Return")  # the last but one of the file menu

@@ -1,0 +1,93 @@
+"""Ten of the game's levels, read closely: what makes each of them good, with the places it is about."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import pygame
+
+from ninja_game.files.user_folder import data_folder
+from ninja_game.formats.load import load_levels
+from ninja_game.play.app import App
+from ninja_game.play.menus.thumbnails import ThumbnailScreen
+from ninja_game.player.catalogue import Entry
+from ninja_game.ui.list_view import ListView
+from ninja_game.ui.theme import Area, Theme
+from ninja_game.ui.widgets import Button, Widget
+
+FILE = "good-levels.toml"
+
+PICTURE: Area = (212, 66, 540, 540 * 25 / 33)
+"""Where the level is shown."""
+
+
+class GoodLevel(NamedTuple):
+    """``about``: what makes it good. ``notes``: column and row of a cell, and what is to be said about it."""
+
+    entry: Entry
+    about: str
+    notes: Sequence[tuple[int, int, str]]
+
+    @property
+    def texts(self) -> list[str]:
+        """All that is said, the notes with their numbers."""
+        return [self.about, *(f"{number}  {text}" for number, (_, _, text) in enumerate(self.notes, 1))]
+
+
+def read_good_levels() -> list[GoodLevel]:
+    """Those of the bundled file, with the game's levels."""
+    tables = tomllib.loads((data_folder("assets") / FILE).read_text("utf-8"))["level"]
+    files = [data_folder("levels") / f"{each['file']}.txt" for each in tables]
+    entries = [Entry(load_levels(file)[0], "game") for file in files]
+    return [GoodLevel(entry, each["about"], each["notes"]) for entry, each in zip(entries, tables, strict=True)]
+
+
+class GoodLevelsScreen(ThumbnailScreen):
+    """``edit``: opens a copy of the selected level in the editor."""
+
+    title = "Ten good levels, and why"
+
+    def __init__(self, app: App, edit: Callable[[Entry], object]) -> None:
+        super().__init__(app)
+        self._edit = edit
+        self.levels = read_good_levels()
+        self.list = ListView((36, 66, 160, 10 * 30), 30, self._draw_name, lambda _: None, selected=self._show)
+        self.list.hint = "Up and down: another level"
+        self.list.fill(self.levels)
+
+    def build(self) -> Sequence[Widget]:
+        return [self.list, Button((36, 380, 148, 28), "Edit a copy", self._open, hint="Look how it is made")]
+
+    @property
+    def level(self) -> GoodLevel:
+        """The selected one."""
+        return self.levels[self.list.index]
+
+    def _show(self, _: int) -> None:
+        self.redraw = True
+
+    def _open(self) -> None:
+        self.close()
+        self._edit(self.level.entry)
+
+    def draw_frame(self, surface: pygame.Surface) -> None:
+        """The level with numbers at the places, and the texts below."""
+        super().draw_frame(surface)
+        theme, palette, (left, top, width, height) = self.theme, self.theme.palette, PICTURE
+        self.thumbnails.draw(surface, self.level.entry, left, top, width)
+        for number, (column, row, _) in enumerate(self.level.notes, 1):
+            # At the corner of the cell, so that what is in it is seen.
+            x, y = (place + 24 * cell * width / 792 for place, cell in ((left, column), (top, row)))
+            theme.canvas.circle(surface, palette.accent, (x, y), 9)
+            theme.canvas.circle(surface, palette.background, (x, y), 9, 1.5)
+            theme.text(surface, str(number), x, y - 5.5, size=11, bold=True, align="centre", colour=palette.background)
+        theme.paragraph(surface, self.level.texts, (left, top + height + 5, width, 560 - top - height), 9.5, 12.5)
+
+    def _draw_name(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        x, y, w, h = area
+        chosen = index == self.list.index
+        if chosen:
+            theme.row(surface, (x, y + 1, w, h - 2), chosen=True, focused=focused, radius=3)
+        theme.text(surface, self.levels[index].entry.title, x + 8, y + 9, size=11, bold=chosen, width=w - 10)
