@@ -245,7 +245,7 @@ class EpisodeGrid(ThumbnailScreen):
             for line, text in enumerate(
                 ("Finish an episode and the one below it opens.", "Each column has its own start: easiest at the left.")
             ):
-                theme.text(surface, text, LEFT, 64 + 14 * line, size=10, colour=palette.faint)
+                theme.text(surface, text, LEFT, 64 + 14 * line, size=10, colour=palette.faint, width=WIDE)
         self.grid.draw_names(surface, theme, self.pack.columns)
         for place, (look, text) in enumerate(LOOKS):
             x, y = LEFT + 160 * (place % 2), self._below + 40 + 23 * (place // 2)
