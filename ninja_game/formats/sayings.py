@@ -14,7 +14,7 @@ KEYS = ("left", "right", "jump", "retry", "suicide", "pause", "replay")
 """Actions whose key a text may name: {jump} becomes the key or button of whoever plays."""
 
 THINGS = ("switch", "exit")
-"""What a text may name in the same way: an arrow leads to it while the text is shown."""
+"""What a text may name in the same way. A level with texts has an arrow to each of them."""
 
 _KEY = re.compile(r"\{([^{}]*)\}")
 _DEATH = re.compile(r"death ([1-9][0-9]?)")
@@ -69,12 +69,3 @@ def named_keys(text: str, name: Callable[[str], str]) -> str:
     'Z jumps'
     """
     return _KEY.sub(lambda match: match[1] if match[1] in THINGS else name(match[1]), text)
-
-
-def things_named(text: str) -> list[str]:
-    """Those of ``THINGS`` to which a text leads.
-
-    >>> things_named("Touch the {switch} with a {jump}")
-    ['switch']
-    """
-    return [name for name in _KEY.findall(text) if name in THINGS]

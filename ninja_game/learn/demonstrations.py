@@ -3,7 +3,7 @@
 >>> from ninja_game import load_replays
 >>> episode = demonstration(load_replays("levels/certificates/00-0-first-steps.exit.replay.txt")[0])
 >>> episode.observations.shape, episode.actions.shape, episode.rewards.sum().item(), episode.outcome
-((239, 30), (238,), 1.0, 'exit')
+((237, 30), (236,), 1.0, 'exit')
 """
 
 from __future__ import annotations

@@ -165,6 +165,9 @@ class ScreenStack:
         return self._screens[max(first, 0) :]
 
 
+CALM = 0
+"""The mood of all menus, whatever level was played before."""
+
 UNSEEN = {"dummy", "offscreen"}
 """Drivers of SDL without a wipe: nobody looks on."""
 
@@ -184,7 +187,7 @@ class App:
     ``controls``: keys to actions. ``player``: the player's data with the settings, which ``change_settings`` changes.
     ``overclock``: ms by which ticks are shorter until the program ends, 0 to 10 (game.md §1.1). ``tas_editor``:
     opens a run in the TAS editor, with others beside it, at a tick; None where there is none, as in a page.
-    ``mood``: the number of the present look.
+    ``mood``: the number of the present look. ``menu_theme``: that of menus over a level.
     ``size``: px of the window; ``window``: one that is open already. Raises NinjaGameError where there is no display.
     """
 
@@ -262,6 +265,7 @@ class App:
         """Draw everything again, at the window's present size and in the present palette."""
         self.canvas = Canvas(self.surface.get_size())
         self.theme = Theme(self.palette_in(self.mood), self.canvas, self.settings.text_size)
+        self.menu_theme = Theme(self.palette_in(CALM), self.canvas, self.settings.text_size)
         self.stack.redraw_all()
 
     def palette_in(self, mood: int) -> Palette:

@@ -78,7 +78,7 @@ def opens_author(entry: Entry, mark: Mark | None) -> bool:
 def next_par(pars: Pars, mark: Mark) -> str:
     """The medal after the one that a mark brings, and by how much it was missed; "" after the best."""
     medal = pars.next_medal(mark.fastest)
-    return f"{seconds_text(mark.fastest - pars.par(medal))} s behind the {medal} medal" if medal else ""
+    return f"{seconds_text(mark.fastest - pars.par(medal))} s away from the {medal} medal" if medal else ""
 
 
 def reached(entry: Entry, mark: Mark | None) -> str:

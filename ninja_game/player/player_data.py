@@ -91,10 +91,10 @@ class PlayerData:
         if before is None or self.episode_state(episode) != LOCKED:
             return ""
         if self.episode_state(before) == LOCKED:
-            return f"Pass episode {before.code} first"
+            return f"Finish episode {before.code} first"
         number, level = self.progress_in(before.pack).columns[before.column].beaten
         left = len(before.levels) - level * (number == before.number)
-        return f"Pass {left} more level{'s' * (left != 1)} of episode {before.code}"
+        return f"Finish {left} more level{'s' * (left != 1)} of episode {before.code} first"
 
     def reached(self, entry: Entry, mark: Mark | None) -> str:
         """What the player has reached in a level, whose mark this is, in words: the same on every screen."""

@@ -71,6 +71,11 @@ class LevelContext:
         return True
 
     @property
+    def carries_clock(self) -> bool:
+        """Whether the next level begins with what this one leaves on the clock."""
+        return False
+
+    @property
     def title(self) -> str:
         """How the level is announced."""
         return self.entry.title
@@ -298,6 +303,10 @@ class EpisodeRun(LevelContext):
     @property
     def title(self) -> str:
         return self.episode.title(self.position)
+
+    @property
+    def carries_clock(self) -> bool:
+        return not self.is_last and not self.practice_mode
 
     @property
     def is_last(self) -> bool:

@@ -132,11 +132,11 @@ def new_unlocks(store: Store, columns: int, present: int) -> list[str]:
     before = int(rows[0][0]) if rows and re.fullmatch("[0-9]{1,3}", rows[0][0]) else 0
     if columns <= before:
         return []
-    messages = ["New ninja colour unlocked"] if unlocked_colours(columns) > before else []
+    messages = ["A new ninja colour is yours: see Settings"] if unlocked_colours(columns) > before else []
     if overclock_unlocked(columns, present) and not overclock_unlocked(before, present):
-        messages.append("Overclock unlocked")
+        messages.append("Overclock unlocked: see Settings")
     if custom_colour_unlocked(columns, present) and not custom_colour_unlocked(before, present):
-        messages.append("Any ninja colour unlocked")
+        messages.append("All ninja colours are yours: see Settings")
     with store.change() as db:
         db.execute("REPLACE INTO fact (name, value) VALUES (?, ?)", (_ANNOUNCED, str(columns)))
     return messages

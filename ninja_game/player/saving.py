@@ -13,8 +13,8 @@ from ninja_game.player.player_data import PlayerData
 from ninja_game.player.store import Work
 
 SAVED = ": saved"
-OF_A_LEVEL = NEW_BEST, FIRST_PASS, NEW_MEDAL, NEW_ALL_GOLD = "Best time", "First pass", "New medal", "All gold"
-EPISODE_BEST = "Best clock of the episode"
+OF_A_LEVEL = NEW_BEST, FIRST_PASS, NEW_MEDAL, NEW_ALL_GOLD = "Your best time", "First pass", "New medal", "All gold"
+EPISODE_BEST = "Your best for this episode"
 REPLAY_KEPT = "Replay" + SAVED
 NOT_SAVED = "Not saved yet: {}"
 
@@ -33,7 +33,7 @@ def forget_replay(data: PlayerData, number: int) -> str:
     """Remove a replay of the records; why it is still there, or ''."""
 
     def work() -> list[str]:
-        return [] if data.records.forget_replay(number) else ["A personal best needs this replay; it stays"]
+        return [] if data.records.forget_replay(number) else ["This is one of your bests, so it stays"]
 
     return "".join(told(data, work)[-1:])
 

@@ -74,8 +74,11 @@ class Widget:
         raise NotImplementedError
 
     def draw_base(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
-        """A panel; with the focus it has a thick edge and a mark at its left, so that not only colour tells."""
-        theme.row(surface, self.area, chosen=focused, focused=focused)
+        """A panel; with the focus it has a thick edge and a mark at its left, so that not only colour tells.
+
+        What is off has no panel, and its edge shows only with the focus.
+        """
+        theme.row(surface, self.area, chosen=focused, focused=focused, filled=self.enabled)
         if focused:
             x, y, _, h = self.area
             mark = [(x - 9, y + h / 2 - 5), (x - 9, y + h / 2 + 5), (x - 3, y + h / 2)]
@@ -100,20 +103,21 @@ class Label(Widget):
 
 
 class Button(Widget):
-    """A text that does something. ``detail``: a smaller line below it."""
+    """A text that does something; without an action it is off. ``detail``: a smaller line below it."""
 
     def __init__(
-        self, area: Area, text: str, action: Callable[[], object], *, hint: str = "", size: float = TEXT,
+        self, area: Area, text: str, action: Callable[[], object] | None, *, hint: str = "", size: float = TEXT,
         detail: str = "",
     ) -> None:  # fmt: skip
         super().__init__(area, hint=hint)
+        self.enabled = action is not None
         self.text = text
         self.detail = detail
         self.action = action
         self.size = size
 
     def confirm(self) -> bool:
-        if self.enabled:
+        if self.enabled and self.action:
             self.action()
         return True
 

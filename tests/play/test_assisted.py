@@ -9,7 +9,8 @@ from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App
 from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
-from ninja_game.play.menus.help import Page, read_pages, room_level
+from ninja_game.play.menus.help import Page, read_pages
+from ninja_game.play.rooms import room_level
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.marks import HELPED
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT
@@ -85,7 +86,7 @@ def test_no_replay_is_kept_of_a_run_that_keys_alone_do_not_make(stage: tuple[App
     frames(app, 120)
     assert screen.attempt.spared
     screen.keep_replay()
-    assert app.notice == "There is no replay of a run that only the invincible survive"
+    assert app.notice == "No replay: only the invincible could survive this run"
     screen.copy_link()
     assert not screen.play.may_watch
 

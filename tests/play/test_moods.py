@@ -16,6 +16,7 @@ from ninja_game.play.app import App
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.menus.panels import Panel
 from ninja_game.play.menus.thumbnails import Thumbnails
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.catalogue import Entry
@@ -163,12 +164,15 @@ def test_the_picture_follows_the_column_of_what_is_shown(app: App) -> None:
     app.push(menu)
     app.frame(0)
     assert app.theme.palette is app.palette_in(menu.attract.mood), "that of the level behind it"
+    assert menu.theme.palette is MOODS[0]
     app.push(in_column(app, 3))
     app.frame(0)
     assert app.theme.palette is MOODS[3]
+    panel = Panel(app, "Paused")
+    assert (panel.mood, panel.theme.palette) == (app.mood, MOODS[0]), "a menu over a level"
     app.push(HelpScreen(app))
     app.frame(0)
-    assert app.theme.palette is MOODS[3]
+    assert app.theme.palette is MOODS[0], "all menus look alike"
     app.pop()
     app.pop()
     app.frame(0)

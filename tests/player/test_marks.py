@@ -39,7 +39,7 @@ def test_better_medal_is_told_once_and_slower_runs_change_nothing(tmp_path: Path
     assert notices == ["First pass", "New medal"]
     notices, mark = passed(tmp_path, level)
     assert mark == (EXIT_TICK, 0)
-    assert notices == ["Best time", "New medal"]
+    assert notices == ["Your best time", "New medal"]
     assert passed(tmp_path, level, wait=30) == ([], mark)
 
 

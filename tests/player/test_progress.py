@@ -43,7 +43,7 @@ def test_padlock_says_what_opens_an_episode(tmp_path: Path) -> None:
     data = player_data(tmp_path, *(episode(number) for number in range(3)))
     data.progress.level_passed((0, 0), legitimate=True)
     locks = [data.lock_of_episode(data.catalogue.episodes[number]) for number in range(3)]
-    assert locks == ["", "Pass 4 more levels of episode 1", "Pass episode 2 first"]
+    assert locks == ["", "Finish 4 more levels of episode 1 first", "Finish episode 2 first"]
     data.close()
 
 
@@ -83,13 +83,13 @@ def test_replaying_an_old_episode_changes_no_progress(progress: Progress) -> Non
 def test_unlocks_are_announced_once() -> None:
     store = Store(None)
     assert new_unlocks(store, 0, 10) == []
-    assert new_unlocks(store, 1, 10) == ["New ninja colour unlocked"]
+    assert new_unlocks(store, 1, 10) == ["A new ninja colour is yours: see Settings"]
     assert new_unlocks(store, 1, 10) == []
     # Fewer columns, because episodes were added: what was announced stays announced.
     assert new_unlocks(store, 0, 10) == []
     assert new_unlocks(store, 1, 10) == []
-    assert "Overclock unlocked" in new_unlocks(store, 6, 10)
-    assert "Any ninja colour unlocked" in new_unlocks(store, 10, 10)
+    assert "Overclock unlocked: see Settings" in new_unlocks(store, 6, 10)
+    assert "All ninja colours are yours: see Settings" in new_unlocks(store, 10, 10)
 
 
 def test_episode_carries_its_lifetime_and_saves_its_best(tmp_path: Path) -> None:
@@ -109,7 +109,7 @@ def test_episode_carries_its_lifetime_and_saves_its_best(tmp_path: Path) -> None
         each.digest for each in episode().levels
     ]
     assert data.progress.state(1) == UNLOCKED
-    assert "New ninja colour unlocked" in notices  # the only episode of its column
+    assert "A new ninja colour is yours: see Settings" in notices  # the only episode of its column
 
 
 def test_assisted_level_takes_the_episodes_record_and_opens_what_follows(tmp_path: Path) -> None:

@@ -302,7 +302,9 @@ def _help(driver: MenuDriver) -> Iterator[str]:
 
 def _lab(driver: MenuDriver) -> Iterator[str]:
     """Every figure, a second into its demonstration."""
-    screen = driver.open("Physics")
+    driver.open("Help")
+    driver.choose("How it works")
+    screen = driver.top()
     assert isinstance(screen, LabScreen)
     for index, figure in enumerate(screen.figures):
         screen.list._select(index)
@@ -458,7 +460,7 @@ def _daily(driver: MenuDriver) -> Iterator[str]:
         maker.progress = "level 3 of 8"
         driver.frames()
         yield "daily-being-made"
-        maker.problem = "No level could be made for this day: No space left"
+        maker.problem = "No level could be made for today: No space left"
         endless.is_alive = lambda: False
         driver.frames(2)
         yield "daily-problem"

@@ -36,7 +36,7 @@ CONTROLS: Area = (552, 452, 200, 26)
 class LabScreen(MenuScreen):
     """Figures about how the world works. ``name``: the one to begin with."""
 
-    title = "Physics"
+    title = "How it works"
     offers_back = False
 
     def __init__(self, app: App, name: str = "") -> None:

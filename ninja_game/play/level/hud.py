@@ -16,6 +16,7 @@ from ninja_game.play.level.play import MUST, STAMP_TICKS, LevelPlay, Phase, Thin
 from ninja_game.play.level.sayings import FALL_HELP, WHY
 from ninja_game.player.marks import NO_MEDAL, Mark, next_par
 from ninja_game.player.playthrough import Navigation
+from ninja_game.player.saving import FIRST_PASS, NEW_ALL_GOLD, OF_A_LEVEL
 from ninja_game.player.statistics import SELF
 from ninja_game.sim.collision.tiles import FULL, SHAPE
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
@@ -338,9 +339,8 @@ def hud_view(play: LevelPlay) -> HudView:
     gold = f"{attempt.gold} / {play.all_gold}"
     message = None
     text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.sayings.text
-    still = play.phase is Phase.READY
-    # Who needs to see what keys do is stuck: that may cover open space.
-    covers = still or "\n" in text
+    # The start's text stays where it is; who needs to see what keys do is stuck. Both may cover open space.
+    covers = play.sayings.is_start or "\n" in text
     said = (named_keys(text, key), context.level.tiles, play.things, play.eye, covers) if text else None
     if play.phase is Phase.DEAD:
         cause, _, why = cause_of_death(play).partition(". ")
@@ -395,12 +395,16 @@ def _covering(play: LevelPlay) -> tuple[tuple[int, ...], Things]:
 
 
 def _reached(play: LevelPlay) -> list[str]:
-    """The medal; what the next one needs; the gold of a passed run, and what that has brought."""
+    """The medal; what the next one needs; the gold of a passed run, what that has brought, and what it leaves."""
     attempt, pars = play.attempt, play.context.pars
-    following = [next_par(pars, Mark(attempt.ended_tick, 0)) or "The best medal"] if pars and play.medal else []
-    gold = f"{attempt.gold} of {play.all_gold} gold"
+    following = [next_par(pars, Mark(attempt.ended_tick, 0)) or "There is none better"] if pars and play.medal else []
+    gold = f"{attempt.gold} of {play.all_gold} gold" if attempt.gold < play.all_gold else f"All {play.all_gold} gold"
     medal = [f"{play.medal.capitalize()} medal"] if play.medal else []
-    return [*medal, *following, "    ".join([gold, *play.notices])]
+    clock = [f"{rounded_text(attempt.lifetime)} s left on the clock, for the next level"] * play.context.carries_clock
+    # Of a first pass all is new, and the medal and the gold are said already.
+    first = FIRST_PASS in play.notices
+    news = [each for each in play.notices if each != NEW_ALL_GOLD and not (first and each in OF_A_LEVEL)]
+    return [*medal, *following, "    ".join([gold, *news]), *clock]
 
 
 def _named(play: LevelPlay) -> list[tuple[str, float, float]]:
@@ -408,7 +412,7 @@ def _named(play: LevelPlay) -> list[tuple[str, float, float]]:
     world = play.attempt.simulation.world
     return [
         (name, o.x, o.y)
-        for name in dict.fromkeys(play.sayings.named)
+        for name in play.sayings.named
         for o in world.objects[1:]
         if o.kind == _THINGS[name] and not (o.kind == SWITCH and world.objects[o.partner].is_open)
         if hypot(o.x - world.ninja.x, o.y - POINTER_UP - world.ninja.y) > POINTER_REACH
@@ -431,13 +435,13 @@ def _hint(play: LevelPlay, key: KeyName) -> str:
 def _after_death(play: LevelPlay, key: KeyName) -> str:
     """What to press after a death."""
     again = f"{key('confirm')} or {key('jump')}: try again"
-    return f"{again}    {key('replay')}: watch it" + f"    {key('skip')}: stuck?" * play.is_stuck
+    return f"{again}    {key('replay')}: watch it" + f"    {key('skip')}: get help" * play.is_stuck
 
 
 def _ready_hint(key: KeyName, *, practice_mode: bool, show_tutorial: bool) -> str:
-    begin = f"{key('confirm')} or any move to begin"
+    begin = f"{key('confirm')} or any move to start"
     if show_tutorial:
-        return f"{key('left')} and {key('right')}: run    {key('jump')}: jump, hold it to jump higher    {begin}"
+        return f"{key('left')} and {key('right')} to run    {key('jump')} to jump, hold it to go higher    {begin}"
     if practice_mode:
         return f"{begin}    {key('overlay_hitboxes')} to {key('overlay_cells')}: look inside"
     return begin
@@ -452,4 +456,4 @@ def cause_of_death(play: LevelPlay) -> str:
         return "You were crushed."
     if play.attempt.lifetime <= 0:
         return "Out of time."
-    return "That was too hard a landing." + f" {FALL_HELP}" * play.sayings.helps
+    return "You hit the ground too hard." + f" {FALL_HELP}" * play.sayings.helps

@@ -279,7 +279,7 @@ class LevelPlay:
             self.view.on_tick()
             self.tools.on_tick()
             if self.phase is Phase.PLAY and self.sayings.on_tick(self.attempt.simulation.world):
-                self.changed, self.eye = True, self._ninja_place()
+                self.changed, self.eye = True, None if self.sayings.is_start else self._ninja_place()
             self._note_end()
         if due and self.phase is Phase.PLAY:
             self.attempt.check_time()

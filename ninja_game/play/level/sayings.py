@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import hypot
 
-from ninja_game.formats.sayings import Saying, things_named
+from ninja_game.formats.sayings import THINGS, Saying
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL
@@ -15,34 +15,34 @@ NEAR = 2.5 * CELL
 """px from the middle of its cell within which a text with a place is said."""
 
 SHOWN_TICKS, START_TICKS = 240, 480
-"""How long a text stays after its event, and in play that of the start."""
+"""How long a text stays after its event, and in play those of the start and of the switch, which tell the way."""
 
 STILL = 0.05
 """px in a tick that are no motion."""
 
-AGAIN = "{retry} tries again from the start"
+AGAIN = "Stuck? {retry} starts the level over"
 STILL_TICKS, AWAY = 240, 2 * CELL
 """It is said to who stands or lies still for so many ticks, so many px from the start."""
 
-CLIMB = "%s and {jump} at each touch, held: climb\n{jump} alone: fly off to the other side\n%s first: you only drop"
+CLIMB = "%s and {jump}, held, at each touch: climb\n{jump} alone: fly to the other side\n%s first: you just drop"
 SLIPS = 3
 """It is said to who has come down so often from a wall to where the jump began."""
 
 _WHEN = {EXIT_OPENED: "switch", GOLD_TAKEN: "gold"}
 
 WHY = {
-    "zap drone": "It follows the walls and kills at a touch: wait until it has passed.",
-    "laser drone": "It stops, aims, then burns all in a straight line: leave the line while it aims.",
-    "chaingun drone": "It fires when it sees you: stay behind walls, or keep moving.",
-    "gauss turret": "Its cross follows you, then it fires: run on, or break its line of sight.",
-    "floor guard": "It rushes at you along its floor: jump over it.",
-    "thwump": "It falls when you are below it and climbs back slowly; only its face kills.",
-    "homing rocket": "It turns slowly: lead it into a wall.",
-    "mine": "Mines never move: keep a body's width away.",
+    "zap drone": "Its touch kills. Watch where it goes, and wait until it has passed.",
+    "laser drone": "It stops, aims, then burns everything in a straight line: get out of that line in time.",
+    "chaingun drone": "It shoots when it sees you: stay behind walls, or keep moving.",
+    "gauss turret": "Its cross hunts you, then it fires: keep running, or get out of sight.",
+    "floor guard": "It charges along its floor: jump over it.",
+    "thwump": "It drops when you pass below, then climbs back slowly. Only its bright side kills.",
+    "homing rocket": "It turns slowly: trick it into a wall.",
+    "mine": "Mines never move: give them some room.",
 }
 """What helps against each killer, said after its first kill."""
 
-FALL_HELP = "What counts is how hard you hit: slide down a wall, or land on a slope that goes down your way."
+FALL_HELP = "Slide down a wall to slow your fall, or land on a slope that runs your way."
 
 
 class Sayings:
@@ -73,10 +73,14 @@ class Sayings:
         return next((each.text for each in self._sayings if each.when == "start" and each not in self._said), "")
 
     @property
-    def named(self) -> list[str]:
-        """What its texts of the start, and those that were said, lead to."""
-        texts = [each.text for each in self._sayings if each.when == "start" or each in self._said]
-        return things_named(" ".join(texts))
+    def named(self) -> Sequence[str]:
+        """What is pointed at: the goal, as long as the level speaks."""
+        return THINGS if self._sayings else ()
+
+    @property
+    def is_start(self) -> bool:
+        """Whether the present text is that of the start."""
+        return self.text == self._start()
 
     def on_death(self) -> None:
         self._deaths += 1
@@ -95,7 +99,7 @@ class Sayings:
         for each in self._sayings:
             if each not in self._said and (each.when in happened or (each.when == "at" and _is_near(world, each))):
                 self._said.add(each)
-                self.text, self._left = each.text, SHOWN_TICKS
+                self.text, self._left = each.text, START_TICKS if each.when == "switch" else SHOWN_TICKS
         if self._again and self._is_stuck(world):
             self._again = False
             self.text, self._left = AGAIN, SHOWN_TICKS

@@ -34,7 +34,9 @@ from ninja_game.view.overlays import Overlays
 SLOWER = 70
 """Game speed that is offered to who is stuck, %."""
 
-HELP, SKIP = "Help with this level", "Skip this level"
+HELP, SKIP = "Get help with this level", "Skip this level"
+HELP_ROW = 2
+"""Where the pause panel has it."""
 
 
 class LevelScreen(Screen):
@@ -95,9 +97,12 @@ class LevelScreen(Screen):
         controls.stop_running()
         self.play.begin(ignored=0 if controls.pad_used else controls.choosing())
 
-    def pause(self) -> None:
+    def pause(self, row: int = 0) -> None:
+        """Pause, with a row of the panel chosen."""
         self.play.pause()
-        self.app.push(PausePanel(self.app, self))
+        panel = PausePanel(self.app, self)
+        self.app.push(panel)
+        panel.focus = panel.widgets[row]
 
     def back(self) -> None:
         """Out of a level that is passed; where that would end the program, the pause panel comes first."""
@@ -148,34 +153,31 @@ class LevelScreen(Screen):
             self.ask_for_help()
 
     def ask_for_help(self, *, paused: bool = False) -> None:
-        """What to do about a level that is too hard: nobody has to stay in it. What is not possible says why.
+        """What to do about a level that is too hard: nobody has to stay in it. What is off says why.
 
         ``paused``: asked for in the pause panel, to which Esc leads back, as it does from play.
         """
         context, app = self.context, self.app
         run = context.data.catalogue.author_run(context.entry)
         seen = self.play.is_stuck or opens_author(context.entry, context.data.marks.of(context.entry.digest))
-        back = self.pause if paused or self.phase is Phase.PLAY else nothing
+        back = partial(self.pause, HELP_ROW * paused) if paused or self.phase is Phase.PLAY else nothing
         if self.phase is Phase.PLAY:
             self.play.pause()
 
-        def row(text: str, action: Callable[[], object], hint: str, why_not: str) -> Row:
-            if why_not:
-                return f"{text} ({why_not})", partial(impossible, f"{text}: {why_not}"), "Not yet"
-            return text, action, hint
-
-        def impossible(why: str) -> None:
-            back()
-            app.notify(why)
-
-        slow = "Slow down", partial(self._play_at, SLOWER), f"All levels at {SLOWER} %, no records, until you end it"
-        full = "Full speed", partial(self._play_at, 100), "Records count again"
-        unseen = f"after {STUCK_AFTER} failed tries" if run else "no run comes with this level"
+        slow = (
+            "Slow down",
+            partial(self._play_at, SLOWER),
+            f"Every level at {SLOWER} %, without records, until you go back",
+        )
+        full = "Full speed", partial(self._play_at, 100), "Back to normal: records count again"
+        watch_it = partial(self._watch, run), "See the author of the level do it"
+        unseen = None, f"Opens after {STUCK_AFTER} failed tries" if run else "Nobody has recorded a run of this level"
+        skip_it = self.go_on, "You can come back to it any time"
         rows: list[Row] = [
             ("Try again", self.retry, ""),
-            row("Watch how", partial(self._watch, run), "The run of the level's author", unseen * (not (run and seen))),
+            ("Watch how", *(watch_it if run and seen else unseen)),
             full if app.settings.game_speed < 100 else slow,
-            row(SKIP, self.go_on, "You can come back to it", "no level follows" * (not context.leads_on)),
+            (SKIP, *(skip_it if context.leads_on else (None, "No level comes after this one"))),
         ]
         app.push(Menu(app, HELP, rows, back))
 
@@ -234,7 +236,7 @@ class LevelScreen(Screen):
     def _is_spared(self) -> bool:
         """Whether the run was survived only by being invincible: then its keys alone are no replay, and it is said."""
         if self.attempt.spared:
-            self.app.notify("There is no replay of a run that only the invincible survive")
+            self.app.notify("No replay: only the invincible could survive this run")
         return self.attempt.spared
 
     def copy_link(self) -> None:
@@ -355,7 +357,7 @@ class PausePanel(Panel):
         super().__init__(app, "Paused")
         self.playing = playing
 
-    def rows(self) -> list[tuple[str, Callable[[], object], str]]:
+    def rows(self) -> list[Row]:
         playing = self.playing
         practice = playing.context.practice_mode
         skip, helped = (SKIP, playing.skip) if practice else (HELP, partial(playing.ask_for_help, paused=True))
@@ -365,7 +367,7 @@ class PausePanel(Panel):
             (skip, lambda: self._leave(helped), f"{self.app.controls.name('skip')}, also in play"),
             ("Settings", lambda: self.app.push(SettingsScreen(self.app)), ""),
             ("Help", lambda: self.app.push(HelpScreen(self.app)), ""),
-            ("Copy a link", self._copy_link, "Whoever opens the link plays this level"),
+            ("Copy a link", self._copy_link, "Anyone who opens it can play this level"),
             ("Leave the level", lambda: self._leave(self.playing.quit), ""),
         ]
 

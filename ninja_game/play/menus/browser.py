@@ -36,7 +36,7 @@ ROW = 54
 PICTURE = 60
 SIDE, SIDE_WIDTH, TEXT_HIGH = 436, 320, 85
 SORT_ORDERS: list[tuple[str, object]] = [
-    ("My levels first", "listed"),
+    ("Mine first", "listed"),
     ("Name", "name"),
     ("Author", "author"),
     ("Time", "time"),
@@ -65,8 +65,8 @@ class Browser(ThumbnailScreen):
         self.bests: dict[str, SavedReplay] = {}
         self.marks: dict[str, Mark] = {}
         self.list = ListView(
-            (44, 112, 376, 8 * ROW), ROW, self._draw_row, self.play, empty="No level has these words",
-            hint="Enter: play. Right: buttons. Up: search", selected=self._select, opens=True,
+            (44, 112, 376, 8 * ROW), ROW, self._draw_row, self.play, empty="No level matches",
+            hint="Enter to play, Right for more, Up to search", selected=self._select, opens=True,
         )  # fmt: skip
         self.play_it = Button((SIDE, 470, 154, 32), "Play", lambda: self.play(self.list.index))
         self.practice = Button(
@@ -90,18 +90,18 @@ class Browser(ThumbnailScreen):
 
     def choosers(self) -> list[Widget]:
         """What a level is found and selected with."""
-        sort = Choice((244, 66, 118, 32), "", SORT_ORDERS, lambda: self.sort, self._sort, hint="How the list is sorted")
+        sort = Choice((244, 66, 118, 32), "", SORT_ORDERS, lambda: self.sort, self._sort, hint="Sort the list")
         problems = problems_button(self.app, (150, 546, 270, 18), lambda: self.problems)
         return [self.list, self.entry_field, sort, *problems]
 
     def build(self) -> Sequence[Widget]:
         """The list first, then what can be done with the selected level."""
         change = Button((SIDE + 208, 510, 46, 32), "Edit", self._change, hint="Open it in the editor")
-        link = Button((SIDE + 260, 510, 60, 32), "Link", self._copy_link, hint="Copy a link that plays this level")
+        link = Button((SIDE + 260, 510, 60, 32), "Link", self._copy_link, hint="Copy a link that opens this level")
         watch = self.watch_best, self.watch_author
         more = [change] * bool(self._edit)
         if self._packs:
-            more.append(Button((368, 66, 52, 32), "Packs", self._packs, hint="Put your levels together into packs"))
+            more.append(Button((368, 66, 52, 32), "Packs", self._packs, hint="Bundle your levels into packs"))
         return [*self.choosers(), self.play_it, self.practice, *watch, *more, link]
 
     def capture(self, event: InputEvent) -> bool:
@@ -128,7 +128,7 @@ class Browser(ThumbnailScreen):
             if problem := name_problem(file.name):
                 self.message = f"Give it another name first: {problem}"
             elif folder is None or free_path(folder, file.stem, file.suffix).name != file.name:
-                self.message = f"There is a {file.name} already"
+                self.message = f"There already is a {file.name}"
             else:
                 Tree(folder).write(file.name, read_bytes(file))
                 self.enter()
@@ -177,8 +177,8 @@ class Browser(ThumbnailScreen):
         self.watch_best.enabled = selected is not None and selected.digest in self.bests
         opened = selected is not None and opens_author(selected, self.marks.get(selected.digest))
         self.watch_author.enabled = opened
-        self.watch_author.hint = "" if self.watch_author.enabled else "a gold medal opens it"
-        self.watch_best.hint = "Most clock left" if self.watch_best.enabled else "This level has not been passed yet"
+        self.watch_author.hint = "" if self.watch_author.enabled else "earn a gold medal to watch it"
+        self.watch_best.hint = "Your best run" if self.watch_best.enabled else "You have not passed this level yet"
 
     # --- go ---
 
@@ -247,15 +247,14 @@ class Browser(ThumbnailScreen):
         theme.text(surface, entry.title, left, y + 11, size=12, bold=chosen, width=186)
         if self.player.lock_of(entry):
             draw_look(surface, theme, "locked", (x + 4 + PICTURE / 2 - 11, y + 16, 22, 22))
-        source = author_name(entry.named.author) or ("your folder" if entry.source == "yours" else "")
-        theme.text(surface, source, left, y + 32, size=10, colour=palette.faint, width=150)
+        by = author_name(entry.named.author) if entry.source == "yours" else ""
+        source = "    ".join(filter(None, (by, where_from(entry))))
+        theme.text(surface, source, left, y + 32, size=10, colour=palette.faint, width=w - PICTURE - 64)
         mark = self.marks.get(entry.digest)
         if mark:
-            time = f"time {seconds_text(mark.fastest)} s"
+            time = f"{seconds_text(mark.fastest)} s"
             theme.text(surface, time, x + w - 8, y + 11, size=12, colour=palette.good, align="right", width=100)
         all_gold_and_medal(surface, theme, entry, mark, x + w - 16, y + 37)
-        grade = entry.pars.grade if entry.pars else ""
-        theme.text(surface, grade, x + w - 50, y + 32, size=10, colour=palette.faint, align="right", width=88)
 
 
 class LevelChoice(Browser):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from datetime import date, timedelta
 from pathlib import Path
+from random import Random
 from threading import Event
 
 import pygame
@@ -21,18 +22,22 @@ from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.marks import next_par
 from ninja_game.runtime import require_desktop, run_in_background
+from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.ui.theme import Theme, wrapped
 from ninja_game.ui.widgets import Button, Widget
 
 LEFT, TOP, WIDE = 44, 74, 480
 SIDE, SIDE_WIDTH, WEEK = 548, 200, 272
 
+DIG_MS = 60
+"""How long each cell takes of the cave that is seen while a level is made."""
+
 
 class _Maker:
     """A thread that makes the level of a day. ``progress``: how it stands; ``problem``: why there is none."""
 
     def __init__(self, levels: Path, day: date) -> None:
-        self.progress = "starting"
+        self.progress = "getting started"
         self.problem = ""
         self.stop = Event()
         self._thread = run_in_background(lambda: self._run(levels, day), self._fail)
@@ -46,12 +51,12 @@ class _Maker:
             return
         require_desktop()
         choose_memory("compiled")
-        self.progress = "the first time takes a minute or two"
+        self.progress = "this takes a minute or two the first time"
         if not daily.make_daily(levels, day, report=self._report, stop=self.stop):
-            self.problem = "No level could be made for this day."
+            self.problem = "No level could be made for today."
 
     def _fail(self, why: str) -> None:
-        self.problem = f"No level could be made for this day: {why}"
+        self.problem = f"No level could be made for today: {why}"
 
     def _report(self, text: str) -> None:
         self.progress = text
@@ -70,6 +75,8 @@ class DailyScreen(ThumbnailScreen):
         self.message = ""
         self._maker: _Maker | None = None
         self._shown = ""
+        self._rng = Random(self.day.toordinal())  # noqa: S311 - a picture
+        self._dug, self._way, self._dig_ms = [(16, 12)], (1, 0), 0
         self.play = Button((SIDE, 390, SIDE_WIDTH, 36), "Play", self._play)
         self.practice = Button(
             (SIDE, 436, SIDE_WIDTH, 36), "Practice", lambda: self._play(practice=True), hint=PRACTICE_HINT
@@ -128,6 +135,8 @@ class DailyScreen(ThumbnailScreen):
         maker = self._maker
         if maker is None:
             return
+        if not self.app.settings.reduced_motion:
+            self._dig(real_ms)
         if not maker.working:
             self._maker = None
             self._find()
@@ -136,6 +145,16 @@ class DailyScreen(ThumbnailScreen):
         if maker.progress != self._shown or not maker.working:
             self._shown = maker.progress
             self.redraw = True
+
+    def _dig(self, real_ms: int) -> None:
+        """Something to look at while the level is made: a cave grows, cell by cell."""
+        self._dig_ms += real_ms
+        for _ in range(self._dig_ms // DIG_MS):
+            self._way = self._rng.choice([self._way] * 3 + [(1, 0), (-1, 0), (0, 1), (0, -1)])
+            (x, y), (dx, dy) = self._dug[-1], self._way
+            self._dug.append((min(max(x + dx, 1), COLUMNS), min(max(y + dy, 1), ROWS)))
+            self.redraw = True
+        self._dig_ms %= DIG_MS
 
     def _play(self, *, practice: bool = False) -> None:
         if self.entry is not None:
@@ -147,12 +166,14 @@ class DailyScreen(ThumbnailScreen):
         theme, palette, entry = self.app.theme, self.app.theme.palette, self.entry
         theme.text(surface, f"{self.day:%A}, {self.day.isoformat()}", SIDE, TOP, size=12, colour=palette.faint)
         if entry is None:
-            # As a level of nothing but wall.
-            self.app.canvas.fill_rect(surface, palette.tile, LEFT, TOP, WIDE, WIDE * 25 / 33, 4)
-            words = ((150, 16, "Building today's level"), (182, 11, self._maker.progress)) if self._maker else ()
-            middle, ink = LEFT + WIDE / 2, palette.on_tile
-            for down, size, text in words:
-                theme.text(surface, text, middle, TOP + down, size=size, colour=ink, align="centre", width=WIDE - 40)
+            canvas, middle, cell = self.app.canvas, LEFT + WIDE / 2, WIDE / (COLUMNS + 2)
+            canvas.fill_rect(surface, palette.tile, LEFT, TOP, WIDE, WIDE * 25 / 33, 4)
+            for column, row in set(self._dug):
+                canvas.fill_rect(surface, palette.background, LEFT + cell * column, TOP + cell * row, cell, cell)
+            if self._maker:
+                theme.panel(surface, LEFT + 20, TOP + 140, WIDE - 40, 64)
+                for down, size, text in ((150, 16, "Building today's level"), (180, 11, self._maker.progress)):
+                    theme.text(surface, text, middle, TOP + down, size=size, align="centre", width=WIDE - 60)
         else:
             self._draw_entry(surface, entry)
         if self.message:
@@ -172,7 +193,7 @@ class DailyScreen(ThumbnailScreen):
         theme.text(surface, entry.title, SIDE, TOP + 24, size=17, bold=True, width=SIDE_WIDTH)
         mark = self.player.marks.of(entry.digest)
         played = self.player.statistics.played(entry.digest)
-        lines = [f"{counted(self.streak, 'day', 'days')} in a row passed", f"{entry.all_gold} gold"]
+        lines = [f"{counted(self.streak, 'day', 'days')} in a row", f"{entry.all_gold} gold"]
         if entry.pars and entry.pars.grade:
             lines.insert(1, entry.pars.grade)
         lines.append(self.player.reached(entry, mark))

@@ -21,7 +21,7 @@ from ninja_game.player.playthrough import EpisodeRun, left_half_way
 from ninja_game.player.progress import CHEATED, LOCKED
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import BAR, ListView
-from ninja_game.ui.theme import Area, Theme
+from ninja_game.ui.theme import Area, Theme, mixed
 from ninja_game.ui.widgets import MEDALS, Button, Choice, Widget, draw_all_gold, draw_medal
 
 LEFT, TOP, WIDE, MOST_HIGH = 44, 116, 318, 286
@@ -31,7 +31,7 @@ LARGEST = 62
 NAMED = 48
 """px from which on a cell is wide enough for its column's name."""
 
-LOOKS = (("beaten", "passed"), ("open", "open"), ("cheated", "reached in practice"), ("locked", "locked"))
+LOOKS = (("beaten", "passed"), ("open", "open"), ("cheated", "seen in practice"), ("locked", "locked"))
 
 
 class Cells(ListView):
@@ -92,15 +92,15 @@ def draw_look(surface: pygame.Surface, theme: Theme, look: str, area: Area) -> N
     """One cell by its state: shape tells it as well as colour."""
     canvas, palette = theme.canvas, theme.palette
     x, y, w, h = area
-    fill = {"beaten": palette.tile, "locked": palette.background}.get(look, palette.panel)
+    fill = {"beaten": palette.tile, "locked": mixed(palette.background, palette.outline, 0.14)}.get(look, palette.panel)
     canvas.fill_rect(surface, fill, x, y, w, h, 3)
     canvas.frame_rect(surface, palette.panel_edge, x, y, w, h, 1, 3)
     if look == "cheated":
         canvas.polygon(surface, palette.bad, [(x + w - 9, y + 1), (x + w - 1, y + 1), (x + w - 1, y + 9)])
     elif look == "locked":
         cx, cy = x + w / 2, y + h / 2
-        canvas.fill_rect(surface, palette.panel_edge, cx - 4.5, cy - 1, 9, 7, 1)
-        canvas.circle(surface, palette.panel_edge, (cx, cy - 2), 4, 1.5)
+        canvas.fill_rect(surface, palette.faint, cx - 4.5, cy - 1, 9, 7, 1)
+        canvas.circle(surface, palette.faint, (cx, cy - 2), 4, 1.5)
 
 
 SIDE = 392
@@ -123,7 +123,7 @@ class EpisodeGrid(ThumbnailScreen):
         self.grid.selected = self._selected
         self.play = Button((SIDE + 274, 64, 90, 30), "Play", lambda: self._play(self.grid.index))
         self.rows = ListView((SIDE, 132, 364, ROW * 5), ROW, self._draw_row, self._trial, opens=True)
-        self.rows.hint = "Enter or a second click: play this level alone"
+        self.rows.hint = "Enter, or click twice: play just this level"
         self._look_for_packs(pack)
         self.grid.arrange(self.pack.episodes)
 
@@ -162,7 +162,7 @@ class EpisodeGrid(ThumbnailScreen):
             return lock
         cheated = self._state(self.number) == CHEATED
         return (
-            "Enter: play, without records (reached in practice)"
+            "Enter: play, without records (so far seen in practice only)"
             if cheated
             else f"Enter: play this episode    {self.app.controls.name('link')}: copy a link to the pack"
         )
@@ -189,10 +189,10 @@ class EpisodeGrid(ThumbnailScreen):
         problems = problems_button(self.app, (LEFT, 546, WIDE, 18), lambda: self.problems)
         if len(self.packs) < 2:
             return [self.grid, self.play, self.practice, self.rows, *problems]
-        names = [("The game's own" if not pack.key else pack.name, pack.key) for pack in self.packs]
+        names = [("This game's levels" if not pack.key else pack.name, pack.key) for pack in self.packs]
         choice = Choice(
             (LEFT, 62, WIDE, 26), "", names, lambda: self.pack.key, self._set_pack,
-            hint="Level pack; put packs into the folder levels of your player folder",
+            hint="Level pack. Put more packs into the folder shown in Settings > Play",
         )  # fmt: skip
         return [self.grid, self.play, choice, self.practice, self.rows, *problems]
 
@@ -224,7 +224,7 @@ class EpisodeGrid(ThumbnailScreen):
             return
         rows: list[Row] = [
             (f"Go on with level {left.position + 1}", lambda: self.app.push(LevelScreen(self.app, left)), ""),
-            ("Begin again", lambda: self.app.push(LevelScreen(self.app, afresh)), "From the first level"),
+            ("Start over", lambda: self.app.push(LevelScreen(self.app, afresh)), "From the first level"),
             CANCEL,
         ]
         self.app.push(Menu(self.app, self.episode.name, rows))
@@ -243,9 +243,9 @@ class EpisodeGrid(ThumbnailScreen):
         theme, palette = self.app.theme, self.app.theme.palette
         if len(self.packs) < 2:
             for line, text in enumerate(
-                ("Pass an episode to open the one below it.", "Columns to the right are harder.")
+                ("Finish an episode and the one below it opens.", "Each column has its own start: easiest at the left.")
             ):
-                theme.text(surface, text, LEFT, 64 + 14 * line, size=10, colour=palette.faint)
+                theme.text(surface, text, LEFT, 64 + 14 * line, size=10, colour=palette.faint, width=WIDE)
         self.grid.draw_names(surface, theme, self.pack.columns)
         for place, (look, text) in enumerate(LOOKS):
             x, y = LEFT + 160 * (place % 2), self._below + 40 + 23 * (place // 2)
@@ -259,8 +259,8 @@ class EpisodeGrid(ThumbnailScreen):
         head = f"Episode {episode.code}: {episode.name}"
         theme.text(surface, head, SIDE, 66, size=16, bold=True, width=264)
         best = self.player.records.episode_best(episode.key)
-        clock = f"Best clock: {seconds_text(best.score)} s left" if best else ""
-        text = clock or f"{len(episode.levels)} levels, not passed in one go yet"
+        clock = f"Your best: {seconds_text(best.score)} s left on the clock" if best else ""
+        text = clock or f"{len(episode.levels)} levels, not yet passed in one go"
         theme.text(surface, self._hint() if self._state(episode.number) == LOCKED else text, SIDE, 96, size=11,
                    colour=palette.good if best else palette.faint)  # fmt: skip
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,16 +9,17 @@ from typing import Any
 
 import pygame
 
+from ninja_game import __version__
 from ninja_game.errors import LevelError
 from ninja_game.files.user_folder import data_folder
-from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.play.app import App
 from ninja_game.play.clock import RunClock
+from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.replay.playback import Playback
+from ninja_game.play.rooms import room_level, strokes
 from ninja_game.play.workspace.commands import Command, key_text
-from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, with_press_bits
-from ninja_game.sim.level import COLUMNS, ROWS, Level
+from ninja_game.sim.level import Level
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.ui.input.bindings import ACTIONS, MOVES
@@ -27,14 +27,10 @@ from ninja_game.ui.input.gamepad import pad_label
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.scenery import lay_ground
 from ninja_game.ui.theme import Area, Theme, wrapped
-from ninja_game.ui.widgets import Widget
+from ninja_game.ui.widgets import Button, Widget
 from ninja_game.view.level_view import LevelView
 
 PAGES_FILE = "help/pages.toml"
-
-KEY_BITS = {"l": KEY_LEFT, "r": KEY_RIGHT, "j": JUMP_HELD}
-
-_STROKE = re.compile(r"([lrj]*)([0-9]+)")
 
 
 @dataclass(frozen=True)
@@ -61,29 +57,6 @@ def _page(table: dict[str, Any], file: str) -> Page:
     except LevelError as error:
         raise LevelError(f"the page {table['title']!r}: {error}", file) from error
     return Page(table["title"], tuple(table["text"]), level, strokes(table["keys"]), tuple(table["shows"]))
-
-
-def room_level(room: Sequence[str], objects: Sequence[str]) -> Level:
-    """A level with the rows of a room in its upper left corner and solid all around."""
-    rows = [row.ljust(COLUMNS, "#") for row in room]
-    rows += ["#" * COLUMNS] * (ROWS - len(rows))
-    picture = "\n".join(f"|{row}|" for row in rows)
-    return parse_ascii_level(f"ninja-game level 1\n{picture}\n" + "\n".join(objects) + "\n").level
-
-
-def strokes(text: str) -> bytes:
-    r"""The inputs that key strokes mean: letters and how many ticks they are held.
-
-    >>> strokes("r2 rj2 1")
-    b'\x02\x02\x0e\x06\x00'
-    """
-    inputs = bytearray()
-    for stroke in text.split():
-        match = _STROKE.fullmatch(stroke)
-        if match is None:
-            raise LevelError("not a key stroke", found=repr(stroke), expected="letters of lrj and a number of ticks")
-        inputs += bytes([sum(KEY_BITS[letter] for letter in match[1])]) * int(match[2])
-    return with_press_bits(inputs)
 
 
 class HelpPage(MenuScreen):
@@ -142,9 +115,13 @@ class HelpScreen(MenuScreen):
         super().__init__(app)
         self.pages = read_pages()
         self.topics = [page.title for page in self.pages] + [KEYS_TITLE]
+        x, y, w, _ = WINDOW
         self.list = ListView((44, 66, 190, 18 * 26), 26, self._draw_topic, lambda _: None, selected=self._show)
         self.list.hint = "Up and down: choose a topic"
-        x, y, w, _ = WINDOW
+        self.works = Button(
+            (x + w - 150, 516, 150, 30), LabScreen.title, lambda: app.push(LabScreen(app)),
+            hint="For the curious: how ninja and walls really meet, in figures you can move",
+        )  # fmt: skip
         self.keys = ListView((x, y + 54, w, 17 * KEY_ROW), KEY_ROW, self._draw_action, lambda _: None,
                              selected=self._say_action)  # fmt: skip
         self.keys.fill(list(ACTIONS))
@@ -152,7 +129,7 @@ class HelpScreen(MenuScreen):
         self.list.fill(self.topics)
 
     def build(self) -> Sequence[Widget]:
-        return [self.list] if self.page else [self.list, self.keys]
+        return [self.list, self.works] if self.page else [self.list, self.keys, self.works]
 
     def _show(self, index: int) -> None:
         page = self.pages[index] if index < len(self.pages) else None
@@ -185,6 +162,7 @@ class HelpScreen(MenuScreen):
         super().draw_frame(surface)
         theme = self.app.theme
         x, y, w, h = WINDOW
+        theme.text(surface, f"version {__version__}", x, 526, size=9, colour=theme.palette.faint)
         if self.page is None:
             self._draw_table_head(surface, theme)
             return
@@ -218,7 +196,7 @@ class HelpScreen(MenuScreen):
     def _draw_table_head(self, surface: pygame.Surface, theme: Theme) -> None:
         x, y, w, _ = WINDOW
         theme.text(surface, KEYS_TITLE, x, y, size=18, bold=True)
-        words = "Settings change them. The right mouse button goes back"
+        words = "Change them in Settings. The right mouse button goes back"
         theme.text(
             surface, words, x + w, y + 6, size=10, colour=theme.palette.faint, align="right", width=w - KEY_COLUMNS[1]
         )

@@ -7,7 +7,6 @@ from random import Random
 
 import pygame
 
-from ninja_game import __version__
 from ninja_game.editor.files import recovered
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
@@ -18,14 +17,13 @@ from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App, Screen
 from ninja_game.play.clock import RunClock
 from ninja_game.play.editor.screen import EditorScreen
-from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.panels import Question, Row
+from ninja_game.play.menus.panels import Action, Question
 from ninja_game.play.menus.records import RecordsScreen
 from ninja_game.play.menus.replays import ReplaysScreen
 from ninja_game.play.menus.settings import SettingsScreen
@@ -37,11 +35,11 @@ from ninja_game.runtime import in_page_or_not
 from ninja_game.simulation import Simulation
 from ninja_game.ui.audio.music import MENU
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Point
-from ninja_game.ui.theme import Area
+from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Widget
 from ninja_game.view.level_view import LevelView
 
-PANEL: Area = 44, 96, 256, 396
+PANEL: Area = 44, 96, 256, 390
 """Where the panel lies."""
 
 HEAD, FIRST, ROW, EDGE = 98, 62, 43, 22
@@ -66,10 +64,14 @@ class MainMenu(MenuScreen):
         """That of the level behind it: other worlds are seen before one gets there."""
         return self.attract.mood
 
+    @property
+    def theme(self) -> Theme:
+        return self.app.menu_theme
+
     def enter(self) -> None:
         """Look where play goes on, and whether a level waits that was not saved."""
         found = next(recovered(self.player.folder), None)
-        self._lost = f"A level was not saved last time: {shown_text(found.draft.name, 40)}" if found else ""
+        self._lost = f"Not saved last time: {shown_text(found.draft.name, 40)}" if found else ""
         self.run = next_run(self.player, practice_mode=self.player.settings.practice)
         super().enter()
 
@@ -82,7 +84,7 @@ class MainMenu(MenuScreen):
         """With which level play goes on."""
         if self.run is None:
             return "There are no levels"
-        return f"{'Continue' if self.begun else 'Begin'}: {shown_text(self.run.entry.named.name)}"
+        return f"{'Go on with' if self.begun else 'Begin with'} {shown_text(self.run.entry.named.name)}"
 
     def _play(self) -> None:
         if self.run is not None:
@@ -91,19 +93,18 @@ class MainMenu(MenuScreen):
     def show_episodes(self, pack: str) -> None:
         self.app.push(EpisodeGrid(self.app, pack))
 
-    def entries(self) -> list[Row]:
-        """One for each screen: the first as wide as the panel, then two in a row."""
+    def entries(self) -> list[tuple[str, Action, str]]:
+        """One for each screen: the first as wide as the panel, then two in a row; a last one alone is as wide again."""
         return [
-            ("Play", self._play, "Go on where you left off" if self.begun else "Start with the first level"),
-            ("Episodes", self._opener(EpisodeGrid), "Choose an episode, or one of its levels"),
-            ("Levels", self._opener(self._browser), "Any level by itself, and your own files"),
-            ("Daily", self._opener(DailyScreen), "A new level every day, the same for everybody"),
-            ("Records", self._opener(RecordsScreen), "Your best runs, and what killed you"),
-            ("Replays", self._opener(ReplaysScreen), "Watch your runs, and those of the levels' authors"),
-            ("Editor", self._opener(EditorScreen), self._lost or "Make levels of your own"),
-            ("Help", self._opener(HelpScreen), "How to move, and what everything does"),
-            ("Settings", self._opener(SettingsScreen), "Keys, sound, colours, comfort"),
-            ("Physics", self._opener(LabScreen), "For the curious: how ninja and walls meet, in moving figures"),
+            ("Play", self._play, "Go on where you left off" if self.begun else "Start at the very beginning"),
+            ("Episodes", self._opener(EpisodeGrid), "Pick an episode, or any level in it"),
+            ("Levels", self._opener(self._browser), "Play any open level on its own, or one of your own"),
+            ("Daily", self._opener(DailyScreen), "A new level every day, the same for everyone"),
+            ("Records", self._opener(RecordsScreen), "Your best times, and what got you killed"),
+            ("Replays", self._opener(ReplaysScreen), "Watch your runs again, and the authors' too"),
+            ("Editor", self._opener(EditorScreen), self._lost or "Build levels of your own"),
+            ("Help", self._opener(HelpScreen), "How to move, what everything does, how it all works"),
+            ("Settings", self._opener(SettingsScreen), "Controls, sound, colours, accessibility"),
             *in_page_or_not([], [("Quit", self.back, "Leave the game")]),
         ]
 
@@ -134,8 +135,9 @@ class MainMenu(MenuScreen):
         return [
             Button((x, y, w, FIRST - 8), text, action, hint=hint, size=19, detail=self._where()),
             *(
-                Button((x + k % 2 * (half + 8), y + FIRST + ROW * (k // 2), half, ROW - 8), text, action, hint=hint)
+                Button((x + k % 2 * (half + 8), y + FIRST + ROW * (k // 2), wide, ROW - 8), text, action, hint=hint)
                 for k, (text, action, hint) in enumerate(others)
+                for wide in [half if k ^ 1 < len(others) else w]
             ),
         ]
 
@@ -148,14 +150,13 @@ class MainMenu(MenuScreen):
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
         changed = self.attract.draw(surface, whole=self.redraw)
-        theme, palette = self.app.theme, self.app.theme.palette
+        theme = self.theme
         x, y, w, h = PANEL
         rect = theme.window(surface, x, y, w, h)
         self._draw_title(surface)
-        theme.text(surface, __version__, x + w / 2, y + h - 17, size=8, colour=palette.faint, align="centre")
         self.draw_widgets(surface)
+        palette, hint = self.app.theme.palette, self.focus.hint if self.focus else ""
         foot = theme.canvas.fill_rect(surface, palette.tile, 0, HEIGHT - 24, WIDTH, 24)
-        hint = self.focus.hint if self.focus else ""
         theme.text(
             surface, hint, WIDTH / 2, HEIGHT - 18, size=10.5, colour=palette.on_tile, align="centre", width=WIDTH - 40
         )
@@ -167,7 +168,7 @@ class MainMenu(MenuScreen):
 
     def _draw_title(self, surface: pygame.Surface) -> None:
         """The name, over a headband whose ends fly."""
-        theme, (x, y, w, _) = self.app.theme, PANEL
+        theme, (x, y, w, _) = self.theme, PANEL
         for part in BAND:
             corners = [(x + across, y + down) for across, down in part]
             theme.canvas.polygon(surface, theme.palette.band, corners)

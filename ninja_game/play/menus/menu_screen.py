@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.play.app import App, Screen
+from ninja_game.play.app import CALM, App, Screen
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.input.keys import HeldKey, scancode_of
@@ -43,7 +43,7 @@ class MenuScreen(Screen):
     title = ""
     offers_back = True
     wraps = True
-    foot = "Arrows move, Enter chooses, Esc goes back"
+    foot = "Arrows to move, Enter to choose, Esc to go back"
 
     def __init__(self, app: App) -> None:
         super().__init__(app)
@@ -52,6 +52,10 @@ class MenuScreen(Screen):
         self._direction: HeldKey[str] = HeldKey()
         self._typed: HeldKey[pygame.Event] = HeldKey()
         self._dragged: Widget | None = None
+
+    @property
+    def mood(self) -> int:
+        return CALM
 
     @property
     def player(self) -> PlayerData:

@@ -10,15 +10,15 @@ from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.text_entry import TextEntry
-from ninja_game.ui.theme import wrapped
+from ninja_game.ui.theme import Theme, wrapped
 from ninja_game.ui.widgets import Button, Widget
 
 PANEL_WIDTH = 300
 ROW = 40
 
 Action = Callable[[], object]
-Row = tuple[str, Callable[[], object], str]
-"""Text, action, hint."""
+Row = tuple[str, Action | None, str]
+"""Text, action, hint; without an action it is seen, but cannot be chosen: the hint says why."""
 
 
 def nothing() -> None:
@@ -37,6 +37,16 @@ class Panel(MenuScreen):
     def __init__(self, app: App, title: str) -> None:
         super().__init__(app)
         self.title = title
+        self._mood = app.mood
+
+    @property
+    def mood(self) -> int:
+        """That of the screen below, which is seen; the panel itself looks like all menus."""
+        return self._mood
+
+    @property
+    def theme(self) -> Theme:
+        return self.app.menu_theme
 
     def rows(self) -> list[Row]:
         raise NotImplementedError
@@ -57,7 +67,7 @@ class Panel(MenuScreen):
         """The panel; the screen below, which is drawn again whenever this one is, shines through a veil."""
         if not self.redraw:
             return []
-        canvas, theme, palette = self.app.canvas, self.app.theme, self.app.theme.palette
+        canvas, theme, palette = self.app.canvas, self.theme, self.theme.palette
         veil = pygame.Color(palette.tile.r, palette.tile.g, palette.tile.b, 130)
         (left, top), (right, bottom) = canvas.logical((0, 0)), canvas.logical(canvas.window)
         canvas.fill_rect(surface, veil, left, top, right - left, bottom - top)
@@ -82,7 +92,7 @@ class Menu(Panel):
     def __init__(self, app: App, title: str, rows: Sequence[Row], then: Action = nothing) -> None:
         super().__init__(app, title)
         self._then = then
-        self._rows = [(text, self._closing(action), hint) for text, action, hint in rows]
+        self._rows: list[Row] = [(text, action and self._closing(action), hint) for text, action, hint in rows]
 
     def back(self) -> None:
         super().back()
@@ -139,7 +149,7 @@ class FormPanel(Menu):
     def act(self, action: str, *, held: bool = False) -> None:
         """Enter in a field means the first button."""
         if action == "confirm" and isinstance(self.focus, TextEntry):
-            self._rows[0][1]()
+            self.widgets[len(self._fields)].confirm()
         else:
             super().act(action, held=held)
 

@@ -19,7 +19,7 @@ from ninja_game.ui.widgets import Button, Widget
 
 PICTURE = 132
 
-CLOCK = "Your score for this episode is the time left. Each gold added 2 s"
+CLOCK = "This is your result for the episode: what five levels and all your gold left on the clock"
 
 
 class EpisodePassed(ThumbnailScreen):
@@ -79,7 +79,7 @@ class EpisodePassed(ThumbnailScreen):
             all_gold_and_medal(surface, theme, entry, mark, x + PICTURE - 11, 135)
         score = f"{seconds_text(self.run.score)} s left"
         theme.text(surface, score, WIDTH / 2, 290, size=44, align="centre", bold=True, height=60)
-        what = CLOCK if self.run.whole else "practice, or help was used: no record"
+        what = CLOCK if self.run.whole else "Practice or help was used, so it does not count as a record"
         theme.text(surface, what, WIDTH / 2, 340, size=11, colour=palette.faint, align="centre")
         notices = [notice for notice in self.run.notices if notice not in OF_A_LEVEL]
         for line, notice in enumerate(notices[-4:]):

@@ -44,7 +44,7 @@ class RecordsScreen(MenuScreen):
         super().__init__(app)
         self.rows: list[RecordRow] = []
         self.list = ListView((44, 92, 468, 15 * ROW), ROW, self._draw_row, self._watch, selected=self._say, opens=True)
-        self.list.empty = "No records yet: pass a level"
+        self.list.empty = "No records yet. Pass a level and it shows up here"
 
     def build(self) -> Sequence[Widget]:
         self.rows = self._rows()
@@ -58,7 +58,7 @@ class RecordsScreen(MenuScreen):
 
         def row(text: str, saved: SavedReplay) -> RecordRow:
             time = marks[saved.level].fastest if saved.level in marks else saved.final_tick
-            return RecordRow(text, f"time {seconds_text(time)} s", (saved.id,), False, saved.made_at[:10])
+            return RecordRow(text, f"{seconds_text(time)} s", (saved.id,), False, saved.made_at[:10])
 
         rows = []
         listed = set()
@@ -81,8 +81,8 @@ class RecordsScreen(MenuScreen):
     def _say(self, index: int) -> None:
         """The hint of the selected row."""
         row = self.rows[index]
-        missing = "No run of the whole episode yet" if row.head else "Not passed yet"
-        self.list.hint = "Enter: watch. E: save as a text file" if row.replays else missing
+        missing = "Not yet passed in one go" if row.head else "Not passed yet"
+        self.list.hint = "Enter to watch, E to save as a text file" if row.replays else missing
 
     def _watch(self, index: int) -> None:
         watch(self.app, [self.player.records.replay(number) for number in self.rows[index].replays])
@@ -111,18 +111,18 @@ class RecordsScreen(MenuScreen):
         deaths = {killer: times for killer, times in self.player.statistics.deaths().items() if times}
         most = max(deaths.values(), default=1)
         if not deaths:
-            theme.text(surface, "Nothing yet", SIDE, 98, size=11, colour=palette.faint)
+            theme.text(surface, "Nothing so far", SIDE, 98, size=11, colour=palette.faint)
         for place, (killer, times) in enumerate(deaths.items()):
             y = 98 + 27 * place
-            theme.text(surface, _NAMES.get(killer, killer), SIDE, y, size=11)
+            theme.text(surface, _NAMES.get(killer, killer.capitalize()), SIDE, y, size=11)
             theme.text(surface, str(times), SIDE + SIDE_WIDTH, y, size=11, align="right")
             theme.canvas.fill_rect(surface, palette.panel, SIDE, y + 15, SIDE_WIDTH, 4, 2)
             theme.canvas.fill_rect(surface, palette.bad, SIDE, y + 15, max(4, SIDE_WIDTH * times / most), 4, 2)
         played = self.player.statistics.played()
-        minutes = played.ticks * TICK_MS // 60_000
+        hours, minutes = divmod(played.ticks * TICK_MS // 60_000, 60)
         lines = (
-            ("Tries", str(played.attempts)), ("Passed", str(played.passes)), ("Gold taken", str(played.gold)),
-            ("Time in play", f"{minutes // 60} h {minutes % 60:02d} min"),
+            ("Tries", str(played.attempts)), ("Passes", str(played.passes)), ("Gold collected", str(played.gold)),
+            ("Time played", (f"{hours} h " if hours else "") + f"{minutes} min"),
         )  # fmt: skip
         for place, (what, number) in enumerate(lines):
             y = 364 + 22 * place
@@ -146,4 +146,4 @@ class RecordsScreen(MenuScreen):
             theme.text(surface, "not passed yet", x + w - 8, top, size=10.5, colour=palette.faint, align="right")
 
 
-_NAMES = {"player": "yourself: falls, walls, time"}
+_NAMES = {"player": "Falls, walls and the clock"}

@@ -42,10 +42,10 @@ FILES_SHOWN = 300
 
 OUTCOMES = {"exit": "passed", "dead": "death", "running": "unfinished"}
 YOU = "you"
-WHOSE = [("All runs", "all"), ("Only yours", "yours"), ("Only others", "others")]
-NONE_YET = "Passed levels and runs that you keep come here; a gold medal adds the author's"
+WHOSE = [("All runs", "all"), ("Yours", "yours"), ("Others'", "others")]
+NONE_YET = "Your runs will show up here. Earn a gold medal and the author's run joins them"
 NO_MATCH = "No replay matches"
-HINT = "Enter: watch. Delete: remove a saved replay. E: save as a text file. C: copy a link"
+HINT = "Enter to watch, Delete to remove, E to save as a text file, C to copy a link"
 
 
 class ReplayRow(NamedTuple):

@@ -79,7 +79,7 @@ class Capture(Screen):
         theme.window(surface, 206, 240, 380, 110)
         what = "key" if self.table.device == "keys" else "button, or move a stick,"
         theme.text(surface, ACTIONS[self.action].label, 396, 262, size=16, align="centre", bold=True)
-        theme.text(surface, f"Press a {what} for it", 396, 292, size=12, align="centre")
+        theme.text(surface, f"Press a {what} now", 396, 292, size=12, align="centre")
         theme.text(surface, "Esc cancels", 396, 318, size=10, colour=theme.palette.faint, align="centre")
         return None
 
@@ -104,7 +104,7 @@ def binding_widgets(screen: SettingsScreen, device: str) -> list[Widget]:
         zone = Slider(
             (216, 514, 540, 30), "Dead zone of sticks", (0.05, 0.95, 0.05), lambda: screen.player.settings.dead_zone,
             lambda value: screen.change(dead_zone=round(value, 2)), show=lambda value: f"{100 * value:.0f} %",
-            hint=f"{pads} gamepads are plugged in" if pads != 1 else "One gamepad is plugged in",
+            hint=f"{pads or 'No'} gamepads are plugged in" if pads != 1 else "One gamepad is plugged in",
         )  # fmt: skip
         widgets.append(zone)
     return widgets
@@ -120,7 +120,7 @@ class BindingTable(ListView):
         self.actions = actions
         self.slots = SLOTS[device]
         self.slot = 0
-        self.hint = "Left and right: choose a slot. Enter: set it. Delete: clear it"
+        self.hint = "Left and right to choose a slot, Enter to set it, Delete to clear it"
         self.fill(actions)
 
     def inputs(self, action: str) -> tuple[str, ...]:
@@ -218,10 +218,10 @@ class BindingTable(ListView):
 
 PAGES = ("Picture", "Sound", "Play", "Accessibility", "Keyboard", "Gamepad")
 SWITCH = [("off", False), ("on", True)]
-RACED = [("your best", "best"), ("next medal", "next"), *((medal, medal) for medal in GHOSTS[2:])]
-RATES = [("match display", 0), ("30", 30), ("60", 60), ("120", 120), ("144", 144), ("240", 240)]
+RACED = [("your best run", "best"), ("your next medal", "next"), *((f"{medal} medal", medal) for medal in GHOSTS[2:])]
+RATES = [("same as display", 0), ("30", 30), ("60", 60), ("120", 120), ("144", 144), ("240", 240)]
 COLOUR_NAMES = ("default", "pink", "olive", "teal", "mauve", "maroon", "white", "gold", "slate", "silver")
-PRACTICE_HINT = "No clock; save, rewind, slow motion; no records"
+PRACTICE_HINT = "No clock and no records, but you can save, rewind and slow down"
 LEFT, TOP, STEP, HEIGHT_OF_ROW = 216, 72, 42, 32
 WIDTH_OF_ROW = WIDTH - 36 - LEFT - 12
 
@@ -237,7 +237,7 @@ class SettingsScreen(ThumbnailScreen):
         self.page = PAGES[0]
         self.tables: dict[str, BindingTable] = {}
         self.tabs = ListView((40, TOP - 4, 158, 40 * len(PAGES)), 40, self._draw_tab, self._go_in, selected=self._show)
-        self.tabs.hint = "Up and down: choose a page. Right: open it"
+        self.tabs.hint = "Up and down to choose a page, Right to open it"
         self.tabs.fill(PAGES)
 
     def build(self) -> Sequence[Widget]:
@@ -301,43 +301,44 @@ class SettingsScreen(ThumbnailScreen):
         count = len(NINJA_COLOURS) if custom_colour_unlocked(columns, present) else 1 + unlocked_colours(columns)
         palettes = [(name.replace("-", " ").title(), name) for name in (BY_COLUMN, *PALETTES)]
         colours = list(zip(COLOUR_NAMES, NINJA_COLOURS, strict=True))[:count]
-        more = "Complete columns of episodes for more" if count < len(NINJA_COLOURS) else ""
+        looks = "Classic is plain grey, as of old. In Contrast and Safe, what kills has spikes"
+        more = "Finish a whole column of episodes for more" if count < len(NINJA_COLOURS) else ""
         return [
-            self._choice(0, "Palette", "palette", palettes, "In Contrast and in Safe, whatever kills has spikes"),
+            self._choice(0, "Palette", "palette", palettes, looks),
             self._choice(1, "Ninja colour", "ninja_colour", colours, more),
             self._choice(2, "Full screen", "fullscreen", SWITCH, "F11 at any time"),
-            self._choice(3, "Smooth motion", "smooth", SWITCH, "More than 40 pictures a second"),
+            self._choice(3, "Smooth motion", "smooth", SWITCH, "Draws more than the 40 ticks a second of the game"),
             self._choice(4, "Frame rate", "frame_limit", RATES),
-            self._choice(5, "Ghost", "ghost", RACED, f"{self.app.controls.name('ghost')} shows or hides it in play"),
+            self._choice(5, "Race against", "ghost", RACED, f"A ghost; {self.app.controls.name('ghost')} hides it"),
             self._choice(6, "Show keys in play", "show_keys", SWITCH),
             self._choice(7, "Show frame time", "show_frame_time", SWITCH),
         ]
 
     def _sound(self) -> list[Widget]:
         return [
-            self._slider(0, "Volume", "volume", (0, 99, 3), "0: no sound"),
-            self._slider(1, "Effects", "effects_volume", (0, 99, 3), "All but the music; a share of the volume"),
-            self._slider(2, "Slides, rockets, lasers", "loop_volume", (0, 99, 3), "A share of the effects"),
-            self._slider(3, "Music", "music_volume", (0, 99, 3), "A share of the volume; 0: no music"),
+            self._slider(0, "Volume", "volume", (0, 99, 3), "Everything you hear"),
+            self._slider(1, "Effects", "effects_volume", (0, 99, 3), "Everything but the music"),
+            self._slider(2, "Slides, rockets, lasers", "loop_volume", (0, 99, 3), "The effects that go on and on"),
+            self._slider(3, "Music", "music_volume", (0, 99, 3), "A tune for each column of episodes"),
             self._choice(4, "Music in practice", "music_in_practice", SWITCH),
         ]
 
     def _play(self) -> list[Widget]:
         widgets: list[Widget] = [
             self._choice(0, "Practice mode", "practice", SWITCH, PRACTICE_HINT),
-            Label((LEFT, TOP + STEP + 10, 212, 14), "Your name, in replays:"),
+            Label((LEFT, TOP + STEP + 10, 212, 14), "Your name in replays"),
             TextEntry((LEFT + 220, TOP + STEP, WIDTH_OF_ROW - 220, HEIGHT_OF_ROW), "unnamed",
                       self.player.settings.name, lambda text: self.change(name=text)),
-            self._choice(2, "Hints in levels", "level_texts", SWITCH, "Until you have passed them"),
+            self._choice(2, "Hints in levels", "level_texts", SWITCH, "Shown until you pass the level"),
         ]  # fmt: skip
         if overclock_unlocked(self.player.columns_complete, self.player.columns_present):
             widgets.append(
                 Slider(self._area(3), "Overclock, ms", (0, FASTEST_TICK_GAIN, 1), lambda: self.app.overclock,
                        lambda value: setattr(self.app, "overclock", round(value)),
-                       hint="A faster game, until you quit")
+                       hint="Speeds the game up until you quit")
             )  # fmt: skip
         folder = str(self.player.folder / LEVELS).replace(str(Path.home()), "~")
-        texts = ("Levels that you put into this folder are in the list of levels:", folder)
+        texts = ("Put level files into this folder, and they appear under Levels:", folder)
         below = TOP + STEP * 9
         return [*widgets, *(Label((LEFT, below + 20 * k, WIDTH_OF_ROW, 14), text) for k, text in enumerate(texts))]
 
@@ -346,13 +347,13 @@ class SettingsScreen(ThumbnailScreen):
             self._choice(0, "Text size", "text_size", list(TEXT_SIZES.items())),
             self._slider(1, "Game speed", "game_speed", (50, 100, 5), f"Slower is easier; {NO_MEDAL}"),
             self._choice(2, "Invincible", "invincible", SWITCH,
-                         f"Only being crushed or out of time ends a run; {NO_MEDAL}"),
+                         f"Only being crushed or running out of time can stop you; {NO_MEDAL}"),
             self._choice(3, "Running keys", "tap_to_run", [("hold", False), ("tap", True)],
-                         "Tap: a press runs on until the next press"),
-            self._choice(4, "Marks for warning sounds", "sound_cues", SWITCH, "Rocket, laser, chase and turret"),
-            self._choice(5, "Reduced motion", "reduced_motion", SWITCH, "Fewer particles; no shake, freeze or wipes"),
+                         "Tap: one press keeps you running until the next"),
+            self._choice(4, "Show warning sounds", "sound_cues", SWITCH, "Marks every rocket, laser, chase and turret"),
+            self._choice(5, "Reduced motion", "reduced_motion", SWITCH, "Fewer particles; no shakes, freezes or wipes"),
             self._choice(6, "Reduced gore", "reduced_gore", SWITCH, "No blood"),
-            self._slider(7, "Shake at explosions", "shake", (0, 100, 5)),
+            self._slider(7, "Screen shake", "shake", (0, 100, 5)),
             self._slider(8, "Particles", "particles", (0, 100, 5)),
         ]  # fmt: skip
 

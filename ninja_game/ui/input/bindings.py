@@ -42,7 +42,7 @@ class Bindings:
         self.pad_used = self.touched = False
         self._taps: dict[int, float] = {}
         self.tap_to_run = False
-        self._running = 0
+        self._running = self._jumps_down = 0
         self.bind(keys or {}, pad or {})
 
     def bind(self, keys: Inputs, pad: Inputs) -> None:
@@ -75,7 +75,8 @@ class Bindings:
     def poll(self) -> int:
         """Read the devices: what is held right now, 1 left + 2 right + 4 jump.
 
-        A tap of a move since the last poll counts as held, once.
+        A tap of a move since the last poll counts as held, once. A second jump key beside one that is held is a new
+        press: the jump is let go for this once.
         """
         pygame.event.pump()
         state = pygame.key.get_pressed()
@@ -91,6 +92,10 @@ class Bindings:
         now = monotonic()
         bits |= sum(bit for bit, when in self._taps.items() if not bits & bit and now - when <= TAP_SECONDS)
         self._taps.clear()
+        jumps = sum(tuple.__getitem__(state, code) for code in self._move_keys[2][1]) + len(pads & self._move_pad[2][1])
+        if 0 < self._jumps_down < jumps:
+            bits &= ~JUMP_HELD
+        self._jumps_down = jumps
         return bits & JUMP_HELD | self._running if self.tap_to_run else bits
 
     def choosing(self, *, pads: bool = True) -> int:

@@ -12,6 +12,9 @@ from ninja_game.sim.kinds import DRONE, LAUNCHER
 from ninja_game.sim.memory.schema import Event, TileMap, World
 from ninja_game.view.effects.particles import Particle, Particles
 
+CONFETTI_FALL = 90.0
+"""px that a paper sails down at most."""
+
 _CHARGED = {states.DRONE_PRE_FIRE, states.DRONE_FIRING}
 
 
@@ -142,8 +145,20 @@ def _won(e: Effects, level: TileMap, world: World, event: Event) -> None:
         e.add("halo", event.x, event.y, life=40 + 14 * k, size=1.0 + 0.35 * k, rear=True)
     e.spread("spark", event.x, event.y, 12, 60, life=40)
     for _ in range(48):
-        angle, far = e.rng.uniform(-pi, 0), e.rng.uniform(40, 190)
-        e.add("confetti", event.x, event.y, far * cos(angle), far * sin(angle), life=e.rng.uniform(130, 220))
+        angle = e.rng.uniform(-pi, 0)
+        x, y = _free_way(level, world, event.x, event.y, angle, e.rng.uniform(40, 190))
+        _, ground = _free_way(level, world, x, y, pi / 2, CONFETTI_FALL)
+        life, variant = e.rng.uniform(130, 220) / 3, e.rng.randrange(6)
+        flight = x - event.x, y - event.y
+        e.particles.add(Particle("confetti", event.x, event.y, *flight, life, 1.0, variant, e.now, ground - y))
+
+
+def _free_way(level: TileMap, world: World, x: float, y: float, angle: float, far: float) -> tuple[float, float]:
+    """Where something that flies so far comes to: not into a wall."""
+    dx, dy = cos(angle), sin(angle)
+    stopped, to_x, to_y = ray_tiles(level, world, x, y, x + dx, y + dy)
+    way = min(far, max(0.0, hypot(to_x - x, to_y - y) - 3)) if stopped else far
+    return x + dx * way, y + dy * way
 
 
 def _died(e: Effects, level: TileMap, world: World, event: Event) -> None:

@@ -18,7 +18,10 @@ MOST = 100
 
 @dataclass(slots=True)
 class Particle:
-    """A particle. (x, y): where it starts, px; (dx, dy): how far it goes in its life; times in ticks."""
+    """A particle. (x, y): where it starts, px; (dx, dy): how far it goes in its life; ``fall``: px it sinks meanwhile.
+
+    Times in ticks.
+    """
 
     kind: str
     x: float
@@ -29,6 +32,7 @@ class Particle:
     size: float = 1.0
     variant: int = 0
     born: float = 0.0
+    fall: float = 0.0
 
 
 class Particles:
@@ -142,7 +146,7 @@ def _confetti(p: Particle, target: DrawTarget, t: float) -> None:
     """A paper that is thrown up, turns and sails down."""
     x, y = _eased(p, t)
     turn, half = p.variant + 9 * t, 2.4 * p.size
-    y += 90 * t * t
+    y += p.fall * t * t
     colour = getattr(target.palette, CONFETTI[p.variant % len(CONFETTI)])
     target.line(colour, x - half * cos(turn), y - half, x + half * cos(turn), y + half, 2.6 * (1 - t * t * t))
 

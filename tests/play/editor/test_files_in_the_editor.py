@@ -215,7 +215,7 @@ def test_what_was_not_saved_when_the_program_died_is_offered(room: Maker, tmp_pa
     session.autosave.close(keep=True)
     room.app.stack.clear()
     room.app.push(MainMenu(room.app))
-    assert room.button("Editor").hint == "A level was not saved last time: Room"
+    assert room.button("Editor").hint == "Not saved last time: Room"
     room.open("Levels")
     room.choose("Edit")
     assert isinstance(room.top(), EditorScreen), "nothing lies over a level that was just chosen"

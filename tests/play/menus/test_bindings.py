@@ -142,6 +142,15 @@ def test_tap_between_two_ticks_still_counts_once(
     assert bindings.poll() == 0
 
 
+def test_second_jump_key_is_a_new_press(bindings: Bindings, monkeypatch: pytest.MonkeyPatch) -> None:
+    polled = []
+    for names in ({"z"}, {"z", "right"}, {"z", "up", "right"}, {"z", "up"}, {"up"}, {"up", "z"}):
+        state = tuple(any(code == SCANCODES[name] for name in names) for code in range(512))
+        monkeypatch.setattr(pygame.key, "get_pressed", lambda state=state: state)
+        polled.append(bindings.poll())
+    assert polled == [4, 6, 2, 4, 4, 0]
+
+
 def test_what_a_key_that_jumps_has_just_chosen_is_no_jump(bindings: Bindings, monkeypatch: pytest.MonkeyPatch) -> None:
     for name, expected in (("space", 4), ("z", 0), ("return", 0)):
         state = tuple(code == SCANCODES[name] for code in range(512))

@@ -10,13 +10,13 @@ from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.sayings import read_sayings
 from ninja_game.play.level.hud import IN_BORDER, Hud, cause_of_death, hud_view, solid_place
 from ninja_game.play.level.play import DEATH_PAUSE, MUST, STUCK_AFTER, Phase
-from ninja_game.play.level.sayings import CLIMB, FALL_HELP, SHOWN_TICKS, START_TICKS, STILL_TICKS, Sayings
+from ninja_game.play.level.sayings import CLIMB, FALL_HELP, START_TICKS, STILL_TICKS, Sayings
 from ninja_game.play.level.screen import LevelScreen, PausePanel, play_level
 from ninja_game.play.menus.browser import Browser
-from ninja_game.play.menus.help import room_level, strokes
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.panels import Menu
 from ninja_game.play.replay.screen import ReplayScreen
+from ninja_game.play.rooms import room_level, strokes
 from ninja_game.player.playthrough import EpisodeRun, LevelRun
 from ninja_game.player.statistics import SELF
 from ninja_game.sim.kinds import EXIT, SWITCH
@@ -145,7 +145,7 @@ def test_each_text_has_its_moment(driver: MenuDriver) -> None:
         if sayings.on_tick(simulation.world):
             seen.append(sayings.text)
     assert seen in (["go", "gold", "open"], ["go", "open", "gold"])
-    for _ in range(SHOWN_TICKS):
+    for _ in range(START_TICKS):
         sayings.on_tick(simulation.world)
     assert sayings.text == ""
     sayings.at_start()
@@ -194,7 +194,7 @@ def test_every_death_says_what_helps_until_the_level_is_passed(driver: MenuDrive
         assert level.phase is Phase.DEAD
         texts.append(cause_of_death(level.play))
         level.retry()
-    tip = "Killed by a mine. Mines never move: keep a body's width away."
+    tip = "Killed by a mine. Mines never move: give them some room."
     assert texts == [tip, tip, "Killed by a mine."]
 
 
@@ -211,19 +211,19 @@ def test_who_is_still_for_long_reads_once_how_to_try_again_and_nobody_who_moves(
             for _ in range(50 + len(keys)):
                 driver.frames(1)
                 heard.append(said(level))
-        assert ("R tries again from the start" in heard[: 50 + len(keys)]) == told
-        assert "R tries again from the start" not in heard[50 + len(keys) :]
+        assert ("Stuck? R starts the level over" in heard[: 50 + len(keys)]) == told
+        assert "Stuck? R starts the level over" not in heard[50 + len(keys) :]
         assert heard[START_TICKS] != heard[0], "the text of the start is gone"
 
 
 def test_death_by_a_fall_says_what_helps_until_the_level_is_passed(driver: MenuDriver) -> None:
     level = LevelScreen(driver.app, LevelRun(driver.player, entry(deadly_level())))
     level.play.killer = SELF
-    assert cause_of_death(level.play) == f"That was too hard a landing. {FALL_HELP}"
+    assert cause_of_death(level.play) == f"You hit the ground too hard. {FALL_HELP}"
     driver.player.marks.passed(level.context.entry.digest, 100, 0)
     level = LevelScreen(driver.app, LevelRun(driver.player, entry(deadly_level())))
     level.play.killer = SELF
-    assert cause_of_death(level.play) == "That was too hard a landing."
+    assert cause_of_death(level.play) == "You hit the ground too hard."
 
 
 def test_levels_of_a_locked_episode_are_locked_everywhere(driver: MenuDriver) -> None:
@@ -233,15 +233,15 @@ def test_levels_of_a_locked_episode_are_locked_everywhere(driver: MenuDriver) ->
     browser.list._select(place)
     assert not browser.play_it.enabled
     assert not browser.practice.enabled
-    assert browser.practice.hint == "Pass 5 more levels of episode 1"
+    assert browser.practice.hint == "Finish 5 more levels of episode 1 first"
     browser.play(place)
-    assert browser.message == "Pass 5 more levels of episode 1"
+    assert browser.message == "Finish 5 more levels of episode 1 first"
     assert driver.top() is browser
     for level in range(5):
         driver.player.progress.level_passed((0, level), legitimate=True)
         assert driver.player.lock_of(browser.shown[place]) == [
-            "Pass 4 more levels of episode 1", "Pass 3 more levels of episode 1", "Pass 2 more levels of episode 1",
-            "Pass 1 more level of episode 1", "",
+            *(f"Finish {left} more levels of episode 1 first" for left in (4, 3, 2)),
+            "Finish 1 more level of episode 1 first", "",
         ][level]  # fmt: skip
     browser.play(place)
     assert isinstance(driver.top(), LevelScreen)
@@ -250,7 +250,7 @@ def test_levels_of_a_locked_episode_are_locked_everywhere(driver: MenuDriver) ->
 def test_play_goes_on_with_the_next_level(driver: MenuDriver) -> None:
     menu = driver.shown(MainMenu)
     assert isinstance(menu.focus, Button)
-    assert (menu.focus.detail, menu.focus.hint) == ("Begin: First Steps", "Start with the first level")
+    assert (menu.focus.detail, menu.focus.hint) == ("Begin with First Steps", "Start at the very beginning")
     driver.press("return")
     level = driver.shown(LevelScreen)
     level.begin()
@@ -258,7 +258,7 @@ def test_play_goes_on_with_the_next_level(driver: MenuDriver) -> None:
     driver.press("q")
     assert driver.top() is menu
     assert isinstance(menu.focus, Button)
-    assert (menu.focus.detail, menu.focus.hint) == ("Continue: Mind the Gap", "Go on where you left off")
+    assert (menu.focus.detail, menu.focus.hint) == ("Go on with Mind the Gap", "Go on where you left off")
     driver.press("return")
     assert driver.shown(LevelScreen).context.lifetime > 3000, "with the time that was left"
 
@@ -302,7 +302,7 @@ def test_gold_medal_opens_the_authors_run(driver: MenuDriver) -> None:
         browser.enter()
         opened.append(browser.watch_author.enabled)
     assert opened == [False, True]
-    browser.watch_author.action()
+    browser.watch_author.confirm()
     driver.shown(ReplayScreen)
 
 
@@ -332,7 +332,7 @@ def test_nobody_is_stopped_by_one_level(driver: MenuDriver) -> None:
     level = stuck_level(driver)
     message = hud_view(level.play).message
     assert message
-    assert message[1][-1].endswith("N: stuck?")
+    assert message[1][-1].endswith("N: get help")
     driver.press("n")
     assert [getattr(each, "text", "") for each in driver.shown(Menu).widgets] == [
         "Try again", "Watch how", "Slow down", "Skip this level",
@@ -372,8 +372,8 @@ def test_help_with_a_level_can_always_be_asked_for_and_says_what_is_not_possible
         driver.press(*keys)
         menu = driver.shown(Menu)
         hints = {each.text: each.hint for each in menu.widgets if isinstance(each, Button)}
-        assert hints[f"Watch how (after {STUCK_AFTER} failed tries)"] == "Not yet"
-        assert hints["Skip this level"] == "You can come back to it"
+        assert hints["Watch how"] == f"Opens after {STUCK_AFTER} failed tries"
+        assert hints["Skip this level"] == "You can come back to it any time"
         tick = level.attempt.simulation.tick
         driver.frames(5)
         assert level.attempt.simulation.tick == tick
@@ -386,12 +386,12 @@ def test_help_with_a_level_can_always_be_asked_for_and_says_what_is_not_possible
         assert level.phase is (Phase.PLAY if begun else Phase.READY)
     level.retry()
     driver.press("escape", "down", "down", "return", "escape")
-    assert isinstance(driver.top(), PausePanel), "help goes back to where it was asked for"
+    panel = driver.shown(PausePanel)
+    assert panel.focus is panel.widgets[2], "help goes back to where it was asked for"
     driver.press("escape")
     assert level.phase is Phase.READY
     driver.press("n", "down", "return")
-    assert driver.top() is level
-    assert driver.app.notice == f"Watch how: after {STUCK_AFTER} failed tries"
+    assert driver.shown(Menu).focus, "what is off does nothing"
 
 
 def test_a_win_in_levels_leads_to_the_next_one_that_is_open(driver: MenuDriver) -> None:
@@ -423,15 +423,18 @@ def test_text_in_play_lies_over_rock_near_the_ninja_or_else_in_the_border(driver
     level.begin()
     hud = Hud(driver.app.theme)
     (text, tiles, things, _, covers), far = hud_view(level.play).said or ("", (), (), None, True), []
-    assert not covers
+    assert covers, "the text of the start stays where it was"
+    level.play.eye = (40, 500)
+    level.play.sayings.text = "Another one"
+    assert hud_view(level.play).said == ("Another one", tiles, things, (40, 500), False)
     for eye in ((40.0, 500.0), (750.0, 500.0)):
-        lines, left, y, w, high, *_ = hud.box(text, tiles, things, eye, covers)
+        lines, left, y, w, high, *_ = hud.box(text, tiles, things, eye, covers=False)
         assert y < IN_BORDER
         cells = {(int(a // 24) - 1, int(b // 24) - 1) for a in (left, left + w) for b in (y, y + high * len(lines))}
         assert all(tiles[column * ROWS + row] == 1 for column, row in cells), "over rock only"
         far.append(left)
     assert far[0] < far[1]
-    assert hud.box(text, (0,) * 713, (), None, covers)[2] == IN_BORDER
+    assert hud.box(text, (0,) * 713, (), None, covers=False)[2] == IN_BORDER
 
 
 WELL = room_level(["#...#"] * 10 + ["#@..#"], ())

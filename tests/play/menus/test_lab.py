@@ -23,7 +23,7 @@ from ninja_game.play.lab.figures.one_tick import PHASES, PLAYED, OneTick
 from ninja_game.play.lab.figures.projection import PUSH, Bodies, Projection, Response
 from ninja_game.play.lab.figures.rays import RayCast
 from ninja_game.play.lab.screen import FIGURES, FILM_TICKS, FigureArea, LabScreen, export_figure, figure_pictures
-from ninja_game.play.menus.help import room_level
+from ninja_game.play.rooms import room_level
 from ninja_game.sim.collision.box import collide_box
 from ninja_game.sim.collision.circle import collide_circle
 from ninja_game.sim.collision.rays import ray_circle, sees
@@ -367,7 +367,9 @@ def test_one_tick_shows_every_call_of_the_real_world() -> None:
 
 
 def test_the_lab_by_keys_and_mouse(driver: MenuDriver) -> None:
-    screen = driver.open("Physics")
+    driver.open("Help")
+    driver.choose("How it works")
+    screen = driver.top()
     assert isinstance(screen, LabScreen)
     driver.frames(10)
     driver.press("down", "down", "down")

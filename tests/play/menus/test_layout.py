@@ -82,7 +82,7 @@ def test_grid_with_gaps_never_selects_a_gap() -> None:
 def test_only_what_was_passed_can_be_watched(driver: MenuDriver) -> None:
     records = driver.open("Records")
     assert isinstance(records, RecordsScreen)
-    assert records.list.hint == "No run of the whole episode yet"
+    assert records.list.hint == "Not yet passed in one go"
     driver.press("return")
     assert isinstance(driver.top(), RecordsScreen)
     driver.press("escape")
@@ -100,7 +100,7 @@ def test_only_what_was_passed_can_be_watched(driver: MenuDriver) -> None:
     again = driver.open("Records")
     assert isinstance(again, RecordsScreen)
     driver.press("down")
-    assert again.list.hint == "Enter: watch. E: save as a text file"
+    assert again.list.hint == "Enter to watch, E to save as a text file"
 
 
 def test_file_that_cannot_be_read_is_named(driver: MenuDriver) -> None:

@@ -13,8 +13,8 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
 from ninja_game.play.level.screen import LevelScreen
-from ninja_game.play.menus.help import room_level
 from ninja_game.play.menus.replays import FIRST_SECONDS, ReplaysScreen, _row_of_recording
+from ninja_game.play.rooms import room_level
 from ninja_game.player.player_data import PlayerData
 from tests.support.layout import noted
 from tests.support.menu_driver import MenuDriver

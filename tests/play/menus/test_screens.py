@@ -40,7 +40,6 @@ ENTRIES = {
     "Records": RecordsScreen,
     "Replays": ReplaysScreen,
     "Editor": EditorScreen,
-    "Physics": LabScreen,
     "Settings": SettingsScreen,
     "Help": HelpScreen,
 }
@@ -325,7 +324,11 @@ def test_replay_is_written_as_a_text_to_share(driver: MenuDriver) -> None:
 
 def test_what_players_need_comes_before_what_is_for_the_curious(driver: MenuDriver) -> None:
     names = [text for text, _, _ in driver.shown(MainMenu).entries()]
-    assert names[-2:] == ["Physics", "Quit"]
+    assert names[-2:] == ["Settings", "Quit"]
+    assert isinstance(driver.open("Help"), HelpScreen)
+    driver.choose("How it works")
+    assert driver.shown(LabScreen)
+    driver.press("escape", "escape")
     for entry in ("Levels", "Episodes"):
         screen = driver.open(entry)
         assert isinstance(screen, MenuScreen)

@@ -7,15 +7,17 @@ from unittest.mock import patch
 import pygame
 import pytest
 
-from ninja_game.formats.run_time import seconds_text
+from ninja_game.formats.run_time import rounded_text, seconds_text
 from ninja_game.play.level.hud import PRIZE, Hud, HudView, hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, STAMP_TICKS, TRIES_FROM, TRIES_TICKS, Phase
 from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.rooms import room_level
 from ninja_game.play.wipe import WIPE_MS
 from ninja_game.player.playthrough import LevelRun
 from ninja_game.sim.events import LANDED, MINE_EXPLODED
 from ninja_game.sim.kinds import EXIT
-from ninja_game.view.level_view import DANCE_TICKS, DOOR_STEP, ENTER_TICKS
+from ninja_game.simulation import Simulation
+from ninja_game.view.level_view import DANCE_TICKS, DOOR_STEP, ENTER_TICKS, LevelView
 from tests.support.menu_driver import FRAME_MS, MenuDriver
 from tests.support.players import deadly_level, entry
 
@@ -80,10 +82,28 @@ def test_card_says_one_thing_large_one_next_and_the_rest_short(driver: MenuDrive
     level = passed_level(driver)
     assert level.context.pars
     level.attempt.ended_tick = level.context.pars.par("gold") + 1
-    title, (medal, following, rest, _), *_ = hud_view(level.play).message or ("", [""], (), ())
+    title, (medal, following, rest, clock, _), *_ = hud_view(level.play).message or ("", [""], (), ())
     assert title == f"Time {seconds_text(level.attempt.ended_tick)} s"
-    assert (medal, following) == ("Silver medal", "0.025 s behind the gold medal")
-    assert rest == "1 of 5 gold    First pass    New medal"
+    assert (medal, following) == ("Silver medal", "0.025 s away from the gold medal")
+    assert rest == "1 of 5 gold"
+    assert clock == f"{rounded_text(level.attempt.lifetime)} s left on the clock, for the next level"
+    level.play.notices = ["New medal", "All gold"]
+    assert "1 of 5 gold    New medal" in hud_view(level.play).message[1]  # type: ignore[index]
+
+
+def test_papers_fly_in_open_space_only(driver: MenuDriver) -> None:
+    """At the exit beside a wall."""
+    simulation = Simulation(room_level(["#####", "##@xX", "#####", "###.."], []))
+    view = LevelView(driver.app, simulation)
+    for _ in range(60):
+        simulation.step_keys(2)
+        view.on_tick()
+        if simulation.outcome == "exit":
+            break
+    papers = [each for each in view.particles.front if each.kind == "confetti"]
+    assert len(papers) > 30
+    assert max(each.y + each.dy + each.fall for each in papers) <= 24 * 3
+    assert min(each.x + each.dx for each in papers) >= 24 * 3
 
 
 def test_failed_tries_run_together_for_two_seconds(driver: MenuDriver) -> None:
@@ -138,7 +158,7 @@ def test_cause_of_death_stands_large_at_once(driver: MenuDriver) -> None:
     driver.frames(60)
     assert level.phase is Phase.DEAD
     title, lines, *_ = hud_view(level.play).message or ("", [], (), ())
-    assert (title, lines[0]) == ("Killed by a mine", "Mines never move: keep a body's width away.")
+    assert (title, lines[0]) == ("Killed by a mine", "Mines never move: give them some room.")
     for level.play.after_end in (0, DEATH_PAUSE + 1):
         message = hud_view(level.play).message or ("", [], (), ())
         assert message[1] == [lines[0], "Space or Z: try again    V: watch it"], "the panel has its size at once"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ninja_game.play.lab.figure import Call, Control, Figure, Sheet, Stage
-from ninja_game.play.menus.help import strokes
+from ninja_game.play.rooms import strokes
 from ninja_game.sim.collision.tiles import EXISTS
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, pressed
