@@ -28,8 +28,7 @@ from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.runs.conversion import replay_texts
 from ninja_game.runs.run import run_level
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
-from tests.support.reference import recordings
-from tests.web.test_board_reference import write_pack
+from tests.support.reference import recordings, write_pack
 from tools.measure.near_copies import EDITS, LONGEST_BLOCK
 
 MOST_EDITS, EACH = 10, 20
