@@ -146,6 +146,17 @@ def test_mistakes_are_named_with_their_place_and_how_to_mend_them(old: str, new:
     assert re.match(re.escape(message).replace("\\~", ".*").replace("~", ".*"), str(caught.value)), str(caught.value)
 
 
+def test_levels_that_are_equal_but_for_the_sign_of_a_zero_are_written_as_they_are() -> None:
+    """What is written of a level is kept for the next replay of it, not for one that only equals it."""
+    texts = []
+    for zero in (0.0, -0.0):
+        level = Level(objects=(ObjectSpec(12, (zero, 40.0)),))
+        texts += [write_replay(Replay.of_inputs(b"\2", level)), write_replay(Replay.of_inputs(b"\2", level))]
+        (record,) = (parse_replay(texts[-1]).level or level).objects
+        assert str(record.values[0]) == str(zero)
+    assert texts[0] == texts[1] != texts[2] == texts[3]
+
+
 def test_an_embedded_level_must_have_the_digest_that_is_told() -> None:
     text = write_replay(replace(REPLAY, level=LEVEL, level_digest=level_digest(LEVEL)))
     assert parse_replay(text).level == LEVEL

@@ -14,6 +14,9 @@ from typing import NamedTuple
 
 import pytest
 
+from ninja_game.formats.ascii.writer import write_ascii_level
+from ninja_game.formats.n14.level_string import parse_level_string
+
 ROOT = Path(__file__).resolve().parent.parent.parent
 FOLDER = ROOT.parent / "shared" / "n14"
 
@@ -214,3 +217,15 @@ def positions() -> bytes:
 def scene_traces() -> bytes:
     """The unpacked traces of the scenes: at a scene's ``offset``, ``ticks`` records of everything."""
     return lzma.decompress((require_reference() / "scenes.bin.xz").read_bytes())
+
+
+def write_pack(folder: Path) -> Path:
+    """The published levels as a pack with a hundred episodes."""
+    folder.mkdir()
+    episodes = range(len(levels()) // 5)
+    for number, row in enumerate(levels()):
+        text = write_ascii_level(parse_level_string(row.data), name=row.name, author=row.author)
+        (folder / f"{number // 5:02d}-{number % 5}.txt").write_text(text, "utf-8")
+    index = "\n".join(f'[[episode]]\nnumber = {number}\nname = "Episode {number}"' for number in episodes)
+    (folder / "pack.toml").write_text(f'name = "reference"\n{index}\n', "utf-8")
+    return folder

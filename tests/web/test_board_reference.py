@@ -8,30 +8,16 @@ from pathlib import Path
 
 import pytest
 
-from ninja_game.formats.ascii.writer import write_ascii_level
-from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.recording import parse_replays
 from ninja_game.runs.conversion import replay_texts
 from ninja_game.web.board.pages import BoardPages
 from ninja_game.web.board.ranking import Ranking
 from ninja_game.web.board.runs import judge
 from ninja_game.web.pages.published import published_levels
-from tests.support.reference import levels, recordings, require_reference
+from tests.support.reference import recordings, require_reference, write_pack
 
 SECONDS = 60
 """Of processor time on all cores: the machine of a test does other things too."""
-
-
-def write_pack(folder: Path) -> Path:
-    """The published levels as a pack with a hundred episodes."""
-    folder.mkdir()
-    episodes = range(len(levels()) // 5)
-    for number, row in enumerate(levels()):
-        text = write_ascii_level(parse_level_string(row.data), name=row.name, author=row.author)
-        (folder / f"{number // 5:02d}-{number % 5}.txt").write_text(text, "utf-8")
-    index = "\n".join(f'[[episode]]\nnumber = {number}\nname = "Episode {number}"' for number in episodes)
-    (folder / "pack.toml").write_text(f'name = "reference"\n{index}\n', "utf-8")
-    return folder
 
 
 @pytest.mark.slow

@@ -1,4 +1,4 @@
-"""What a board of many runs costs: time anew and with one run more, bytes, weight of the pages (docs/board.md).
+"""What a board of many runs costs: time in all and with one run more, bytes, weight of the pages (docs/board.md).
 
     nice -n 19 python3 tools/dev.py tool measure.board_size 1000 10000
     nice -n 19 python3 tools/dev.py tool measure.board_size reference
@@ -28,8 +28,7 @@ from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.runs.conversion import replay_texts
 from ninja_game.runs.run import run_level
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
-from tests.support.reference import recordings
-from tests.web.test_board_reference import write_pack
+from tests.support.reference import recordings, write_pack
 from tools.measure.near_copies import EDITS, LONGEST_BLOCK
 
 MOST_EDITS, EACH = 10, 20
@@ -84,7 +83,7 @@ def weigh(site: Path) -> None:
 
 
 def measure(folder: Path, found: Iterator[str], count: int, words: list[str]) -> None:
-    """Put so many runs into the folder, make the board anew, then with one run more."""
+    """Put so many runs into the folder, make the board from nothing, then with one run more."""
     runs, site = folder / "runs", folder / f"site-{count}"
     there = sum(1 for _ in runs.glob("*/*"))
     for number in range(there, count):
@@ -93,7 +92,7 @@ def measure(folder: Path, found: Iterator[str], count: int, words: list[str]) ->
         place.write_text(next(found), "utf-8")
     words = [str(runs), "--site", str(site), "--json", str(folder / f"{count}.json"), *words]
     load = os.getloadavg()[0]
-    print(f"{count} runs (load {load:.1f}): anew {command(*words, '--again')}", flush=True)
+    print(f"{count} runs (load {load:.1f}): all {command(*words, '--again')}", flush=True)
     (runs / "new.txt").write_text(next(found), "utf-8")
     print(f"one more {command(*words)}; none more {command(*words)}", flush=True)
     (runs / "new.txt").unlink()
