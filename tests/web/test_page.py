@@ -166,7 +166,8 @@ def test_a_level_is_passed_by_touch(new_visitor: NewVisitor) -> None:
     visitor.page.get_by_role("button", name="Back to the game").tap()
     for again in (False, True):
         if again:
-            visitor.visit(level_link(LEVEL))
+            with visitor.loading_anew():
+                visitor.page.reload()
             visitor.until("ready")
         left = visitor.page.get_by_role("button", name="Jump").bounding_box()
         assert (left["x"] < 20, right["x"] > 400) == (True, True)

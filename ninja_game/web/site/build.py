@@ -40,7 +40,7 @@ FOLDER = "app-folder"
 """What templates and documents call the folder of the version."""
 
 PAGES = (
-    "index.html", "docs/style.css", "docs/search.js",
+    "index.html", "docs/style.css", "docs/search.js", "docs/icon.png",
     *(f"gallery/{name}" for name in ("index.html", "style.css", "search.js", "icon.png")),
 )  # fmt: skip
 """What is kept for visits without a network beside the game, *Learn* and the gallery; others as they are visited."""
