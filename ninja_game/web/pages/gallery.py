@@ -84,9 +84,7 @@ def level_page(
     return page(entry.title, *contents, up=UP, links=links, picture=picture, about=named.comment or said)
 
 
-def run_page(
-    entry: Entry, stem: str, title: str, facts: Links, folder: str, game: str, links: Links, site: str
-) -> str:  # fmt: skip
+def run_page(entry: Entry, stem: str, title: str, facts: Links, folder: str, game: str, links: Links, site: str) -> str:
     """The small page of a run, beside it in ``replays``: what a link to it shows in a chat, and what leads to it.
 
     ``folder``: of the pages with the level's; ``game``, ``links``: as seen from their first one; ``site``: as above.

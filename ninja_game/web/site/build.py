@@ -39,10 +39,12 @@ TEMPLATES = (GAME, "sw.js")
 FOLDER = "app-folder"
 """What templates and documents call the folder of the version."""
 
+_BESIDE_PAGES = ("style.css", "search.js", "icon.png")
 PAGES = (
-    "index.html", "docs/style.css", "docs/search.js", "docs/icon.png",
-    *(f"gallery/{name}" for name in ("index.html", "style.css", "search.js", "icon.png")),
-)  # fmt: skip
+    "index.html",
+    *(f"{folder}/{name}" for folder in ("docs", "gallery") for name in _BESIDE_PAGES),
+    "gallery/index.html",
+)
 """What is kept for visits without a network beside the game, *Learn* and the gallery; others as they are visited."""
 
 
