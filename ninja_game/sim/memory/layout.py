@@ -107,7 +107,9 @@ def new_worlds(count: int, objects: int) -> Records:
     a tick meets a handful of places of a world, and small pages would make most of them misses of the address cache.
     """
     stride = _align(used_bytes(objects), 64)
-    block = mmap.mmap(-1, (count - 1) * stride + max(stride, WORLD.itemsize))
+    size = (count - 1) * stride + max(stride, WORLD.itemsize)
+    # Private, where processes are forked: one of these must not play in the worlds of the one that it comes from.
+    block = mmap.mmap(-1, size, access=mmap.ACCESS_COPY if hasattr(mmap, "MAP_PRIVATE") else mmap.ACCESS_WRITE)
     if hasattr(mmap, "MADV_HUGEPAGE"):
         huge = count * stride // HUGE_PAGE * HUGE_PAGE
         block.madvise(mmap.MADV_NOHUGEPAGE, huge)
