@@ -88,31 +88,60 @@ class Settings:
 PIXELS = Settings(view=504.0, learning_rate=5e-4, batch=1024, worlds=128)
 
 
+class Player:
+    """``count`` worlds in which an agent plays, and what training pays it; ``more``: arguments of the environment.
+
+    ``observed``: what they show now, (count, n); ``begins``: whose next step only begins an episode.
+    """
+
+    def __init__(self, level: Any, count: int, settings: Settings, **more: Any) -> None:
+        self.settings, self.count = settings, count
+        self.pictures = [Pixels(view=settings.view, normalised=True)] if settings.view else []
+        self.made_for: dict[str, Any] = {"observation": self.pictures or [*OBSERVATION], "flat": True, "frame_skip": 4}
+        how = {**self.made_for, "level": level, "time_limit": settings.time_limit, "copy": False, **more}
+        how["observation"] = [*OBSERVATION, *self.pictures]
+        self.envs = gymnasium.make_vec(BENCH, num_envs=count, **how)
+        self.episodes: list[NDArray[np.bool_]] = []
+
+    def begin(self, seed: int) -> None:
+        """Begin, world i with the seed ``seed`` + i."""
+        self.observed: Floats = self.envs.reset(seed=seed)[0]
+        self.begins = np.zeros(self.count, np.bool_)
+        self._whole = way_left(self.observed)
+
+    def step(self, actions: NDArray[Any]) -> tuple[Floats, NDArray[np.bool_], NDArray[np.bool_]]:
+        """Play one step: the rewards, which episodes terminated, and which ended so or by the time."""
+        before = np.maximum(1.0 - way_left(self.observed) / self._whole, -1.0)
+        self.observed, paid, terminated, truncated, infos = self.envs.step(actions)
+        left = way_left(self.observed)
+        begun = self.begins
+        self._whole = np.where(begun, left, self._whole)
+        after = np.where(terminated, 0.0, np.maximum(1.0 - left / self._whole, -1.0))
+        settings = self.settings
+        rewards = settings.exit * paid + settings.way * (settings.discount * after - before) * ~begun
+        self.begins = terminated | truncated
+        if self.begins.any():
+            self.episodes.append(infos["outcome"][self.begins] == OUTCOME_EXIT)
+        return rewards.astype(np.float32), terminated, self.begins
+
+
 class Trainer:
     """Worlds that play, and networks that learn from them. Raises MissingExtraError without JAX and Optax."""
 
     def __init__(self, level: Any, steps: int, seed: int, settings: Settings) -> None:
         self.settings, self.seed, self.steps_planned, self.steps = settings, seed, steps, 0
-        picture = [Pixels(view=settings.view, normalised=True)] if settings.view else []
-        self.made_for: dict[str, Any] = {"observation": picture or [*OBSERVATION], "flat": True, "frame_skip": 4}
-        how = {**self.made_for, "level": level, "time_limit": settings.time_limit, "copy": False}
-        how["observation"] = [*OBSERVATION, *picture]
-        self.envs = gymnasium.make_vec(BENCH, num_envs=settings.worlds, **how)
+        self.player = Player(level, settings.worlds, settings)
+        self.player.begin(seed * settings.worlds)
         self._rng = np.random.default_rng([seed, 1])
-        self._observed: Floats = self.envs.reset(seed=seed * settings.worlds)[0]
-        inputs, pixels = self._observed.shape[1], sum(part.length for part in picture)
+        inputs, pixels = self.player.observed.shape[1], sum(part.length for part in self.player.pictures)
         self._sight = slice(inputs - pixels if pixels else 0, inputs)
-        self._begins = np.zeros(settings.worlds, np.bool_)
-        self._whole = way_left(self._observed)
         self.networks = new_networks(inputs - pixels, settings.hidden, self._rng, pixels)
         self._play, self._update, self._memory = compiled(self.networks, settings, self._sight, inputs - pixels)
-        self._mean, self._scale = np.zeros(inputs, np.float32), np.ones(inputs, np.float32)
-        self.episodes: list[NDArray[np.bool_]] = []
-        self._mean, self._scale = self._measure()
+        self._mean, self._scale = random_play(self._rng, self.player.step, lambda: self.player.observed, settings)
 
     def agent(self, training: dict[str, Any]) -> PolicyAgent:
         mean, scale = self._mean[self._sight], self._scale[self._sight]
-        return PolicyAgent(self.networks["policy"], mean, scale, self.made_for, training)
+        return PolicyAgent(self.networks["policy"], mean, scale, self.player.made_for, training)
 
     def improve(self) -> None:
         """Play a round and learn from it."""
@@ -129,8 +158,8 @@ class Trainer:
             actions[step] = (scores + self._rng.gumbel(size=scores.shape)).argmax(axis=1)
             chances[step] = np.take_along_axis(scores, actions[step][:, np.newaxis], axis=1)[:, 0]
             # The step after an episode's last one only begins the next one: nothing is learnt from it.
-            counts[step] = ~self._begins
-            rewards[step], terminated[step], ended[step] = self._step(actions[step])
+            counts[step] = ~self.player.begins
+            rewards[step], terminated[step], ended[step] = self.player.step(actions[step])
         values[-1] = np.asarray(self._play(self.networks, self._seen())[1])
         gains = advantages(rewards, values, terminated, ended, settings)
         returns = gains + values[:-1]
@@ -155,34 +184,22 @@ class Trainer:
         self.networks = jax.tree_util.tree_map(np.asarray, networks)
 
     def _seen(self) -> Floats:
-        return normalised(self._observed, self._mean, self._scale)
+        return normalised(self.player.observed, self._mean, self._scale)
 
-    def _step(self, actions: NDArray[Any]) -> tuple[Floats, NDArray[np.bool_], NDArray[np.bool_]]:
-        """Play one step: the rewards, which episodes terminated, and which ended so or by the time."""
-        before = np.maximum(1.0 - way_left(self._observed) / self._whole, -1.0)
-        self._observed, paid, terminated, truncated, infos = self.envs.step(actions)
-        left = way_left(self._observed)
-        begun = self._begins
-        self._whole = np.where(begun, left, self._whole)
-        after = np.where(terminated, 0.0, np.maximum(1.0 - left / self._whole, -1.0))
-        settings = self.settings
-        rewards = settings.exit * paid + settings.way * (settings.discount * after - before) * ~begun
-        self._begins = terminated | truncated
-        if self._begins.any():
-            self.episodes.append(infos["outcome"][self._begins] == OUTCOME_EXIT)
-        return rewards.astype(np.float32), terminated, self._begins
 
-    def _measure(self) -> tuple[Floats, Floats]:
-        """Means of the observations, and what makes their deviations 1: from some steps of random play."""
-        rows = []
-        action = self._rng.integers(len(ACTION_NAMES), size=self.settings.worlds)
-        for _ in range(2 * self.settings.round):
-            drawn = self._rng.integers(len(ACTION_NAMES), size=len(action))
-            action = np.where(self._rng.random(len(action)) < 0.8, action, drawn)
-            self._step(action)
-            rows.append(self._observed.copy())
-        every = np.concatenate(rows)
-        return every.mean(axis=0), 1.0 / np.maximum(every.std(axis=0), np.float32(SMALLEST_DEVIATION))
+def random_play(
+    rng: np.random.Generator, step: Callable[[NDArray[Any]], object], observed: Callable[[], Floats], settings: Settings
+) -> tuple[Floats, Floats]:
+    """Means of the observations (…, worlds, n), and what makes their deviations 1, (…, n): from random play."""
+    rows = []
+    action = rng.integers(len(ACTION_NAMES), size=observed().shape[:-1])
+    for _ in range(2 * settings.round):
+        drawn = rng.integers(len(ACTION_NAMES), size=action.shape)
+        action = np.where(rng.random(action.shape) < 0.8, action, drawn)
+        step(action)
+        rows.append(observed().copy())
+    every = np.concatenate(rows, axis=-2)
+    return every.mean(axis=-2), 1.0 / np.maximum(every.std(axis=-2), np.float32(SMALLEST_DEVIATION))
 
 
 def way_left(observed: Floats) -> Floats:
@@ -194,20 +211,20 @@ def way_left(observed: Floats) -> Floats:
 
 
 def advantages(
-    rewards: Floats, values: Floats, terminated: NDArray[np.bool_], ended: NDArray[np.bool_], settings: Settings
-) -> Floats:
+    rewards: Any, values: Any, terminated: Any, ended: Any, settings: Settings, stack: Callable[..., Any] = np.stack
+) -> Any:
     """By how much each step did better than expected, (steps, worlds).
 
     ``values``: what was expected, (steps + 1, worlds). Nothing is expected behind a step that ``terminated``; where the
-    time was over, what the last observation promises.
+    time was over, what the last observation promises. ``stack``: NumPy's, or JAX's for arrays of JAX.
     """
-    result = np.zeros_like(rewards)
-    ahead = np.zeros(rewards.shape[1], np.float32)
+    found: list[Any] = []
+    ahead = 0.0 * rewards[0]
     for step in reversed(range(len(rewards))):
         error = rewards[step] + settings.discount * values[step + 1] * ~terminated[step] - values[step]
         ahead = error + settings.discount * settings.trace * ~ended[step] * ahead
-        result[step] = ahead
-    return result
+        found.append(ahead)
+    return stack(found[::-1]).astype(np.float32)
 
 
 def new_networks(inputs: int, hidden: int, rng: np.random.Generator, pixels: int = 0) -> Networks:
@@ -297,8 +314,8 @@ def train(
         if trainer.steps * POINTS < steps * (len(curve) + 1) and trainer.steps < steps:
             continue
         times = [round(time.monotonic() - began, 1), round(time.process_time() - used, 1)]
-        episodes = np.concatenate(trainer.episodes or [np.zeros(1, np.bool_)])
-        trainer.episodes.clear()
+        episodes = np.concatenate(trainer.player.episodes or [np.zeros(1, np.bool_)])
+        trainer.player.episodes.clear()
         agent = trainer.agent(about)
         seen = measure(agent, watch)["passed"].mean() if watch else float("nan")
         curve.append([trainer.steps, *times, round(float(episodes.mean()), 4), round(float(seen), 4)])
