@@ -108,8 +108,8 @@ def new_worlds(count: int, objects: int) -> Records:
     """
     stride = _align(used_bytes(objects), 64)
     size = (count - 1) * stride + max(stride, WORLD.itemsize)
-    # Private: a process that is forked must not play in the worlds of the one that it comes from.
-    block = mmap.mmap(-1, size, access=mmap.ACCESS_COPY)
+    # Private, where processes are forked: one of these must not play in the worlds of the one that it comes from.
+    block = mmap.mmap(-1, size, access=mmap.ACCESS_COPY if hasattr(mmap, "MAP_PRIVATE") else mmap.ACCESS_WRITE)
     if hasattr(mmap, "MADV_HUGEPAGE"):
         huge = count * stride // HUGE_PAGE * HUGE_PAGE
         block.madvise(mmap.MADV_NOHUGEPAGE, huge)
