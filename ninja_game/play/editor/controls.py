@@ -46,7 +46,7 @@ COMMANDS = (
     Command("list", "List of objects, or the palette", ("f3",)),
     Command("lines", "Lines from switches, on or off", ("t",)),
     Command("paths", "Paths of the last test and of the solver", ("f8",)),
-    Command("tests", "Map of the tests: where they came and died", ("f9",)),
+    Command("tests", "Map of tests: where they went and died", ("f9",)),
     Command("reach", "What can be reached from the pointer", ("y",)),
     Command("next_finding", "Go to the next problem", ("f4",)),
     Command("next_entry", "Next tile or object", ("pagedown",), "rightshoulder"),

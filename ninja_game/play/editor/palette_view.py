@@ -69,6 +69,16 @@ class PaletteView(Widget):
             found.append((object_type, (x + column * (OBJECT + 0.6), top, OBJECT, OBJECT)))
         return found
 
+    @property
+    def _in_hand(self) -> int | ObjectType:
+        tools = self.tools
+        return OBJECT_TYPES[OBJECT_TYPE_NAMES.index(object_type_of(tools.spec))] if tools.objects else tools.tile
+
+    @property
+    def said(self) -> str:
+        """What is under the mouse, or else in hand, and its keys."""
+        return _said(self._in_hand if self.hovered is None else self.hovered)
+
     def _at(self, x: float, y: float) -> int | ObjectType | None:
         return next((what for what, area in self.places() if inside(area, x, y)), None)
 
@@ -103,8 +113,7 @@ class PaletteView(Widget):
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         canvas, palette = theme.canvas, theme.palette
-        x, y, w, h = self.area
-        canvas.fill_rect(surface, palette.panel, x - 4, y - 4, w + 6, h + 4, 3)
+        x, y, _, _ = self.area
         tools = self.tools
         for text, top, lit in (("Tiles", y + 4, not tools.objects), ("Objects", y + 91, tools.objects)):
             colour = palette.accent if lit else palette.text
@@ -114,9 +123,6 @@ class PaletteView(Widget):
             at = x + 3 + column * BLOCK, y + 32 + row * BLOCK_ROW
             if not tools.objects:
                 theme.text(surface, family.key, *at, size=8)
-        in_hand = OBJECT_TYPES[OBJECT_TYPE_NAMES.index(object_type_of(tools.spec))] if tools.objects else tools.tile
-        said = _said(in_hand if self.hovered is None else self.hovered)
-        theme.text(surface, said, x + 1, y + h - 14, size=9.5, width=w - 4, bold=True)
         for what, area in self.places():
             canvas.fill_rect(surface, palette.background, *area)
             at = canvas.point(area[0], area[1])
@@ -126,7 +132,7 @@ class PaletteView(Widget):
                 theme.text(surface, key_label_of(what.key), middle, top, size=7.5, align="centre", height=KEY)
             if what in (EMPTY, FULL):
                 canvas.frame_rect(surface, palette.panel_edge, *area)
-            if what == in_hand:
+            if what == self._in_hand:
                 canvas.frame_rect(surface, palette.accent, *area, 2)
 
     def _icon(self, theme: Theme, what: int | ObjectType, area: Area) -> pygame.Surface:
@@ -141,9 +147,9 @@ class PaletteView(Widget):
 def _said(what: int | ObjectType) -> str:
     """What an entry is called, and its keys."""
     if isinstance(what, ObjectType):
-        return f"{what.name.capitalize()}    key {key_label_of(what.key)}"
-    name, keys = tile_name(what), tile_key(what)
-    return f"{name[0].upper()}{name[1:]}    key{'s' * (len(keys) > 1)} {keys}"
+        return f"{what.name.capitalize()}: {key_label_of(what.key)}"
+    name = tile_name(what)
+    return f"{name[0].upper()}{name[1:]}: {tile_key(what)}"
 
 
 @lru_cache(maxsize=200)

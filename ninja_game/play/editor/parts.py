@@ -208,12 +208,20 @@ class PalettePart(EditorPart):
     def __init__(self, view: EditorView, palette: PaletteView, run: Callable[[str], object]) -> None:
         super().__init__(view)
         self._palette = palette
-        x, y, w, _ = self.area
-        self.widgets = [palette, ToolButton((x + w - 42, y + 4, 34, 17), "list", "List", run, view)]
+        x, y, w, h = self.area
+        self.widgets = [palette, ToolButton((x + w - 38, y + h - 15, 34, 14), "list", "List", run, view)]
 
     def render_key(self) -> tuple[object, ...]:
         tools = self.session.tools
         return tools.objects, tools.tile, tools.spec, self._palette.hovered
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        """What is under the mouse or in hand is named below the palette."""
+        super().paint(surface, theme)
+        x, y, w, h = self.area
+        theme.canvas.fill_rect(surface, theme.palette.panel, x + 2, y, w - 4, h, 3)
+        said = self._palette.said
+        theme.text(surface, said, x + 7, y + h - 13, size=8.5, width=w - 48, height=13, bold=True)
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
         """What an entry is called is said here and in the status line."""

@@ -35,7 +35,7 @@ class EditorScreen(WorkspaceScreen):
         app.follow_mood(self.mood)
         self.session = EditorSession(app, source)
         x, y, w, h = LAYOUT.palette
-        self.palette = PaletteView((x + 6, y + 4, w - 10, h - 5), self.session.tools)
+        self.palette = PaletteView((x + 6, y + 4, w - 10, h - 19), self.session.tools)
         self.view = EditorView(app, self.session, self.palette.step)
         self.commands = EditorCommands(app, self.session, self.view, self.palette)
         self.properties = Properties(self.view)

@@ -255,7 +255,7 @@ def death_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
             for side in (-size, size):
                 target.line(colour, x - side, y - size, x + side, y + size, width)
 
-    return LevelMark(draw, (canvas.rect(x - 8, y - 8, 16, 16),))
+    return LevelMark(draw, (canvas.rect(x - 10, y - 10, 20, 20),))
 
 
 def finding_points(level: Level, finding: Finding) -> list[Point]:

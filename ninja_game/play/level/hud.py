@@ -180,6 +180,8 @@ class Hud:
         below, beside = (26, PRIZE + 14) if medal else (0, 0)
         named, lines = (lines[0], lines[1:]) if medal else ("", lines)
         head = max(theme.width(title, TITLE, bold=True), theme.width(named, NAMED, bold=True))
+        fits = [[line] if theme.width(line, LINE) < WIDE else wrapped(theme, line, WIDE, LINE) for line in lines]
+        lines = [part for parts in fits for part in parts]
         w = max(220.0, head + beside, *(theme.width(line, LINE) for line in lines)) + 44
         h = 48.0 + 18 * len(lines) + below
         x, y, *_ = solid_place(tiles, w, h, things, rows=3)
@@ -313,6 +315,9 @@ LOWEST = 573.0
 
 TITLE, NAMED, LINE, POINTER = 26.0, 15.0, 12.5, 9.5
 """Sizes in the panel of a passed level: its time, the medal, the rest; and of the names of things."""
+
+WIDE = WIDTH - 150.0
+"""A longer line of the panel is broken."""
 
 MARK, RIGHT = 12.0, 768.0
 """Size of a medal on the time bar; right edge of what is written in the borders."""

@@ -455,7 +455,7 @@ def test_the_palette_says_what_is_in_hand_or_under_the_mouse(room: Maker, monkey
     assert "Hollow curve lower right    keys 4 S" in said
     gold = next(area for what, area in room.editor.palette.places() if getattr(what, "name", "") == "gold")
     room.mouse(gold[0] + 5, gold[1] + 5, click=False)
-    assert "Gold    key 0" in said
+    assert "Gold: 0" in said
     said.clear()
     room.mouse(*room.at(300, 300), click=False)
     assert "Hollow curve lower right    keys 4 S" in said
