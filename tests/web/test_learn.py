@@ -120,9 +120,11 @@ def test_a_ray_of_the_chapter_ends_on_lines_and_in_corners_too() -> None:
     halves = [half / 2 for half in range(8)]
     for x, y, to_x, to_y in product(halves, repeat=4):
         cells = list(islice(rays["cells_of"](x, y, to_x, to_y), 9))
-        assert cells[0] == (int(x), int(y)) and cells[-1] == (int(to_x), int(to_y))
+        assert cells[0] == (int(x), int(y))
+        assert cells[-1] == (int(to_x), int(to_y))
         assert len(cells) == 1 + abs(int(to_x) - int(x)) + abs(int(to_y) - int(y))
-    assert rays["sees"](1, 0, 1, 3) and not rays["sees"](0, 1, 7, 1)
+    assert rays["sees"](1, 0, 1, 3)
+    assert not rays["sees"](0, 1, 7, 1)
 
 
 def test_bodies_of_the_chapter_are_pushed_by_nothing_far_away_and_out_of_the_block_from_within() -> None:
@@ -135,7 +137,8 @@ def test_bodies_of_the_chapter_are_pushed_by_nothing_far_away_and_out_of_the_blo
 
 def test_circle_and_box_of_the_chapter_part_at_a_ledge_as_those_of_the_figure() -> None:
     circle, box = FIGURES["bodies"]().numbers()[1:]
-    assert circle[1].startswith("over the ledge") and box[1].startswith("stopped")
+    assert circle[1].startswith("over the ledge")
+    assert box[1].startswith("stopped")
 
 
 @pytest.mark.parametrize(
