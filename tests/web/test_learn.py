@@ -6,6 +6,7 @@ import re
 import shutil
 from collections.abc import Callable
 from contextlib import ExitStack
+from itertools import islice, product
 from pathlib import Path
 from typing import Any
 
@@ -111,6 +112,33 @@ def test_programs_give_what_the_game_gives() -> None:
     states = ("off", "interesting", "solid")
     shown = [state for row in edges["STATE"] for state in row]
     assert [states[state] for state in EDGE_OF_FACES] == shown
+
+
+def test_a_ray_of_the_chapter_ends_on_lines_and_in_corners_too() -> None:
+    rays: dict[str, Any] = {}
+    exec(program("10-rays")[0], rays)
+    halves = [half / 2 for half in range(8)]
+    for x, y, to_x, to_y in product(halves, repeat=4):
+        cells = list(islice(rays["cells_of"](x, y, to_x, to_y), 9))
+        assert cells[0] == (int(x), int(y))
+        assert cells[-1] == (int(to_x), int(to_y))
+        assert len(cells) == 1 + abs(int(to_x) - int(x)) + abs(int(to_y) - int(y))
+    assert rays["sees"](1, 0, 1, 3)
+    assert not rays["sees"](0, 1, 7, 1)
+
+
+def test_bodies_of_the_chapter_are_pushed_by_nothing_far_away_and_out_of_the_block_from_within() -> None:
+    bodies: dict[str, Any] = {}
+    exec(program("02-bodies")[0], bodies)
+    for way_out in bodies["circle_out"], bodies["box_out"]:
+        assert way_out(150, 60) == way_out(60, 150) == (0, 0)
+        assert way_out(101, 100) == (0, -10)
+
+
+def test_circle_and_box_of_the_chapter_part_at_a_ledge_as_those_of_the_figure() -> None:
+    circle, box = FIGURES["bodies"]().numbers()[1:]
+    assert circle[1].startswith("over the ledge")
+    assert box[1].startswith("stopped")
 
 
 @pytest.mark.parametrize(

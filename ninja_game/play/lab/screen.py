@@ -178,7 +178,7 @@ class FigureArea(Widget):
 
 
 FILM_TICKS = 240
-PICTURE_TICK = 100
+PICTURE_TICK = 60
 """Where in its demonstration a figure is photographed."""
 
 

@@ -391,7 +391,7 @@ def test_the_lab_by_keys_and_mouse(driver: MenuDriver) -> None:
     assert (screen.figure.x, screen.figure.y) == (left + (420 - FIGURE[0]) / zoom, top + (220 - FIGURE[1]) / zoom)
     driver.press("pagedown", "right")
     assert isinstance(screen.figure, Projection)
-    assert screen.figure.tile == 2
+    assert screen.figure.tile == 3
     screen.reset()
     assert (screen.figure.x, screen.figure.y) == screen.figure.start
     driver.press("escape")

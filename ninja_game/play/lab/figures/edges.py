@@ -177,3 +177,5 @@ class Doors(EdgeStates):
         sheet.circle(p.switch, drone.x, drone.y, DRONE_RADIUS, 2)
         side = DIRECTIONS.index(self.drone_goes())
         sheet.arrow(p.switch, (drone.x, drone.y), (drone.x + 20 * UNIT_X[side], drone.y + 20 * UNIT_Y[side]), 3)
+        sheet.text("drone", drone.x - 32, drone.y - 14)
+        sheet.text("turret", self.turret[0], self.turret[1] - 12)

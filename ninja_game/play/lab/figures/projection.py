@@ -100,7 +100,7 @@ class Projection(Figure):
     def demonstrate(self, tick: int) -> None:
         """Round the tile; another one every six seconds."""
         if tick % 240 == 0:
-            self.tile = 1 + tick // 240 * 4 % 33
+            self.tile = 1 + (4 * (tick // 240) + 1) % 33
         super().demonstrate(tick)
 
     def push(self) -> Push:
@@ -158,7 +158,7 @@ class Response(Projection):
     def demonstrate(self, tick: int) -> None:
         """Into the tile and out of it."""
         super().demonstrate(tick)
-        self.drag(self.start[0] + 12 * sin(tick / 20), self.start[1] + 5 * cos(tick / 20))
+        self.drag(self.start[0] + 12 * sin(tick / 20), self.start[1] - 5 * cos(tick / 20))
 
     @property
     def contacts(self) -> list[str]:
