@@ -546,8 +546,9 @@ def screens_as_texts(
         with log.recording(driver.app.theme.palette) as lines:
             driver.app.draw()
         # A line that is cut off may differ by one where it is smoothed.
-        if abs(_pixels(driver.app.surface) - by_steps).max() > 3:
-            log.stale.append(name)
+        differing = np.argwhere(abs(_pixels(driver.app.surface) - by_steps) > 3)
+        if len(differing):
+            log.stale.append(f"{name}, px {differing.min(0)} to {differing.max(0)}")
         assert name not in shown
         shown[name] = "\n".join(lines).replace(str(folder), "FOLDER").replace(__version__, "VERSION") + "\n"
 

@@ -129,8 +129,8 @@ def test_card_says_time_and_gold_and_the_next_par(driver: MenuDriver) -> None:
     assert entry.pars is not None
     assert driver.player.reached(entry, None) == "Not passed yet"
     assert reached(entry, Mark(197, 3)) == f"Time 4.925 s, gold 3 of {entry.all_gold}"
-    assert next_par(entry.pars, Mark(200, 0)) == "0.100 s behind the gold medal"
-    assert next_par(entry.pars, Mark(entry.pars.par("author") + 4, 0)) == "0.100 s behind the author medal"
+    assert next_par(entry.pars, Mark(200, 0)) == "0.100 s away from the gold medal"
+    assert next_par(entry.pars, Mark(entry.pars.par("author") + 4, 0)) == "0.100 s away from the author medal"
     assert next_par(entry.pars, Mark(156, 0)) == ""
 
 

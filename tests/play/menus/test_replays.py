@@ -110,11 +110,11 @@ def test_the_same_run_of_an_author_stands_once(driver: MenuDriver, monkeypatch: 
 
 
 def test_only_who_has_killed_is_named(driver: MenuDriver) -> None:
-    for killer, seen in (("", "Nothing yet"), ("mine", "mine")):
+    for killer, seen in (("", "Nothing so far"), ("mine", "Mine")):
         if killer:
             driver.player.statistics.attempt_ended("x", killer=killer, passed=False, ticks=1, gold=0)
         with noted() as layouts:
             driver.open("Records")
         texts = {each.text for each in layouts[-1].texts}
-        assert texts & {"mine", "thwump", "Nothing yet"} == {seen}
+        assert texts & {"Mine", "Thwump", "Nothing so far"} == {seen}
         driver.press("escape")
