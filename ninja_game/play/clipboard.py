@@ -20,7 +20,7 @@ def copy_text(app: App, text: str, *, title: str, suffix: str, notice: str = "")
     except pygame.error:
         app.write_export(title, suffix, text + "\n")
     else:
-        app.notify(notice or f"In the clipboard: {len(text):,} characters")
+        app.notify(notice or "Copied to the clipboard")
 
 
 def pasted_text() -> str:
@@ -41,7 +41,7 @@ def copy_link(app: App, make: Callable[[], str], *, title: str) -> None:
     except (NinjaGameError, OSError) as error:
         app.notify(f"No link: {reason(error)}")
         return
-    copy_text(app, app.settings.site + link, title=title, suffix=".link.txt")
+    copy_text(app, app.settings.site + link, title=title, suffix=".link.txt", notice="Link copied")
 
 
 def copy_level_link(app: App, named: NamedLevel | Draft, title: str) -> None:

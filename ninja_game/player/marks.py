@@ -76,9 +76,11 @@ def opens_author(entry: Entry, mark: Mark | None) -> bool:
 
 
 def next_par(pars: Pars, mark: Mark) -> str:
-    """The medal after the one that a mark brings, and by how much it was missed; "" after the best."""
+    """The medal after the one that a mark brings, its time, and by how much that was missed; "" after the best."""
     medal = pars.next_medal(mark.fastest)
-    return f"{seconds_text(mark.fastest - pars.par(medal))} s away from the {medal} medal" if medal else ""
+    par = pars.par(medal) if medal else 0
+    faster = seconds_text(mark.fastest - par)
+    return f"{medal.capitalize()} medal: {seconds_text(par)} s, {faster} s faster" if medal else ""
 
 
 def reached(entry: Entry, mark: Mark | None) -> str:

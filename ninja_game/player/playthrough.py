@@ -342,7 +342,8 @@ class EpisodeRun(LevelContext):
             return []
         notices = save_best(self.data, self.episode.levels[position], replays[-1])
         if position == levels - 1:
-            if whole and self.data.records.episode_passed(self.episode.key, score, replays):
+            before = self.data.records.episode_best(self.episode.key)
+            if whole and self.data.records.episode_passed(self.episode.key, score, replays) and before:
                 notices.append(EPISODE_BEST)
             if not self.episode.pack:
                 notices += new_unlocks(self.data.store, self.data.columns_complete, self.data.columns_present)

@@ -129,7 +129,7 @@ def test_a_run_that_was_given_up_is_watched_as_far_as_it_went(app: App, recordin
     screen = open_level(app, recording)
     tap(app, "confirm", pictures=3)
     press("suicide")
-    frames(app, DEATH_PAUSE + 3)
+    frames(app, 1)
     assert "watch it" in (hud_view(screen.play).message or ("", [""], 0))[1][-1]
     tap(app, "replay")
     assert isinstance(app.top, ReplayScreen)

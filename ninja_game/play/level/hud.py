@@ -12,7 +12,7 @@ import pygame
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.run_time import rounded_text, seconds_text
 from ninja_game.formats.sayings import named_keys
-from ninja_game.play.level.play import MUST, STAMP_TICKS, LevelPlay, Phase, Things
+from ninja_game.play.level.play import MUST, STAMP_TICKS, TAG_ROOM, LevelPlay, Phase, Things, tag_top
 from ninja_game.play.level.sayings import FALL_HELP, WHY
 from ninja_game.player.marks import NO_MEDAL, Mark, next_par
 from ninja_game.player.playthrough import Navigation
@@ -74,7 +74,7 @@ class HudView:
     ``frame_ms``: of the last picture; None: not shown.
     ``said``: a text of the level, its tiles and the things of which it covers as little as can be, the place near which
     it should be, and whether it may cover anything but rock: else it may lie in the border below. ``moves``: the keys
-    of each of its lines.
+    of each of its lines, ``letters``: what is on the keys of left, jump and right.
     ``named``: what it names, and where that is, px. ``message``: title and lines of a panel, and the level's tiles
     and the things of which it covers as little as can be; ``medal``: that of the pass, or "", ``stamp``: how far it has
     grown, 0…1, ``shine``: how far light has swept over it. ``seen``: how solid the panel is, 0…1.
@@ -88,6 +88,7 @@ class HudView:
     frame_ms: float | None = None
     said: tuple[str, tuple[int, ...], Things, Point | None, bool] | None = None
     moves: Sequence[int] = ()
+    letters: Sequence[str] = ()
     named: Sequence[tuple[str, float, float]] = ()
     message: tuple[str, Sequence[str], tuple[int, ...], Things] | None = None
     medal: str = ""
@@ -114,7 +115,7 @@ class Hud:
             written.append(self.keys(surface, view.keys))
         written += [self.pointer(surface, *named) for named in view.named]
         if said is not None:
-            written.append(self.said(surface, said, () if in_border else view.moves))
+            written.append(self.said(surface, said, () if in_border else view.moves, view.letters))
         if view.message and view.seen > 0:
             written.append(self.message(surface, view, *view.message))
         return written
@@ -184,7 +185,9 @@ class Hud:
         lines = [part for parts in fits for part in parts]
         w = max(220.0, head + beside, *(theme.width(line, LINE) for line in lines)) + 44
         h = 48.0 + 18 * len(lines) + below
-        x, y, *_ = solid_place(tiles, w, h, things, rows=3)
+        x, y = (WIDTH - w) / 2, UPPER
+        if any(worth > MUST and -NEAR < a - x < w + NEAR and -NEAR < b - y < h + NEAR for a, b, worth in things):
+            x, y, *_ = solid_place(tiles, w, h, things, rows=3)
         place = theme.canvas.rect(x, y, w, h)
         behind = pygame.Surface(place.size, pygame.SRCALPHA) if view.seen < 1 else None
         if behind:
@@ -210,11 +213,10 @@ class Hud:
     def pointer(self, surface: pygame.Surface, name: str, x: float, y: float) -> pygame.Rect:
         """A name with an arrow to what it names: above it, or below where that is at the upper edge."""
         theme, palette = self.theme, self.theme.palette
-        way = -1 if y > POINTER_ROOM else 1
+        way = -1 if y > TAG_ROOM else 1
         wide = theme.width(name, POINTER, bold=True) + 12
         left = min(max(x - wide / 2, 26), WIDTH - 26 - wide)
-        tip, base = y + way * 17, y + way * 23
-        top = base - 16 if way < 0 else base
+        tip, base, top = y + way * 17, y + way * 23, tag_top(y)
         box = theme.canvas.fill_rect(surface, palette.accent, left, top, wide, 16, 4)
         theme.canvas.polygon(surface, palette.accent, [(x - 6, base), (x + 6, base), (x, tip)])
         middle = left + wide / 2
@@ -234,35 +236,56 @@ class Hud:
             lines = text.split("\n") if keys else wrapped(theme, text, width, SAID)
             w = max(theme.width(line, SAID) for line in lines) + 28 + keys
             left, y, covered, hidden = solid_place(tiles, w, 20.0 * len(lines) + 19, things, eye, rows=rows)
-            if not (hidden if covers and rows else covered if not covers else 0):
+            must = MUST if keys else 1
+            if not (hidden >= must if covers and rows else covered if not covers else 0):
                 return lines, left, y, w, 20.0, 10.0, SAID
         text = text.replace("\n", "    ")
         size = min(SAID, SAID * BESIDE_GOLD / theme.width(text, SAID))
         w = theme.width(text, size) + 28
         return [text], (WIDTH - w) / 2, IN_BORDER, w, 17.0, 3.0, size
 
-    def said(self, surface: pygame.Surface, box: Box, moves: Sequence[int] = ()) -> pygame.Rect:
+    def said(
+        self, surface: pygame.Surface, box: Box, moves: Sequence[int] = (), letters: Sequence[str] = ()
+    ) -> pygame.Rect:
         """A text of the level in its panel, its lines behind the keys that they are about."""
         lines, left, y, w, high, margin, size = box
         rect = self.theme.panel(surface, left, y, w, high * len(lines) + 2 * margin - 1, 4)
         for k, line in enumerate(lines):
             top = y + margin + high * k
             if moves:
-                self.keys(surface, moves[k], left + 14, top + 2)
+                self.keys(surface, moves[k], left + 14, top + 2, letters)
             x, align = (left + 14 + KEYS_WIDE, "left") if moves else (left + w / 2, "centre")
             self.theme.text(surface, line, x, top + (high - size) / 2, size=size, align=align)
         return rect
 
-    def keys(self, surface: pygame.Surface, held: int, x: float = 366, y: float = 580) -> pygame.Rect:
-        """The three keys of an input: left, jump, right; that of the present tick lies below the level."""
+    def keys(
+        self, surface: pygame.Surface, held: int, x: float = 366, y: float = 580, letters: Sequence[str] = ()
+    ) -> pygame.Rect:
+        """The three keys of an input: left, jump, right, with their letters where they have such, else with arrows.
+
+        That of the present tick lies below the level.
+        """
         palette, canvas = self.theme.palette, self.theme.canvas
         rect = pygame.Rect(0, 0, 0, 0)
-        for dx, bit, arrow in _KEYS:
+        for place, (dx, bit, arrow) in enumerate(_KEYS):
             down = bool(held & bit)
             box = canvas.fill_rect(surface, palette.accent if down else palette.panel, x + dx, y, 18, 16, 3)
             canvas.frame_rect(surface, palette.panel_edge, x + dx, y, 18, 16, 1, 3)
             ink = palette.panel if down else palette.faint
-            canvas.polygon(surface, ink, [(x + dx + 9 + px, y + 8 + py) for px, py in arrow])
+            if letters and len(letters[place]) == 1:
+                self.theme.text(
+                    surface,
+                    letters[place],
+                    x + dx + 9,
+                    y + 2,
+                    size=10,
+                    colour=ink,
+                    align="centre",
+                    bold=True,
+                    height=13,
+                )
+            else:
+                canvas.polygon(surface, ink, [(x + dx + 9 + px, y + 8 + py) for px, py in arrow])
             rect = box if not rect.width else rect.union(box)
         return rect
 
@@ -310,6 +333,9 @@ FADE_TICKS, SHINE_TICKS, END_ROOM = 8, 20, 36.0
 """In how many ticks the panel of an ended run fades in, and light sweeps over its medal; px to all sides of where the
 run ended that it leaves free."""
 
+UPPER = 72.0
+"""Where the panel of an ended run begins, in the middle, unless it would hide that end or an exit."""
+
 LOWEST = 573.0
 """Where it ends at the latest: below it are the level's name and what a pass has brought."""
 
@@ -325,8 +351,8 @@ MARK, RIGHT = 12.0, 768.0
 PRIZE, STAMP_SEEN = 54.0, 0.2
 """Size of the medal of a pass; how far its stamp has come when it is first seen."""
 
-POINTER_ROOM, POINTER_UP, POINTER_REACH = 72.0, 24.0, 50.0
-"""Below this line, px, there is room for a pointer above a thing; px from there to its middle, and to where it ends."""
+POINTER_UP, POINTER_REACH = 24.0, 50.0
+"""px from a thing to the middle of its pointer, and to where it ends."""
 
 FOOT, SAID, IN_BORDER, BESIDE_GOLD, KEYS_WIDE = 11.0, 12.5, 576.0, 550.0, 70.0
 """Sizes of the lines in the borders and of what a level says; where that is in a border; its width there; of keys."""
@@ -373,6 +399,7 @@ def hud_view(play: LevelPlay) -> HudView:
         frame_ms=app.frame_ms if settings.show_frame_time else None,
         said=said,
         moves=[sum(bit for name, bit in MOVES if f"{{{name}}}" in line) for line in text.split("\n") if "\n" in text],
+        letters=[key(name) for name in ("left", "jump", "right")],
         message=message,
         named=() if message else _named(play),
         medal=play.medal,
@@ -393,10 +420,11 @@ def _pars_ahead(play: LevelPlay) -> list[tuple[str, float]]:
 
 
 def _covering(play: LevelPlay) -> tuple[tuple[int, ...], Things]:
-    """The tiles and things of which the panel of an ended run covers little, and where the run ended: never that."""
+    """The tiles and things of which the panel of an ended run covers little; never where it ended, nor an exit."""
     x, y = play.eye or (0.0, 0.0)
     end = [(x + dx, y + dy, 9 * MUST) for dx in (-END_ROOM, 0, END_ROOM) for dy in (-END_ROOM, 0, END_ROOM)]
-    return play.context.level.tiles, (*end, *play.things)
+    exits = [(o.x, o.y, 9 * MUST) for o in play.attempt.simulation.world.objects[1:] if o.kind == EXIT]
+    return play.context.level.tiles, (*end, *exits, *play.things)
 
 
 def _reached(play: LevelPlay) -> list[str]:

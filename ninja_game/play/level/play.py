@@ -14,7 +14,7 @@ from ninja_game.player.attempt import Attempt, Moment
 from ninja_game.player.marks import HELPED
 from ninja_game.player.playthrough import LevelContext
 from ninja_game.player.statistics import cause_of
-from ninja_game.sim.kinds import GOLD
+from ninja_game.sim.kinds import EXIT, GOLD, SWITCH
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.states import CRUSHED
 from ninja_game.simulation import Simulation
@@ -23,13 +23,13 @@ from ninja_game.view.level_view import LevelView
 _FILL_SHARE = 0.05
 """Share of what the bar lacks that fills in per picture, at least."""
 
-DEATH_PAUSE = 20
-"""Ticks after a death before the jump key retries, and the run can be watched."""
+DEATH_PAUSE = 8
+"""Ticks after a death before the jump key retries."""
 
 FREEZE_MS = 50
 """How long the picture stands still at the exit."""
 
-LATE_JUMP = 10
+LATE_JUMP = 8
 """Ticks after the end in which a key that jumps and goes on is taken for a jump that came too late."""
 
 STAMP_TICKS = 14
@@ -41,7 +41,7 @@ TRIES_FROM, TRIES_TICKS, MOST_TRIES = 40, 80, 24
 SLOW_TICK_MS = 100
 """A tick in slow motion: a quarter of the speed."""
 
-STUCK_AFTER = 8
+STUCK_AFTER = 4
 """Failed tries of a level after which help is offered."""
 
 SHORTEST_TRY = 20
@@ -66,6 +66,15 @@ Things = tuple[tuple[float, float, int], ...]
 """Where things are, px, and how bad it is to cover them: ``MUST``, or ``MAY`` for gold and the way."""
 
 MUST, MAY = 1000, 30
+
+
+TAG_ROOM = 72.0
+"""Below this line, px, there is room for a thing's name above it."""
+
+
+def tag_top(y: float) -> float:
+    """Upper edge of the name of a thing at ``y``, px: above it, or below where that is at the upper edge."""
+    return y - 39 if y > TAG_ROOM else y + 23
 
 
 class Phase(Enum):
@@ -137,7 +146,12 @@ class LevelPlay:
     def _things(self) -> Things:
         """What a player looks for at the start: what there is, and, where the level has texts, the author's way."""
         run = self.context.data.catalogue.author_run(self.context.entry) if self.context.sayings() else None
-        places = [(o.x, o.y, MAY if o.kind == GOLD else MUST) for o in self.attempt.simulation.world.objects[1:]]
+        objects = self.attempt.simulation.world.objects[1:]
+        places = [(o.x, o.y, MAY if o.kind == GOLD else MUST) for o in objects]
+        if self.context.sayings():
+            # Their names beside them.
+            tagged = [o for o in objects if o.kind in {SWITCH, EXIT}]
+            places += [(o.x + dx, tag_top(o.y) + 8, MUST) for o in tagged for dx in (-12, 12)]
         if run:
             way = Simulation(self.context.level)
             for keys in run.inputs:
@@ -188,10 +202,8 @@ class LevelPlay:
 
     @property
     def may_watch(self) -> bool:
-        """Whether the attempt can be watched: passed, or dead for a while."""
-        if self.phase is Phase.PASSED:
-            return not self.attempt.spared
-        return self.phase is Phase.DEAD and self.after_end > DEATH_PAUSE
+        """Whether the attempt can be watched: dead, or passed by its keys alone."""
+        return self.phase is Phase.DEAD or (self.phase is Phase.PASSED and not self.attempt.spared)
 
     @property
     def is_stuck(self) -> bool:

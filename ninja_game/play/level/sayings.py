@@ -24,15 +24,18 @@ AGAIN = "Stuck? {retry} starts the level over"
 STILL_TICKS, AWAY = 240, 2 * CELL
 """It is said to who stands or lies still for so many ticks, so many px from the start."""
 
-CLIMB = "%s and {jump}, held, at each touch: climb\n{jump} alone: fly to the other side\n%s first: you just drop"
-SLIPS = 3
-"""It is said to who has come down so often from a wall to where the jump began."""
+CLIMB = (
+    "Hold %s, and press {jump} each time you touch the wall\n"
+    "{jump} alone: you fly to the other side\n%s first: you just drop"
+)
+SLIPS, CLIMBED = 2, 4 * CELL
+"""It is said to who has come down so often from a wall to where the jump began, until so many px higher."""
 
 _WHEN = {EXIT_OPENED: "switch", GOLD_TAKEN: "gold"}
 
 WHY = {
     "zap drone": "Its touch kills. Watch where it goes, and wait until it has passed.",
-    "laser drone": "It stops, aims, then burns everything in a straight line: get out of that line in time.",
+    "laser drone": "It stops, aims, then burns a straight line: get out of it in time.",
     "chaingun drone": "It shoots when it sees you: stay behind walls, or keep moving.",
     "gauss turret": "Its cross hunts you, then it fires: keep running, or get out of sight.",
     "floor guard": "It charges along its floor: jump over it.",
@@ -42,7 +45,7 @@ WHY = {
 }
 """What helps against each killer, said after its first kill."""
 
-FALL_HELP = "Slide down a wall to slow your fall, or land on a slope that runs your way."
+FALL_HELP = "Slide down a wall to slow your fall, or land on a slope that goes down in your direction."
 
 
 class Sayings:
@@ -57,13 +60,14 @@ class Sayings:
         self._again = helps
         self._said: set[Saying] = set()
         self._deaths = self._slips = 0
+        self._climb, self._foot = "", 0.0
         self._began = 0.0, 0.0
         self.at_start()
 
     def at_start(self) -> None:
         """The level waits at its start."""
         due = [each for each in self._sayings if each.when == "death" and each.deaths == self._deaths]
-        self.text = due[0].text if due else self._start()
+        self.text, self._then = (due[0].text, self._start()) if due else (self._start(), "")
         self._left = SHOWN_TICKS if due else START_TICKS
         self._still = 0
         self._jumped_at = self._wall = 0.0
@@ -91,7 +95,7 @@ class Sayings:
         before = self.text
         self._left -= 1
         if self._left <= 0:
-            self.text = self._start() if world.tick < START_TICKS else ""
+            self.text, self._then, self._left = self._then, "", START_TICKS - SHOWN_TICKS
         happened = {_WHEN.get(event.kind) for event in world.events[: world.event_count]}
         if "switch" in happened:
             # The goal is understood: no need to say how it begins again.
@@ -99,13 +103,17 @@ class Sayings:
         for each in self._sayings:
             if each not in self._said and (each.when in happened or (each.when == "at" and _is_near(world, each))):
                 self._said.add(each)
-                self.text, self._left = each.text, START_TICKS if each.when == "switch" else SHOWN_TICKS
+                self.text, self._then = each.text, ""
+                self._left = START_TICKS if each.when == "switch" else SHOWN_TICKS
         if self._again and self._is_stuck(world):
             self._again = False
-            self.text, self._left = AGAIN, SHOWN_TICKS
+            self.text, self._then, self._left = AGAIN, "", SHOWN_TICKS
         if self.helps and (wall := self._slipped(world)):
             towards, away = ("{right}", "{left}") if wall < 0 else ("{left}", "{right}")
-            self.text, self._left = CLIMB % (towards, away), START_TICKS
+            self._climb, self._foot = CLIMB % (towards, away), world.ninja.y
+            self.text, self._then, self._left = self._climb, "", START_TICKS
+        elif self.text == self._climb and self._foot - world.ninja.y > CLIMBED:
+            self.text = ""
         return self.text != before
 
     def _slipped(self, world: World) -> float:

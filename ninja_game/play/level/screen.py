@@ -141,8 +141,21 @@ class LevelScreen(Screen):
         elif where is Navigation.NEXT_LEVEL:
             self.app.wipe_from(self)
             self._start_level()
+        elif where is Navigation.BACK and isinstance(self.context, EpisodeRun):
+            self._skip_the_last(self.context)
         else:
             self._leave_to(where)
+
+    def _skip_the_last(self, run: EpisodeRun) -> None:
+        """An episode whose last level is left out leads to the next episode."""
+        following = self.app.player.catalogue.following(run.episode)
+        if following is None:
+            self._leave_to(Navigation.BACK)
+            self.app.notify("That was the last episode")
+            return
+        afresh = EpisodeRun(self.app.player, following, practice_mode=run.practice_mode)
+        self.app.replace(LevelScreen(self.app, afresh))
+        self.app.notify(f"Skipped. Now episode {following.code}: {following.name}")
 
     def skip(self) -> None:
         """In practice a level may be left out; else there is a choice of help."""
@@ -165,17 +178,17 @@ class LevelScreen(Screen):
             self.play.pause()
 
         slow = (
-            "Slow down",
+            f"Slow down to {SLOWER}%",
             partial(self._play_at, SLOWER),
-            f"Every level at {SLOWER} %, without records, until you go back",
+            "Restarts the level. No records until you turn it off here",
         )
         full = "Full speed", partial(self._play_at, 100), "Back to normal: records count again"
         watch_it = partial(self._watch, run), "See the author of the level do it"
-        unseen = None, f"Opens after {STUCK_AFTER} failed tries" if run else "Nobody has recorded a run of this level"
+        why = f"after {STUCK_AFTER} failed tries" if run else "no run recorded"
         skip_it = self.go_on, "You can come back to it any time"
         rows: list[Row] = [
             ("Try again", self.retry, ""),
-            ("Watch how", *(watch_it if run and seen else unseen)),
+            ("Watch how", *watch_it) if run and seen else (f"Watch how ({why})", None, ""),
             full if app.settings.game_speed < 100 else slow,
             (SKIP, *(skip_it if context.leads_on else (None, "No level comes after this one"))),
         ]

@@ -14,6 +14,7 @@ from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.run_time import seconds_text
+from ninja_game.generator.daily import FOLDER as DAILY
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.level.screen import play_level
@@ -213,7 +214,9 @@ class Browser(ThumbnailScreen):
         super().draw_frame(surface)
         theme, palette = self.app.theme, self.app.theme.palette
         entry = self.selected
-        count = f"{len(self.shown)} of {len(self.entries)} levels"
+        # The levels of days are a game of their own.
+        shown, known = (sum(Path(e.named.file).parent.name != DAILY for e in es) for es in (self.shown, self.entries))
+        count = f"{shown} of {known} levels"
         theme.text(surface, count, 44, 549, size=9.5, colour=palette.faint)
         word = "" if self.watch_author.enabled else f"Author's run: {self.watch_author.hint}"
         colour = palette.bad if self.message else palette.faint

@@ -242,9 +242,8 @@ class EpisodeGrid(ThumbnailScreen):
         super().draw_frame(surface)
         theme, palette = self.app.theme, self.app.theme.palette
         if len(self.packs) < 2:
-            for line, text in enumerate(
-                ("Finish an episode and the one below it opens.", "Each column has its own start: easiest at the left.")
-            ):
+            opens, columns = "Finish an episode and the one below it opens.", "Columns begin at 1, 11, 21, 31 and 41."
+            for line, text in enumerate((opens, f"{columns} The left one is easiest.")):
                 theme.text(surface, text, LEFT, 64 + 14 * line, size=10, colour=palette.faint, width=WIDE)
         self.grid.draw_names(surface, theme, self.pack.columns)
         for place, (look, text) in enumerate(LOOKS):
@@ -260,7 +259,9 @@ class EpisodeGrid(ThumbnailScreen):
         theme.text(surface, head, SIDE, 66, size=16, bold=True, width=264)
         best = self.player.records.episode_best(episode.key)
         clock = f"Your best: {seconds_text(best.score)} s left on the clock" if best else ""
-        text = clock or f"{len(episode.levels)} levels, not yet passed in one go"
+        passed = all(each.digest in self.passed for each in episode.levels)
+        count = len(episode.levels)
+        text = clock or (f"All {count} levels passed, but not yet in one go" if passed else f"{count} levels")
         theme.text(surface, self._hint() if self._state(episode.number) == LOCKED else text, SIDE, 96, size=11,
                    colour=palette.good if best else palette.faint)  # fmt: skip
 

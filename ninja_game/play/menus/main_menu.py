@@ -105,7 +105,7 @@ class MainMenu(MenuScreen):
             ("Editor", self._opener(EditorScreen), self._lost or "Build levels of your own"),
             ("Help", self._opener(HelpScreen), "How to move, what everything does, how it all works"),
             ("Settings", self._opener(SettingsScreen), "Controls, sound, colours, accessibility"),
-            *in_page_or_not([], [("Quit", self.back, "Leave the game")]),
+            *in_page_or_not([], [("Quit", self.back, "Your progress is saved")]),
         ]
 
     def _browser(self, app: App) -> Browser:
@@ -142,7 +142,7 @@ class MainMenu(MenuScreen):
         ]
 
     def back(self) -> None:
-        self.app.push(Question(self.app, "Leave the game?", "Leave", self.app.quit))
+        self.app.push(Question(self.app, "Quit the game?", "Quit", self.app.quit))
 
     def update(self, real_ms: int) -> None:
         super().update(real_ms)

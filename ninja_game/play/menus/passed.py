@@ -19,7 +19,7 @@ from ninja_game.ui.widgets import Button, Widget
 
 PICTURE = 132
 
-CLOCK = "This is your result for the episode: what five levels and all your gold left on the clock"
+CLOCK = "Your result: the time left on the clock after the last level"
 
 
 class EpisodePassed(ThumbnailScreen):

@@ -13,7 +13,6 @@ from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.play.app import App, Screen
 from ninja_game.play.menus.panels import CANCEL, Menu, Row
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
-from ninja_game.player.marks import NO_MEDAL
 from ninja_game.player.progress import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
 from ninja_game.player.settings import BY_COLUMN, GHOSTS
 from ninja_game.ui.canvas import WIDTH
@@ -103,7 +102,7 @@ def binding_widgets(screen: SettingsScreen, device: str) -> list[Widget]:
         pads = screen.app.controls.pads.count
         zone = Slider(
             (216, 514, 540, 30), "Dead zone of sticks", (0.05, 0.95, 0.05), lambda: screen.player.settings.dead_zone,
-            lambda value: screen.change(dead_zone=round(value, 2)), show=lambda value: f"{100 * value:.0f} %",
+            lambda value: screen.change(dead_zone=round(value, 2)), show=lambda value: f"{100 * value:.0f}%",
             hint=f"{pads or 'No'} gamepads are plugged in" if pads != 1 else "One gamepad is plugged in",
         )  # fmt: skip
         widgets.append(zone)
@@ -293,13 +292,14 @@ class SettingsScreen(ThumbnailScreen):
         share = 100 / range_[1]
         return Slider(
             self._area(place), text, range_, lambda: getattr(self.player.settings, name), put,
-            show=lambda value: f"{share * value:.0f} %", hint=hint,
+            show=lambda value: f"{share * value:.0f}%", hint=hint,
         )  # fmt: skip
 
     def _picture(self) -> list[Widget]:
         columns, present = self.player.columns_complete, self.player.columns_present
         count = len(NINJA_COLOURS) if custom_colour_unlocked(columns, present) else 1 + unlocked_colours(columns)
-        palettes = [(name.replace("-", " ").title(), name) for name in (BY_COLUMN, *PALETTES)]
+        named = [(name.replace("-", " ").title(), name) for name in PALETTES]
+        palettes = [("By column (default)", BY_COLUMN), *named]
         colours = list(zip(COLOUR_NAMES, NINJA_COLOURS, strict=True))[:count]
         looks = "Classic is plain grey, as of old. In Contrast and Safe, what kills has spikes"
         more = "Finish a whole column of episodes for more" if count < len(NINJA_COLOURS) else ""
@@ -345,9 +345,9 @@ class SettingsScreen(ThumbnailScreen):
     def _accessibility(self) -> list[Widget]:
         return [
             self._choice(0, "Text size", "text_size", list(TEXT_SIZES.items())),
-            self._slider(1, "Game speed", "game_speed", (50, 100, 5), f"Slower is easier; {NO_MEDAL}"),
+            self._slider(1, "Game speed", "game_speed", (50, 100, 5), "Slower is easier, but earns no medal"),
             self._choice(2, "Invincible", "invincible", SWITCH,
-                         f"Only being crushed or running out of time can stop you; {NO_MEDAL}"),
+                         "Only being crushed or running out of time can stop you. Earns no medal"),
             self._choice(3, "Running keys", "tap_to_run", [("hold", False), ("tap", True)],
                          "Tap: one press keeps you running until the next"),
             self._choice(4, "Show warning sounds", "sound_cues", SWITCH, "Marks every rocket, laser, chase and turret"),

@@ -48,5 +48,5 @@ class ReplayBar:
     @staticmethod
     def write(surface: pygame.Surface, theme: Theme, tick: int, end: int, speed: str) -> pygame.Rect:
         at = min(tick, end)
-        text = f"{seconds_text(at)} / {seconds_text(end)} s    {at} / {end} ticks    {speed}"
+        text = f"{seconds_text(at)} / {seconds_text(end)} s    {speed}    tick {at} of {end}"
         return theme.text(surface, text, 768, 583, size=9, colour=theme.palette.on_tile, align="right")

@@ -285,9 +285,9 @@ class ReplayScreen(Screen):
 
     def _hint(self) -> str:
         if self.export:
-            return f"Making a film: {self.export.percent} %"
+            return f"Making a film: {self.export.percent}%"
         if self._way:
-            return f"Going to tick {self._way[1]:,}: {100 * self.tick // max(1, self._way[1])} %"
+            return f"Going to tick {self._way[1]:,}: {100 * self.tick // max(1, self._way[1])}%"
         if not self.paused:
             return ""
         key = self.app.controls.name

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from unittest.mock import patch
 
 import pytest
 
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.sayings import read_sayings
 from ninja_game.play.level.hud import IN_BORDER, Hud, cause_of_death, hud_view, solid_place
-from ninja_game.play.level.play import DEATH_PAUSE, MUST, STUCK_AFTER, Phase
-from ninja_game.play.level.sayings import CLIMB, FALL_HELP, START_TICKS, STILL_TICKS, Sayings
+from ninja_game.play.level.play import DEATH_PAUSE, MUST, STUCK_AFTER, Phase, tag_top
+from ninja_game.play.level.sayings import CLIMB, CLIMBED, FALL_HELP, START_TICKS, STILL_TICKS, Sayings
 from ninja_game.play.level.screen import LevelScreen, PausePanel, play_level
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.main_menu import MainMenu
@@ -21,8 +22,10 @@ from ninja_game.player.playthrough import EpisodeRun, LevelRun
 from ninja_game.player.statistics import SELF
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.level import ROWS
+from ninja_game.sim.rules import CELL
 from ninja_game.simulation import Simulation
 from ninja_game.ui.widgets import Button
+from tests.support.draw_log import DrawLog
 from tests.support.menu_driver import MenuDriver
 from tests.support.players import deadly_level, entry, short_level
 
@@ -156,7 +159,7 @@ def test_each_text_has_its_moment(driver: MenuDriver) -> None:
     assert sayings.text == "wait"
 
 
-def test_goal_is_read_again_after_a_text_of_the_first_seconds() -> None:
+def test_goal_is_not_read_again_after_a_text_of_the_first_seconds_but_after_that_of_a_death() -> None:
     sayings = Sayings(read_sayings("start: go | gold: gold"))
     simulation = Simulation(parse_level_string("0" * 713 + "|5^100,566!0^120,566!11^400,564,500,564"))
     seen = []
@@ -164,7 +167,13 @@ def test_goal_is_read_again_after_a_text_of_the_first_seconds() -> None:
         simulation.step_keys(2 if tick < 8 else 0)
         if sayings.on_tick(simulation.world):
             seen.append(sayings.text)
-    assert seen == ["gold", "go", ""]
+    assert seen == ["gold", ""]
+    sayings = Sayings(read_sayings("start: go | death 1: again"))
+    sayings.on_death()
+    sayings.at_start()
+    assert sayings.text == "again"
+    simulation.reset()
+    assert [sayings.text for _ in range(START_TICKS) if sayings.on_tick(simulation.world)] == ["go", ""]
 
 
 def test_text_at_a_place_is_said_there_once() -> None:
@@ -335,7 +344,7 @@ def test_nobody_is_stopped_by_one_level(driver: MenuDriver) -> None:
     assert message[1][-1].endswith("N: get help")
     driver.press("n")
     assert [getattr(each, "text", "") for each in driver.shown(Menu).widgets] == [
-        "Try again", "Watch how", "Slow down", "Skip this level",
+        "Try again", "Watch how", "Slow down to 70%", "Skip this level",
     ]  # fmt: skip
     driver.choose("Skip this level")
     run = level.context
@@ -351,7 +360,7 @@ def test_nobody_is_stopped_by_one_level(driver: MenuDriver) -> None:
 def test_slower_play_opens_what_follows_without_a_record(driver: MenuDriver) -> None:
     level = stuck_level(driver)
     driver.press("n")
-    driver.choose("Slow down")
+    driver.choose("Slow down to 70%")
     assert driver.player.settings.game_speed == 70
     driver.press("n")
     driver.choose("Full speed")
@@ -372,7 +381,7 @@ def test_help_with_a_level_can_always_be_asked_for_and_says_what_is_not_possible
         driver.press(*keys)
         menu = driver.shown(Menu)
         hints = {each.text: each.hint for each in menu.widgets if isinstance(each, Button)}
-        assert hints["Watch how"] == f"Opens after {STUCK_AFTER} failed tries"
+        assert f"Watch how (after {STUCK_AFTER} failed tries)" in hints
         assert hints["Skip this level"] == "You can come back to it any time"
         tick = level.attempt.simulation.tick
         driver.frames(5)
@@ -455,13 +464,77 @@ def climb(keys: str) -> tuple[list[str], float]:
 SLIP = "40 r12 rj20 r20 l60 "
 
 
-def test_who_slips_down_a_wall_three_times_sees_what_the_keys_do_at_it() -> None:
+def test_who_slips_down_a_wall_twice_sees_what_the_keys_do_at_it() -> None:
     right, left = (CLIMB % names for names in (("{right}", "{left}"), ("{left}", "{right}")))
-    assert climb(SLIP * 2)[0] == []
-    assert climb(SLIP * 3)[0] == [right]
-    assert climb(SLIP * 3 + "500 " + SLIP * 3)[0] == [right, right], "it comes back"
-    assert climb(3 * "40 l12 lj20 l20 r60 ")[0] == [left]
+    assert climb(SLIP)[0] == []
+    assert climb(SLIP * 2)[0] == [right]
+    assert climb(SLIP * 2 + "500 " + SLIP * 2)[0] == [right, right], "it comes back"
+    assert climb(2 * "40 l12 lj20 l20 r60 ")[0] == [left]
     assert climb("40 r12 rj20 r20 l60 " + "40 rj30 40 " * 6)[0] == []
+
+
+def test_help_with_walls_is_gone_once_the_climb_is_done() -> None:
+    simulation, sayings = Simulation(WELL), Sayings((), helps=True)
+    for each in strokes(SLIP * 2):
+        simulation.step_keys(each)
+        sayings.on_tick(simulation.world)
+    assert sayings.text
+    floor = simulation.world.ninja.y
+    for each in strokes("r12 rj20 r18 " + "rj20 r8 " * 5):
+        simulation.step_keys(each)
+        sayings.on_tick(simulation.world)
+        if not sayings.text:
+            break
+    assert floor - simulation.world.ninja.y == pytest.approx(CLIMBED, abs=CELL), "not after so long, but there"
+
+
+def test_keys_of_the_help_bear_the_letters_that_its_words_name(driver: MenuDriver) -> None:
+    driver.press("return")
+    level = driver.shown(LevelScreen)
+    level.begin()
+    level.play.sayings.text = CLIMB % ("{right}", "{left}")
+    view = hud_view(level.play)
+    assert view.letters[1] == driver.app.controls.name("jump") == "Z"
+    log = DrawLog()
+    with log.installed(), log.recording(driver.app.theme.palette) as lines:
+        Hud(driver.app.theme).draw(driver.app.surface, view)
+    assert sum(line.startswith("text 'Z' at") for line in lines) == 3
+
+
+def test_text_of_the_start_covers_no_name_of_a_thing(driver: MenuDriver) -> None:
+    driver.press("return")
+    level = driver.shown(LevelScreen)
+    play, hud = level.play, Hud(driver.app.theme)
+    text, tiles, *_ = hud_view(play).said or ("", ())
+    for o in play.attempt.simulation.world.objects[1:]:
+        if o.kind in {SWITCH, EXIT}:
+            lines, left, y, w, high, margin, _ = hud.box(text, tiles, play.things, None, covers=True)
+            middle = tag_top(o.y) + 8
+            assert not (left < o.x < left + w and y < middle < y + high * len(lines) + 2 * margin)
+            assert (o.x - 12, middle, MUST) in play.things
+
+
+def test_last_level_of_an_episode_left_out_leads_to_the_next_episode(driver: MenuDriver) -> None:
+    driver.press("return")
+    level = driver.shown(LevelScreen)
+    run = level.context
+    assert isinstance(run, EpisodeRun)
+    count = len(run.episode.levels)
+    for _ in range(count):
+        driver.press("n")
+        driver.choose("Skip this level")
+    following = driver.player.catalogue.following(run.episode)
+    assert following
+    after = driver.shown(LevelScreen).context
+    assert isinstance(after, EpisodeRun)
+    assert (after.episode.key, after.position) == (following.key, 0)
+    assert driver.app.notice == f"Skipped. Now episode {following.code}: {following.name}"
+    last = driver.shown(LevelScreen)
+    with patch.object(driver.player.catalogue, "following", lambda _: None):
+        for _ in range(len(following.levels)):
+            last.go_on()
+    assert driver.app.notice == "That was the last episode"
+    assert driver.top() is not last
 
 
 def test_climbing_as_the_hint_says_works_and_away_from_the_wall_first_does_not() -> None:

@@ -244,5 +244,5 @@ def test_a_dead_ninja_tries_again(player: Buttons) -> None:
 def test_the_game_is_left(player: Buttons) -> None:
     player.choose("Quit")
     assert isinstance(top_of(player), Question)
-    player.choose("Leave")
+    player.choose("Quit")
     assert not player.driver.app.running

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import shutil
+from datetime import date
 from pathlib import Path
 
 import pygame
 import pytest
 
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.user_folder import LEVELS
 from ninja_game.formats.pack.files import is_pack
+from ninja_game.formats.run_time import seconds_text
+from ninja_game.generator.daily import daily_file
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.main import first_screen
 from ninja_game.play.menus.browser import Browser
@@ -124,13 +128,28 @@ def test_browser_sorts_by_difficulty(driver: MenuDriver) -> None:
     assert "difficulty" not in shown(driver)
 
 
+def test_levels_of_days_are_not_counted_among_those_of_the_game(driver: MenuDriver) -> None:
+    browser = driver.open("Levels")
+    assert isinstance(browser, Browser)
+    count = f"{len(browser.entries)} of {len(browser.entries)} levels"
+    assert count in shown(driver)
+    driver.press("escape")
+    shutil.copytree(PACK, daily_file(driver.player.folder / LEVELS, date(2026, 11, 27)).parent)
+    browser = driver.open("Levels")
+    assert isinstance(browser, Browser)
+    assert f"{len(browser.entries)} levels" not in shown(driver)
+    assert count in shown(driver)
+
+
 def test_card_says_time_and_gold_and_the_next_par(driver: MenuDriver) -> None:
     entry = driver.player.catalogue.episodes[0].levels[0]
     assert entry.pars is not None
     assert driver.player.reached(entry, None) == "Not passed yet"
     assert reached(entry, Mark(197, 3)) == f"Time 4.925 s, gold 3 of {entry.all_gold}"
-    assert next_par(entry.pars, Mark(200, 0)) == "0.100 s away from the gold medal"
-    assert next_par(entry.pars, Mark(entry.pars.par("author") + 4, 0)) == "0.100 s away from the author medal"
+    assert next_par(entry.pars, Mark(200, 0)) == f"Gold medal: {seconds_text(196)} s, 0.100 s faster"
+    author = entry.pars.par("author")
+    following = next_par(entry.pars, Mark(author + 4, 0))
+    assert following == f"Author medal: {seconds_text(author)} s, 0.100 s faster"
     assert next_par(entry.pars, Mark(156, 0)) == ""
 
 

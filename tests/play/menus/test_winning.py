@@ -9,7 +9,7 @@ import pytest
 
 from ninja_game.formats.run_time import rounded_text, seconds_text
 from ninja_game.play.level.hud import PRIZE, Hud, HudView, hud_view
-from ninja_game.play.level.play import DEATH_PAUSE, STAMP_TICKS, TRIES_FROM, TRIES_TICKS, Phase
+from ninja_game.play.level.play import DEATH_PAUSE, MUST, STAMP_TICKS, TRIES_FROM, TRIES_TICKS, Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.rooms import room_level
 from ninja_game.play.wipe import WIPE_MS
@@ -81,14 +81,30 @@ def test_medal_comes_down_and_is_heard_when_it_lands(driver: MenuDriver, heard: 
 def test_card_says_one_thing_large_one_next_and_the_rest_short(driver: MenuDriver) -> None:
     level = passed_level(driver)
     assert level.context.pars
-    level.attempt.ended_tick = level.context.pars.par("gold") + 1
+    par = level.context.pars.par("gold")
+    level.attempt.ended_tick = par + 1
     title, (medal, following, rest, clock, _), *_ = hud_view(level.play).message or ("", [""], (), ())
     assert title == f"Time {seconds_text(level.attempt.ended_tick)} s"
-    assert (medal, following) == ("Silver medal", "0.025 s away from the gold medal")
+    assert (medal, following) == ("Silver medal", f"Gold medal: {seconds_text(par)} s, 0.025 s faster")
     assert rest == "1 of 5 gold"
     assert clock == f"{rounded_text(level.attempt.lifetime)} s left on the clock, for the next level"
     level.play.notices = ["New medal", "All gold"]
     assert "1 of 5 gold    New medal" in hud_view(level.play).message[1]  # type: ignore[index]
+
+
+def test_panel_of_an_end_has_one_place_unless_it_would_hide_that_end_or_an_exit(driver: MenuDriver) -> None:
+    hud, surface = Hud(driver.app.theme), pygame.Surface((792, 600))
+
+    def top_of(*things: tuple[float, float, int]) -> int:
+        message = "Time 1 s", ["Go on"], (0,) * 713, things
+        return hud.message(surface, HudView(0, "", ("", ""), message=message), *message).y
+
+    assert top_of((396, 90, MUST)) == top_of() == top_of((396, 500, 9 * MUST))
+    assert top_of((396, 90, 9 * MUST)) != top_of()
+    level = passed_level(driver)
+    _, _, _, things = hud_view(level.play).message or ("", [], (), ())
+    exits = [(o.x, o.y, 9 * MUST) for o in level.attempt.simulation.world.objects[1:] if o.kind == EXIT]
+    assert set(exits) <= set(things)
 
 
 def test_papers_fly_in_open_space_only(driver: MenuDriver) -> None:
