@@ -35,7 +35,7 @@ class GoldGoals(options.GoldCount):
         """Goals by name with the gold they want; usage error for anything else."""
         if isinstance(value, dict):
             return value
-        if value == "both":
+        if str(value).lower() == "both":
             return {"exit": 0, "gold": -1}
         count = super().convert(value, param, ctx)
         return {"gold" if count else "exit": count}

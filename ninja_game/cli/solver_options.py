@@ -37,7 +37,7 @@ class GoldCount(click.ParamType):  # type: ignore[type-arg, unused-ignore]
         """The number; usage error for anything else."""
         if isinstance(value, int):
             return value
-        if value == "all":
+        if str(value).lower() == "all":
             return -1
         if not (str(value).isdecimal() and len(str(value)) < 10):
             self.fail(f"{value!r} is neither 'all' nor a whole number", param, ctx)

@@ -53,7 +53,7 @@ class Recording:
 
     @property
     def author(self) -> str:
-        """As its text says; a record of N names the author of the level."""
+        """As its text says; a record of N has one name for its level and its run."""
         return self.replay.author
 
     @property

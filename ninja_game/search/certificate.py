@@ -63,7 +63,7 @@ def better_run(run: Replay, recording: Recording, command: str) -> Replay:
     return replace(
         run, name=recording.name, author=recording.author, co_authors=old.co_authors,
         level_name=old.level_name or recording.name, level_author=old.level_author or recording.author,
-        made=old.made.searched(command, begun_by="" if recording.form == "file" else recording.author),
+        made=old.made.searched(command, begun_by=recording.author),
         markers=moved_markers(recording, run.inputs),
     )  # fmt: skip
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any, Self
 
+from ninja_game.files.shown_text import file_stem
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.made import names_of_text
-from ninja_game.formats.replay.text import Replay
 
 
 @dataclass(frozen=True)
@@ -19,9 +20,11 @@ class Contributions:
     names: tuple[str, ...] = ()
 
     @classmethod
-    def of(cls, replay: Replay) -> Self:
-        """Those of a run whose keys are taken."""
-        return cls(0, replay.made.searches, names_of_text(", ".join((replay.author, *replay.co_authors))))
+    def of(cls, recording: Recording) -> Self:
+        """Those of a run whose keys are taken; an author who is not known is called by the file."""
+        replay, file = recording.replay, Path(recording.file).name or recording.name
+        author = replay.author or f"unknown ({file_stem(file, 'no file')})"
+        return cls(0, replay.made.searches, names_of_text(", ".join((author, *replay.co_authors))))
 
     def __add__(self, other: Contributions) -> Contributions:
         return Contributions(self.edits + other.edits, self.commands + other.commands, self.names + other.names)
@@ -30,8 +33,7 @@ class Contributions:
         """A recording as it was opened, with what was done to it since then by a player."""
         old = about.replay
         names = names_of_text(", ".join((*old.co_authors, player, *self.names)))
-        # The author of a record of N is its level's.
-        begun_by = about.author if about.form != "file" and about.author != player else ""
+        begun_by = about.author if about.author != player else ""
         made = old.made.edited(self.edits).searched(*self.commands, begun_by=begun_by)
         others = tuple(name for name in names if name != about.author)
         return replace(about, replay=replace(old, made=made, co_authors=others))

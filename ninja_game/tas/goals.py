@@ -32,7 +32,7 @@ SAME_PLACE, SAME_VELOCITY = 0.5, 0.05
 class SpanGoal(NamedTuple):
     """Goal and measure as formulas, ``least`` and ``rest`` as in a SpanTask; ``last``: of another end, 0: as it is.
 
-    ``method``: the one that is meant, "": any.
+    ``why``: what the ticks are where they are not the selected ones; ``method``: the one that is meant, "": any.
     """
 
     goal: str = ""
@@ -40,6 +40,7 @@ class SpanGoal(NamedTuple):
     least: bool = False
     rest: bool = False
     last: int = 0
+    why: str = ""
     method: str = ""
 
 
@@ -107,15 +108,14 @@ def reach_exit(span: SearchedSpan) -> SpanGoal:
     """From the first tick of the span on, reach the exit, in any way: sooner than the run, or where it does not."""
     tick, outcome = span.session.timeline.end
     known = tick if outcome == "exit" else max(len(span.session.track), span.first + EXIT_TICKS)
-    return SpanGoal("won", last=min(max(known, span.first + 1), span.first + LONGEST))
+    why = "up to the run's exit" if outcome == "exit" else "to the end, 5 s at least"
+    return SpanGoal("won", last=min(max(known, span.first + 1), span.first + LONGEST), why=why)
 
 
 def whole_run(span: SearchedSpan) -> SpanGoal:
-    """Shorten all of the run, as `ninja-game improve` does. Raises ArgumentError where it does not reach the exit."""
-    tick, outcome = span.session.timeline.end
-    if outcome != "exit":
-        raise ArgumentError("the run does not reach the exit; Reach the exit sooner looks for a way to it")
-    return SpanGoal("won", last=tick + 1, method=IMPROVE)
+    """Shorten all of the run, as `ninja-game improve` does: one that ends before the exit is led there first."""
+    tick, _ = span.session.timeline.end
+    return SpanGoal("won", last=tick + 1 if tick >= 0 else len(span.session.track), why="the whole run", method=IMPROVE)
 
 
 def collect(span: SearchedSpan) -> SpanGoal:
@@ -133,7 +133,9 @@ def collect_too(span: SearchedSpan) -> SpanGoal:
     """
     rest = _is_passed(span)
     goal = f"taken({_piece_left(span, span.first)}) and {be_there(span).goal}"
-    return SpanGoal(goal, rest=rest, last=min(span.last + TICKS_PER_SECOND, span.first + LONGEST))
+    return SpanGoal(
+        goal, rest=rest, last=min(span.last + TICKS_PER_SECOND, span.first + LONGEST), why="and a second more"
+    )
 
 
 def _piece_left(span: SearchedSpan, first: int) -> int:
@@ -171,7 +173,7 @@ def _is_passed(span: SearchedSpan) -> bool:
 
 
 PRESETS: tuple[tuple[str, str, Callable[[SearchedSpan], SpanGoal]], ...] = (
-    ("Reach the exit sooner", "Any way to it from the first tick on, also from a run that dies", reach_exit),
+    ("Reach the exit sooner", "Any way to it from the first selected tick on, also from a run that dies", reach_exit),
     ("Whole run", "Shorten all of it, also by the routes of the runs beside it: improve", whole_run),
     ("Same end, sooner", "The same place, speed and state; the rest follows", same_end),
     ("Same end exactly, sooner", "By the digest of all that decides what follows", same_state),

@@ -50,6 +50,12 @@ class Trajectory:
         """The ninja after each tick: float64 (ticks, 2), px."""
         return np.column_stack([self.columns["x"], self.columns["y"]])
 
+    @property
+    def velocities(self) -> NDArray[np.float64]:
+        """How far the ninja came in each tick: float64 (ticks, 2), px/tick."""
+        moved: NDArray[np.float64] = self.positions - np.column_stack([self.columns["prev_x"], self.columns["prev_y"]])
+        return moved
+
     def at(self, tick: int) -> dict[str, Any]:
         """The fields after a tick; behind the last one those of the last. Raises IndexError for an empty one."""
         return {name: column[min(tick, len(column) - 1)].item() for name, column in self.columns.items()}

@@ -29,7 +29,7 @@ from ninja_game.tas_editor.editor import TasEditor
 HELP = """\
 A row of the roll is a tick: click L, R or J to change a key, drag to paint, click the number of a tick to go there. \
 The level shows the world after that tick. Enter takes over: play on yourself, Enter again ends it.
-Mark some ticks and press F to search for better keys there; a click on a result puts it into the run.
+Select some ticks and press F to search for better keys there; a click on a result puts it into the run.
 The wheel scrolls the roll, and shows the level or a plot larger; the right button moves the level, the left one \
 a plot. With Ctrl the wheel goes tick by tick. Drag what is between the parts to give one of them more room."""
 """What one has to know to begin."""

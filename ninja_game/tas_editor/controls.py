@@ -8,7 +8,7 @@ from ninja_game.view.overlays import OVERLAY_ACTIONS
 
 COMMANDS = (
     Command("help", "This page", ("f1",)),
-    Command("menu", "File menu; ends what is going on", ("escape",)),
+    Command("menu", "File menu; ends playing, and a search that is shown", ("escape",)),
     Command("save", "Save", ("ctrl+s",)),
     Command("save_as", "Save under another name", ("ctrl+shift+s",)),
     Command("open_other", "Open another run beside this one", ("ctrl+o",)),

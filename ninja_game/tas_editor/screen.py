@@ -120,12 +120,13 @@ class TasScreen(WorkspaceScreen):
         return self.level.meaning(event)
 
     def capture(self, event: InputEvent) -> bool:
-        """Keys of the game go to the ninja that was taken over."""
+        """Keys of the game go to the ninja that was taken over; Escape ends a search that is shown."""
         if self.level.capture(event):
             self.held.follow(event.raw)
             return True
         hides = self.level.take_over.on and "boss" in event.pressed
-        return not hides and super().capture(event)
+        taken = not hides and super().capture(event)
+        return taken or (event.source == ("keys", "escape") and not hides and self.tab.stop())
 
     def update(self, real_ms: int) -> None:
         """Simulate what is not simulated yet; parts go on."""

@@ -81,7 +81,8 @@ def test_solve_says_when_it_found_nothing(tmp_path: Path) -> None:
 
 def test_solve_names_the_gold_that_it_never_got(tmp_path: Path) -> None:
     file = level_file(tmp_path, WALLED_GOLD)
-    words = ("--gold", "all", "--ticks", "300000", "--jobs", "1", "-o", tmp_path / "out.replay.txt")
+    # As the help writes it; in small letters, too.
+    words = ("--gold", "ALL", "--ticks", "300000", "--jobs", "1", "-o", tmp_path / "out.replay.txt")
     result = command("solve", file, *words)
     assert result.exit_code == 1
     assert "no run with 2 gold to the exit found: 1 at most were collected at once" in result.stdout

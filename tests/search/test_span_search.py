@@ -14,10 +14,12 @@ import pytest
 
 from ninja_game import ArgumentError, Simulation, parse_level
 from ninja_game.backend.memories import compiled_available
+from ninja_game.runs.run import record_replay
 from ninja_game.search.formula import background
-from ninja_game.search.formula.background import SpanSearch
+from ninja_game.search.formula.background import RunSearch, SpanSearch
 from ninja_game.search.formula.language import FormulaError
 from ninja_game.search.formula.task import Found, SpanTask
+from ninja_game.search.task import Task
 from tests.support.waiting import LONGEST
 
 LEVEL = parse_level("0" * 713 + "|5^100,566!11^200,564,170,564!0^140,566!12^400,400")
@@ -125,3 +127,27 @@ def test_the_interpreter_is_free_for_a_window_meanwhile() -> None:
         sys.setswitchinterval(interval)
         search.cancel()
         search.finish(LONGEST)
+
+
+def test_what_a_run_gains_by_its_own_route_stays_beside_faster_runs(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two searches: of the run alone, and with those beside it that reach the exit."""
+    slow, fast = bytes(40) + WAITING, WAITING[6:]
+    asked: list[tuple[bytes, tuple[bytes, ...]]] = []
+
+    def solve(wanted: Task, *, on_better: Callable[..., None], **_: object) -> None:
+        asked.append((wanted.first, wanted.others))
+        shortened = wanted.first[20:] if not wanted.others else wanted.others[0]
+        for keys in (wanted.first, shortened):
+            on_better(record_replay(LEVEL, keys))
+
+    monkeypatch.setattr(background, "solve", solve)
+    dead_end = bytes(30)
+    search = RunSearch(SpanTask(LEVEL, slow, 0, len(slow), "won"), others=(dead_end, fast))
+    search.start()
+    search.finish(LONGEST)
+    assert not search.problem
+    assert sorted(asked) == sorted([(slow, ()), (slow, (fast,))])
+    assert search.own is not None
+    best, second = search.found
+    assert (best.own_route, second.own_route) == (False, True)
+    assert (search.own.ticks - best.ticks, search.own.ticks - second.ticks) == (46, 20)

@@ -320,7 +320,9 @@ def test_a_saved_run_says_how_often_it_was_edited_and_by_whom(tmp_path: Path) ->
 def test_keys_that_are_taken_bring_their_authors_and_searches_along(tmp_path: Path) -> None:
     path = tmp_path / "walk.replay.txt"
     session = by_ann(path)
-    found = Contributions.of(parse_replay(replay_of_walk(author="Cy", made=Made(searches=("solve",)))))
+    found = Contributions.of(
+        Recording(LEVEL, parse_replay(replay_of_walk(author="Cy", made=Made(searches=("solve",)))))
+    )
     session.change(session.track.replaced(5, 6, [0]), taken=found)
     session.change(session.track.replaced(6, 7, [0]), taken=Contributions(commands=("search",)))
     expected = Made(played=True, edits=2, searches=("solve", "search"), begun_by="Ann"), ("Bob", "Cy")
@@ -333,3 +335,21 @@ def test_keys_that_are_taken_bring_their_authors_and_searches_along(tmp_path: Pa
     again.save(path)
     assert parse_replay(path.read_text("utf-8")).made == expected[0]
     again.close()
+
+
+@pytest.mark.parametrize("author, named", [("Cy", "Cy"), ("", "unknown (demos.txt)"), ("me", "")])
+def test_keys_that_are_taken_from_a_record_of_n_bring_its_author_or_its_file(
+    tmp_path: Path, author: str, named: str
+) -> None:
+    """A record of N has one name, for its level and its run: titles, files and co-authors say the same."""
+    source = write_records(tmp_path / "demos.txt", ("a", WALK, running(WALK_END)), ("b", WALK, running(9)))
+    opened, other = open_run(source, record=0), load_replays(source)[1]
+    assert (opened.recording.author, other.form) == ("me", "file")
+    session = Session(opened, tmp_path, player="Bob", memory="plain")
+    taken = Contributions.of(replace(other, replay=replace(other.replay, author=author)))
+    session.change(session.track.replaced(5, 6, [0]), taken=taken)
+    session.save(tmp_path / "new.replay.txt")
+    saved = parse_replay((tmp_path / "new.replay.txt").read_text("utf-8"))
+    assert (saved.author, saved.co_authors) == ("me", tuple(filter(None, ("Bob", named))))
+    assert saved.made.begun_by == "me"
+    session.close()

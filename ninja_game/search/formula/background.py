@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from threading import Event, Thread
+from contextlib import suppress
+from dataclasses import replace
+from functools import partial
+from threading import Event, Lock, Thread
 from time import monotonic
 
 import numpy as np
@@ -12,10 +15,11 @@ from ninja_game.errors import ArgumentError
 from ninja_game.formats.replay.text import Replay
 from ninja_game.runs.run import run_level
 from ninja_game.runtime import require_desktop, run_in_background
-from ninja_game.search.formula.methods import METHODS, search_span
+from ninja_game.search.certificate import UnverifiedRunError, with_plain_triggers
+from ninja_game.search.formula.methods import METHODS, search_span, to_exit
 from ninja_game.search.formula.task import Found, SpanTask
-from ninja_game.search.solve import Progress, Task, solve
-from ninja_game.sim.inputs import KEYS_DOWN
+from ninja_game.search.solve import Task, solve
+from ninja_game.sim.inputs import KEYS_DOWN, fitted_inputs
 
 
 class SpanSearch:
@@ -99,13 +103,17 @@ LONGEST_SECONDS = 1e6
 """Of a search that goes on until it is cancelled."""
 MOST_JOBS = 4
 """Of a search of a whole run, each of which may take a gigabyte."""
+WAY_SECONDS = 120.0
+"""How long a way to the exit is looked for at most, from a run that ends before it."""
+NO_WAY = "No way to the exit was found from the end of this run: select ticks before, and take Reach the exit sooner."
 
 
 class RunSearch(SpanSearch):
     """The same for a whole run, ``task.inputs``, which is shortened as `ninja-game improve` does.
 
-    ``gold``: pieces that it must still take; ``others``: runs of the level whose routes are shortened too. ``found``:
-    what no other one beats in ticks and gold.
+    One that ends before the exit is first led there. ``gold``: pieces that it must still take; ``others``: runs of the
+    level, whose routes are shortened too, beside the run's own. ``found``: what no other one beats in ticks and gold,
+    of the run's own route and of all of them.
     """
 
     def __init__(
@@ -115,25 +123,87 @@ class RunSearch(SpanSearch):
         super().__init__(task, seconds=seconds)
         self._wanted = Task(
             task.level, task.body, gold, seconds or LONGEST_SECONDS, seed, min(jobs or cores(), MOST_JOBS),
-            first=task.inputs.ljust(task.length, b"\0"), others=others,
+            first=fitted_inputs(task.inputs, task.length), others=others,
         )  # fmt: skip
+        self._reaches = False
+        self._lock = Lock()
+        self._ticks = {True: 0, False: 0}
+        self._unbeaten: dict[bool, tuple[Found, ...]] = {True: (), False: ()}
 
     def _work(self) -> None:
-        solve(self._wanted, report=self._note_progress, on_better=self._note_run, stop=self._cancelled)
+        """Shorten the run by its own route, and beside that by those of all runs."""
+        wanted, beside = self._wanted, None
+        self._reaches = run_level(wanted.level, wanted.first, body=wanted.body).outcome == "exit"
+        others = tuple(filter(self._counts, wanted.others))
+        own = replace(wanted, others=(), jobs=max(1, wanted.jobs // 2) if others else wanted.jobs)
+        if others:
+            known = (own.first, *others) if self._reaches else others
+            mixed = partial(self._shorten, replace(own, first=known[0], others=known[1:]), own_route=False)
+            beside = run_in_background(mixed, self._fail_beside)
+        if not self._reaches:
+            own = self._led_to_exit(own)
+        if own.first:
+            self._shorten(own, own_route=True)
+        elif not others and not self._cancelled.is_set():
+            self.problem = NO_WAY
+        if beside is not None:
+            beside.join()
         self._ended = monotonic()
 
-    def _note_progress(self, progress: Progress) -> None:
-        self.ticks_run = progress.ticks
+    def _counts(self, inputs: bytes) -> bool:
+        """Whether a run reaches the exit with the gold that is wanted, by keys that a keyboard makes."""
+        with suppress(UnverifiedRunError):
+            return bool(with_plain_triggers(self.task.level, inputs, body=self.task.body, gold=self._wanted.gold))
+        return False
 
-    def _note_run(self, run: Replay) -> None:
+    def _led_to_exit(self, task: Task) -> Task:
+        """The same with a run to the exit that begins as one that ends before it; b"" where there is none."""
+        played = run_level(task.level, task.first, body=task.body)
+        way = to_exit(
+            task.level, task.first[: played.ticks], min(task.seconds / 2, WAY_SECONDS), body=task.body, seed=task.seed,
+            threads=task.jobs, goes_on=self._goes_on,
+        )  # fmt: skip
+        gold = run_level(task.level, way, body=task.body).gold if way else 0
+        return replace(task, first=way or b"", gold=min(gold, task.gold), seconds=task.seconds / 2)
+
+    def _goes_on(self, ticks: int) -> bool:
+        self._note_ticks(ticks, own_route=True)
+        return not self._cancelled.is_set()
+
+    def _shorten(self, task: Task, *, own_route: bool) -> None:
+        solve(
+            task, report=lambda progress: self._note_ticks(progress.ticks, own_route=own_route),
+            on_better=partial(self._note_run, own_route=own_route), stop=self._cancelled,
+        )  # fmt: skip
+
+    def _fail_beside(self, why: str) -> None:
+        self.problem = why
+        self.cancel()
+
+    def _note_ticks(self, ticks: int, *, own_route: bool) -> None:
+        self._began = self._began or monotonic()
+        self._ticks[own_route] = ticks
+        self.ticks_run = sum(self._ticks.values())
+
+    def _note_run(self, run: Replay, *, own_route: bool) -> None:
         places = run_level(self.task.level, run.inputs, body=self.task.body).positions[-2:]
         keys = np.frombuffer(run.inputs.ljust(self.task.length, b"\0"), np.uint8) & np.uint8(KEYS_DOWN)
         end = tuple(np.concatenate([places[-1], places[-1] - places[0]]).tolist())
-        found = Found(float(run.ticks), run.ticks, keys, run.inputs, run.gold, end)
-        if not self._began:
-            self._began, self.own = monotonic(), found
-        best: list[Found] = []
-        for each in sorted([*self.found, found]):
-            if not best or each.gold > best[-1].gold:
-                best.append(each)
-        self.found = tuple(best)
+        found = Found(float(run.ticks), run.ticks, keys, run.inputs, run.gold, end, own_route)
+        with self._lock:
+            self._began = self._began or monotonic()
+            if self._reaches and self.own is None:
+                self.own = found
+            self._unbeaten[own_route] = _unbeaten([*self._unbeaten[own_route], found])
+            own = self._unbeaten[True]
+            others = (each for each in _unbeaten([*own, *self._unbeaten[False]]) if not each.own_route)
+            self.found = tuple(sorted([*own, *others]))
+
+
+def _unbeaten(found: list[Found]) -> tuple[Found, ...]:
+    """Those that no other one beats in ticks and gold, the fastest first."""
+    best: list[Found] = []
+    for each in sorted(found):
+        if not best or each.gold > best[-1].gold:
+            best.append(each)
+    return tuple(best)

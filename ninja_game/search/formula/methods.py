@@ -112,19 +112,20 @@ CUTS, AHEAD = (20, 60, 180, 540), 600
 
 
 def to_exit(
-    level: Level, inputs: bytes, seconds: float, *, body: Body = "circle", seed: int = 1, threads: int | None = None
-) -> bytes | None:
+    level: Level, inputs: bytes, seconds: float, *, body: Body = "circle", seed: int = 1, threads: int | None = None,
+    goes_on: Callable[[int], bool] = lambda _: True,
+) -> bytes | None:  # fmt: skip
     """A run to the exit that begins as one that ends before it: its last ticks are searched, then ever more of them.
 
-    None where none is found in the time.
+    None where none is found in the time. ``goes_on``: told the ticks that were run; False ends it.
     """
     for cut in CUTS:
         first = max(0, len(inputs) - cut)
         began: list[float] = []
 
-        def report(_: int, found: tuple[Found, ...], began: list[float] = began) -> bool:
+        def report(ticks: int, found: tuple[Found, ...], began: list[float] = began) -> bool:
             began.append(time.monotonic())
-            return not found and began[-1] - began[0] < seconds / len(CUTS)
+            return goes_on(ticks) and not found and began[-1] - began[0] < seconds / len(CUTS)
 
         task = SpanTask(level, inputs, first, first + AHEAD, goal="won", body=body)
         if found := search_span(task, report, seed=seed, threads=threads):

@@ -86,7 +86,8 @@ class Found:
 
     ``score``: minus the measure (or the measure, for ``least``), or the ticks to the goal or to the exit; ``ticks``: of
     the span, up to the goal; ``inputs``: the whole run with them, up to the goal or to its end; ``gold``: pieces that
-    it has in the end; ``end``: x, y (px), vx, vy (px/tick) at the goal.
+    it has in the end; ``end``: x, y (px), vx, vy (px/tick) at the goal; ``own_route``: other runs have no part
+    in it.
     """
 
     score: float
@@ -95,6 +96,7 @@ class Found:
     inputs: bytes = field(compare=False, repr=False, default=b"")
     gold: int = field(compare=False, default=0)
     end: tuple[float, ...] = field(compare=False, default=(0.0,) * 4)
+    own_route: bool = field(compare=False, default=True)
 
 
 def score_in_words(task: SpanTask, found: Found) -> str:

@@ -26,6 +26,8 @@ from ninja_game.tas_editor.editor import OtherRun, TasEditor
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.widgets import Button, Widget
 
+AHEAD = 10
+"""Ticks for which two ninjas that are joined are thought to go on at their speeds. Not tuned."""
 NONE_YET = "No other run is open: Ctrl+O opens one"
 
 
@@ -73,16 +75,22 @@ class OtherRuns:
                 self.editor.app.notify(f"Ticks {first} to {last - 1} are those of {other.name}")
 
     def splice_here(self) -> None:
-        """Behind the cursor comes the rest of the other run, from the tick in which its ninja was nearest to ours."""
+        """Behind the cursor comes the rest of the other run, from the tick in which its ninja was nearest to ours.
+
+        Nearest by place and by speed: a difference of speed counts as the px that come of it in AHEAD ticks.
+        """
         editor, other = self.editor, self.chosen
         tick, positions = editor.cursor, editor.session.timeline.positions
         if other is None or tick >= len(positions):
             return
         far = np.hypot(*(other.positions - positions[tick]).T)
-        there = int(np.argmin(far))
+        ours = editor.session.timeline.trajectory().velocities[tick]
+        faster = np.hypot(*(other.trajectory.velocities - ours).T)
+        there = int(np.argmin(far + AHEAD * faster))
         keys = [other.track.keys_at(k) for k in range(there + 1, len(other.track))]
         if editor.edit(lambda track: track.replaced(tick + 1, max(tick + 1, len(track)), keys), other.made):
-            editor.app.notify(f"From here on {other.name} from its tick {there} on, {far[there]:.2f} px away")
+            gap = f"{far[there]:.2f} px away, {faster[there]:.2f} px/tick other"
+            editor.app.notify(f"From here on {other.name} from its tick {there} on, {gap}")
 
 
 def other_run(editor: TasEditor, recording: Recording) -> OtherRun:
@@ -95,13 +103,12 @@ def other_run(editor: TasEditor, recording: Recording) -> OtherRun:
     timeline = Timeline(about.level, track.inputs, body=about.body, memory=editor.session.timeline.memory)
     timeline.simulate(len(timeline))
     name = _free_name(recording, about, {other.name for other in editor.others})
-    made = Contributions.of(recording.replay) if recording.form != "file" else Contributions()
-    return OtherRun(name, track, timeline.trajectory(), made)
+    return OtherRun(name, track, timeline.trajectory(), Contributions.of(recording))
 
 
 def _free_name(recording: Recording, about: Recording, taken: set[str]) -> str:
     """What tells a run from the others: its author, or its file and number, or its name."""
-    # The author of a record of N is its level's.
+    # Records of N are often many by one author: their files and numbers tell them apart.
     author = recording.author if recording.form != "file" and recording.author != about.author else ""
     name = author or _place_of(recording) or recording.name or "another run"
     return next(each for each in (name, *(f"{name} {n}" for n in range(2, len(taken) + 3))) if each not in taken)

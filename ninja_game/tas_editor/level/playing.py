@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pygame
+
 from ninja_game.play.clock import RunClock
 from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.sim.rules import TICK_MS
@@ -192,6 +194,8 @@ class TakeOver:
         # A key that jumps and goes on, as Space, is a command here; a button of a pad that does both jumps.
         if event.source is None or (moves and (event.source[0] == "pad" or "confirm" not in event.pressed)):
             return ""
+        if getattr(event.raw, "mod", 0) & (pygame.KMOD_CTRL | pygame.KMOD_META):
+            return ""  # a command of the TAS editor, none of the bare key
         # By the bare key: Shift may be down, which jumps.
         of_key = (_BY_KEY if event.source[0] == "keys" else _BY_PAD).get(event.source[1], "")
         return of_key or next((_BY_ACTION[action] for action in event.pressed if action in _BY_ACTION), "")

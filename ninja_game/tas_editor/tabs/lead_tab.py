@@ -70,7 +70,11 @@ class LeadTab(Tab):
         return [(name, track) for track, name in names.items()]
 
     def _against(self) -> InputTrack:
-        return self._opened if self.editor.against is None else self.editor.against
+        """The run that was chosen; without a choice the one beside, or as this one was opened."""
+        editor = self.editor
+        if editor.against is not None:
+            return editor.against
+        return editor.others[editor.chosen % len(editor.others)].track if editor.others else self._opened
 
     def _put(self, track: object) -> None:
         self.editor.against = track if isinstance(track, InputTrack) else None

@@ -20,6 +20,7 @@ from ninja_game.search.formula.background import RunSearch, SpanSearch
 from ninja_game.search.formula.language import FormulaError
 from ninja_game.search.formula.methods import KEPT, fewest_ticks
 from ninja_game.search.formula.task import Found, SpanTask, score_in_words
+from ninja_game.sim.inputs import KEYS_DOWN
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.goals import IMPROVE, IMPROVE_GOLD, PRESETS, SearchedSpan, SpanGoal, whole_run
@@ -53,7 +54,7 @@ _METHODS = (
 _ORDERS = (("the earliest", EARLIEST), ("the greatest", GREATEST), ("the smallest", SMALLEST))
 _RESTS = (("end at the goal", False), ("then the rest", True))
 _NAMES = "x y vx vy speed tick gold state dead won in_air distance(x, y) taken(id) opened(id) and or not < > abs(a)"
-_LEFT, _COLUMNS, _WIDTHS = 14, (232, 182, 122), (46, 58, 30)
+_LEFT, _COLUMNS, _WIDTHS = 14, (228, 180, 120), (44, 58, 36)
 """Of the cells of a result, px: the first from the left of a row, the others from its right; widths of the others."""
 _HEADS = ("Result", "Other from", "Ends at x, y", "Speed")
 _EXPLAINED = (
@@ -73,7 +74,7 @@ class SpanResults:
         self.editor = editor
         self.task = task
         memory, jobs = editor.session.timeline.asked_memory, max(1, cores() - 1)
-        self.taken = Contributions(commands=("search",))
+        self._others = () if every else tuple(editor.others)
         self.search = SpanSearch(task, method, jobs, every=every, memory=memory) if every else self._whole(method, jobs)
         # The begins of runs that results fit to, and the first tick that follows a result in each: the run that is
         # searched and those that results were put into.
@@ -87,9 +88,8 @@ class SpanResults:
 
     def _whole(self, method: str, jobs: int) -> RunSearch:
         """The search that shortens the whole run, by the routes of the runs beside it too."""
-        self.taken = sum((other.made for other in self.editor.others), Contributions(commands=("improve",)))
         gold = int(self.editor.session.timeline.column("gold")[self.task.last - 1]) if method == IMPROVE_GOLD else 0
-        return RunSearch(self.task, jobs, gold=gold, others=tuple(other.track.inputs for other in self.editor.others))
+        return RunSearch(self.task, jobs, gold=gold, others=tuple(other.track.inputs for other in self._others))
 
     @property
     def running(self) -> bool:
@@ -122,12 +122,27 @@ class SpanResults:
             self.editor.app.notify("The run was changed: search again")
             return False
         made = self._made(self.editor.track, found, behind)
-        if not self.editor.edit(lambda _: made, self.taken):
+        if not self.editor.edit(lambda _: made, self._taken(found)):
             return False
         end = self.task.first + found.ticks
         self._fitting.append((made.inputs if self.task.rest else made.inputs[:end], end))
         self.editor.select(self.task.first, end)
         return True
+
+    def _whose(self, found: Found) -> OtherRun | None:
+        """The run beside that a result is, just as it is."""
+        keys = [] if found.own_route else [key & KEYS_DOWN for key in found.inputs]
+        same = (each for each in self._others if [each.track.keys_at(k) for k in range(len(keys))] == keys)
+        return next(same, None) if keys else None
+
+    def _taken(self, found: Found) -> Contributions:
+        """What found a result, and those whose routes may be in it."""
+        whose = self._whose(found)
+        if whose is not None:
+            return whose.made
+        routes = () if found.own_route else self._others
+        command = "improve" if isinstance(self.search, RunSearch) else "search"
+        return sum((other.made for other in routes), Contributions(commands=(command,)))
 
     def _made(self, track: InputTrack, found: Found, behind: int) -> InputTrack:
         """The run with a result in it; with ``rest`` it is the run that reached the exit in the search."""
@@ -160,9 +175,11 @@ class SpanResults:
         if own is not None:
             self._fitting[0] = self._fitting[0][0], self.task.first + own.ticks
         different: dict[object, Found] = {}
-        for each in sorted([*self.better, *found]):
+        # Of a whole run, what was found is what nothing beats.
+        before = () if isinstance(self.search, RunSearch) else self.better
+        for each in sorted([*before, *found]):
             if own is None or each.score < own.score or (each.score == own.score and each.gold > own.gold):
-                different.setdefault((each.gold, *np.round(each.end, 2)), each)
+                different.setdefault((each.own_route, each.gold, *np.round(each.end, 2)), each)
         self.better = tuple(different.values())[:KEPT]
 
     def words(self, found: Found) -> tuple[str, ...]:
@@ -170,6 +187,10 @@ class SpanResults:
         own, words = self.search.own, score_in_words(self.task, found)
         if own is not None and (self.task.rest or self.task.goal == "won") and found.gold != own.gold:
             words += f", {abs(own.gold - found.gold)} gold {'fewer' if found.gold < own.gold else 'more'}"
+        if self._others:
+            whose = self._whose(found)
+            route = "own route" if found.own_route else f"this is {whose.name}" if whose else "other routes"
+            words = f"{route}: {words.removeprefix('exit in ')}"
         gain = "new"
         if own is not None:
             more = own.score - found.score
@@ -212,6 +233,7 @@ class SearchTab(Tab):
         super().__init__(editor)
         self.span: Span = (0, 0)
         self._behind = 0
+        self._why = ""
         self.order = EARLIEST
         self.rest = False
         self.method = "auto"
@@ -266,7 +288,7 @@ class SearchTab(Tab):
         first, last = self.editor.selection
         second = min(first + TICKS_PER_SECOND, max(len(self.editor.track), last))
         before, self.span = self.span, (first, last if last > first + 1 else second)
-        self._behind = 0
+        self._behind, self._why = 0, ""
         if self.span == before:
             return
         if self.results is not None and not self.results.running:
@@ -292,7 +314,7 @@ class SearchTab(Tab):
         self.rest = wanted.rest
         self.method = wanted.method or ("auto" if self.method in (IMPROVE, IMPROVE_GOLD) else self.method)
         first, self._behind = self.span
-        self.span = 0 if wanted.method else first, wanted.last or self._behind
+        self.span, self._why = (0 if wanted.method else first, wanted.last or self._behind), wanted.why
         self.wants = self.goal
 
     def _put_order(self, order: str) -> None:
@@ -315,10 +337,11 @@ class SearchTab(Tab):
 
     @property
     def _whole_task(self) -> SpanTask:
-        """The whole run, to be shortened. Raises ArgumentError for one that does not reach the exit."""
+        """The whole run, to be shortened. Raises ArgumentError for one that is too long, or empty."""
         session = self.editor.session
         session.timeline.simulate(len(session.timeline))
-        self.span = 0, whole_run(SearchedSpan(session, *self.span)).last
+        wanted = whole_run(SearchedSpan(session, *self.span))
+        self.span, self._why = (0, wanted.last), wanted.why
         return SpanTask(session.about.level, session.track.inputs, *self.span, "won", body=session.about.body)
 
     # --- the search ---
@@ -340,10 +363,14 @@ class SearchTab(Tab):
             self.editor.app.notify(str(error))
 
     def _start_or_stop(self) -> None:
-        if self.results is not None and self.results.running:
-            self.results.stop()
-        else:
+        if not self.stop():
             self.start()
+
+    def stop(self) -> bool:
+        if self.results is None or not self.results.running:
+            return False
+        self.results.stop()
+        return True
 
     def close(self) -> None:
         if self.results is not None:
@@ -376,15 +403,23 @@ class SearchTab(Tab):
         results, state = self.results, tuple[object, ...]()
         if results:
             state = (results.status, results.running, results.behind, self.editor.track, *map(id, self.found))
-        return self.span, self.editor.selection, self.order, self.rest, self.goal.text, self.list.over, state
+        return self.span, self._why, self.editor.selection, self.order, self.rest, self.goal.text, self.list.over, state
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)
         palette, results, (x, y, w, _) = theme.palette, self.results, self.area
         first, last = self.span
         theme.text(surface, f"Ticks {first} to {last - 1}", x + 6, y + 8, size=11, bold=True, width=120)
-        if self.span != self.editor.selection and self.editor.anchor is not None:
-            theme.text(surface, "not the selection", x + 132, y + 9, size=SMALL, colour=palette.faint, width=w - 318)
+        if self._why or (self.span != self.editor.selection and self.editor.anchor is not None):
+            theme.text(
+                surface,
+                self._why or "not the selection",
+                x + 132,
+                y + 9,
+                size=SMALL,
+                colour=palette.faint,
+                width=w - 318,
+            )
         theme.text(surface, "Goal", x + 6, y + 29, size=11)
         self._button.text = "Stop" if results is not None and results.running else "Start"
         status, colour = "Enter in the goal starts, too", palette.faint
@@ -416,5 +451,5 @@ class SearchTab(Tab):
         for at, cell, width in zip(self._cells(area), cells, widths, strict=True):
             theme.text(surface, cell, at, y + 3, size=SMALL, width=width,
                        colour=palette.text if fits else palette.faint)  # fmt: skip
-        theme.text(surface, gain, x + w - 6, y + 3, size=SMALL, bold=fits, align="right", width=96,
+        theme.text(surface, gain, x + w - 6, y + 3, size=SMALL, bold=fits, align="right", width=78,
                    colour=palette.good if fits else palette.faint)  # fmt: skip

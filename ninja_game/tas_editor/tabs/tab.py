@@ -58,6 +58,10 @@ class Tab(TasPart):
             if isinstance(widget, Rows) and not widget.contains(x, y):
                 widget.over = -1
 
+    def stop(self) -> bool:
+        """End what goes on; whether anything did."""
+        return False
+
     def close(self) -> None:
         """The TAS editor is left: what goes on ends."""
 

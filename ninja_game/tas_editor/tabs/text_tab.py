@@ -8,7 +8,7 @@ import numpy as np
 import pygame
 from numpy.typing import NDArray
 
-from ninja_game.errors import NinjaGameError
+from ninja_game.errors import FormatError
 from ninja_game.formats.replay.input_runs import KEY_NAMES
 from ninja_game.formats.replay.input_text import Inputs
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, pressed, with_press_bits
@@ -93,9 +93,11 @@ class TextTab(Tab):
         """What is in the field instead of its line; the markers there are those that it names."""
         words, (first, last) = self.field.text.split(), self.span(self.list.index)
         try:
-            typed = inputs_of_text("\n".join(words), "the line") if words else Inputs(b"")
-        except NinjaGameError as error:
-            self.editor.app.notify(f"Not changed: {error}")
+            typed = inputs_of_text("\n".join(words), "") if words else Inputs(b"")
+        except FormatError as error:
+            place = f"word {error.line}: " * bool(error.line)
+            error.line = error.column = 0
+            self.editor.app.notify(f"Not changed: {place}{error}")
             return
 
         def changed(track: InputTrack) -> InputTrack:

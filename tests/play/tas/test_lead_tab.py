@@ -74,6 +74,17 @@ def test_the_other_run_is_chosen(at: TasDriver, tab: LeadTab) -> None:
     assert at.editor.against is None
 
 
+def test_it_begins_with_the_run_beside(at: TasDriver, tab: LeadTab) -> None:
+    late = at.editor.track.replaced(0, 0, [0] * 3)
+    at.screen.level.others.open([at.session.recording(late, "late")])
+    compared(at, tab)
+    assert tab.table
+    assert tab.table.rows[-1].ahead == 3
+    tab._put(at.editor.track)
+    compared(at, tab)
+    assert tab.summary == "the same keys", "another one is compared to where it is chosen"
+
+
 def test_a_run_that_cannot_be_compared_says_so(at: TasDriver, tab: LeadTab, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("ninja_game.runs.compare.MAX_PAIRS", 10)
     at.wait(lambda: tab.is_current, "an answer")

@@ -18,9 +18,10 @@ from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.play.menus.panels import FormPanel
 from ninja_game.play.replay.screen import SPEEDS
+from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.files import open_run, runs_of_level
 from ninja_game.tas.timeline import Timeline
-from ninja_game.tas_editor.level.other_runs import OtherRunScreen
+from ninja_game.tas_editor.level.other_runs import AHEAD, OtherRunScreen
 from ninja_game.tas_editor.level.part import object_at
 from ninja_game.tas_editor.level.paths import shown_span
 from ninja_game.tas_editor.screen import TasScreen
@@ -163,13 +164,44 @@ def test_the_rest_of_another_run_from_the_nearest_place(at: TasDriver) -> None:
     screen.level.others.open([at.session.recording(mine.replaced(60, 60, [0] * 7), "later")])
     editor.go(120)
     here, there = at.session.timeline.positions[120], editor.others[0].positions
-    nearest = int(np.argmin(np.hypot(*(there - here).T)))
+    speed = at.session.timeline.trajectory().velocities[120]
+    faster = np.hypot(*(editor.others[0].trajectory.velocities - speed).T)
+    nearest = int(np.argmin(np.hypot(*(there - here).T) + AHEAD * faster))
     at.chord("p", pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT)
     theirs = editor.others[0].track
     assert editor.track.inputs[:121] == mine.inputs[:121]
     assert [editor.track.keys_at(121 + k) for k in range(300)] == [theirs.keys_at(nearest + 1 + k) for k in range(300)]
     assert len(editor.track) == 121 + len(theirs) - nearest - 1
     assert f"from its tick {nearest} on" in at.app.notice
+
+
+def test_the_rest_of_another_run_goes_on_in_the_same_direction(at: TasDriver) -> None:
+    """Where the other ninja comes by twice, the time at which it runs as ours does."""
+    editor = at.editor
+    right, left = [KEY_RIGHT], [KEY_LEFT]
+    editor.edit(lambda track: track.replaced(0, len(track), right * 40))
+    there_and_back = editor.track.replaced(0, 40, right * 20 + left * 60 + right * 60)
+    at.screen.level.others.open([at.session.recording(there_and_back, "to and fro")])
+    other = editor.others[0]
+    x = other.positions[:, 0]
+    editor.go(10)
+    here = at.session.timeline.positions[10, 0]
+    back = 20 + int(np.argmin(np.abs(x[20:80] - here)))
+    assert abs(x[back] - here) < 4, "it comes by on its way back"
+    for name in ("x", "prev_x"):
+        column = other.trajectory.columns[name]
+        column[:20] += 0.01
+        column[back] += here - x[back]
+    assert np.argmin(np.hypot(*(other.positions - at.session.timeline.positions[10]).T)) == back, "nearest by place"
+    at.chord("p", pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT)
+    assert "from its tick 10 on" in at.app.notice
+
+
+def test_a_run_beside_says_who_made_it(at: TasDriver, tmp_path: Path) -> None:
+    about = at.session.about
+    demo = replace(about, form="file", file=str(tmp_path / "theirs.txt"), replay=replace(about.replay, author=""))
+    at.screen.level.others.open([demo])
+    assert at.editor.others[0].made.names == ("unknown (theirs.txt)",)
 
 
 def test_a_run_of_another_level_is_refused(at: TasDriver) -> None:

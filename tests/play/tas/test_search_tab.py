@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from threading import Event
+from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 import pygame
 import pytest
 
+from ninja_game.play.menus.panels import Menu
 from ninja_game.search.formula import background
 from ninja_game.search.formula.methods import fewest_ticks
 from ninja_game.search.formula.task import Found
@@ -17,7 +20,9 @@ from ninja_game.sim.inputs import Input
 from ninja_game.tas.goals import IMPROVE
 from ninja_game.tas_editor.tabs import search_tab as module
 from ninja_game.tas_editor.tabs.search_tab import COMPILING, NOT_BEGUN, NOTHING, NOTHING_YET, SearchTab, SpanResults
+from ninja_game.tas_editor.tabs.tab import SMALL
 from ninja_game.ui.input.keys import SCANCODES
+from ninja_game.ui.theme import Theme
 from tests.support.tas_driver import TasDriver
 from tests.support.waiting import LONGEST
 
@@ -356,9 +361,97 @@ def test_the_whole_run_is_shortened_in_the_background_and_keeps_its_markers(at: 
     assert at.session.about.replay.made.searches == ("improve",)
 
 
-def test_a_run_that_does_not_reach_the_exit_is_not_shortened(at: TasDriver, tab: SearchTab) -> None:
+def test_a_run_that_ends_before_the_exit_is_led_there_and_shortened(at: TasDriver, tab: SearchTab) -> None:
+    end = at.session.timeline.end[0]
+    at.editor.edit(lambda track: track.replaced(end - 30, len(track), b""))
+    wish(at, "Whole run")
+    assert tab.span == (0, end - 30)
+    at.press("return")
+    results = results_of(tab)
+    at.wait(lambda: bool(tab.found), "a way to the exit")
+    at.choose("Stop")
+    at.wait(lambda: not results.running, "the end")
+    assert results.words(tab.found[0])[-1] == "new"
+    row(at, tab, 0)
+    assert at.session.timeline.end[1] == "exit"
+
+
+def test_of_a_run_without_a_way_to_the_exit_it_says_so(
+    at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(background, "to_exit", lambda *_, **__: None)
     at.editor.edit(lambda track: track.replaced(20, len(track), b""))
     tab.method = IMPROVE
     tab.start()
-    assert tab.results is None
-    assert "does not reach the exit" in at.app.notice
+    at.wait(lambda: not results_of(tab).running, "the end")
+    assert results_of(tab).note == background.NO_WAY
+
+
+def test_beside_a_faster_run_the_own_route_stays_in_the_list(at: TasDriver, tab: SearchTab) -> None:
+    """Rows say whose run they are, and who made it is named only where its keys are taken."""
+    fast = at.editor.track
+    at.editor.edit(lambda track: track.replaced(0, 0, bytes(40)))
+    slow, about = at.editor.track, at.session.recording(fast, "theirs")
+    theirs = replace(about, file="theirs.replay.txt", replay=replace(about.replay, author="Cy"))
+    at.screen.level.others.open([theirs])
+    at.frames(2)
+    wish(at, "Whole run")
+    at.press("return")
+    results = results_of(tab)
+
+    at.wait(lambda: any(each.own_route for each in tab.found), "a result of the own route")
+    at.choose("Stop")
+    at.wait(lambda: not results.running, "the end")
+    at.frames(2)
+    own = next(each for each in tab.found if each.own_route)
+    assert results.words(own)[0].startswith(f"own route: tick {own.ticks - 1}")
+    assert results.put(own)
+    assert "Cy" not in at.session.about.replay.co_authors
+    at.session.undo()
+    assert at.editor.track == slow
+    beside = replace(own, inputs=fast.inputs[: own.ticks], own_route=False)
+    assert results.words(beside)[0].startswith("this is Cy: tick ")
+    assert results._taken(beside) == at.editor.others[0].made
+    other = replace(own, own_route=False)
+    assert results.words(other)[0].startswith("other routes: tick ")
+    assert results.put(other)
+    assert "Cy" in at.session.about.replay.co_authors
+
+
+def test_escape_ends_the_search_and_then_opens_the_menu(at: TasDriver, tab: SearchTab) -> None:
+    wish(at, "Greatest speed")
+    at.press("return")
+    results = results_of(tab)
+    at.press("escape")
+    assert at.screen.focus is None
+    assert results.running, "the field is left first"
+    at.press("escape")
+    at.wait(lambda: not results.running, "the end")
+    assert at.top() is at.screen
+    at.press("escape")
+    assert isinstance(at.top(), Menu)
+
+
+def test_ticks_that_are_not_the_selected_ones_say_why(at: TasDriver, tab: SearchTab) -> None:
+    drawn: list[str] = []
+    write = type(at.editor.theme).text
+
+    def noted(theme: Theme, surface: pygame.Surface, text: str, *rest: Any, **more: Any) -> pygame.Rect:
+        drawn.append(text)
+        return write(theme, surface, text, *rest, **more)
+
+    end = at.session.timeline.end[0]
+    with patch.object(type(at.editor.theme), "text", noted):
+        wish(at, "Reach the exit sooner")
+        at.frames(2)
+    assert tab.span == (100, end)
+    assert {f"Ticks 100 to {end - 1}", "up to the run's exit"} <= set(drawn)
+    assert "not the selection" not in drawn
+    tab.goal.show("x > 1")
+    at.editor.select(100, 131)
+    tab.use_selection()
+    assert tab._why == "", "what a person has typed is for the selection"
+
+
+def test_a_speed_of_two_digits_has_room(at: TasDriver) -> None:
+    assert at.editor.theme.width("10.345", SMALL) <= module._WIDTHS[-1]

@@ -106,6 +106,16 @@ def test_nothing_else_edits_meanwhile(at: TasDriver) -> None:
     assert (taken.on, at.editor.cursor) == (True, START)
 
 
+def test_a_key_with_ctrl_is_not_the_bare_key(at: TasDriver) -> None:
+    taken, speed = take_over(at), at.screen.level.playing.speed
+    for key in ("g", "period", "minus", "return", "1"):
+        at.chord(key, pygame.KMOD_LCTRL)
+    assert (at.editor.ghosts, at.editor.cursor, at.screen.level.playing.speed, taken.on) == (True, START, speed, True)
+    assert not at.screen.level.picture.overlays.on
+    at.press("g")
+    assert not at.editor.ghosts
+
+
 def test_when_the_window_loses_the_keys_it_stands_still(at: TasDriver) -> None:
     taken = take_over(at)
     at.keys.script = [2] * 100
