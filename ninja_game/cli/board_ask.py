@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
+from difflib import get_close_matches
 from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -117,7 +118,12 @@ def _answer(
             draw(output, runs[0].level, [(each.name, its) for each, its in zip(runs, positions, strict=True)], keep)
         else:
             _film(runs, output)
-    click.echo(json.dumps(rows) if as_data else "\n".join(shown_text(told.format(**row), LONGEST) for row in rows))
+    click.echo(json.dumps(rows) if as_data else "\n".join(_line(told, row) for row in rows))
+
+
+def _line(told: str, row: Mapping[str, Any]) -> str:
+    note = f"; note: {row['remark']}" if row["remark"] else ""
+    return shown_text(told.format(**row).rstrip() + note, LONGEST)
 
 
 def _film(runs: Sequence[Recording], output: Path) -> None:
@@ -137,7 +143,11 @@ def _level(text: str, entries: Sequence[Entry]) -> Entry:
     if len(found) == 1:
         return found[0]
     named = ", ".join(f"{each.episode} {shown_text(each.title)}".strip() for each in found[:5])
-    raise ArgumentError(f"{text!a} is no level of the board" if not found else f"{text!a} is several levels: {named}")
+    if found:
+        raise ArgumentError(f"{text!a} is several levels: {named}")
+    titles = {each.title.casefold(): each.title for each in entries}
+    near = [f"; do you mean {shown_text(titles[each])}?" for each in get_close_matches(words, titles, 1)]
+    raise ArgumentError("".join([f"{text!a} is no level of the board", *near]))
 
 
 def _category(ranking: Ranking, name: str | None) -> Category:
@@ -164,7 +174,7 @@ def _row(ranked: Ranked, category: Category) -> dict[str, Any]:
         "level": run.entry.digest, "level_name": run.entry.title, "place": ranked.place, "player": run.player,
         "result": category.text(ranked.values[0]), "ticks": run.tick, "gold": run.gold, "score": run.score,
         "presses": run.presses, "jumps": run.jumps, "made": run.made or "unknown", "co_authors": run.co_authors,
-        "date": run.day, "file": run.file, "record": run.record,
+        "date": run.day, "file": run.file, "record": run.record, "remark": run.remark,
     }  # fmt: skip
 
 

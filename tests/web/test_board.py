@@ -11,6 +11,7 @@ from dataclasses import replace
 from datetime import UTC, datetime
 from html.parser import HTMLParser
 from pathlib import Path
+from typing import Any
 
 import pytest
 from click.testing import CliRunner
@@ -19,8 +20,10 @@ from ninja_game.cli.main import cli
 from ninja_game.errors import FileError
 from ninja_game.files.user_folder import bundled_replays, data_folder
 from ninja_game.formats.ascii.writer import write_ascii_level
+from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.replay.text import parse_replay, write_replay
+from ninja_game.runs.run import record_replay
 from ninja_game.web.board.collect import MOST_RECORDS
 from ninja_game.web.board.pages import BoardPages
 from ninja_game.web.board.ranking import Ranking
@@ -30,7 +33,17 @@ from ninja_game.web.board.runs import ASSISTED, PLAYED, Key, ValidatedRuns, judg
 from ninja_game.web.pages.frame import POLICY, tag
 from ninja_game.web.pages.published import published_levels
 from tests.support.forgeries import FORGERIES, GOLD_LATER, PRACTISED, WALKING, record, replay
+from tests.support.own_pack import PACK
 from tests.support.samples import SPIKED, WALK, WALK_END
+
+BROKEN = """
+Array.from(document.querySelectorAll("td, th")).filter((cell) => {
+  const range = document.createRange();
+  range.selectNodeContents(cell);
+  return !cell.querySelector(".text, a") && range.getBoundingClientRect().height > 36;
+}).map((cell) => cell.textContent)
+"""
+"""Cells that have more than a line, and no long text or name."""
 
 DIGEST = level_digest(parse_level_string(WALK))
 HOSTILE = "<script>document.title='owned'</script><img src=x onerror=\"document.title='owned'\">\"'`&amp;\u202e"
@@ -233,6 +246,85 @@ def test_a_run_that_goes_most_of_somebody_elses_way_says_so(runs: Path, levels: 
     assert remarks == ["", "64 of its 65 ticks have the inputs of the run by Ann in ann.txt"]
 
 
+def test_a_time_that_the_run_does_not_have_is_refused_under_its_players_name(runs: Path, levels: Path) -> None:
+    put(runs, "dee.txt", re.sub(r"final-tick: \d+", "final-tick: 9", replay(author="Dee")))
+    put(runs, "eve.txt", re.sub(r"(inputs:\n  )\S+", r"\1R*40", replay(author="Eve")))
+    put(runs, "notes.txt", "notes")
+    found = with_demands(runs, levels)
+    assert [(each.kind, each.player, each.why.partition(";")[0]) for each in found.rejected] == [
+        ("refused", "Dee", f"tick {WALK_END}: the run ends here (exit), the replay in tick 9"),
+        ("refused", "Eve", "inputs after the final tick"),
+        ("unreadable", "", "line 1: no recording"),
+    ]
+
+
+def test_medals_stand_where_the_time_ranks_and_every_record_that_fell_is_told(runs: Path, tmp_path: Path) -> None:
+    (recording,) = load_replays(PACK / "certificates" / "00-2-the-chimney.exit.replay.txt")
+    for number, inputs in enumerate((b"\0" + recording.inputs, recording.inputs)):
+        put(runs, f"{number}.txt", write_replay(record_replay(recording.level, inputs, author=f"Ann {number}")))
+    pages = [path.read_text("utf-8") for path in board_of(runs, PACK, tmp_path / "site").glob("levels/*.html")]
+    (page,) = (each for each in pages if "The first 2 runs" in each)
+    fastest, highest = (
+        page.partition(f"<caption>{name}: best run")[2].partition("</table>")[0]
+        for name in ("Fastest", "Highest score")
+    )
+    assert ("medal" in fastest, "medal" in highest) == (True, False)
+    assert re.findall("How the record fell: ([^<]+)", page) == ["Fastest", "Highest score"]
+    assert "The first 2 runs: Fastest" in page
+
+
+def test_the_later_one_of_two_names_that_look_alike_is_marked_everywhere(
+    runs: Path, levels: Path, tmp_path: Path
+) -> None:
+    later = "\u0410nn"
+    put(runs, "a.txt", replay(author="Ann"))
+    put(runs, "b.txt", slow_walk(author=later))
+    put(runs, "c.txt", replay(author=later, gold=77))
+    board = board_of(runs, levels, tmp_path / "site")
+    marked = f"{later} (not Ann)"
+    level = (board / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
+    legend = level.partition("The first 2 runs")[2]
+    assert [f"{before}{marked}<" in legend for before in ("</svg> ", '<th scope="col">')] == [True, True]
+    assert all(marked in (board / f"{name}.html").read_text("utf-8") for name in ("rejected", "players"))
+    assert later not in re.sub(re.escape(marked), "", (board / "rejected.html").read_text("utf-8"))
+
+
+def test_levels_and_the_first_page_count_the_same_players(runs: Path, levels: Path, tmp_path: Path) -> None:
+    put(runs, "a.txt", replay(author="Ann"))
+    put(runs, "b.txt", slow_walk(author="Bea").replace("outcome:", "made: edited 3\noutcome:"))
+    board = board_of(runs, levels, tmp_path / "site")
+    assert "2 runs by 2 players" in (board / "index.html").read_text("utf-8")
+    walk = (board / "levels.html").read_text("utf-8").partition(">Walk</a>")[2]
+    assert re.findall("<td>([^<]*)</td>", walk)[:2] == ["2", "2"]
+
+
+def test_the_page_of_a_run_shows_its_path(runs: Path, levels: Path, tmp_path: Path) -> None:
+    put(runs, "a.txt", replay(author="Ann"))
+    board = board_of(runs, levels, tmp_path / "site")
+    (page,) = (board.parent / "replays").glob("*.html")
+    found = Tags(page.read_text("utf-8")).found
+    (picture,) = (attributes["href"] for name, attributes in found if name == "image")
+    assert (page.parent / str(picture)).is_file()
+    assert str(next(each["d"] for _, each in found if each.get("class") == "way")).startswith("M100 566l")
+
+
+@pytest.mark.parametrize("width", [390, 1100, 1400])
+def test_no_number_and_no_date_is_broken(width: int, chromium: Any, runs: Path, levels: Path, tmp_path: Path) -> None:
+    """Only long texts have more than a line, also beside a remark."""
+    put(runs, "ann.txt", slow_walk(40, author="Ann"))
+    put(runs, "bob.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Bob"))
+    now = "2026-01-31T12:00:00Z"
+    shown = published_levels(levels)
+    BoardPages(tmp_path / "site", Ranking(judge(runs, shown, jobs=1, dates=lambda *_: now), shown)).write()
+    page = chromium.new_page(viewport={"width": width, "height": 844})
+    for name in ("index", f"levels/{DIGEST[:16]}", "levels", "players"):
+        page.goto((tmp_path / "site" / "board" / f"{name}.html").as_uri())
+        broken = page.evaluate(BROKEN)
+        assert broken == [], name
+        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    page.close()
+
+
 def test_practice_runs_are_kept_out(runs: Path, levels: Path) -> None:
     put(runs, "run.txt", replay(made=PRACTISED))
     assert [each.kind for each in with_demands(runs, levels).rejected] == ["practice"]
@@ -342,7 +434,7 @@ def test_check_tells_what_a_change_does(runs: Path, levels: Path, tmp_path: Path
     put(runs, "ann.txt", replay(author="A`nn"), day=2)
     code, text = check(runs, levels, "--check", str(data))
     assert code == 0
-    achieved = "fastest: place 1 of 2; highest score: place 1 of 2"
+    achieved = "Fastest: place 1 of 2; Highest score: place 1 of 2"
     assert f"new: ann.txt: A'nn passes Walk in 0.575 s with 1 gold; {achieved}" in text
     put(runs, "cid.txt", replay(WALKING[:-3], author="Cid"))
     (runs / "bea.txt").unlink()

@@ -39,7 +39,7 @@ def test_a_level_is_ranked(level: str, folder: Path, levels: Path) -> None:  # n
     code, text = ask(folder, levels, "rank", level)
     assert code == 0
     first, second, third = text.splitlines()
-    assert first == f"1. Ann: 0.575 ({WALK_END} ticks, 1 gold, unknown) "
+    assert first == f"1. Ann: 0.575 ({WALK_END} ticks, 1 gold, unknown)"
     assert second.startswith("2. Bea: 0.700")
     assert "\u202e" not in third
     assert [row["ticks"] for row in answer(folder, levels, "rank", level)] == [WALK_END, WALK_END + 5, WALK_END + 8]
@@ -49,6 +49,15 @@ def test_the_best_and_a_players_run(folder: Path, levels: Path) -> None:  # noqa
     assert [row["player"] for row in answer(folder, levels, "best", "Walk")] == ["Ann"]
     (row,) = answer(folder, levels, "rank", "Walk", "BEA", "--category", "highest score")
     assert (row["place"], row["score"], row["file"]) == (2, 3680 - WALK_END - 5, "bea.txt")
+
+
+def test_remarks_stand_beside_the_runs(runs: Path, levels: Path) -> None:  # noqa: F811
+    put(runs, "ann.txt", slow_walk(40, author="Ann"))
+    put(runs, "bob.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="\u0410nn"))
+    near = "64 of its 65 ticks have the inputs of the run by Ann in ann.txt"
+    said = f"{near}; the player's name looks like Ann and is another one"
+    assert [row["remark"] for row in answer(runs, levels, "rank", "Walk")] == ["", said]
+    assert [line.partition("; note: ")[2] for line in ask(runs, levels, "rank", "Walk")[1].splitlines()] == ["", said]
 
 
 def test_inputs_are_counted(folder: Path, levels: Path) -> None:  # noqa: F811
@@ -77,7 +86,8 @@ def test_splits_pictures_and_films(folder: Path, levels: Path, tmp_path: Path) -
 @pytest.mark.parametrize(
     "words, told",
     [
-        (["rank", "nothing"], "is no level"), (["rank", "a"], "is several levels"),
+        (["rank", "nothing"], "is no level"), (["rank", "wlak"], "; do you mean Walk?"),
+        (["rank", "a"], "is several levels"),
         (["rank", "Spiked"], "nobody has a run"), (["rank", "Walk", "Zed"], "has no run there; players: Ann"),
         (["rank", "Walk", "--category", "x"], "there are Fastest"),
         (["rank", "Walk", "--assisted"], "nobody has a run"),

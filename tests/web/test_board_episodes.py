@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -73,6 +74,27 @@ def test_an_episode_of_runs_that_were_sent_before_counts_for_who_sent_them(folde
     author = load_replays(RUNS[0])[0].author
     episode(folder, author, RUNS, "whole")
     assert [players for _, players in whole(folder)] == [[author] * 5]
+
+
+def test_an_episode_of_own_runs_has_no_copies(folder: Path, tmp_path: Path) -> None:
+    """Also where it comes with them, under a name before theirs; its levels keep their dates in the ledger."""
+    data, pages = tmp_path / "board.json", tmp_path / "site"
+    author = load_replays(RUNS[0])[0].author
+    for each in RUNS:
+        (folder / each.name).write_text(each.read_text())
+    board(folder, PACK, "--json", str(data))
+    episode(folder, author, RUNS, "0")
+    said = board(folder, PACK, "--check", str(data), "--site", str(pages))
+    assert f"new: 0.episode.txt: an episode in which {author} plays 5 levels as in an earlier run\n" in said
+    assert "copy" not in said
+    found = judged(folder)
+    assert (len(found.runs), found.rejected, len(found.again)) == (5, (), 5)
+    assert "in one recording" in (pages / "board" / "episodes.html").read_text("utf-8")
+    assert "0.episode.txt" not in (pages / "board" / "rejected.html").read_text("utf-8")
+    board(folder, PACK, "--json", str(data))
+    rows = json.loads(data.read_text("utf-8"))["rejected"]
+    assert [(row["kind"], bool(row["way"] and row["added"])) for row in rows] == [("own", True)] * 5
+    assert board(folder, PACK, "--check", str(data)).startswith("nothing has changed")
 
 
 def test_one_run_of_another_player_makes_no_episode(folder: Path) -> None:

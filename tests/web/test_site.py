@@ -19,6 +19,7 @@ from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
 from ninja_game.errors import FileError, NinjaGameError
+from ninja_game.files.user_folder import bundled_replays
 from ninja_game.web.site import build, pyodide_files
 from ninja_game.web.site.build import site_server
 from tests.support.slow import the_rest_is_slow
@@ -142,6 +143,23 @@ def test_a_folder_with_other_things_is_left_alone(pyodide: Path, tmp_path: Path)
     with pytest.raises(FileError, match=r"not a site of ninja-game.*new or empty folder"):
         build.build_site(tmp_path / "mine", pyodide, tmp_path)
     assert names_in(tmp_path / "mine") == {"index.html"}
+
+
+def test_a_folder_that_board_has_made_becomes_a_site(pyodide: Path, tmp_path: Path) -> None:
+    """As it says itself; not with anything else beside its pages."""
+    out, runs = tmp_path / "out", tmp_path / "runs"
+    runs.mkdir()
+    (runs / "a.txt").write_text(bundled_replays()[0].read_text("utf-8"), "utf-8")
+    told = CliRunner().invoke(cli, ["board", str(runs), "--site", str(out), "--jobs", "1"])
+    assert f"ninja-game site {out}" in told.stderr
+    pages = names_in(out)
+    assert {path.name for path in out.iterdir()} == {"board", "replays"}
+    (out / "mine.txt").write_text("mine")
+    with pytest.raises(FileError, match="not a site of ninja-game"):
+        build.build_site(out, pyodide, tmp_path)
+    (out / "mine.txt").unlink()
+    build.build_site(out, pyodide, tmp_path)
+    assert pages | {"play.html", build.MARK} <= names_in(out)
 
 
 def test_other_files_than_those_of_the_version_are_refused(pyodide: Path, tmp_path: Path) -> None:

@@ -31,6 +31,8 @@ RULES_VERSION = 1
 """The rules that replays are recorded under; a change of the world that changes any replay raises it."""
 
 OUTCOMES = ("exit", "dead", "running")
+INPUTS_AFTER = "inputs after the final tick"
+"""What is wrong with a replay whose time was made shorter than its run."""
 
 
 WAYPOINT_TICKS = TICKS_PER_SECOND
@@ -209,9 +211,7 @@ def _contradiction(replay: Replay) -> tuple[str, ReplayError] | None:
     if len(replay.inputs) > (replay.ticks if replay.demo_length is None else replay.final_tick):
         found = f"{len(replay.inputs)} ticks of inputs"
         hint = "raise final-tick or shorten the inputs"
-        return "final-tick", ReplayError(
-            "inputs after the final tick", found=found, expected=str(replay.ticks), hint=hint
-        )
+        return "final-tick", ReplayError(INPUTS_AFTER, found=found, expected=str(replay.ticks), hint=hint)
     if not (replay.level_digest or replay.level_path or replay.level):
         expected, hint = "'level:', 'level-digest:' or 'level-data:'", "or say with --level where it is played"
         return "inputs", ReplayError("a replay without level", expected=expected, hint=hint)

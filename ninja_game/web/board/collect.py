@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -13,9 +14,10 @@ from ninja_game.files.reading import LeftOut, decoded, files_below, read_bytes
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.recording import holds_recordings
 from ninja_game.formats.replay.episode import is_episode, parse_episode, write_episode
-from ninja_game.formats.replay.text import Replay, is_replay, parse_replay, write_replay
+from ninja_game.formats.replay.text import INPUTS_AFTER, Replay, is_replay, parse_replay, write_replay
 from ninja_game.runs.chunks import Chunk
 from ninja_game.runs.recording_reader import records_of
+from ninja_game.sim.inputs import MAX_TICKS
 from ninja_game.sim.level import Level
 
 MOST_BYTES = 2**20
@@ -41,14 +43,33 @@ class SentFile:
 
 @dataclass(frozen=True)
 class Sent:
-    """A run, or what cannot be one, as a chunk with one result. ``replay``: where it is one of ours."""
+    """A run, or what cannot be one, as a chunk with one result. ``replay``: where it is one of ours.
+
+    ``claimed``: the final tick that it claims, where it has inputs after that and is run to their end; else -1.
+    """
 
     chunk: Chunk
     replay: Replay | None = None
+    claimed: int = -1
 
     def inputs(self, ticks: int) -> bytes:
         """The inputs of its first ticks, where it is a run."""
         return (self.replay or parse_demo(self.chunk.records[0].demo)).playback(ticks)
+
+
+_FINAL_TICK = re.compile(r"^final-tick: *([0-9]{1,9})[ \t\r]*$", re.MULTILINE)
+
+
+def _parsed(text: str) -> tuple[Replay, int]:
+    """A replay, and ``claimed`` as of Sent. Raises NinjaGameError."""
+    try:
+        return parse_replay(text), -1
+    except ReplayError as error:
+        final = _FINAL_TICK.search(text)
+        if error.what != INPUTS_AFTER or final is None:
+            raise
+        longer = parse_replay(_FINAL_TICK.sub(f"final-tick: {MAX_TICKS - 1}", text, 1))
+        return replace(longer, final_tick=len(longer.inputs)), int(final[1])
 
 
 class RunFolder:
@@ -86,9 +107,10 @@ class RunFolder:
             text = decoded(file.data, name)
             if is_replay(text):
                 # Without the name of a file nothing in it leads to another one.
-                parsed = parse_replay(text)
+                parsed, claimed = _parsed(text)
                 whole = self._whole(parsed)
-                return [Sent(Chunk(name, text=text if whole is parsed else write_replay(whole)), whole)]
+                kept = whole is parsed and claimed < 0
+                return [Sent(Chunk(name, text=text if kept else write_replay(whole)), whole, claimed)]
             if is_episode(text):
                 runs = [self._whole(each) for each in parse_episode(text)]
                 text = write_episode(runs)

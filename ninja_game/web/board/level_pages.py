@@ -7,15 +7,16 @@ from datetime import datetime
 from itertools import pairwise
 from typing import Any
 
-from ninja_game.files.shown_text import counted, shown_text
+from ninja_game.files.shown_text import counted
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.player.catalogue import Entry
 from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, run_splits, split_table
 from ninja_game.tas.leads import split_name
 from ninja_game.web.board.charts import paths, steps, swatch
-from ninja_game.web.board.parts import LONGEST_NAME, RUN_HEADS, UP, Parts, player_link, signed
+from ninja_game.web.board.parts import RUN_HEADS, UP, Parts, signed
 from ninja_game.web.board.ranking import Part, Ranked
+from ninja_game.web.board.rules import FASTEST
 from ninja_game.web.board.runs import Run
 from ninja_game.web.pages.frame import Content, Markup, joined, section, table, tag
 from ninja_game.web.pages.gallery import level_page
@@ -60,11 +61,14 @@ class LevelPages(Parts):
         link = tag("p", tag("a", said, href=f"{entry.digest[:16]}-runs.html"))
         part, ranked = next(iter(tables.items()))
         runs = [each.run for each in ranked[:TOGETHER]]
-        beside = self._side_by_side(runs) if len(runs) > 1 else None
-        return joined(*map(self._table, tables, tables.values()), link, self._progression(entry, part), beside)
+        beside = self._side_by_side(runs, self.part_name(part)) if len(runs) > 1 else None
+        fell = [each for each in tables if each == part or len(self.ranking.history[entry.digest, each]) > 1]
+        records = [self._progression(entry, each) for each in fell]
+        return joined(*map(self._table, tables, tables.values()), link, *records, beside)
 
     def _table(self, part: Part, ranked: Sequence[Ranked]) -> Markup:
-        rows = [(each.place, *self.run(each.run, part[1].text(each.values[0]))) for each in ranked[:FIRST]]
+        timed = part[1].unit == FASTEST.unit
+        rows = [(each.place, *self.run(each.run, part[1].text(each.values[0]), timed=timed)) for each in ranked[:FIRST]]
         heads = ("Place", "Player", part[1].unit, *RUN_HEADS)
         name = self.part_name(part)
         return section(name, table(f"{name}: best run of each player", heads, rows))
@@ -75,7 +79,7 @@ class LevelPages(Parts):
         numbers = [(self.ranking.values(category, run) or (0.0,))[0] for run in runs]
         better = ["", *(category.difference(before - now) for before, now in pairwise(numbers))]
         rows = [
-            (run.day, player_link(run.player, UP), category.text(number), gain, self.watch([run], UP))
+            (run.day, self.player_link(run.player, UP), category.text(number), gain, self.watch([run], UP))
             for run, number, gain in zip(runs, numbers, better, strict=True)
         ]
         chart = None
@@ -87,11 +91,12 @@ class LevelPages(Parts):
             said = f"The record fell from {start} to {end} in {counted(len(runs) - 1, 'step')}"
             chart = steps(list(zip(moments, numbers, strict=True)), start, end, said)
         heads = ("Date", "Player", category.unit, "Better by", "Watch")
-        return section("How the record fell", chart, table("Newest first", heads, rows[: -FIRST - 1 : -1]))
+        title = f"How the record fell: {self.part_name(part)}"
+        return section(title, chart, table("Newest first", heads, rows[: -FIRST - 1 : -1]))
 
-    def _side_by_side(self, runs: Sequence[Run]) -> Markup:
-        """The first runs: their paths, any two of them, their splits."""
-        names = [shown_text(run.player, LONGEST_NAME) for run in runs]
+    def _side_by_side(self, runs: Sequence[Run], name: str) -> Markup:
+        """The first runs of what is called so: their paths, any two of them, their splits."""
+        names = [self.name(run.player) for run in runs]
         found = [run_splits(Recording(run.entry.named.level, run.replay), memory="auto") for run in runs]
         places = [(name, each.positions) for name, each in zip(names, found, strict=True)]
         drawn = paths(UP + picture_name(runs[0].entry.digest), places)
@@ -102,7 +107,7 @@ class LevelPages(Parts):
         ]
         races = table("Seconds by which the left one is later; a link watches both", ("Run", *names), pairs)
         splits = table("Seconds; later than the first: +", ("Split", *names), _splits(found))
-        first = section(f"The first {len(runs)} runs", together, drawn)
+        first = section(f"The first {len(runs)} runs: {name}", together, drawn)
         return joined(first, section("Any two of them", races), section("Splits", splits))
 
     def _pair(self, run: Run, other: Run) -> Content:

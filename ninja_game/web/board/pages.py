@@ -19,7 +19,7 @@ from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.web.board.level_pages import FIRST, LevelPages
-from ninja_game.web.board.parts import UP, level_link, player_link, player_page
+from ninja_game.web.board.parts import UP, level_link, player_page
 from ninja_game.web.board.ranking import Record, Standing
 from ninja_game.web.board.report import summary
 from ninja_game.web.board.runs import PLAYED, Run
@@ -92,7 +92,7 @@ class BoardPages(LevelPages):
     def _first(self) -> str:
         rows = [
             (
-                level_link(record.run.entry), self.watch([record.run], ""), player_link(record.run.player),
+                level_link(record.run.entry), self.watch([record.run], ""), self.player_link(record.run.player),
                 *self._achieved(record), _gains(record), record.run.day,
             )
             for record in self.ranking.records[:NEWEST]
@@ -124,8 +124,8 @@ class BoardPages(LevelPages):
             if ranked := self.ranking.tables[digest].get((PLAYED, self.main), []):
                 first, records = ranked[0], self.ranking.history[digest, (PLAYED, self.main)]
                 spread = [self.main.difference(each.values[0] - first.values[0]) for each in ranked[1:5:3]]
-                leader = player_link(first.run.player), self.main.text(first.values[0])
-                counts = len(records), len(ranked)
+                leader = self.player_link(first.run.player), self.main.text(first.values[0])
+                counts = len(records), self._counts(digest)[1]
                 rows.append((level_link(first.run.entry), *counts, *leader, *spread, *[""] * (2 - len(spread))))
         heads = ("Level", "Records", "Players", "First", self.main.name, "Second behind", "Fifth behind")
         caption = "By how often a record was beaten"
@@ -154,7 +154,7 @@ class BoardPages(LevelPages):
 
     def _standing(self, each: Standing) -> tuple[Content, ...]:
         firsts = [each.records[category] for category in self.ranking.categories]
-        return (player_link(each.player), each.levels, each.runs, *firsts, *each.medals.values())
+        return (self.player_link(each.player), each.levels, each.runs, *firsts, *each.medals.values())
 
     def _players(self) -> None:
         sums: dict[str, list[Content]] = defaultdict(list)
@@ -190,7 +190,7 @@ class BoardPages(LevelPages):
             for player, number in last.items():
                 best, by = runs[number], runs[number + 1] if number + 1 < len(runs) else None
                 about = level_link(self.entries[level], UP), self.part_name(part), self.value(part[1], best), best.day
-                loss = (player_link(by.player, UP), self.value(part[1], by), by.day) if by else ("", "", "")
+                loss = (self.player_link(by.player, UP), self.value(part[1], by), by.day) if by else ("", "", "")
                 (lost if by else held)[player].append((*about, *loss))
         return held, lost
 
@@ -227,11 +227,15 @@ class BoardPages(LevelPages):
         rows: list[tuple[Content, ...]] = []
         for digest, entry in self.entries.items():
             ranked = self.ranking.tables.get(digest, {}).get((PLAYED, self.main), [])
-            best = [(self.main.text(each.values[0]), player_link(each.run.player)) for each in ranked[:1]] or [("", "")]
-            counts = len(self.ranking.by_level.get(digest, ())), len(ranked)
-            rows.append((entry.episode, level_link(entry), *counts, *best[0]))
+            best = [(self.main.text(each.values[0]), self.player_link(each.run.player)) for each in ranked[:1]]
+            rows.append((entry.episode, level_link(entry), *self._counts(digest), *(best or [("", "")])[0]))
         heads = ("No.", "Level", "Runs", "Players", self.main.name, "First")
         self.list("levels", "Levels", "In playing order", heads, rows)
+
+    def _counts(self, digest: str) -> tuple[int, int]:
+        """How many runs a level has, and of how many players, in all ladders and categories."""
+        runs = self.ranking.by_level.get(digest, [])
+        return len(runs), len({run.player for run in runs})
 
     def _episodes(self) -> list[Content]:
         found: list[Content] = []
@@ -243,7 +247,7 @@ class BoardPages(LevelPages):
                 rows = [
                     (
                         place,
-                        player_link(player),
+                        self.player_link(player),
                         part[1].text(total),
                         seconds_text(LIFETIME + sum(run.score - LIFETIME for run in runs)),
                         ", ".join(self.value(part[1], run) for run in runs),
@@ -264,8 +268,8 @@ class BoardPages(LevelPages):
         counts = Counter(each.kind for each in rejected)
         said = ", ".join(f"{title.lower()}: {counts[kind]}" for kind, title in WHY_REJECTED.items() if counts[kind])
         rows = [
-            (WHY_REJECTED[each.kind], each.file + f", record {each.record}" * (each.record > 0), each.player,
-             each.level, each.why)
+            (WHY_REJECTED[each.kind], each.file + f", record {each.record}" * (each.record > 0),
+             self.name(each.player), each.level, each.why)
             for each in sorted(rejected, key=lambda each: order.index(each.kind))
         ]  # fmt: skip
         lead = f"None of them is ranked; {said}." if said else "Every file of the folder is a run that counts."

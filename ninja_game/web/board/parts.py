@@ -10,13 +10,15 @@ from typing import Any
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.player.catalogue import Entry
+from ninja_game.runs.run import run_level
+from ninja_game.web.board.charts import paths
 from ninja_game.web.board.ranking import Part, Ranking
 from ninja_game.web.board.rules import Category
 from ninja_game.web.board.runs import Run
 from ninja_game.web.pages.frame import GAME, REPLAYS, Content, Markup, Pages, joined, page, table, tag
 from ninja_game.web.pages.gallery import BOARD, medal_mark, run_page
 from ninja_game.web.pages.memo import Memo
-from ninja_game.web.pages.published import page_name, watch_address
+from ninja_game.web.pages.published import page_name, picture_name, watch_address
 
 PER_PAGE = 100
 """Rows of a table that goes on on another page: a page has at most 100 KB."""
@@ -86,17 +88,31 @@ class Parts:
 
     def run_page(self, run: Run) -> None:
         """The small page of a run."""
-        stem, title = self.stems[run.key], f"{shown_text(run.player, LONGEST_NAME)} on {run.entry.title}"
+        stem, title = self.stems[run.key], f"{self.name(run.player)} on {run.entry.title}"
         facts = [("Time", f"{seconds_text(run.tick)} s"), ("Score", seconds_text(run.score)), ("Gold", str(run.gold)),
                  ("Medal", run.medal), ("Made", run.made or "unknown"), ("Date", run.day)]  # fmt: skip
         about = run.entry, stem, title, facts, BOARD, self.game, self.links, self.site
-        self.pages.make_replay(f"{stem}.html", [title, *facts, self.links, self.site], lambda: run_page(*about))
 
-    def run(self, run: Run, *results: Content) -> tuple[Content, ...]:
-        """Cells of a run, for heads that end in RUN_HEADS."""
-        about = medal_mark(run.medal), run.gold, run.made or "unknown", run.day, run.remark
+        def content() -> str:
+            way = run_level(run.entry.named.level, run.replay.inputs).positions
+            picture = f"{UP}{BOARD}/{picture_name(run.entry.digest)}"
+            return run_page(*about, paths(picture, [(self.name(run.player), way)]))
+
+        self.pages.make_replay(f"{stem}.html", [title, *facts, self.links, self.site], content)
+
+    def name(self, player: str) -> str:
+        """A player's name in a table, and whose it is not where it looks like one that was there before."""
+        first = self.ranking.judged.alike.get(player)
+        return shown_text(player, LONGEST_NAME) + (f" (not {shown_text(first, LONGEST_NAME)})" if first else "")
+
+    def player_link(self, player: str, up: str = "") -> Content:
+        return tag("a", self.name(player), href=f"{up}{player_page(player)}.html") if player else ""
+
+    def run(self, run: Run, *results: Content, timed: bool = True) -> tuple[Content, ...]:
+        """Cells of a run, for heads that end in RUN_HEADS. ``timed``: with its medal, which is of the time."""
+        about = medal_mark(run.medal if timed else ""), run.gold, run.made or "unknown", run.day, run.remark
         others = f" with {shown_text(run.co_authors, LONGEST_NAME)}" if run.co_authors else None
-        return (joined(player_link(run.player, UP), others), *results, *self.leads(run, UP), *about)
+        return (joined(self.player_link(run.player, UP), others), *results, *self.leads(run, UP), *about)
 
     def part_name(self, part: Part) -> str:
         """What a ladder's category is called; the ladder only where there are two."""
@@ -112,10 +128,6 @@ class Parts:
 def player_page(player: str) -> str:
     """The file of a player's page, without its ending: an untrusted name never becomes a path."""
     return f"players/{sha256(player.encode('utf-8', 'replace')).hexdigest()[:16]}"
-
-
-def player_link(player: str, up: str = "") -> Content:
-    return tag("a", shown_text(player, LONGEST_NAME), href=f"{up}{player_page(player)}.html") if player else ""
 
 
 def level_link(entry: Entry, up: str = "") -> Markup:

@@ -82,6 +82,8 @@ def mixed_word(player: str) -> bool:
 class Players:
     """All players met so far, each under the name as it was typed first."""
 
+    alike: dict[str, str] = field(default_factory=dict)
+    """By player the one who came first, and whose name looks like theirs."""
     _names: dict[str, str] = field(default_factory=dict)
     _looks: dict[str, str] = field(default_factory=dict)
 
@@ -91,5 +93,6 @@ class Players:
         player = self._names.setdefault(name, name if name == UNNAMED else player_named(author))
         first = self._looks.setdefault(look(player), player)
         if first != player:
+            self.alike[player] = first
             return player, f"the player's name looks like {first} and is another one"
         return player, "letters of the player's name look like those of another script" if mixed_word(player) else ""

@@ -6,6 +6,7 @@ import json
 from collections import Counter
 from collections.abc import Iterator
 from datetime import UTC, datetime, timedelta
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,7 @@ from ninja_game.files.reading import read_utf8
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.web.board.ranking import Ranking
-from ninja_game.web.board.runs import KINDS, PLAYED, Dates, Key, Rejected, Run, ValidatedRuns
+from ninja_game.web.board.runs import KINDS, OWN, PLAYED, Dates, Key, Rejected, Run, ValidatedRuns
 
 VERSION = 2
 DATE = "%Y-%m-%dT%H:%M:%SZ"
@@ -33,7 +34,7 @@ _FIELDS = {
 def board_data(judged: ValidatedRuns) -> dict[str, Any]:
     """The board as plain values: nothing in it but the dates depends on time or machine."""
     runs = sorted(judged.runs, key=lambda run: run.key)
-    rejected = list(map(_rejected_data, judged.rejected))
+    rejected = list(map(_rejected_data, sorted([*judged.rejected, *judged.again], key=attrgetter("file", "record"))))
     return {"version": VERSION, "runs": list(map(_run_data, runs)), "rejected": rejected}
 
 
@@ -61,7 +62,7 @@ def board_text(judged: ValidatedRuns, before: tuple[Rows, Rows] = ({}, {})) -> s
     for key, old in (before[1] | before[0]).items():
         whole = rejected.get((key[0], 0), {})
         row = rejected.get(key) or (whole if whole.get("kind") == "unreadable" else {})
-        if old["way"] and key not in counted and row and row["kind"] != "copy":
+        if old["way"] and key not in counted and row and row["kind"] not in ("copy", OWN):
             rejected[key] = row | {"record": key[1], "way": old["way"], "added": old["added"]}
     data["rejected"] = [rejected[key] for key in sorted(rejected)]
     lines = {key: ",\n".join("  " + json.dumps(row) for row in data[key]) for key in ("runs", "rejected")}
@@ -131,7 +132,11 @@ def changes(ranking: Ranking, before: tuple[Rows, Rows]) -> Iterator[tuple[bool,
             yield True, f"new: {_place(run.key)}: {_achieved(ranking, run)}"
         elif now[run.key] != runs[run.key]:
             yield False, f"changed: {_place(run.key)}: {_achieved(ranking, run)}"
-    here = set(now) | {(each.file, each.record) for each in ranking.judged.rejected}
+    here = set(now) | {(each.file, each.record) for each in (*ranking.judged.rejected, *ranking.judged.again)}
+    new = [each for each in ranking.judged.again if (each.file, each.record) not in rejected]
+    for (file, player), levels in Counter((each.file, each.player) for each in new).items():
+        what = counted(levels, "level")
+        yield True, f"new: {plain(file)}: an episode in which {plain(player)} plays {what} as in an earlier run"
     for each in ranking.judged.rejected:
         key = each.file, each.record
         if key not in rejected or rejected[key].get("why") != each.why:
@@ -147,7 +152,7 @@ def _achieved(ranking: Ranking, run: Run) -> str:
     for (ladder, category), table in ranking.tables[run.entry.digest].items():
         place = next((each.place for each in table if each.run is run), 0) if ladder == run.ladder else 0
         if place:
-            text += f"; {'assisted, ' * (ladder != PLAYED)}{category.name.lower()}: place {place} of {len(table)}"
+            text += f"; {'assisted, ' * (ladder != PLAYED)}{category.name}: place {place} of {len(table)}"
     if run.medal:
         text += f"; {run.medal} medal"
     return f"{text}; note: {plain(run.remark)}" if run.remark else text

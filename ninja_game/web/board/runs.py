@@ -18,17 +18,19 @@ import numpy as np
 from ninja_game.budget import RUN_BUDGET, tick_cost
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.replay.made import names_of_text, parse_made
-from ninja_game.formats.replay.text import Replay
+from ninja_game.formats.replay.text import INPUTS_AFTER, Replay
+from ninja_game.levels.findings import in_run
 from ninja_game.player.catalogue import Entry
 from ninja_game.runs.archive import Lost, verify_all
 from ninja_game.runs.chunks import Chunk, Result
 from ninja_game.runs.recording_reader import Unreadable
 from ninja_game.runs.run import run_level
+from ninja_game.runs.verify import NOT_RUN
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.web.board.collect import RunFolder, Sent
 from ninja_game.web.board.copies import Course, Courses, course_of
-from ninja_game.web.board.players import Players, player_named
+from ninja_game.web.board.players import Players
 from ninja_game.web.pages.memo import Memo, digest_of, program
 from ninja_game.web.pages.published import PublishedLevels, shared_text
 
@@ -46,6 +48,9 @@ MOST_COMPARED = 1000
 
 KINDS = {"practice": "of practice", "copy": "copied", "refused": "refused", "unreadable": "unreadable"}
 """Why a run does not count, and that in words."""
+
+OWN = "own"
+"""What a level of an episode is that its player has sent before."""
 
 _LINE = re.compile(r"^(?=[0-9])")
 
@@ -156,11 +161,15 @@ class Rejected:
 class ValidatedRuns:
     """All of a folder: ``runs`` in the order in which they were added, ``rejected`` by file.
 
-    ``episodes``: by key the runs of whole episodes, each a run for each of its levels.
+    ``again``: levels of episodes that do what an earlier run by the same player does, of kind OWN: neither of the two;
+    ``episodes``: by key the runs of whole episodes, each a run for each of its levels; ``alike``: by player who was
+    there before and has a name that looks like theirs.
     """
 
     runs: tuple[Run, ...]
     rejected: tuple[Rejected, ...]
+    again: tuple[Rejected, ...] = ()
+    alike: Mapping[str, str] = field(default_factory=dict)
     episodes: Mapping[str, list[list[Run]]] = field(default_factory=dict)
 
 
@@ -177,19 +186,24 @@ def judge(
     sent = RunFolder(folder, {digest: entry.named.level for digest, entry in shown.entries.items()})
     runs: list[Run] = []
     rejected: list[Rejected] = []
+    players = Players()
     for name, digest, rows in _judged(sent, shown, jobs, memo):
         for found in rows:
             entry = shown.entries.get(found.level)
             if found.kind or entry is None:
                 title = entry.title if entry else ""
-                rejected.append(Rejected(name, found.record, found.kind, found.why, player_named(found.author), title))
+                rejected.append(Rejected(name, found.record, found.kind, found.why, found.author, title))
                 continue
             added = dates((name, found.record), found.way) if dates else ""
             runs.append(_run(name, digest, found, entry, sent, added))
-    told = _of_players(sorted(runs, key=_first))
+    told = _of_players(sorted(runs, key=_first), players)
     counted, copies = _without_copies(told, memo)
-    refused = tuple(sorted([*rejected, *copies], key=lambda each: (each.file, each.record)))
-    return ValidatedRuns(tuple(counted), refused, _episodes(told, counted, shown))
+    named = [
+        each if each.kind == "unreadable" else replace(each, player=players.meet(each.player)[0]) for each in rejected
+    ]
+    others = sorted([*named, *copies], key=lambda each: (each.file, each.record))
+    refused, again = (tuple(each for each in others if (each.kind == OWN) is own) for own in (False, True))
+    return ValidatedRuns(tuple(counted), refused, again, players.alike, _episodes(told, counted, shown))
 
 
 def _episodes(runs: list[Run], counted: list[Run], shown: PublishedLevels) -> dict[str, list[list[Run]]]:
@@ -285,9 +299,9 @@ def _run(name: str, digest: str, row: Judged, entry: Entry, folder: RunFolder, a
     )  # fmt: skip
 
 
-def _first(run: Run) -> tuple[str, Key]:
-    """What runs are in order of: the first one owns what it does."""
-    return run.added, run.key
+def _first(run: Run) -> tuple[str, bool, Key]:
+    """What runs are in order of: the first one owns what it does. A level of an episode comes after single runs."""
+    return run.added, bool(run.episode), run.key
 
 
 def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
@@ -295,8 +309,12 @@ def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
     if isinstance(result, Unreadable):
         why = _without_name(result.message, sent.chunk.file).partition("; --budget")[0]  # which a board has not
         return Judged(sent.chunk.first, "unreadable", why)
-    if not result.good:
-        why = "; ".join(map(str, result.problems))
+    problems = [*map(str, result.problems)]
+    if sent.claimed >= 0 and result.outcome != NOT_RUN:
+        other = in_run("other-end", tick=result.ticks - 1, outcome=result.outcome, claimed=sent.claimed)
+        problems = [str(other) if result.end_tick != sent.claimed else INPUTS_AFTER]
+    if problems:
+        why = "; ".join(problems)
         kind = "practice" if result.practice else "refused"
         return Judged(result.record, kind, why, result.author, result.level_digest)
     inputs = folder.known[result.file, result.record] = sent.inputs(result.ticks)
@@ -309,9 +327,8 @@ def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
     )  # fmt: skip
 
 
-def _of_players(runs: list[Run]) -> list[Run]:
+def _of_players(runs: list[Run], players: Players) -> list[Run]:
     """The runs, each of the player that its author is."""
-    players = Players()
     found = []
     for run in runs:
         player, remark = players.meet(run.player)
@@ -331,7 +348,7 @@ def _without_name(message: str, name: str) -> str:
 
 
 def _without_copies(runs: list[Run], memo: Memo) -> tuple[list[Run], list[Rejected]]:
-    """The runs without those that do what an earlier one does; near copies of an earlier one are marked."""
+    """The runs without those that do what an earlier one does, and those; near copies of an earlier one are marked."""
     on_level: dict[str, list[Run]] = defaultdict(list)
     copies: list[Rejected] = []
     ways: dict[tuple[str, str], Run] = {}
@@ -342,8 +359,8 @@ def _without_copies(runs: list[Run], memo: Memo) -> tuple[list[Run], list[Reject
         else:
             stolen = first.player != run.player and first.added < run.added
             what = f"a copy of the run by {first.player} in" if stolen else "the same run as"
-            why = f"{what} {first.file}"
-            copies.append(Rejected(*run.key, "copy", why, run.player, run.entry.title, run.way, run.added))
+            why, kind = f"{what} {first.file}", OWN if run.episode and first.player == run.player else "copy"
+            copies.append(Rejected(*run.key, kind, why, run.player, run.entry.title, run.way, run.added))
     kept = [run for level in on_level.values() for run in _remarked(level, memo)]
     return sorted(kept, key=_first), copies
 

@@ -81,7 +81,7 @@ class Documents:
     def __init__(self, address: str = "") -> None:
         self._address_of_site = address
         self._reader = MarkdownIt("commonmark", {"html": False, "highlight": _coloured}).enable("table")
-        self._reader.add_render_rule("table_open", lambda *_: '<div class="wide" tabindex="0"><table>')
+        self._reader.add_render_rule("table_open", lambda *_: '<div class="wide words" tabindex="0"><table>')
         self._reader.add_render_rule("table_close", lambda *_: "</table></div>")
         self.markdown = {
             name: _titled(self._reader.parse(path.read_text("utf-8")), name) for name, path in markdown_files().items()

@@ -84,10 +84,14 @@ def level_page(
     return page(entry.title, *contents, up=UP, links=links, picture=picture, about=named.comment or said)
 
 
-def run_page(entry: Entry, stem: str, title: str, facts: Links, folder: str, game: str, links: Links, site: str) -> str:
+def run_page(
+    entry: Entry, stem: str, title: str, facts: Links, folder: str, game: str, links: Links, site: str,
+    drawn: Content = None,
+) -> str:  # fmt: skip
     """The small page of a run, beside it in ``replays``: what a link to it shows in a chat, and what leads to it.
 
-    ``folder``: of the pages with the level's; ``game``, ``links``: as seen from their first one; ``site``: as above.
+    ``folder``: of the pages with the level's; ``game``, ``links``: as seen from their first one; ``site``: as above;
+    ``drawn``: its path over the level.
     """
     place = f"../{folder}/"
     facts = [*((name, text) for name, text in facts if text), ("Author of the level", entry.named.author or "unknown")]
@@ -96,7 +100,8 @@ def run_page(entry: Entry, stem: str, title: str, facts: Links, folder: str, gam
         tag("p", tag("a", "The level", href=place + page_name(entry.digest))),
         tag("p", tag("a", "The replay as a file", href=f"{stem}.txt", download=True)),
     )  # fmt: skip
-    shown = tag("div", level_image(entry, place), tag("div", *leads, class_="about"), class_="level")
+    drawn = tag("div", drawn) if drawn else level_image(entry, place)
+    shown = tag("div", drawn, tag("div", *leads, class_="about"), class_="level")
     about, picture = ". ".join(f"{name}: {text}" for name, text in facts), (site or place) + picture_name(entry.digest)
     links = [(normpath(place + address), name) for address, name in links]
     return page(title, shown, up=place, links=links, picture=picture, about=about)

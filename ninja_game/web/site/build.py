@@ -18,7 +18,7 @@ from ninja_game.files.reading import read_utf8
 from ninja_game.files.tree import Tree, leads_below
 from ninja_game.files.user_folder import PACKAGE, data_folder
 from ninja_game.web.pages.documents import Documents
-from ninja_game.web.pages.frame import GAME
+from ninja_game.web.pages.frame import GAME, MARK as PAGES_MARK, REPLAYS
 from ninja_game.web.pages.published import page_name, picture_name, published_levels
 from ninja_game.web.site.game_archive import compiled, game_archive, game_files, licence_of
 from ninja_game.web.site.pyodide_files import library_files, library_of, pyodide_files
@@ -86,7 +86,7 @@ def build_site(out: Path, pyodide: Path | None, cache: Path, address: str = "") 
 
 def _own_files(out: Path) -> set[str]:
     """What an earlier build has written there. Raises FileError for a folder that is not ours."""
-    if not out.exists() or (out.is_dir() and not any(out.iterdir())):
+    if not out.exists() or (out.is_dir() and all(map(_of_pages, out.iterdir()))):
         return set()
     hint = "name a new folder, or remove that one yourself"
     try:
@@ -96,6 +96,11 @@ def _own_files(out: Path) -> set[str]:
             "this is not a site of ninja-game", str(out), expected="a new or empty folder", hint=hint
         ) from None
     return {name for name in names if isinstance(name, str) and leads_below(name)}
+
+
+def _of_pages(path: Path) -> bool:
+    """Whether a board, or a gallery, was written there, or the replays beside one."""
+    return (path / PAGES_MARK).is_file() or (path.name == REPLAYS and any(path.parent.glob(f"*/{PAGES_MARK}")))
 
 
 def _page() -> dict[str, bytes]:
