@@ -254,9 +254,11 @@ class EditorCommands(DocumentCommands):
         fields = [(prompts.get(key, key.capitalize()), text, 200) for key, text in about]
 
         def on_accept(texts: list[str]) -> None:
+            name, author, comment, teaches = texts
             tools = self.session.tools
             tools.finish()
-            tools.history.change(Draft(tools.draft.level, *texts, says=tools.draft.says))
+            self.app.know_author(tools.draft.author, author)
+            tools.history.change(Draft(tools.draft.level, name, author, comment, teaches, tools.draft.says))
 
         self.app.push(FormPanel(self.app, "About the level", fields, "OK", on_accept))
 

@@ -69,7 +69,7 @@ def test_every_message_comes_back_as_it_was(room: Maker) -> None:
 
 
 @pytest.mark.parametrize(
-    ("message", "in_detail", "said"),
+    "message, in_detail, said",
     [
         (Message("start", "", " "), False, "Type what is said"),
         (Message("start", "", "a | b"), False, "no |"),
