@@ -110,6 +110,7 @@ def tour(driver: MenuDriver) -> Iterator[str]:
 
 def home(driver: MenuDriver) -> None:
     """Back to the main menu, with no notice left."""
+    driver.app.notify("")
     for _ in range(10):
         if isinstance(driver.top(), MainMenu):
             return
@@ -508,6 +509,7 @@ def _film(driver: MenuDriver) -> Iterator[str]:
         screen.export.result, screen.export.done = "No film: there is not enough memory", True
         driver.frames()
         yield "replay-no-film"
+        driver.app.notify("")
         driver.press("g")
         driver.app.pop()
 

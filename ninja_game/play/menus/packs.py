@@ -177,8 +177,8 @@ class PackScreen(ThumbnailScreen):
         self.shelves.hint = self.tray.hint = "Drag a level or an episode; Enter or a second click: what can be done"
         ready = "Stop" if not self._job.idle else "Make ready"
         hint = "Certify all, measure par times, look for problems; zip and link. Only what changed is done again"
-        new = Button((208, 60, 96, 28), "New pack...", self._new_pack, size=10)
-        paste = Button((308, 60, 84, 28), "Paste link", self._paste, size=10)
+        new = Button((208, 60, 88, 28), "New pack...", self._new_pack, size=10)
+        paste = Button((304, 60, 84, 28), "Paste link", self._paste, size=10)
         paste.hint = "Ctrl+V: the pack whose link is in the clipboard becomes one of yours"
         about = Button((396, 60, 92, 28), "About it...", self._about, size=10, hint="Name, author, version, link")
         problems = Button((492, 60, 84, 28), "Problems", lambda: self.app.push(ProblemsScreen(self.app, self.problems)))
