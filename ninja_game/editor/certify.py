@@ -125,7 +125,7 @@ class Certifier:
     @property
     def busy(self) -> bool:
         """Whether the solver is at work on the newest search."""
-        return not (self.search.end or self._job.idle)
+        return self.search.level is not None and not (self.search.end or self._job.idle)
 
     def is_stale(self, level: Level) -> bool:
         """Whether there is a result, but of another level than this one."""
@@ -144,6 +144,11 @@ class Certifier:
         """End the search; what was found stays. Nobody waits: a solver that is being compiled ends when it is ready."""
         if self.busy:
             self.search.end = "Stopped"
+
+    def forget(self) -> None:
+        """Stop, and know of no level any more."""
+        self.stop()
+        self.search, self._job.problem = Search(), ""
 
     def close(self) -> None:
         """Stop, and give the thread a moment to end."""

@@ -17,11 +17,11 @@ from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import SUFFIX, draft_of, open_source, save
 from ninja_game.errors import PackError
 from ninja_game.files.reading import read_bytes, read_utf8
-from ninja_game.files.shown_text import file_stem
+from ninja_game.files.shown_text import file_stem, name_problem
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.formats.pack.files import INDEX, certificate_name
+from ninja_game.formats.pack.files import INDEX, MOST_FILES, certificate_name
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, MOST_EPISODES, parse_index
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.runs.packs import KINDS
@@ -81,9 +81,15 @@ def new_pack(folder: Path, name: str, author: str) -> Path:
 
 
 def copy_pack(pack: Pack, folder: Path, name: str) -> Path:
-    """A copy of a pack by another name; its folder, in ``folder``."""
+    """A copy of a pack, from wherever, by another name; its folder, in ``folder``."""
+    names = pack.files.own_names
+    if len(names) > MOST_FILES:
+        raise PackError("a pack of too many files", found=f"{len(names):,}", expected=f"at most {MOST_FILES:,}")
+    for file in names:
+        if problem := name_problem(file.rpartition("/")[2]):
+            raise PackError("a name that no file here can have", found=ascii(file[:40]), hint=problem)
     path = free_path(folder, file_stem(name, "pack"), "")
-    for file in pack.files.own_names:
+    for file in names:
         Tree(path).write(file, pack.files.text(file))
     describe(path, {"name": name})
     return path

@@ -18,7 +18,7 @@ from ninja_game.editor.brush import (
     with_switch,
 )
 from ninja_game.editor.curves import covered, curve, spread
-from ninja_game.editor.draft import Cell, Draft, Tiles, cell_of, changed_cells
+from ninja_game.editor.draft import Cell, Draft, Tiles, cell_of, changed_cells, is_inside
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.slopes import sloped
 from ninja_game.editor.specs import has_switch, points, properties, with_word
@@ -253,11 +253,11 @@ class EditorTools:
         self._change(Stamp({}, tuple(placed(self.spec, *place, snap) for place in places)), self.history.began)
 
     def bend(self, steps: int) -> bool:
-        """Bend the line that is being drawn to its right; whether one is."""
+        """Bend the line that is being drawn to its right; whether anything is being drawn or dragged."""
         if self._doing == "line":
             self._bend += BEND * steps
             self._draw_shape()
-        return self._doing == "line"
+        return bool(self._doing)
 
     def _dropped(self) -> ObjectSpec:
         """The brush's object as it would be placed now."""
@@ -344,17 +344,25 @@ class EditorTools:
             draft, self.selection = reordered(self.draft, self.selection, by)
             self.history.change(draft)
 
-    def turn(self, motion: Motion) -> None:
-        """Flip or turn what is chosen, in its place; without a selection what the brush draws."""
+    def turn(self, motion: Motion) -> bool:
+        """Flip or turn what is chosen, in its place; without a selection what the brush draws.
+
+        False, and nothing is done, where something would leave the level.
+        """
         self.finish()
         if self.selection:
             about = motion.about(*middle_of(self.draft, self.selection, quarter=bool(motion.xy)))
+            cells = list(cells_of(self.selection.area)) if self.selection.area else []
+            cells += [cell_of(*points(self.draft.objects[number])[part]) for number, part in self.selection.parts]
+            if not all(is_inside(about.cell(cell)) for cell in cells if is_inside(cell)):
+                return False
             draft, self.selection = moved(self.draft, self.selection, about)
             self.history.change(draft)
         elif self.objects:
             self.spec = Stamp({}, (self.spec,)).carried(motion.about(36.0, 36.0)).objects[0]
         else:
             self.tile = motion.tile(self.tile)
+        return True
 
     def copy(self) -> bool:
         """Remember what is chosen; whether anything is."""

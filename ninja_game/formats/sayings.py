@@ -10,6 +10,9 @@ from ninja_game.errors import LevelError
 from ninja_game.sim.level import COLUMNS, ROWS
 
 MOST_SAYINGS, MOST_LETTERS = 4, 120
+BAR = "|"
+"""Between two texts."""
+
 KEYS = ("left", "right", "jump", "retry", "suicide", "pause", "replay")
 """Actions whose key a text may name: {jump} becomes the key or button of whoever plays."""
 
@@ -37,7 +40,7 @@ def read_sayings(value: str) -> tuple[Saying, ...]:
     >>> read_sayings("start: {jump} jumps | death 3: Wait for the drone")[1]
     Saying(when='death', text='Wait for the drone', deaths=3, cell=(0, 0))
     """
-    parts = value.split("|") if value.strip() else []
+    parts = value.split(BAR) if value.strip() else []
     if len(parts) > MOST_SAYINGS:
         raise LevelError("too many texts in 'says'", found=str(len(parts)), expected=f"at most {MOST_SAYINGS}")
     return tuple(map(_read, parts))

@@ -250,6 +250,11 @@ class App:
         if message:
             self.notify(message)
 
+    def know_author(self, before: str, author: str) -> None:
+        """An author's name was typed: it is the player's, and begins what is made next, where none is set yet."""
+        if author != before and not self.settings.name:
+            self.change_settings(name=author.strip()[:40])
+
     def notify(self, text: str, *, ms: int = NOTICE_MS) -> None:
         """Show a line below the stage for a while, whatever screen is on top."""
         self.notice, self._notice_ms = text, ms

@@ -20,7 +20,7 @@ def copy_text(app: App, text: str, *, title: str, suffix: str, notice: str = "")
     except pygame.error:
         app.write_export(title, suffix, text + "\n")
     else:
-        app.notify(notice or "Copied to the clipboard")
+        app.notify(notice or f"In the clipboard: {len(text):,} characters")
 
 
 def pasted_text() -> str:
@@ -34,14 +34,17 @@ def pasted_text() -> str:
     return text
 
 
-def copy_link(app: App, make: Callable[[], str], *, title: str) -> None:
-    """Put the link that ``make`` gives behind the address of the player's page, and into the clipboard."""
+def copy_link(app: App, make: Callable[[], str], *, title: str, notice: str = "Link copied") -> None:
+    """Put the link that ``make`` gives behind the address of the player's page, and into the clipboard.
+
+    ``notice``: what is said then.
+    """
     try:
         link = make()
     except (NinjaGameError, OSError) as error:
         app.notify(f"No link: {reason(error)}")
         return
-    copy_text(app, app.settings.site + link, title=title, suffix=".link.txt", notice="Link copied")
+    copy_text(app, app.settings.site + link, title=title, suffix=".link.txt", notice=notice)
 
 
 def copy_level_link(app: App, named: NamedLevel | Draft, title: str) -> None:

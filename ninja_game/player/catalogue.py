@@ -124,6 +124,11 @@ class EpisodeSet(NamedTuple):
         return self.pack.files.path if self.pack else None
 
     @property
+    def changeable(self) -> bool:
+        """Whether it is a folder of the player's own."""
+        return bool(self.key and self.path and self.path.is_dir())
+
+    @property
     def levels(self) -> list[Entry]:
         """Every level, those of the episodes first, in their order."""
         return [entry for number in sorted(self.episodes) for entry in self.episodes[number].levels] + [*self.singles]
@@ -139,20 +144,24 @@ def author_name(author: str) -> str:
 
 
 def episode_set(pack: Pack, key: str, name: str = "") -> EpisodeSet:
-    """A pack's episodes and single levels as they are played; ``name``: what it is called, if not by its own."""
+    """A pack's episodes and single levels as they are played; ``name``: what it is called, if not by its own.
+
+    A level without an author is by that of the pack.
+    """
     source = key or "game"
+
+    def entry(level: NamedLevel, place: str = "") -> Entry:
+        named = level if level.author else replace(level, author=pack.index.author)
+        return Entry(named, source, place, pars.get(level.file))
+
     pars = {pack.files.place(file): each for file, each in pack.pars.items()}
     episodes = {}
     for index, levels in pack.episodes.items():
-        entries = [
-            Entry(level, source, f"{index.number:02d}-{place}", pars.get(level.file))
-            for place, level in enumerate(levels)
-        ]
+        entries = [entry(level, f"{index.number:02d}-{place}") for place, level in enumerate(levels)]
         episodes[index.number] = Episode(index.number, index.name, tuple(entries), key)
     placed = {level.file for levels in pack.episodes.values() for level in levels}
     singles = [level for level in pack.levels.values() if level.file not in placed]
-    rest = tuple(Entry(level, source, pars=pars.get(level.file)) for level in singles)
-    return EpisodeSet(key, name or pack.name, pack.index.columns, episodes, rest, pack)
+    return EpisodeSet(key, name or pack.name, pack.index.columns, episodes, tuple(map(entry, singles)), pack)
 
 
 class Catalogue:
@@ -270,8 +279,9 @@ class Catalogue:
         return pack
 
     def singles(self) -> list[Entry]:
-        """Every level as a single one: the player's, the game's, then those of other packs."""
-        return self.own() + [entry for pack in self.packs() for entry in pack.levels]
+        """Every level as a single one: the player's, also those in folders of packs, the game's, then those of zips."""
+        packs = sorted(self.packs(), key=lambda pack: not pack.changeable)
+        return self.own() + [entry for pack in packs for entry in pack.levels]
 
     def own(self) -> list[Entry]:
         """The levels in the player's folder as it is now; what cannot be read becomes ``problems``.

@@ -174,7 +174,7 @@ def _about_levels(pack: Pack) -> Iterator[PackFinding]:
         place = pack.files.place(file)
         if named.form == "ascii" and named.name == PurePath(file).stem:
             yield in_pack("no-name", place)
-        if not named.author:
+        if not (named.author or pack.index.author):
             yield in_pack("no-author", place)
         digest = level_digest(named.level)
         for code, key, seen in (("same-name", named.name, names), ("same-content", digest, levels)):

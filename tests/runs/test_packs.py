@@ -65,14 +65,14 @@ def test_index_is_looked_at(pack: Path) -> None:
 def test_levels_are_looked_at(pack: Path) -> None:
     shutil.copy(pack / f"{FIRST}.txt", pack / "00-1-again.txt")
     (pack / "00-1-mind-the-gap.txt").unlink()
-    change(pack / "00-2-the-chimney.txt", "author: the ninja-game team\n", "")
+    change(pack / "00-2-the-chimney.txt", "name: The Chimney\n", "")
     (pack / "00-3-rolling-hills.txt").write_text("ninja-game level 1\nnonsense")
     found = findings(pack)
     for expected in (
         "00-1-again.txt: the same name as 00-0-first-steps.txt",
         "00-1-again.txt: the same content as 00-0-first-steps.txt",
         "00-1-again.txt: no certificate, so nobody knows whether it can be passed",
-        "00-2-the-chimney.txt: no author",
+        "00-2-the-chimney.txt: no name",
     ):
         assert expected in found
     assert any("00-1-mind-the-gap.exit.replay.txt: of no level here" in finding for finding in found)
@@ -87,11 +87,11 @@ def test_certificates_of_a_level_that_cannot_be_read_are_not_strays(pack: Path) 
 
 
 def test_findings_are_accepted_with_a_reason(pack: Path) -> None:
-    change(pack / "00-2-the-chimney.txt", "author: the ninja-game team\n", "")
-    accept = '[[accept]]\nfile = "{}"\ncode = "no-author"\nreason = "found on the street"\n'
+    change(pack / "00-2-the-chimney.txt", "name: The Chimney\n", "")
+    accept = '[[accept]]\nfile = "{}"\ncode = "no-name"\nreason = "found on the street"\n'
     with (pack / "pack.toml").open("a", encoding="utf-8") as index:
         index.write(accept.format("00-2-the-chimney.txt") + accept.format("00-0-first-steps.txt"))
-    assert findings(pack) == ["pack.toml:20: accepts no-author of 00-0-first-steps.txt, which is not found there"]
+    assert findings(pack) == ["pack.toml:20: accepts no-name of 00-0-first-steps.txt, which is not found there"]
     result = CliRunner().invoke(cli, ["levels", "lint", str(pack)])
     assert "2 episodes, 8 levels, 1 finding, 2 accepted" in result.output
 

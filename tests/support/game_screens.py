@@ -336,12 +336,28 @@ def _editor(driver: MenuDriver) -> Iterator[str]:
     yield "editor-menu"
     driver.press("escape", "f2")
     yield "editor-about"
-    driver.press("escape", "f1")
+    driver.press("escape")
+    yield from _messages(driver, screen)
+    driver.press("f1")
     yield "editor-help"
     driver.press("escape")
     screen.session.close()
     driver.app.pop()
     yield from _editor_states(driver)
+
+
+def _messages(driver: MenuDriver, screen: EditorScreen) -> Iterator[str]:
+    """Four messages, as many as a level has, and where two of them are said."""
+    said = "start: {jump} jumps | switch: Now the exit | at 9,20: Mind the mine | death 3: Wait"
+    tools = screen.session.tools
+    tools.history.change(replace(tools.draft, says=said))
+    driver.frames(2)
+    yield "editor-messages-in-the-level"
+    driver.chord("m", pygame.KMOD_LSHIFT)
+    driver.frames(2)
+    yield "editor-messages"
+    driver.press("escape")
+    tools.undo()
 
 
 def _editor_states(driver: MenuDriver) -> Iterator[str]:

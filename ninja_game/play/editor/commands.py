@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
 from ninja_game.editor.brush import SNAPS
-from ninja_game.editor.draft import Draft
+from ninja_game.editor.draft import Cell, Draft, cell_of
 from ninja_game.editor.files import SUFFIX, Source, draft_of, new_source, open_source, recovered
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
 from ninja_game.editor.specs import points
@@ -17,11 +18,10 @@ from ninja_game.errors import LevelError, NinjaGameError, reason
 from ninja_game.files.shown_text import counted, file_stem
 from ninja_game.files.user_folder import LEVELS, free_path
 from ninja_game.formats.ascii.writer import HEADER_KEYS
-from ninja_game.formats.lines import MOST_NAME
-from ninja_game.formats.sayings import read_sayings
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
 from ninja_game.play.editor.controls import COMMANDS
+from ninja_game.play.editor.messages import MessagesScreen
 from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.sheet import finding_points
@@ -33,6 +33,7 @@ from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.panels import Action, FormPanel, Menu, Row, nothing
 from ninja_game.play.workspace.document import DocumentCommands
 from ninja_game.player.catalogue import Entry
+from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.ui.widgets import following
 
 HELP = """\
@@ -48,9 +49,6 @@ NAMELESS = "My level"
 """What a level is called if its maker gives it no name."""
 
 _UNDO = "Undo brings back what was here"
-
-_ABOUT = {"teaches": "What it teaches", "says": "Says: start: Run!"}
-"""Prompts of the fields whose names say too little."""
 
 
 class EditorCommands(DocumentCommands):
@@ -79,13 +77,14 @@ class EditorCommands(DocumentCommands):
             "help": lambda: self.app.push(HelpPage(self.app, "The editor", HELP, COMMANDS)), "menu": self.menu,
             "test": self.test, "test_here": lambda: self.test(here=True), "certify": self.certify,
             "save": self.save, "save_as": self.save_as, "open": self.open, "new": self.new, "about": self.about,
+            "messages": self.messages,
             "undo": tools.undo, "redo": tools.redo,
             "copy": tools.copy, "cut": tools.cut, "paste": tools.paste,
             "choose_all": self.choose_all, "delete": tools.delete,
             "next_tool": lambda: self.run(following(TOOLS, tools.tool)),
             "swap": lambda: tools.pick_up(tools.tile if tools.objects else tools.spec),
-            "mirror": lambda: tools.turn(MIRROR), "flip": lambda: tools.turn(FLIP),
-            "turn": lambda: tools.turn(CLOCKWISE), "symmetry": self.next_symmetry, "grid": view.next_grid,
+            "mirror": lambda: view.turn(MIRROR), "flip": lambda: view.turn(FLIP),
+            "turn": lambda: view.turn(CLOCKWISE), "symmetry": self.next_symmetry, "grid": view.next_grid,
             "slopes": self.switch_slopes,
             "list": lambda: setattr(view, "listing", not view.listing),
             "lines": lambda: setattr(view, "lines", not view.lines),
@@ -179,11 +178,12 @@ class EditorCommands(DocumentCommands):
     def menu(self) -> None:
         """Give up what is half done, or open the file menu."""
         session = self.session
-        if session.tools.cancel():
+        if self.view.take(None) or session.tools.cancel():
             return
         rows = [
             ("Save", self.save, "Ctrl+S"), ("Save as...", self.save_as, "Ctrl+Shift+S"),
             ("Open...", self.open, "Ctrl+O"), ("New", self.new, "Ctrl+N"), ("About the level...", self.about, "F2"),
+            ("Messages...", self.messages, "What the level says while it is played: Shift+M"),
             ("Copy a link", session.copy_link, "Opens the level"), ("Copy as an N string", session.copy_string, ""),
             ("Paste an N string", session.paste_string, "From the clipboard; any format of levels, or a link"),
             ("Export a picture", session.export_picture, "A PNG file among your exports"),
@@ -247,23 +247,36 @@ class EditorCommands(DocumentCommands):
 
         self.app.push(FormPanel(self.app, "Save as", fields, "Save", on_accept))
 
-    def about(self, typed: Sequence[str] = ()) -> None:
-        """Name, author, comment, what the level teaches and says; ``typed``: what was typed and could not be taken."""
-        about = zip(HEADER_KEYS, typed or self.session.draft.about, strict=True)
-        fields = [(_ABOUT.get(key, key.capitalize()), text, MOST_NAME if key == "says" else 200) for key, text in about]
+    def about(self) -> None:
+        """Name, author, comment, what the level teaches."""
+        prompts = {"teaches": "What it teaches"}
+        about = zip(HEADER_KEYS[:-1], self.session.draft.about, strict=False)
+        fields = [(prompts.get(key, key.capitalize()), text, 200) for key, text in about]
 
         def on_accept(texts: list[str]) -> None:
-            try:
-                read_sayings(texts[-1])
-            except LevelError as error:
-                self.about(texts)
-                self.app.notify(reason(error))
-                return
+            name, author, comment, teaches = texts
             tools = self.session.tools
             tools.finish()
-            tools.history.change(Draft(tools.draft.level, *texts))
+            self.app.know_author(tools.draft.author, author)
+            tools.history.change(Draft(tools.draft.level, name, author, comment, teaches, tools.draft.says))
 
         self.app.push(FormPanel(self.app, "About the level", fields, "OK", on_accept))
+
+    def messages(self) -> None:
+        """What the level says to its player, and when; near a place: that of what is selected, or of the pointer."""
+        tools, view = self.session.tools, self.view
+        tools.finish()
+        found = [points(tools.draft.objects[number]).get(part) for number, part in tools.selection.parts]
+        place = cell_of(*next(filter(None, found), tools.pointer))
+        here = min(max(1, place[0]), COLUMNS), min(max(1, place[1]), ROWS)
+
+        def pick(take: Callable[[Cell | None], None]) -> None:
+            view.taker, view.hint = take, "Click where the message is said; Esc leaves it where it was"
+
+        def put(says: str) -> None:
+            tools.history.change(replace(tools.draft, says=says))
+
+        self.app.push(MessagesScreen(self.app, tools.draft.says, here, pick, put))
 
     def open(self) -> None:
         self.unless_unsaved(lambda: self.app.push(LevelChoice(self.app, self.edit_entry)))

@@ -16,6 +16,7 @@ COMMANDS = (
     Command("open", "Open a level", ("ctrl+o",)),
     Command("new", "New level", ("ctrl+n",)),
     Command("about", "Name, author, comment, teaches", ("f2",)),
+    Command("messages", "Messages to the player", ("shift+m",)),
     Command("undo", "Undo", ("ctrl+z",), "lefttrigger+"),
     Command("redo", "Redo", ("ctrl+y", "ctrl+shift+z"), "righttrigger+"),
     Command("copy", "Copy", ("ctrl+c",)),

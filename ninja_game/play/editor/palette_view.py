@@ -100,7 +100,7 @@ class PaletteView(Widget):
         return f"{_said(self.hovered)} among the {'objects' if isinstance(self.hovered, ObjectType) else 'tiles'}"
 
     def step(self, by: int) -> None:
-        """The entry before or after the one in hand; a line that is being drawn is bent instead."""
+        """The entry before or after the one in hand; while something is drawn only a line bends."""
         tools = self.tools
         if tools.bend(by):
             return

@@ -43,13 +43,14 @@ def panel_key(tools: EditorTools) -> tuple[object, ...]:
             tools.selection.numbers,
             [(name, not _present(tools, name)) for name in _common(tools.subjects)],
             kind,
-            spec and tuple(points(spec)),
+            spec and tuple(points(spec).items()),
         )
     return tools.objects, tools.spec.kind if tools.objects else tools.tile, tools.effective_tool in CURVES
 
 
-def property_widgets(tools: EditorTools, area: Area) -> Sequence[Widget]:
+def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
     x, y, w, _ = area
+    tools = view.session.tools
     rows: list[Callable[[Area], Widget]] = []
     if tools.selection and tools.chosen is None:
         count = len(tools.selection.numbers)
@@ -57,7 +58,7 @@ def property_widgets(tools: EditorTools, area: Area) -> Sequence[Widget]:
         title = f"Selected: {cells} cells, {count} objects" if cells else f"Selected: {count} objects"
         turns = {"Mirror (H)": MIRROR, "Flip (J)": FLIP, "Turn (U)": CLOCKWISE}
         rows += [_choice(tools, name) for name in _common(tools.subjects)]
-        rows += [partial(Button, text=text, action=partial(tools.turn, turn), size=9.5) for text, turn in turns.items()]
+        rows += [partial(Button, text=text, action=partial(view.turn, turn), size=9.5) for text, turn in turns.items()]
         rows.append(partial(Button, text="Delete (Del)", action=tools.delete, size=9.5))
     elif tools.selection or tools.objects:
         spec = tools.chosen or tools.spec
@@ -248,7 +249,7 @@ class Properties(EditorPart):
         if about != self._subject:
             self._subject = about
             x, y, w, h = self.area
-            self.widgets = property_widgets(self.session.tools, (x + 6, y + 5, w - 12, h - 9))
+            self.widgets = property_widgets(self.view, (x + 6, y + 5, w - 12, h - 9))
 
     def render_key(self) -> tuple[object, ...]:
         tools = self.session.tools

@@ -77,7 +77,7 @@ class EditorSession:
         """
         before = self.autosave
         self._begin(source, found)
-        self.certifier.stop()
+        self.certifier.forget()
         before.close()
 
     @property

@@ -16,6 +16,7 @@ import pygame
 from ninja_game.editor.certify import Route, TestMap
 from ninja_game.editor.draft import Cell, Draft, changed_cells
 from ninja_game.editor.specs import BODY, SWITCH, has_switch, points
+from ninja_game.formats.sayings import read_sayings
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.object_pictures import ObjectPictures, ObjectSprites
 from ninja_game.sim import kinds
@@ -238,6 +239,26 @@ def sign_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
     return LevelMark(draw, (canvas.rect(x - 9, y - 9, 18, 18),))
 
 
+def said_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
+    """Where a message is said: a bubble with three dots."""
+    x, y = at
+
+    def draw(target: DrawTarget) -> None:
+        for colour, by in ((palette.outline, 1.4), (palette.panel, 0.0)):
+            target.canvas.polygon(target.surface, colour, [(x - 5 - by, y), (x + 3 + by, y), (x - 4 - by, y + 9 + by)])
+            target.canvas.fill_rect(target.surface, colour, x - 9 - by, y - 8 - by, 18 + 2 * by, 11 + 2 * by, 3)
+        for dot in (-4.5, 0.0, 4.5):
+            target.disc(palette.accent, x + dot, y - 2.5, 1.3)
+
+    return LevelMark(draw, (canvas.rect(x - 12, y - 11, 24, 24),))
+
+
+def said_places(says: str) -> list[Point]:
+    """The middles of the cells near which a level says something, px."""
+    cells = [each.cell for each in read_sayings(says) if each.when == "at"]
+    return [(24.0 * column + 12.0, 24.0 * row + 12.0) for column, row in cells]
+
+
 def visit_mark(canvas: Canvas, palette: Palette, cell: Cell, share: float) -> LevelMark:
     """A cell in which this share of the tests came."""
     rect = canvas.rect(24.0 * cell[0], 24.0 * cell[1], 24, 24)
@@ -269,7 +290,7 @@ def finding_points(level: Level, finding: Finding) -> list[Point]:
 
 def level_marks(
     canvas: Canvas, palette: Palette, draft: Draft, before: Mapping[Hashable, LevelMark], *, lines: bool,
-    routes: Sequence[tuple[Route, Colour]], tests: TestMap, signs: Sequence[Point],
+    routes: Sequence[tuple[Route, Colour]], tests: TestMap, signs: Sequence[Point], said: Sequence[Point],
     axes: Sequence[tuple[Point, Point]],
 ) -> dict[Hashable, LevelMark]:  # fmt: skip
     """All marks by what they show: equal keys, equal marks. Those of ``before`` are used again."""
@@ -293,6 +314,8 @@ def level_marks(
                 add(("switch", spec), line)
     for route, colour in routes:
         add(("route", id(route), str(colour)), partial(route_mark, canvas, colour, route))
+    for at in said:
+        add(("said", at), partial(said_mark, canvas, palette, at))
     for at in signs[:100]:
         add(("sign", at), partial(sign_mark, canvas, palette, at))
     return marks

@@ -9,6 +9,7 @@ import pygame
 
 from ninja_game.editor.brush import placed
 from ninja_game.editor.certify import NO_TESTS
+from ninja_game.editor.draft import Cell, is_inside
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.reach import CELL, Reach
 from ninja_game.editor.specs import BODY, SWITCH, carried, points
@@ -17,7 +18,16 @@ from ninja_game.editor.tools import PICK_REACH, EditorTools
 from ninja_game.play.app import App
 from ninja_game.play.editor.palette_view import tile_icon
 from ninja_game.play.editor.session import EditorSession
-from ninja_game.play.editor.sheet import GRIDS, MIDDLE, Grid, LevelSheet, finding_points, joined, level_marks
+from ninja_game.play.editor.sheet import (
+    GRIDS,
+    MIDDLE,
+    Grid,
+    LevelSheet,
+    finding_points,
+    joined,
+    level_marks,
+    said_places,
+)
 from ninja_game.play.workspace.part import Part
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.ui.canvas import Canvas, Colour, Point
@@ -177,6 +187,7 @@ LAYOUT = EditorLayout()
 class EditorView(Part):
     """The level under edit, and what lies over it. ``hovering``: the pointer is shown; ``hint``: for the line below.
 
+    ``taker``: gets the cell of the next press, which draws nothing then; None where it is given up.
     ``listing``: the list of objects is shown in the place of the palette; ``tests``: the map of the tests is shown.
     """
 
@@ -190,6 +201,7 @@ class EditorView(Part):
         self.grid: Grid = GRIDS[1]
         self.lines = self.paths = True
         self.listing = self.tests = False
+        self.taker: Callable[[Cell | None], None] | None = None
         self._step_palette = step_palette
         self._held = False
         self._marked: tuple[object, ...] = ()
@@ -215,8 +227,23 @@ class EditorView(Part):
     # --- the mouse ---
 
     def press(self, *, erase: bool = False, pick: bool = False, add: bool = False) -> None:
+        cell = self.session.tools.cell
+        if is_inside(cell) and self.take(cell):
+            return
         self._held = True
         self.session.tools.press(erase=erase, pick=pick, add=add)
+
+    def turn(self, motion: Motion) -> None:
+        """Flip or turn what is selected or in hand, or say why not."""
+        if not self.session.tools.turn(motion):
+            self.app.notify("Not turned: a part of it would leave the level. Move it away from the border first")
+
+    def take(self, cell: Cell | None) -> bool:
+        """Give a cell to whoever waits for one; whether anybody did."""
+        taker, self.taker = self.taker, None
+        if taker:
+            taker(cell)
+        return bool(taker)
 
     def release(self) -> bool:
         """A button goes up; whether one was down."""
@@ -281,7 +308,7 @@ class EditorView(Part):
         stale = certifier.is_stale(session.draft.level)
         wanted = (
             session.draft.objects, self.lines, self.paths, session.last_try, certifier.search.route, stale,
-            session.findings, session.tools.symmetry, self.tests and session.test_map,
+            session.findings, session.tools.symmetry, session.draft.says, self.tests and session.test_map,
         )  # fmt: skip
         if len(wanted) == len(self._marked) and all(a is b for a, b in zip(wanted, self._marked, strict=True)):
             return
@@ -290,6 +317,7 @@ class EditorView(Part):
         routes.append((certifier.search.route, palette.faint if stale else palette.good))
         marks = level_marks(
             self.sheet.canvas, palette, session.draft, self.sheet.marks, lines=self.lines, signs=self._signs(),
+            said=said_places(session.draft.says),
             routes=routes if self.paths else (), tests=(self.tests and session.test_map) or NO_TESTS,
             axes=_AXES.get(session.tools.symmetry, ()),
         )  # fmt: skip

@@ -16,6 +16,7 @@ from ninja_game.editor.packing import ReadyPack, make_ready
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.writing import write_atomically
+from ninja_game.formats.links.fragment import link_kind
 from ninja_game.formats.pack.files import INDEX, PARS
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, EpisodeIndex
 from ninja_game.formats.pack.pack import Pack
@@ -24,13 +25,15 @@ from ninja_game.generator.daily import FOLDER as DAILY
 from ninja_game.levels.findings import Finding, PackFinding
 from ninja_game.levels.warnings import level_findings
 from ninja_game.play.app import App
-from ninja_game.play.clipboard import copy_link
+from ninja_game.play.clipboard import copy_link, pasted_text
 from ninja_game.play.menus.panels import CANCEL, FormPanel, Menu, Row
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
 from ninja_game.player.catalogue import Entry, EpisodeSet
 from ninja_game.runs.packs import file_of, lint
 from ninja_game.runtime import NewestJob
+from ninja_game.ui.input.bindings import InputEvent
+from ninja_game.ui.input.keys import chord
 from ninja_game.ui.list_view import BAR, ListView
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Choice, Widget, draw_all_gold
@@ -136,8 +139,7 @@ class PackScreen(ThumbnailScreen):
         before, catalogue = self.path, self.player.catalogue
         catalogue.problems.clear()
         self.sets = catalogue.packs()
-        own = [each for each in self.sets if each.key and each.path and each.path.is_dir()]
-        self.mine = [each for each in own if each.path and each.path.name != DAILY]
+        self.mine = [each for each in self.sets if each.changeable and each.path and each.path.name != DAILY]
         self._show(next((each for each in self.mine if each.path == before), None))
 
     def _show(self, pack: EpisodeSet | None) -> None:
@@ -167,7 +169,7 @@ class PackScreen(ThumbnailScreen):
 
     def build(self) -> Sequence[Widget]:
         names = [(each.name, each.key) for each in self.mine]
-        chosen = Choice((36, 60, 204, 28), "", names, lambda: self.pack.key if self.pack else "", self._choose_pack)
+        chosen = Choice((36, 60, 164, 28), "", names, lambda: self.pack.key if self.pack else "", self._choose_pack)
         have = bool(self.pack)
         tray = [("In no episode", "none"), ("Your folder", "yours")]
         tray += [(each.name if each.key else "The game's own", each.key) for each in self.sets if each is not self.pack]
@@ -175,11 +177,14 @@ class PackScreen(ThumbnailScreen):
         self.shelves.hint = self.tray.hint = "Drag a level or an episode; Enter or a second click: what can be done"
         ready = "Stop" if not self._job.idle else "Make ready"
         hint = "Certify all, measure par times, look for problems; zip and link. Only what changed is done again"
-        new = Button((248, 60, 108, 28), "New pack...", self._new_pack)
-        about = Button((364, 60, 106, 28), "About it...", self._about, hint="Name, author, version")
-        problems = Button((478, 60, 94, 28), "Problems", lambda: self.app.push(ProblemsScreen(self.app, self.problems)))
+        new = Button((208, 60, 88, 28), "New pack...", self._new_pack, size=10)
+        paste = Button((304, 60, 84, 28), "Paste link", self._paste, size=10)
+        paste.hint = "Ctrl+V: the pack whose link is in the clipboard becomes one of yours"
+        about = Button((396, 60, 92, 28), "About it...", self._about, size=10, hint="Name, author, version, link")
+        problems = Button((492, 60, 84, 28), "Problems", lambda: self.app.push(ProblemsScreen(self.app, self.problems)))
+        problems.size = 10
         make = Button((580, 60, 176, 28), ready, self._ready_or_stop, hint=hint)
-        return [self.shelves, chosen, new, about, problems, make, beside, self.tray] if have else [new]
+        return [self.shelves, chosen, new, paste, about, problems, make, beside, self.tray] if have else [new, paste]
 
     def _choose_pack(self, key: str) -> None:
         self._show(next(each for each in self.mine if each.key == key))
@@ -208,25 +213,57 @@ class PackScreen(ThumbnailScreen):
         def make(name: str) -> None:
             path = packs.new_pack(self.folder, name, self.player.settings.name)
             self._read()
+            self.beside = "yours" if self.player.catalogue.own() else "none"
             self._show(next(each for each in self.mine if each.path == path))
 
         self.ask("Name of the pack", "My pack", make)
 
-    def _about(self) -> None:
-        copied = Pack(self.path)
-        index = copied.index
+    def _paste(self) -> None:
+        """Make the pack whose link is in the clipboard one of the player's."""
+
+        def take() -> None:
+            text = pasted_text()
+            if link_kind(text) != "pack":
+                raise NinjaGameError("there is no link of a pack in the clipboard: copy all of it first")
+            pack = Pack(Path(f"#{text.partition('#')[2]}"))
+            path = packs.copy_pack(pack, self.folder, pack.name)
+            self._read()
+            self._show(next((each for each in self.mine if each.path == path), None))
+            self.app.notify(f"{shown_text(pack.name)} is among your packs now: Episodes plays it")
+
+        self.do(take)
+
+    def handle(self, event: InputEvent) -> None:
+        """Ctrl+V takes a pack in."""
+        if event.raw.type == pygame.KEYDOWN and chord(event.raw) == "ctrl+v":
+            self._paste()
+        else:
+            super().handle(event)
+
+    def _form(self, first: int = 0) -> None:
+        """Ask for what the index says first; the field number ``first`` has the focus."""
+        index = Pack(self.path).index
         keys = ("name", "author", "version", "comment")
         fields = [(key.capitalize(), getattr(index, key), 200) for key in keys]
 
         def describe(texts: list[str]) -> None:
+            self.app.know_author(index.author, texts[1])
             self.do(lambda: packs.describe(self.path, dict(zip(keys, texts, strict=True))))
 
-        copy = partial(packs.copy_pack, copied, self.folder)
         form = FormPanel(self.app, "About the pack", fields, "OK", describe)
+        self.app.push(form)
+        form.focus = form.widgets[first]
+
+    def _about(self) -> None:
+        copied = Pack(self.path)
+        index = copied.index
+        copy = partial(packs.copy_pack, copied, self.folder)
+        notice = "Link copied: whoever opens it, or pastes it in Levels > Packs, gets the pack"
+        link = partial(copy_link, self.app, copied.files.link, title=index.name, notice=notice)
         rows: list[Row] = [
-            ("Name, author, version...", lambda: self.app.push(form), ""),
+            ("Name, author, version...", self._form, ""),
             ("Copy of the pack...", lambda: self.ask("Name of the copy", f"{index.name} copy", copy), ""),
-            ("Copy link", lambda: copy_link(self.app, copied.files.link, title=index.name), "Plays the pack"),
+            ("Copy link", link, "Opens the pack; or Levels > Packs takes it in"),
             CANCEL,
         ]
         self.app.push(Menu(self.app, index.name, rows))
@@ -367,7 +404,9 @@ class PackScreen(ThumbnailScreen):
         levels = self.pack.levels if self.pack else []
         entry = next((each for each in levels if each.named.file == str(self.path / file)), None)
         go: Callable[[], object] | None = self._about if file == INDEX else None
-        if entry:
+        if finding.code == "no-author":
+            go = partial(self._form, 1)
+        elif entry:
             found = next((each for each in level_findings(entry.named.level) if each.code == finding.code), None)
             go = partial(self._edit, entry, found)
 

@@ -68,8 +68,10 @@ class WorkspaceScreen(MenuScreen):
         self.widgets_changed()
 
     def leave(self) -> None:
-        """Covered or closed: what is held ends."""
+        """Covered or closed: what is held ends, and what was said of the document."""
         super().leave()
+        if self.app.notice:
+            self.app.notify("")
         self.held.end()
         self._grabbed = None  # its release goes to what covers this
 

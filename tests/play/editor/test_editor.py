@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from time import thread_time
 from typing import Any
@@ -11,20 +12,25 @@ import pytest
 
 from ninja_game.backend.memories import compiled_available
 from ninja_game.editor.brush import OBJECT_TYPES, object_of_type, placed
+from ninja_game.editor.certify import Search
 from ninja_game.editor.files import Source
 from ninja_game.editor.reach import CELL, LANDED, STARTS, Reach
-from ninja_game.editor.stamp import Stamp, put
+from ninja_game.editor.specs import SWITCH, points
+from ninja_game.editor.stamp import Selection, Stamp, put
+from ninja_game.formats.ascii.places import place_text
 from ninja_game.play.editor.controls import COMMANDS
 from ninja_game.play.editor.object_list import ObjectList
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.menus.help import HelpPage
+from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.panels import Menu
 from ninja_game.runs.run import run_level
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.kinds import NINJA
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.ui.input.keys import SCANCODES
+from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Theme
 from ninja_game.ui.widgets import Choice
 from tests.support.level_maker import ROOM, Maker
@@ -487,3 +493,81 @@ def test_slopes_and_spacing_are_set_in_the_panel_and_the_wheel_bends_a_line(room
     assert min(spec.values[1] for spec in room.draft.objects[2:]) == 180.0, "the wheel away from oneself bends it up"
     room.editor.view.release()
     assert tools.spec == object_of_type("gold"), "the palette stayed where it was"
+
+
+def test_a_new_level_knows_nothing_of_the_one_before(room: Maker) -> None:
+    session = room.editor.session
+    level, route = session.draft.level, ((60.0, 542.0), (61.0, 542.0))
+    session.certifier.search = Search(level, route=route, end="Done")
+    session.tried(level, bytes([2] * 20), over=True)
+    room.frames(2)
+    assert sum(key[0] == "route" and bool(mark.rects) for key, mark in room.editor.view.sheet.marks.items()) == 2  # type: ignore[index]
+    session.source = replace(session.source, draft=session.draft)
+    room.chord("n", pygame.KMOD_LCTRL)
+    room.frames(2)
+    assert not any(key[0] == "route" and mark.rects for key, mark in room.editor.view.sheet.marks.items())  # type: ignore[index]
+    certifier = session.certifier
+    assert (certifier.text, certifier.busy, certifier.is_stale(session.draft.level)) == ("", False, False)
+
+
+def test_the_panel_follows_what_is_dragged(room: Maker) -> None:
+    room.press("v")
+    room.drag((120, 540), (264, 300))
+    place = next(
+        each for each in room.editor.properties.widgets if isinstance(each, TextEntry) and "switch" in each.hint
+    )
+    assert place.text == place_text(*points(room.draft.objects[1])[SWITCH])
+
+
+def test_the_wheel_changes_nothing_while_something_is_drawn(maker: Maker) -> None:
+    maker.open("Editor")
+    tools = maker.editor.session.tools
+    maker.press("grave", "0")
+    tools.tool = "ellipse"
+    start = maker.app.canvas.point(*maker.at(200, 200))
+    pygame.event.post(pygame.Event(pygame.MOUSEMOTION, pos=start, rel=(0, 0), buttons=(0, 0, 0), touch=False))
+    pygame.event.post(pygame.Event(pygame.MOUSEBUTTONDOWN, pos=start, button=1, touch=False))
+    goal = maker.app.canvas.point(*maker.at(400, 300))
+    pygame.event.post(pygame.Event(pygame.MOUSEMOTION, pos=goal, rel=(0, 0), buttons=(1, 0, 0), touch=False))
+    maker.frames()
+    spec, drawn = tools.spec, maker.draft
+    assert drawn.objects
+    maker.wheel(1, *maker.at(400, 300))
+    assert (tools.spec, maker.draft) == (spec, drawn)
+    maker.press("escape")
+    assert not maker.draft.objects, "it was still being drawn"
+    maker.wheel(1, *maker.at(400, 300))
+    assert tools.spec != spec
+
+
+@pytest.mark.parametrize("how", ["key", "button"])
+def test_a_turn_that_leaves_the_level_is_refused_in_words(room: Maker, how: str) -> None:
+    tools = room.editor.session.tools
+    tools.tool = "select"
+    tools.selection = Selection((1, 22, 6, 2))
+    room.frames(2)
+    before = room.draft
+    if how == "key":
+        room.press("u")
+    else:
+        room.editor.follow_parts()
+        room.choose("Turn (U)")
+    assert room.draft is before
+    assert "would leave the level" in room.app.notice
+    room.press("h")
+    assert tools.selection.area == (1, 22, 6, 2), "a mirror image fits"
+
+
+def test_what_was_saved_is_said_in_the_editor_only(room: Maker) -> None:
+    room.chord("s", pygame.KMOD_LCTRL)
+    assert room.app.notice.startswith("Saved")
+    room.press("f5")
+    assert isinstance(room.top(), TryScreen)
+    assert not room.app.notice
+    room.press("escape")
+    room.drag((300, 300))
+    room.chord("s", pygame.KMOD_LCTRL)
+    assert room.app.notice.startswith("Saved")
+    room.choose_in_menu("Leave the editor")
+    assert isinstance(room.top(), MainMenu)
+    assert not room.app.notice

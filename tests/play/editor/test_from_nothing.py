@@ -87,7 +87,7 @@ def test_a_pack_from_nothing(tmp_path: Path, root: Path) -> None:
         try:
             maker.drag((227, 273))  # Levels
             maker.drag((394, 82))  # Packs
-            maker.drag((302, 74))  # New pack...
+            maker.drag((256, 74))  # New pack...
             maker.press("Return")
             folder = tmp_path / "levels" / "my-pack"
             maker.wait_for((folder / "pack.toml").exists, "pack")

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import json
+import re
 import shutil
 from dataclasses import replace
 from pathlib import Path
+from unittest.mock import patch
 from zipfile import ZipFile
 
+import pygame
 import pytest
 
 from ninja_game.editor.packing import ReadyPack
+from ninja_game.formats.links.fragment import write_link
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.menus.browser import Browser
@@ -17,6 +22,7 @@ from ninja_game.play.menus.menu_screen import BACK, MenuScreen
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.panels import FormPanel
 from ninja_game.play.menus.problems import ProblemsScreen
+from ninja_game.runs.packs import lint
 from ninja_game.ui.input.gamepad import BUTTONS
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK
@@ -155,11 +161,11 @@ def test_everything_about_a_pack_is_named_again(driver: MenuDriver, path: Path) 
 
 def test_a_problem_leads_to_its_place_and_is_accepted_with_a_reason(driver: MenuDriver, path: Path) -> None:
     level = path / "00-0-first-steps.txt"
-    level.write_text(level.read_text("utf-8").replace("author: the ninja-game team\n", ""), "utf-8")
+    level.write_text(level.read_text("utf-8").replace("name: First Steps\n", ""), "utf-8")
     opened(driver)
     driver.choose("Problems")
     screen = driver.shown(ProblemsScreen)
-    assert [problem.text for problem in screen.problems] == ["00-0-first-steps.txt: no author"]
+    assert [problem.text for problem in screen.problems] == ["00-0-first-steps.txt: no name"]
     driver.press("return")
     assert driver.shown(EditorScreen).session.source.path == level
     driver.shown(EditorScreen).session.close()
@@ -217,3 +223,104 @@ def test_what_changed_is_marked(driver: MenuDriver, path: Path) -> None:
     stale = [cell.level.title for cell in screen.cells if cell.level and cell.level.pars is None]
     assert stale == ["Mind the Gap"]
     assert screen._counts() == "8 levels in 2 episodes; 1 to certify"
+
+
+def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path) -> None:
+    screen = opened(driver)
+    clipboard = [""]
+    with patch("pygame.scrap.put_text", clipboard.append), patch("pygame.scrap.get_text", lambda: clipboard[-1]):
+        driver.choose("About it...")
+        driver.choose("Copy link")
+        assert "pastes it in Levels > Packs" in driver.app.notice
+        clipboard.append(f"https://example.org/game/ {clipboard[-1]}\n")
+        shutil.rmtree(path)
+        screen.enter()
+        assert not screen.mine
+        driver.choose("Paste link")
+        assert "Laundry is among your packs now" in driver.app.notice
+        assert [pack.name for pack in screen.mine] == ["Laundry"]
+        first = layout(screen.path)
+        driver.chord("v", pygame.KMOD_LCTRL)
+        assert len(screen.mine) == 2, "it never goes over what is there"
+    assert layout(screen.path) == first
+    assert first[0]
+
+
+def linked(*names: str) -> str:
+    return write_link("pack", [json.dumps({"pack.toml": 'name = "Odd"\n'} | dict.fromkeys(names, "x"))])
+
+
+@pytest.mark.parametrize(
+    "text, said",
+    [
+        ("", "no text in the clipboard"),
+        ("a poem", "no link of a pack"),
+        ("#level=1.qWQqg0tUKEmtKAEA", "no link of a pack"),
+        ("#pack=1.abc", "not whole"),
+        (linked("../a.txt"), "a name that no file of a pack has"),
+        (linked("aux.txt"), "a name that Windows reserves"),
+        (linked(*(f"{number}.txt" for number in range(4097))), "too many files"),
+        (write_link("pack", ['{"a.txt": "x"}']), "pack.toml"),
+    ],
+)
+def test_what_is_no_link_of_a_pack_changes_nothing(driver: MenuDriver, path: Path, text: str, said: str) -> None:
+    opened(driver)
+    before = sorted(path.parent.rglob("*"))
+    with patch("pygame.scrap.get_text", lambda: text):
+        driver.choose("Paste link")
+    assert said in driver.app.notice
+    assert sorted(path.parent.rglob("*")) == before
+
+
+def test_a_new_pack_shows_the_levels_that_are_there(driver: MenuDriver, path: Path) -> None:
+    screen = opened(driver)
+    driver.choose("New pack...")
+    typed(driver, "Empty")
+    assert screen.beside == "none", "the folder has none"
+    own = driver.player.folder / "levels" / "mine.txt"
+    own.write_text((path / "00-0-first-steps.txt").read_text("utf-8"), "utf-8")
+    driver.choose("New pack...")
+    typed(driver, "Next")
+    driver.frames()
+    assert (screen.pack and screen.pack.name, screen.beside) == ("Next", "yours")
+    assert len(screen.side) == 1
+
+
+def test_an_author_is_asked_for_once(driver: MenuDriver, path: Path) -> None:
+    index, level = path / "pack.toml", path / "00-0-first-steps.txt"
+    for file in (index, level):
+        lines = file.read_text("utf-8").splitlines(keepends=True)
+        file.write_text("".join(line for line in lines if not line.startswith("author")), "utf-8")
+    screen = opened(driver)
+    assert [finding.code for finding in lint(Pack(path)) if finding.code == "no-author"] == ["no-author"] * 2
+    driver.choose("Problems")
+    driver.choose("Go there")
+    form = driver.shown(FormPanel)
+    assert form.widgets.index(form.focus) == 1  # type: ignore[arg-type]
+    driver.type("ida")
+    driver.choose("OK")
+    driver.press("escape")
+    assert Pack(path).index.author == "ida"
+    assert not [finding for finding in lint(Pack(path)) if finding.code == "no-author"]
+    assert driver.player.settings.name == "ida"
+    shown = {entry.named.author for entry in (screen.pack.levels if screen.pack else ())}
+    assert "ida" in shown
+    assert "" not in shown
+    screen._form()
+    driver.shown(FormPanel).texts[1] = "bob"
+    driver.choose("OK")
+    assert driver.player.settings.name == "ida", "a name that is set stays"
+
+
+def test_mine_first_counts_packs_and_a_name_is_found_before_a_comment(driver: MenuDriver, path: Path) -> None:
+    text = (path / "00-0-first-steps.txt").read_text("utf-8").replace("First Steps", "Zz")
+    text = re.sub(r"^comment: .*", "comment: as in Rolling Hills", text, flags=re.MULTILINE)
+    (path.parent / "z.txt").write_text(text, "utf-8")
+    driver.open("Levels")
+    browser = driver.shown(Browser)
+    sources = [entry.source for entry in browser.shown]
+    assert sources[0] == "yours"
+    assert set(sources[1:9]) == {"Laundry"}
+    browser._search("rolling")
+    assert [entry.title for entry in browser.shown][-1] == "Zz"
+    assert len(browser.shown) > 1

@@ -1,0 +1,127 @@
+"""What a level says to its player, made row by row in the editor."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pygame
+import pytest
+
+from ninja_game.editor.stamp import Stamp, put
+from ninja_game.formats.sayings import MOST_SAYINGS, read_sayings
+from ninja_game.play.editor.messages import Message, MessagesScreen, messages_of
+from ninja_game.play.editor.screen import EditorScreen
+from ninja_game.play.editor.sheet import said_places
+from ninja_game.play.editor.trying import TryScreen
+from ninja_game.sim.kinds import GOLD
+from ninja_game.sim.level import ObjectSpec
+from ninja_game.ui.text_entry import TextEntry
+from tests.support.level_maker import Maker
+
+ALL = "start: {jump} jumps | switch: Now the exit | death 3: Wait | at 12,5: Jump: here"
+
+
+def opened(maker: Maker) -> MessagesScreen:
+    maker.chord("m", pygame.KMOD_LSHIFT)
+    maker.frames(2)
+    return maker.shown(MessagesScreen)
+
+
+def test_messages_are_made_row_by_row_and_a_test_says_them(room: Maker) -> None:
+    room.choose_in_menu("Messages...")
+    screen = room.shown(MessagesScreen)
+    room.choose("Add a message")
+    room.type("run")
+    room.choose("Add a message")
+    choice = screen.widgets[3]
+    room.mouse(*choice.centre)
+    room.choose("Add a message")
+    room.type("on")
+    room.mouse(*screen._texts[1].centre)
+    room.type("out")
+    room.press("return")
+    assert room.draft.says == "start: run | switch: out | start: on"
+    assert isinstance(room.top(), EditorScreen)
+    room.chord("z", pygame.KMOD_LCTRL)
+    assert room.draft.says == ""
+    room.chord("y", pygame.KMOD_LCTRL)
+    room.press("f5")
+    assert [each.text for each in room.shown(TryScreen)._trying.sayings()] == ["run", "out", "on"]
+
+
+def test_every_message_comes_back_as_it_was(room: Maker) -> None:
+    assert " | ".join(each.source for each in messages_of(ALL)) == ALL
+    room.editor.session.tools.history.change(replace(room.draft, says=ALL))
+    room.frames()
+    screen = opened(room)
+    assert len(screen.messages) == MOST_SAYINGS
+    assert not room.button("Add a message").enabled
+    room.choose("OK")
+    assert room.draft.says == ALL
+    opened(room)
+    room.choose("Remove")
+    room.choose("OK")
+    assert room.draft.says == ALL.partition(" | ")[2]
+    opened(room)
+    room.choose("Remove")
+    room.choose("Cancel")
+    assert room.draft.says == ALL.partition(" | ")[2]
+
+
+@pytest.mark.parametrize(
+    "message, in_detail, said",
+    [
+        (Message("start", "", " "), False, "Type what is said"),
+        (Message("start", "", "a | b"), False, "no |"),
+        (Message("start", "", "{fly} flies"), False, "one of {left}"),
+        (Message("at", "32,1", "x"), True, "31,23"),
+        (Message("at", "", "x"), True, "31,23"),
+        (Message("death", "0", "x"), True, "1 to 99"),
+        (Message("death", "3: x | start", "x"), True, "1 to 99"),
+    ],
+)
+def test_what_is_wrong_keeps_the_focus_and_is_said(room: Maker, message: Message, in_detail: bool, said: str) -> None:
+    screen = opened(room)
+    screen.messages = [Message("start", "", "fine"), message]
+    screen.enter()
+    room.choose("OK")
+    assert room.top() is screen
+    assert said in room.app.notice
+    field = screen.focus
+    assert isinstance(field, TextEntry)
+    assert field.text == (message.detail if in_detail else message.text)
+    assert not room.draft.says
+
+
+def test_a_place_begins_at_the_pointer_or_with_what_is_selected_and_is_shown_by_a_click(room: Maker) -> None:
+    tools = room.editor.session.tools
+    room.mouse(*room.at(24 * 7 + 5, 24 * 9 + 5), click=False)
+    screen = opened(room)
+    room.choose("Add a message")
+    room.type("here")
+    room.mouse(screen.widgets[0].area[0] + 5, screen.widgets[0].centre[1])
+    assert (screen.messages[0].when, screen.messages[0].detail) == ("at", "7,9")
+    room.choose("Show it in the level")
+    before = room.draft
+    room.press("escape")
+    assert room.top() is screen, "given up"
+    room.choose("Show it in the level")
+    room.drag((24 * 20 + 5, 24 * 4 + 5))
+    assert room.top() is screen
+    assert room.draft is before, "the click draws nothing"
+    room.choose("OK")
+    assert room.draft.says == "at 20,4: here"
+    assert said_places(room.draft.says) == [(24 * 20 + 12, 24 * 4 + 12)]
+    room.frames()
+    assert ("said", (492.0, 108.0)) in room.editor.view.sheet.marks
+    tools.history.change(put(room.draft, Stamp({}, (ObjectSpec(GOLD, (60.0, 60.0)),))))
+    tools.choose(frozenset({(len(room.draft.objects) - 1, 0)}))
+    assert opened(room)._here == (2, 2)
+
+
+def test_a_level_about_which_something_is_said_keeps_its_messages(room: Maker) -> None:
+    room.editor.session.tools.history.change(replace(room.draft, says=ALL))
+    room.press("f2")
+    room.fill("Other", "OK")
+    assert (room.draft.name, room.draft.says) == ("Other", ALL)
+    assert read_sayings(room.draft.says)
