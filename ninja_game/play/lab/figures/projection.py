@@ -93,7 +93,7 @@ class Projection(Figure):
 
     def controls(self) -> Sequence[Control]:
         return [
-            self.slider("Tile", (1, 33, 1), "tile", lambda number: tile_name(int(number))),
+            self.slider("Tile", (1, 33, 1), "tile", lambda number: f"{number:.0f} of 33"),
             self.choice("Body", BODIES, "box"),
         ]
 
