@@ -23,6 +23,7 @@ OURS = {
     "cli/desktop": "starts programs of the system, and reads nothing of what they say",
     "files/locking": "holds locks", "files/writing": "writes", "ui/audio/player": "silences a library",
     "play/lab/figure": "the program's own figures", "play/menus/help": "its own help",
+    "play/menus/good_levels": "its own levels",
     "learn/levels/curriculum": "its own levels", "learn/levels/bench": "its own table",
     "sim/memory/declare": "its own code, made from its own rules",
     "web/site/compiling": "its own code", "web/site/game_archive": "its own files",

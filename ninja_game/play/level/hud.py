@@ -273,17 +273,8 @@ class Hud:
             canvas.frame_rect(surface, palette.panel_edge, x + dx, y, 18, 16, 1, 3)
             ink = palette.panel if down else palette.faint
             if letters and len(letters[place]) == 1:
-                self.theme.text(
-                    surface,
-                    letters[place],
-                    x + dx + 9,
-                    y + 2,
-                    size=10,
-                    colour=ink,
-                    align="centre",
-                    bold=True,
-                    height=13,
-                )
+                x_of, letter = x + dx + 9, letters[place]
+                self.theme.text(surface, letter, x_of, y + 2, size=10, colour=ink, align="centre", bold=True, height=13)
             else:
                 canvas.polygon(surface, ink, [(x + dx + 9 + px, y + 8 + py) for px, py in arrow])
             rect = box if not rect.width else rect.union(box)

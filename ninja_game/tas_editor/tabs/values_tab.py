@@ -180,8 +180,8 @@ class ValuesTab(Tab):
             watch = parse_watch(text)
             watch.values(self.editor.session.timeline)
         except NinjaGameError as error:
-            self.editor.app.notify(what_is_wrong(error))
             self.ask(text)
+            self.editor.app.notify(what_is_wrong(error))
             return
         number = next(k for k in range(len(self.watched) + 1) if k not in {each.number for each in self.watched})
         self.watched.append(Watched(watch, number))
