@@ -14,7 +14,6 @@ from ninja_game.errors import LevelError
 from ninja_game.files.user_folder import data_folder
 from ninja_game.play.app import App
 from ninja_game.play.clock import RunClock
-from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.replay.playback import Playback
 from ninja_game.play.rooms import room_level, strokes
@@ -119,7 +118,7 @@ class HelpScreen(MenuScreen):
         self.list = ListView((44, 66, 190, 18 * 26), 26, self._draw_topic, lambda _: None, selected=self._show)
         self.list.hint = "Up and down: choose a topic"
         self.works = Button(
-            (x + w - 150, 516, 150, 30), LabScreen.title, lambda: app.push(LabScreen(app)),
+            (x + w - 150, 516, 150, 30), "How it works", self._open_lab,
             hint="For the curious: how ninja and walls really meet, in figures you can move",
         )  # fmt: skip
         self.keys = ListView((x, y + 54, w, 17 * KEY_ROW), KEY_ROW, self._draw_action, lambda _: None,
@@ -130,6 +129,11 @@ class HelpScreen(MenuScreen):
 
     def build(self) -> Sequence[Widget]:
         return [self.list, self.works] if self.page else [self.list, self.keys, self.works]
+
+    def _open_lab(self) -> None:
+        from ninja_game.play.lab.screen import LabScreen
+
+        self.app.push(LabScreen(self.app))
 
     def _show(self, index: int) -> None:
         page = self.pages[index] if index < len(self.pages) else None

@@ -20,7 +20,7 @@ from ninja_game.search.formula.background import RunSearch, SpanSearch
 from ninja_game.search.formula.language import FormulaError
 from ninja_game.search.formula.methods import KEPT, fewest_ticks
 from ninja_game.search.formula.task import Found, SpanTask, score_in_words
-from ninja_game.sim.inputs import KEYS_DOWN
+from ninja_game.sim.inputs import fitted_inputs, with_press_bits
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.goals import IMPROVE, IMPROVE_GOLD, PRESETS, SearchedSpan, SpanGoal, whole_run
@@ -131,9 +131,11 @@ class SpanResults:
 
     def _whose(self, found: Found) -> OtherRun | None:
         """The run beside that a result is, just as it is."""
-        keys = [] if found.own_route else [key & KEYS_DOWN for key in found.inputs]
-        same = (each for each in self._others if [each.track.keys_at(k) for k in range(len(keys))] == keys)
-        return next(same, None) if keys else None
+        if found.own_route or not found.inputs:
+            return None
+        ticks, keys = len(found.inputs), with_press_bits(found.inputs)
+        same = (each for each in self._others if with_press_bits(fitted_inputs(each.track.inputs, ticks)) == keys)
+        return next(same, None)
 
     def _taken(self, found: Found) -> Contributions:
         """What found a result, and those whose routes may be in it."""
@@ -411,15 +413,8 @@ class SearchTab(Tab):
         first, last = self.span
         theme.text(surface, f"Ticks {first} to {last - 1}", x + 6, y + 8, size=11, bold=True, width=120)
         if self._why or (self.span != self.editor.selection and self.editor.anchor is not None):
-            theme.text(
-                surface,
-                self._why or "not the selection",
-                x + 132,
-                y + 9,
-                size=SMALL,
-                colour=palette.faint,
-                width=w - 318,
-            )
+            why = self._why or "not the selection"
+            theme.text(surface, why, x + 132, y + 9, size=SMALL, colour=palette.faint, width=w - 318)
         theme.text(surface, "Goal", x + 6, y + 29, size=11)
         self._button.text = "Stop" if results is not None and results.running else "Start"
         status, colour = "Enter in the goal starts, too", palette.faint
