@@ -166,12 +166,13 @@ class StrokeFont:
         self._pad = self._weight / 2 * self._unit + 1
         self._fallback = pygame.font.Font(None, max(6, round(size * 1.35)))
         self._picture = lru_cache(maxsize=None)(self._draw)
+        self.width = lru_cache(maxsize=_KEPT)(self._width)
 
     def _advance(self, letter: Glyph) -> float:
         """From one letter to the next, px."""
         return (letter.width + SPACING + self._weight) * self._unit
 
-    def width(self, text: str) -> int:
+    def _width(self, text: str) -> int:
         """Width of a text, px."""
         if not text:
             return 0
