@@ -12,7 +12,6 @@ from pygame.host import LINK  # type: ignore[import-not-found]
 from ninja_game.play.app import App, build_app
 from ninja_game.play.main import first_screen
 
-
 LONG = 0.02
 """A turn whose events and ticks take so many seconds, that which opens a level say, leaves the picture to the next."""
 

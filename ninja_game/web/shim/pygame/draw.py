@@ -35,7 +35,8 @@ def round_line(surface: Surface, color: Any, points: Sequence[Any], radius: floa
     """A line with round ends and bends, which pygame-ce does not have."""
     xs, ys = zip(*points, strict=True)
     surface.entries().extend((STROKE, packed(color), len(xs), 2 * radius, *chain.from_iterable(points)))
-    _clipped(surface, *(floor(min(each) - radius) for each in (xs, ys)), *(ceil(max(each) + radius) for each in (xs, ys)))
+    box = [min(xs) - radius, min(ys) - radius, max(xs) + radius + 1, max(ys) + radius + 1]
+    _clipped(surface, *map(floor, box))
 
 
 def circle(surface: Surface, color: Any, center: Any, radius: float, width: int = 0, smooth: int = 0) -> Rect:
