@@ -156,7 +156,7 @@ def _arc(x: float, y: float, rx: float, ry: float, start: float, end: float) -> 
     return [(x + rx * cos(angle), y + ry * sin(angle)) for angle in angles]
 
 
-def _drawn_round_line(surface: pygame.Surface, colour: Colour, points: Sequence[Point], radius: float) -> None:
+def _drawn_round_line(surface: pygame.Surface, colour: tuple[int, ...], points: Sequence[Point], radius: float) -> None:
     """A line with round ends and bends, px."""
     for point in points:
         pygame.draw.circle(surface, colour, point, radius)
