@@ -342,6 +342,13 @@ class App:
     def frame(self, real_ms: int) -> None:
         """One turn of the loop: events, time, picture."""
         started = time.perf_counter()
+        self.advance(real_ms)
+        if self.running and self.stack:
+            self.draw()
+        self.frame_ms = 1000 * (time.perf_counter() - started)
+
+    def advance(self, real_ms: int) -> None:
+        """A turn without its picture."""
         for event in pygame.event.get():
             self._handle(event)
             if not (self.running and self.stack):
@@ -357,8 +364,6 @@ class App:
                 self.notify("")
         if self.stack:
             self.audio_output.music(self.top.music, real_ms)
-            self.draw()
-        self.frame_ms = 1000 * (time.perf_counter() - started)
 
     def _handle(self, raw: pygame.Event) -> None:
         """Deal with what concerns the window; a screen that waits for a press takes it before the keys of the app.

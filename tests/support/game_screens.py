@@ -353,7 +353,7 @@ def _messages(driver: MenuDriver, screen: EditorScreen) -> Iterator[str]:
     tools.history.change(replace(tools.draft, says=said))
     driver.frames(2)
     yield "editor-messages-in-the-level"
-    driver.chord("m", pygame.KMOD_LSHIFT)
+    driver.chord("m", pygame.KMOD_SHIFT)
     driver.frames(2)
     yield "editor-messages"
     driver.press("escape")

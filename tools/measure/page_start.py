@@ -7,13 +7,10 @@ from __future__ import annotations
 
 import argparse
 import statistics
-from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 from ninja_game.web.pages.frame import GAME
-from ninja_game.web.site.build import build_site
-from tests.support.web_page import CACHE, browser, missing, served
+from tests.support.web_page import new_site
 
 PAINT = "() => performance.getEntriesByName('first-contentful-paint')[0].startTime"
 RUNS = "#trouble[open], body[data-state]"
@@ -45,15 +42,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--visits", type=int, default=5, help="browsers that visit, each three times")
     visits = parser.parse_args().visits
-    if words := missing():
-        raise SystemExit(words)
-    with TemporaryDirectory() as folder, browser() as chromium:
-        files = build_site(Path(folder) / "site", None, CACHE)
+    with new_site() as (files, address, chromium):
         print(
             f"size: {sum(f.size for f in files) / 1e6:.2f} MB, {sum(f.compressed for f in files) / 1e6:.2f} MB by gzip"
         )
-        with served(Path(folder) / "site") as address:
-            found = [three_visits(chromium, address) for _ in range(visits)]
+        found = [three_visits(chromium, address) for _ in range(visits)]
     for name in found[0]:
         bar, menu = (statistics.median(times[name][k] for times in found) for k in (0, 1))
         worst = max(times[name][1] for times in found)

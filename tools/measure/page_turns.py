@@ -9,15 +9,12 @@ from __future__ import annotations
 import argparse
 import json
 from collections.abc import Callable
-from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
 
-from ninja_game.web.site.build import build_site
 from tests.support.visitor import LOADING
-from tests.support.web_page import BUSY, CACHE, SIZE, browser, missing, run_in, served
+from tests.support.web_page import BUSY, SIZE, new_site, run_in
 
 KINDS = ["devtools.timeline", "toplevel"]
 OPEN = "import boot\nboot.app().controls = Restless()\nbusy_screen(boot.app())"
@@ -40,28 +37,24 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seconds", type=int, default=30, help="of play in the busy level")
     seconds = parser.parse_args().seconds
-    if words := missing():
-        raise SystemExit(words)
-    with TemporaryDirectory() as folder, browser() as chromium:
-        build_site(Path(folder) / "site", None, CACHE)
-        with served(Path(folder) / "site") as address:
-            page = chromium.new_page(viewport={"width": SIZE[0], "height": SIZE[1]})
-            page.set_default_timeout(LOADING)
-            page.goto(f"{address}play.html")
-            page.locator("body[data-state=menu]").wait_for(state="attached")
-            page.wait_for_timeout(5000)  # what the next visit needs is put aside
+    with new_site() as (_, address, chromium):
+        page = chromium.new_page(viewport={"width": SIZE[0], "height": SIZE[1]})
+        page.set_default_timeout(LOADING)
+        page.goto(f"{address}play.html")
+        page.locator("body[data-state=menu]").wait_for(state="attached")
+        page.wait_for_timeout(5000)  # what the next visit needs is put aside
 
-            def start() -> None:
-                for key in ("Enter", "ArrowRight"):
-                    page.keyboard.press(key, delay=60)
-                    page.wait_for_timeout(2000)
+        def start() -> None:
+            for key in ("Enter", "ArrowRight"):
+                page.keyboard.press(key, delay=60)
+                page.wait_for_timeout(2000)
 
-            print(told("start of a level", turns(chromium, page, start)))
-            page.evaluate("() => (window.python = ninjaGame.python)")
-            run_in(page, BUSY)
-            page.evaluate("text => { python.runPython(text); }", OPEN)
-            page.wait_for_timeout(1000)
-            print(told("busy level", turns(chromium, page, lambda: page.wait_for_timeout(1000 * seconds))))
+        print(told("start of a level", turns(chromium, page, start)))
+        page.evaluate("() => (window.python = ninjaGame.python)")
+        run_in(page, BUSY)
+        page.evaluate("text => { python.runPython(text); }", OPEN)
+        page.wait_for_timeout(1000)
+        print(told("busy level", turns(chromium, page, lambda: page.wait_for_timeout(1000 * seconds))))
 
 
 if __name__ == "__main__":
