@@ -403,5 +403,6 @@ def _near_to_another(player: str, course: Course, earlier: Courses, players: Seq
     own = np.array([players[number] == player for number in numbers.tolist()], bool)
     near, until = earlier.near(course), len(players)
     for _ in range(2):  # inputs are aligned only where nothing else is near
-        until = min((number for number, _ in near(own & (numbers < until))), default=until)
-    return next(iter(near(~own & (numbers < until))), None)
+        until = min(near(own & (numbers < until))[0], default=until)
+    others, said = near(~own & (numbers < until))
+    return (others[0], said) if others else None
