@@ -102,6 +102,7 @@ def test_a_file_that_lies_there_as_before_is_not_read(
 
     monkeypatch.setattr(RunFolder, "file", noting)
     path = put(runs, "ann.txt", replay(author="Ann"))
+    monkeypatch.setattr(collect, "SETTLED", 10**18)
     board(runs, levels)
     board(runs, levels)
     assert read == ["ann.txt"] * 2

@@ -88,11 +88,11 @@ class Common:
 
     def counts(self, things: Iterable[float], columns: int) -> NDArray[np.int64]:
         """How many of the things each of the first columns has."""
-        row = self._rows.get
-        rows = np.array([found for each in things if (found := row(each)) is not None], np.intp)
+        rows = np.array([self._rows[each] for each in things if each in self._rows], np.intp)
         bits = np.unpackbits(self._bits[rows, : (columns + 7) // 8], axis=1, count=columns, bitorder="little")
         # The narrow sum takes a third of the time.
-        return bits.sum(0, np.uint16 if len(rows) < 2**16 else np.int64).astype(np.int64)
+        found: NDArray[np.int64] = bits.sum(0, np.uint16 if len(rows) < 2**16 else np.int64).astype(np.int64)
+        return found
 
 
 class Courses:
@@ -130,8 +130,10 @@ class Courses:
         self._places.mark(course.places, column, has=has)
 
     def near(self, course: Course) -> Callable[[NDArray[np.bool_]], tuple[list[int], str]]:
-        """What tells, of columns, the numbers of those that share enough of a course, the nearest first, and what that
-        one shares."""
+        """What tells, of columns, the numbers of those that share enough of a course, and what the first one shares.
+
+        The nearest is the first.
+        """
         columns = len(self.numbers)
         places, presses = self._places.counts(course.places, columns), np.zeros(columns, np.int64)
         of = self._press_counts

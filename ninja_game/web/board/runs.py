@@ -256,18 +256,16 @@ def _judged(
             # The stamp comes first: a file that is changed after it is read again the next time.
             stamp = [] if why else folder.stamp(name)
             noted = memo.recall(name)
-            judged_in, seen, digest, rows = noted if isinstance(noted, list) and len(noted) == 4 else [None] * 4
-            known: list[Judged] = []
-            if judged_in == context and seen == stamp != [] and isinstance(digest, str):
-                known = _known(rows, shown)
-            if not known:
-                file = SentFile(name, problem=why) if why else folder.file(name)
-                if judged_in == context and digest == file.digest:
-                    known = _known(rows, shown)
+            *seen, digest, rows = noted if isinstance(noted, list) and len(noted) == 4 else ["", [], "", []]
+            as_before = stamp != [] and seen == [context, stamp]
+            file = None if as_before and (known := _known(rows, shown)) else SentFile(name, problem=why)
+            if file:
+                file = file if why else folder.file(name)
+                known = _known(rows, shown) if [*seen[:1], digest] == [context, file.digest] else []
+                if known:
                     memo.note(name, [context, stamp, digest, rows])
-                digest = file.digest
-            sent = [] if known else folder.recordings(file)
-            files.append((name, digest, stamp, sent, known))
+            sent = folder.recordings(file) if file and not known else []
+            files.append((name, file.digest if file else str(digest), stamp, sent, known))
             yield from (each.chunk for each in sent)
 
     levels = [entry.named for entry in shown.entries.values()]
