@@ -8,7 +8,7 @@ from math import dist
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.play.replay.paths import COLOURS
+from ninja_game.ui.theme import RUN_COLOURS
 from ninja_game.web.pages.frame import Markup, joined, tag
 from ninja_game.web.pages.gallery import PICTURE_HEIGHT
 from ninja_game.web.pages.published import PICTURE_WIDTH
@@ -63,7 +63,7 @@ def swatch(number: int) -> Markup:
 
 
 def _colour(number: int) -> str:
-    ink = COLOURS[number % len(COLOURS)]
+    ink = RUN_COLOURS[number % len(RUN_COLOURS)]
     return f"#{ink.r:02x}{ink.g:02x}{ink.b:02x}"
 
 
