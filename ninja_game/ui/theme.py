@@ -362,6 +362,9 @@ def _tone(column: int, level: int) -> Palette:
 NINJA_COLOURS = ("", "#d9127f", "#7d7700", "#1a6488", "#765484", "#6a2424", "#f7f7f7", "#c79400", "#787887", "#bfbfc6")
 """The ninja's colours: the palette's own, then one per completed column (game.md §8)."""
 
+RUN_COLOURS = tuple(map(pygame.Color, ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")))
+"""Of several runs in turn; people who see few colours can tell them apart."""
+
 
 def mixed(a: pygame.Color, b: pygame.Color, share: float) -> pygame.Color:
     """A colour between two, ``share`` (0…1) of the way from ``a`` to ``b``.

@@ -225,7 +225,7 @@ def _levels(driver: MenuDriver) -> Iterator[str]:
     driver.frames(20)
     driver.press("f5")
     yield "practice"
-    for key in ("1", "2", "3", "4", "5"):
+    for key in "123456":
         driver.press(key)
     yield "practice-overlays"
     home(driver)

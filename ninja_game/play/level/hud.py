@@ -467,7 +467,7 @@ def _ready_hint(key: KeyName, *, practice_mode: bool, show_tutorial: bool) -> st
     if show_tutorial:
         return f"{key('left')} and {key('right')} to run    {key('jump')} to jump, hold it to go higher    {begin}"
     if practice_mode:
-        return f"{begin}    {key('overlay_hitboxes')} to {key('overlay_cells')}: look inside"
+        return f"{begin}    {key('overlay_hitboxes')} to {key('overlay_thinkers')}: look inside"
     return begin
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Callable, Iterable
 from html import escape
@@ -17,7 +18,7 @@ from ninja_game.play.window import icon, png_of
 from ninja_game.ui.glyphs import CAP
 from ninja_game.ui.lettering import SPACING, WEIGHTS, glyph
 from ninja_game.ui.theme import PALETTES, Palette, mixed
-from ninja_game.web.pages.memo import Memo, digest_of, program
+from ninja_game.web.pages.memo import Memo, digest_of, program, stamp_here
 
 LONGEST = 400
 """Characters of a text that are shown."""
@@ -117,6 +118,7 @@ class Pages:
         self.folder = site / name
         self._memo = memo or Memo()
         self._site = Tree(site, kept=False)  # they can always be made again
+        self._root = os.fspath(site)
         self._written: set[str] = set()
         there = self._site.names(name)
         if there and MARK not in there:
@@ -148,12 +150,8 @@ class Pages:
             self._memo.note(name, [digest, *self._there(name)])
 
     def _there(self, name: str) -> list[int]:
-        """What tells that a file is not the one that was written: its size and times; git and archives set no ctime."""
-        try:
-            about = (self._site.root / name).lstat()
-        except OSError:
-            return []
-        return [about.st_size, about.st_mtime_ns, about.st_ctime_ns, about.st_ino]
+        """What tells that a file is not the one that was written."""
+        return stamp_here(f"{self._root}/{name}")
 
     def write_replay(self, name: str, text: str) -> None:
         """A replay that pages lead to, or the page of one, in the site's folder of them."""

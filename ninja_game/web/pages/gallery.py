@@ -127,7 +127,8 @@ def _play(entry: Entry, game: str) -> Content:
 def objects_text(entry: Entry) -> str:
     """How many objects of each kind, the commonest first."""
     counts = Counter(KIND_NAMES[spec.kind] for spec in entry.named.level.objects if makes_object(spec))
-    return ", ".join(f"{count} {kind}" for kind, count in counts.most_common()) or "none"
+    told = [counted(count, kind, "gold" * (kind == "gold")) for kind, count in counts.most_common()]
+    return ", ".join(told) or "none"
 
 
 def _pars(pars: Pars) -> Markup:
