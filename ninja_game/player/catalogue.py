@@ -58,7 +58,7 @@ class Entry:
     def place(self) -> str:
         """Its place as players count it; "" for a level in no episode."""
         episode, _, level = self.episode.partition("-")
-        return f"Episode {int(episode) + 1}, level {int(level) + 1}" if level else ""
+        return f"Episode {episode_code(int(episode))}, level {int(level) + 1}" if level else ""
 
     @property
     def mood(self) -> int:
@@ -92,8 +92,8 @@ class Episode:
 
     @property
     def code(self) -> str:
-        """How players count it: from 1. Files, documents and boards count from 0, in two digits."""
-        return str(self.number + 1)
+        """How players count it."""
+        return episode_code(self.number)
 
     def title(self, level: int) -> str:
         """How a level of it is announced."""
@@ -132,6 +132,16 @@ class EpisodeSet(NamedTuple):
     def levels(self) -> list[Entry]:
         """Every level, those of the episodes first, in their order."""
         return [entry for number in sorted(self.episodes) for entry in self.episodes[number].levels] + [*self.singles]
+
+
+def episode_code(number: int) -> str:
+    """How players count an episode: its column and its place in it, from 1. Files and boards count from 0, in two digits.
+
+    >>> episode_code(0), episode_code(13)
+    ('1.1', '2.4')
+    """
+    column, place = divmod(number, EPISODES_PER_COLUMN)
+    return f"{column + 1}.{place + 1}"
 
 
 def author_name(author: str) -> str:

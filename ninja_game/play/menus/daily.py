@@ -122,7 +122,7 @@ class DailyScreen(ThumbnailScreen):
 
     @property
     def streak(self) -> int:
-        """How many days in a row were passed, up to today, or up to yesterday as long as today is not over."""
+        """How many days in a row have had their level passed, whenever that was, up to today, or yesterday until it is."""
         count = int(self.is_passed(self.day))
         day = self.day - timedelta(1)
         while self.is_passed(day):
@@ -193,9 +193,9 @@ class DailyScreen(ThumbnailScreen):
         theme.text(surface, entry.title, SIDE, TOP + 24, size=17, bold=True, width=SIDE_WIDTH)
         mark = self.player.marks.of(entry.digest)
         played = self.player.statistics.played(entry.digest)
-        lines = [f"{counted(self.streak, 'day', 'days')} in a row", f"{entry.all_gold} gold"]
-        if entry.pars and entry.pars.grade:
-            lines.insert(1, entry.pars.grade)
+        lines = [f"{self.streak} daily levels in a row"] if self.streak > 1 else []
+        lines += [entry.pars.grade] if entry.pars and entry.pars.grade else []
+        lines.append(f"{entry.all_gold} gold")
         lines.append(self.player.reached(entry, mark))
         if entry.pars and mark:
             lines.append(next_par(entry.pars, mark))

@@ -85,7 +85,7 @@ def test_card_says_one_thing_large_one_next_and_the_rest_short(driver: MenuDrive
     level.attempt.ended_tick = par + 1
     title, (medal, following, rest, clock, _), *_ = hud_view(level.play).message or ("", [""], (), ())
     assert title == f"Time {seconds_text(level.attempt.ended_tick)} s"
-    assert (medal, following) == ("Silver medal", f"Gold medal: {seconds_text(par)} s, 0.025 s faster")
+    assert (medal, following) == ("Silver medal", f"Gold medal: {seconds_text(par)} s, 0.025 s to go")
     assert rest == "1 of 5 gold"
     assert clock == f"{rounded_text(level.attempt.lifetime)} s left on the clock, for the next level"
     level.play.notices = ["New medal", "All gold"]
