@@ -11,7 +11,6 @@ from threading import Event
 import pygame
 
 from ninja_game.backend.memories import choose_memory
-from ninja_game.files.shown_text import counted
 from ninja_game.files.user_folder import LEVELS
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.generator import daily
@@ -122,7 +121,7 @@ class DailyScreen(ThumbnailScreen):
 
     @property
     def streak(self) -> int:
-        """How many days in a row have had their level passed, whenever that was, up to today, or yesterday until it is."""
+        """How many days in a row have had their level passed, whenever that was, up to today, or yesterday."""
         count = int(self.is_passed(self.day))
         day = self.day - timedelta(1)
         while self.is_passed(day):

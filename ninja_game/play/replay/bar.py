@@ -46,9 +46,7 @@ class ReplayBar:
         return rect.union(knob).inflate(canvas.px(10), canvas.px(10))
 
     @staticmethod
-    def write(
-        surface: pygame.Surface, theme: Theme, tick: int, end: int, speed: str, *, still: bool
-    ) -> pygame.Rect:
+    def write(surface: pygame.Surface, theme: Theme, tick: int, end: int, speed: str, *, still: bool) -> pygame.Rect:
         """Time and speed; the tick too where it stands still."""
         at = min(tick, end)
         text = f"{seconds_text(at)} / {seconds_text(end)} s    {speed}" + f"    tick {at}" * still
