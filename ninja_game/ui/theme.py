@@ -339,7 +339,7 @@ GROUND_ROLES = "sky", "background", "far", "near"
 TONES = 5
 """So many a mood has; the levels of an episode go through them, each episode from another one on."""
 
-TONE = (-18, -16, 9, 15, -16)
+TONE = (-13, -16, 9, 15, -16)
 """By mood: degrees in YIQ by which rock and scenery turn from a level of an episode to the next one."""
 
 PALETTES: dict[str, Palette] = {palette.name: palette for palette in (CLASSIC, DARK, CONTRAST, SAFE, SAFE_DARK, *MOODS)}

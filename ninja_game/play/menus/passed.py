@@ -159,7 +159,7 @@ class EpisodePassed(ThumbnailScreen):
         best = self.player.records.episode_best(run.episode.key)
         told, news = "", [notice for notice in run.notices if notice not in OF_A_LEVEL and notice != EPISODE_BEST]
         if not run.whole:
-            told = "A level was skipped or passed with help: the episode is passed, but this is no record"
+            told = "A level was skipped or passed with help: this does not count as a record"
             told = "Practice counts for no record" if run.practice_mode else told
         elif best is None or best.score <= run.score:
             theme.text(surface, "Your best", WIDTH / 2 + half + 16, 310, size=13, colour=palette.good, bold=True)

@@ -19,6 +19,7 @@ from ninja_game.sim.events import LANDED, MINE_EXPLODED
 from ninja_game.sim.kinds import EXIT
 from ninja_game.simulation import Simulation
 from ninja_game.view.level_view import DANCE_TICKS, DOOR_STEP, ENTER_TICKS, LevelView
+from tests.support.draw_log import DrawLog
 from tests.support.menu_driver import FRAME_MS, MenuDriver
 from tests.support.players import deadly_level, entry
 
@@ -130,6 +131,23 @@ def test_an_episode_passed_is_a_feast_unless_motion_is_reduced(driver: MenuDrive
     driver.app.push(screen)
     driver.frames(3)
     assert (heard, len(screen.particles.front)) == (["medal"], 0)
+
+
+def test_a_text_in_the_border_leaves_room_for_the_name_of_the_level(driver: MenuDriver) -> None:
+    said = (
+        "Some words that say a lot about a level in which there is no rock at all",
+        (0,) * 713,
+        (),
+        (396.0, 300.0),
+        False,
+    )
+    view = HudView(3600, "", ("Episode 1.1, level 1: Long Name", "gold 0 / 5"), name="Long Name", said=said)
+    log = DrawLog()
+    with log.installed(), log.recording(driver.app.theme.palette) as lines:
+        Hud(driver.app.theme).draw(pygame.Surface((792, 600)), view)
+    drawn = "\n".join(lines)
+    assert "text 'Long Name' at 24" in drawn
+    assert "Episode 1.1" not in drawn
 
 
 @pytest.mark.parametrize("cells, warned", [(5, False), (17, True)])
