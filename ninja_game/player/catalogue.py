@@ -21,7 +21,7 @@ from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.files import PackFiles, certificate_name, is_pack
-from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
+from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.replay.episode import episode_key
@@ -58,13 +58,14 @@ class Entry:
     def place(self) -> str:
         """Its place as players count it; "" for a level in no episode."""
         episode, _, level = self.episode.partition("-")
-        return f"Episode {int(episode) + 1}, level {int(level) + 1}" if level else ""
+        return f"Episode {episode_code(int(episode))}, level {int(level) + 1}" if level else ""
 
     @property
     def mood(self) -> int:
-        """The column of its episode, and ten times its place in it; 0 for a level in none."""
+        """The column of its episode, and ten times its place in that column; 0 for a level in none."""
         episode, _, level = self.episode.partition("-")
-        return int(episode) // EPISODES_PER_COLUMN + 10 * int(level) if level else 0
+        column, place = divmod(int(episode) if level else 0, EPISODES_PER_COLUMN)
+        return column + 10 * (LEVELS_PER_EPISODE * place + int(level or 0))
 
     @property
     def title(self) -> str:
@@ -92,8 +93,8 @@ class Episode:
 
     @property
     def code(self) -> str:
-        """How players count it: from 1. Files, documents and boards count from 0, in two digits."""
-        return str(self.number + 1)
+        """How players count it."""
+        return episode_code(self.number)
 
     def title(self, level: int) -> str:
         """How a level of it is announced."""
@@ -132,6 +133,18 @@ class EpisodeSet(NamedTuple):
     def levels(self) -> list[Entry]:
         """Every level, those of the episodes first, in their order."""
         return [entry for number in sorted(self.episodes) for entry in self.episodes[number].levels] + [*self.singles]
+
+
+def episode_code(number: int) -> str:
+    """How players count an episode: its column and its place in it, from 1.
+
+    Files, documents and boards count from 0, in two digits.
+
+    >>> episode_code(0), episode_code(13)
+    ('1.1', '2.4')
+    """
+    column, place = divmod(number, EPISODES_PER_COLUMN)
+    return f"{column + 1}.{place + 1}"
 
 
 def author_name(author: str) -> str:

@@ -336,7 +336,10 @@ MOODS = (MORNING, NOON, AFTERNOON, DUSK, NIGHT)
 GROUND_ROLES = "sky", "background", "far", "near"
 """From the upper edge of the sky to the lower one, then from the farthest layer to the nearest one."""
 
-TONE = (-18, -16, 9, 15, -16)
+TONES = 5
+"""So many a mood has; the levels of an episode go through them, each episode from another one on."""
+
+TONE = (-13, -16, 9, 15, -16)
 """By mood: degrees in YIQ by which rock and scenery turn from a level of an episode to the next one."""
 
 PALETTES: dict[str, Palette] = {palette.name: palette for palette in (CLASSIC, DARK, CONTRAST, SAFE, SAFE_DARK, *MOODS)}
@@ -347,14 +350,14 @@ def palette_named(name: str, mood: int = 0) -> Palette:
     return PALETTES.get(name) or _tone(mood % 10 % len(MOODS), mood // 10)
 
 
-@lru_cache
+@lru_cache(maxsize=512)
 def _tone(column: int, level: int) -> Palette:
-    """The mood of a column as it is in a level of an episode: other hues, as light."""
+    """The mood of a column as it is in its ``level``th level: other hues, as light; its name is the seed of shapes."""
     mood = MOODS[column]
     colours: dict[str, Any] = {}
     for role in (*GROUND_ROLES, "tile") if level else ():
         y, i, q = rgb_to_yiq(*(channel / 255 for channel in getattr(mood, role)[:3]))
-        turned = complex(i, q) * rect(1, radians(TONE[column] * level))
+        turned = complex(i, q) * rect(1, radians(TONE[column] * ((level + 2 * (level // TONES)) % TONES)))
         colours[role] = pygame.Color(*(round(255 * channel) for channel in yiq_to_rgb(y, turned.real, turned.imag)))
     return replace(mood, name=f"{mood.name} {level}", **colours) if level else mood
 

@@ -319,7 +319,7 @@ class FilePart(EditorPart):
         if stale and not certifier.busy:
             text = f"{'Certified before' if run else 'Not certified since'} the last change: F7 again"
         elif run and not certifier.busy:
-            text += ". To keep it: File, Keep the solver's run"
+            text += ". To keep it: File, Keep the run that was found"
         for number, line in enumerate(wrapped(theme, text, w, 9)[:3]):
             colour = palette.good if run and not stale else palette.text
             theme.text(surface, line, x, y + 36 + 12 * number, size=9, colour=colour)

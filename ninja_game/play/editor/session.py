@@ -194,7 +194,7 @@ class EditorSession:
         try:
             text = write_level_string(self.draft.level, exact=True)
         except NinjaGameError as error:
-            self.app.notify(f"This level cannot be written as an N string: {error}")
+            self.app.notify(f"This level cannot be written as level text of N: {error}")
             return
         copy_text(self.app, text, title=self.name, suffix=".nlevel")
 

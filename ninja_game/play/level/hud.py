@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from math import hypot, pi, sin
+from math import hypot
 
 import pygame
 
@@ -26,7 +26,7 @@ from ninja_game.sim.rules import CELL, LIFETIME
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Point
 from ninja_game.ui.input.bindings import MOVES
 from ninja_game.ui.theme import Palette, Theme, mixed, wrapped
-from ninja_game.ui.widgets import draw_medal
+from ninja_game.ui.widgets import draw_medal, draw_stamp
 
 _BAR_LEFT, _BAR_MIDDLE = 24.0, 12.0
 _BAR_LONGEST = 630.0
@@ -70,7 +70,8 @@ class HudView:
     """What is written over a level now.
 
     ``lifetime``: ticks, for the time bar; ``label``: a word in its place; ``pars``: medals, and with which lifetime
-    each is lost. ``foot``: texts at the left and the right of the border below. ``keys``: those of the present tick,
+    each is lost. ``foot``: texts at the left and the right of the border below, ``name``: what is at the
+    left where a text lies there. ``keys``: those of the present tick,
     ``frame_ms``: of the last picture; None: not shown.
     ``said``: a text of the level, its tiles and the things of which it covers as little as can be, the place near which
     it should be, and whether it may cover anything but rock: else it may lie in the border below. ``moves``: the keys
@@ -83,6 +84,7 @@ class HudView:
     lifetime: float
     label: str
     foot: tuple[str, str]
+    name: str = ""
     pars: Sequence[tuple[str, float]] = ()
     keys: int | None = None
     frame_ms: float | None = None
@@ -109,6 +111,12 @@ class Hud:
         said = self.box(*view.said, keys=KEYS_WIDE if view.moves else 0) if view.said else None
         in_border = said is not None and said[2] == IN_BORDER
         written = [top, self.foot(surface, "" if in_border else view.foot[0], view.foot[1])]
+        if said is not None and in_border:
+            # It lies beside the text at the right, and leaves the rest to the level's own name.
+            left = max(24.0, RIGHT - self.theme.width(view.foot[1], FOOT) - 14 - said[3])
+            said = said[0], left, *said[2:]
+            if left > NAME_FROM:
+                written.append(self.foot(surface, self.theme.fit(view.name, left - 36, FOOT), ""))
         if view.frame_ms is not None:
             written.append(self.frame_time(surface, view.frame_ms))
         if view.keys is not None:
@@ -194,11 +202,10 @@ class Hud:
             behind.blit(surface, (0, 0), place)
         rect = theme.panel(surface, x, y, w, h, 4)
         middle = x + w / 2
-        if medal and view.stamp > STAMP_SEEN:
+        if medal:
             # It grows a little too large, but never over the words beside it.
-            size = PRIZE * view.stamp * (1 + 0.6 * sin(pi * view.stamp))
             at = middle - (head + 14) / 2, y + 9 + PRIZE / 2
-            draw_medal(surface, theme, medal, *at, size, shine=view.shine)
+            draw_stamp(surface, theme, medal, *at, PRIZE, view.stamp, view.shine)
         across = middle + beside / 2
         theme.text(surface, title, across, y + 9, size=TITLE, align="centre", bold=True)
         accent = theme.palette.accent
@@ -339,14 +346,15 @@ WIDE = WIDTH - 150.0
 MARK, RIGHT = 12.0, 768.0
 """Size of a medal on the time bar; right edge of what is written in the borders."""
 
-PRIZE, STAMP_SEEN = 54.0, 0.2
-"""Size of the medal of a pass; how far its stamp has come when it is first seen."""
+PRIZE = 54.0
+"""Size of the medal of a pass."""
 
 POINTER_UP, POINTER_REACH = 24.0, 50.0
 """px from a thing to the middle of its pointer, and to where it ends."""
 
-FOOT, SAID, IN_BORDER, BESIDE_GOLD, KEYS_WIDE = 11.0, 12.5, 576.0, 550.0, 70.0
-"""Sizes of the lines in the borders and of what a level says; where that is in a border; its width there; of keys."""
+FOOT, SAID, IN_BORDER, BESIDE_GOLD, KEYS_WIDE, NAME_FROM = 11.0, 12.5, 576.0, 490.0, 70.0, 90.0
+"""Sizes of the lines in the borders and of what a level says; where that is in a border; its width there; of keys;
+px from which on there is room for a name beside it."""
 _TOOLS = {"quick_save": "save", "quick_load": "load", "rewind": "rewind", "slow": "slow", "step": "step"}
 _TOOLS_NAMED = 600
 """Ticks of a practice run in which the keys of its tools are named: where they work, and not for ever."""
@@ -385,6 +393,7 @@ def hud_view(play: LevelPlay) -> HudView:
         play.shown_lifetime,
         practice if context.practice_mode else "",
         (title, hint or f"gold {gold}"),
+        name=shown_text(context.entry.title),
         pars=_pars_ahead(play),
         keys=play.keys if settings.show_keys and not hint else None,
         frame_ms=app.frame_ms if settings.show_frame_time else None,

@@ -46,7 +46,8 @@ class ReplayBar:
         return rect.union(knob).inflate(canvas.px(10), canvas.px(10))
 
     @staticmethod
-    def write(surface: pygame.Surface, theme: Theme, tick: int, end: int, speed: str) -> pygame.Rect:
+    def write(surface: pygame.Surface, theme: Theme, tick: int, end: int, speed: str, *, still: bool) -> pygame.Rect:
+        """Time and speed; the tick too where it stands still."""
         at = min(tick, end)
-        text = f"{seconds_text(at)} / {seconds_text(end)} s    {speed}    tick {at} of {end}"
+        text = f"{seconds_text(at)} / {seconds_text(end)} s    {speed}" + f"    tick {at}" * still
         return theme.text(surface, text, 768, 583, size=9, colour=theme.palette.on_tile, align="right")
