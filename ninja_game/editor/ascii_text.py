@@ -19,6 +19,7 @@ from ninja_game.formats.ascii.writer import (
     HEADER_KEYS,
     drawn_only,
     header_text,
+    headers_of,
     picture_rows,
     same_record,
     tile_lines,
@@ -33,8 +34,7 @@ _RULER = re.compile(r";[\s\d]*")
 
 
 def ascii_text(draft: Draft) -> str:
-    name, author, comment, teaches, says = draft.about
-    return write_ascii_level(draft.level, name=name, author=author, comment=comment, teaches=teaches, says=says)
+    return write_ascii_level(draft.level, **headers_of(draft))
 
 
 def updated_text(text: str, opened: Draft, draft: Draft) -> str:
