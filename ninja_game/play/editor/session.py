@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 from time import monotonic
+from typing import TYPE_CHECKING
 
 from ninja_game.editor.brush import object_of_type, placed
 from ninja_game.editor.certify import Certifier, Route, TestMap, Try, map_of, route_of
@@ -13,9 +14,12 @@ from ninja_game.editor.files import Autosave, RecoveredDraft, Source, draft_of_t
 from ninja_game.editor.reach import STARTS, Ask, Reach, find_reach
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.editor.tools import EditorTools
-from ninja_game.errors import NinjaGameError
-from ninja_game.files.reading import stamp_of
+from ninja_game.errors import NinjaGameError, reason
+from ninja_game.files.reading import NO_FILE, stamp_of
+from ninja_game.files.user_folder import LEVELS
+from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import write_level_string
+from ninja_game.formats.pack.files import is_pack
 from ninja_game.levels.findings import Finding
 from ninja_game.levels.warnings import level_findings
 from ninja_game.play.app import App
@@ -26,6 +30,9 @@ from ninja_game.runtime import NewestJob
 from ninja_game.sim.level import Level
 from ninja_game.ui.widgets import following
 from ninja_game.view.sprites.thumbnail import thumbnail
+
+if TYPE_CHECKING:
+    from ninja_game.formats.replay.text import Replay
 
 LOOK_SPACING = 0.5
 """Seconds from one look at the level's file to the next."""
@@ -66,7 +73,8 @@ class EditorSession:
         self.tools.load(found.draft if found else source.draft)
         self.tries: tuple[Try, ...] = ()
         self.last_try: Route = ()
-        self._file_stamp, self._looked_at = (0, 0), 0.0
+        self._file_stamp, self._looked_at = NO_FILE, 0.0
+        self._certified: tuple[Replay | None, Path | None] = None, None
         self._asked: Level | None = None
         self._asked_at = 0.0
 
@@ -128,6 +136,7 @@ class EditorSession:
     def update(self) -> None:
         """Keep the level safe, examine it, look for what can be reached: all in the background."""
         self._follow_pointer()
+        self._certify_file()
         self.autosave.poll(self.draft, self.source)
         if self.autosave.problem:
             self.app.notify(self.autosave.problem)
@@ -153,7 +162,7 @@ class EditorSession:
         self._looked_at = now
         stamp, before = stamp_of(path), self._file_stamp
         self._file_stamp = stamp
-        if stamp == before or not any(stamp):
+        if stamp in (before, NO_FILE):
             return None
         found = open_source(path)
         return found if found.digest != self.source.digest else None
@@ -164,8 +173,24 @@ class EditorSession:
         self.source = source
         self.tools.history.change(source.draft)
 
+    def _certify_file(self) -> None:
+        """Put the solver's run beside the level's file as soon as that holds its level: packs need no other then."""
+        run, path = self.certifier.search.run, self.source.path
+        done = self.certifier.busy or (run, path) == self._certified
+        if run is None or path is None or done or not self.is_saved or self.certifier.is_stale(self.draft.level):
+            return
+        self._certified = run, path
+        if path.parent == self.app.player.folder / LEVELS or is_pack(path.parent):
+            from ninja_game.search.certify import keep_run
+
+            try:
+                keep_run(load_levels(path)[0], run)
+            except (NinjaGameError, OSError) as error:
+                self.app.notify(f"No certificate: {reason(error)}")
+
     def close(self) -> None:
         self.certifier.close()
+        self._certify_file()
         self.autosave.close()
 
     # --- files ---

@@ -527,8 +527,10 @@ class PackScreen(ThumbnailScreen):
     def _draw_state(self, surface: pygame.Surface, theme: Theme, level: Entry, x: float, y: float, w: float) -> None:
         palette = theme.palette
         if level.pars is None:
-            changed = f'"{Path(level.named.file).name}"' in self.measured and level.source != "yours"
-            text, colour = ("changed", palette.bad) if changed else ("no run yet", palette.faint)
+            name = Path(level.named.file).name
+            pack = self.pack.pack if self.pack and level.source == self.pack.key else None
+            known = "certified" if pack and pack.certificate(name, "exit") else "no run yet"
+            text, colour = ("changed", palette.bad) if pack and f'"{name}"' in self.measured else (known, palette.faint)
             theme.text(surface, text, x, y, size=8.5, colour=colour, width=w)
             return
         theme.text(surface, f"{seconds_text(level.pars.exit)} s", x, y, size=8.5, colour=palette.good, width=w - 14)

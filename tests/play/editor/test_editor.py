@@ -11,13 +11,17 @@ import pygame
 import pytest
 
 from ninja_game.backend.memories import compiled_available
+from ninja_game.editor import packs
 from ninja_game.editor.brush import OBJECT_TYPES, object_of_type, placed
 from ninja_game.editor.certify import Search
-from ninja_game.editor.files import Source
+from ninja_game.editor.files import Source, open_source
 from ninja_game.editor.reach import CELL, LANDED, STARTS, Reach
 from ninja_game.editor.specs import SWITCH, points
 from ninja_game.editor.stamp import Selection, Stamp, put
 from ninja_game.formats.ascii.places import place_text
+from ninja_game.formats.load import load_levels
+from ninja_game.formats.pack.pack import Pack
+from ninja_game.formats.replay.text import parse_replay
 from ninja_game.play.editor.controls import COMMANDS
 from ninja_game.play.editor.object_list import ObjectList
 from ninja_game.play.editor.screen import EditorScreen
@@ -25,7 +29,9 @@ from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.panels import Menu
+from ninja_game.runs.packs import lint
 from ninja_game.runs.run import run_level
+from ninja_game.search.certificate import verified_run
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.kinds import NINJA
 from ninja_game.sim.level import ObjectSpec
@@ -320,6 +326,40 @@ def test_a_certificate_is_shown_and_gets_stale(room: Maker) -> None:
     assert not certifier.is_stale(room.draft.level)
     room.choose_in_menu("Keep the solver's run")
     assert room.player.records.replays()
+
+
+def certified(room: Maker, late: int) -> None:
+    """Have the solver found a run that begins so many ticks late."""
+    session = room.editor.session
+    inputs = with_press_bits(bytes(late) + bytes([2]) * 100)
+    session.certifier.search = Search(session.draft.level, verified_run(session.draft.level, inputs), end="Done")
+    room.frames()
+
+
+def test_a_certified_level_needs_no_other_certificate_in_a_pack(room: Maker, tmp_path: Path) -> None:
+    session = room.editor.session
+    certified(room, 3)
+    levels = tmp_path / "levels"
+    kept = levels / "certificates" / "room.exit.replay.txt"
+    assert not kept.exists(), "the level has no file yet"
+    room.chord("s", pygame.KMOD_LCTRL)
+    room.frames()
+    first = parse_replay(kept.read_text()).final_tick
+    certified(room, 9)
+    assert parse_replay(kept.read_text()).final_tick == first, "a longer one replaces nothing"
+    certified(room, 0)
+    assert parse_replay(kept.read_text()).final_tick == first - 3
+    room.player.catalogue.own()
+    assert room.player.catalogue.problems == []
+    pack = packs.new_pack(levels, "Pack", "me")
+    file = packs.transfer(load_levels(levels / "room.txt")[0], pack, keep=False)
+    packs.place(pack, file, 0)
+    assert not [finding for finding in lint(Pack(pack)) if "certificate" in finding.code]
+    session.begin(open_source(pack / file))
+    room.drag((300, 300))
+    before = (pack / "certificates" / "room.exit.replay.txt").read_text()
+    certified(room, 0)
+    assert (pack / "certificates" / "room.exit.replay.txt").read_text() == before, "what is not saved certifies nothing"
 
 
 def test_a_ninja_far_away_leaves_no_route(room: Maker) -> None:
