@@ -42,11 +42,14 @@ CHECK_SPACING = 0.1
 
 PICTURE_WIDTH = 1584
 
+Question = tuple[Level, tuple[Finding, ...]]
+"""A level to examine, and what the solver has found of it."""
 Examined = tuple[Level, list[Finding]]
 
 
-def _examine(level: Level) -> Examined:
-    return level, level_findings(level)
+def _examine(question: Question) -> Examined:
+    level, found = question
+    return level, [*found, *level_findings(level)]
 
 
 class EditorSession:
@@ -60,7 +63,7 @@ class EditorSession:
         self.app = app
         self.certifier = Certifier()
         self.tools = EditorTools(new_source().draft)
-        self._checks: NewestJob[Level, Examined] = NewestJob(_examine)
+        self._checks: NewestJob[Question, Examined] = NewestJob(_examine)
         self._reaches: NewestJob[Ask, Reach] = NewestJob(find_reach)
         self._maps: NewestJob[tuple[Try, ...], TestMap] = NewestJob(map_of)
         self.start = "off"
@@ -75,7 +78,7 @@ class EditorSession:
         self.last_try: Route = ()
         self._file_stamp, self._looked_at = NO_FILE, 0.0
         self._certified: tuple[Replay | None, Path | None] = None, None
-        self._asked: Level | None = None
+        self._asked: Question | None = None
         self._asked_at = 0.0
 
     def begin(self, source: Source, found: RecoveredDraft | None = None) -> None:
@@ -144,10 +147,14 @@ class EditorSession:
         if self._checks.problem:
             self.app.notify(f"The level could not be examined: {self._checks.problem}")
             self._checks.problem = ""
-        due = self.draft.level is not self._asked and monotonic() - self._asked_at >= CHECK_SPACING
+        level = self.draft.level
+        found = () if self.certifier.is_stale(level) else self.certifier.search.obstacles
+        before = self._asked
+        news = before is None or level is not before[0] or found is not before[1]
+        due = news and monotonic() - self._asked_at >= CHECK_SPACING
         if due and not self.tools.dragging:
-            self._asked, self._asked_at = self.draft.level, monotonic()
-            self._checks.ask(self.draft.level)
+            self._asked, self._asked_at = (level, found), monotonic()
+            self._checks.ask(self._asked)
 
     @property
     def test_map(self) -> TestMap | None:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.editor import packs
-from ninja_game.editor.packing import ReadyPack, make_ready
+from ninja_game.editor.packing import ReadyPack, make_ready, problems_of
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.writing import write_atomically
@@ -30,7 +30,7 @@ from ninja_game.play.menus.panels import CANCEL, FormPanel, Menu, Row
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
 from ninja_game.player.catalogue import Entry, EpisodeSet
-from ninja_game.runs.packs import file_of, lint
+from ninja_game.runs.packs import file_of
 from ninja_game.runtime import NewestJob
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.input.keys import chord
@@ -397,8 +397,10 @@ class PackScreen(ThumbnailScreen):
 
     def problems(self) -> list[Problem]:
         """What is odd about the pack."""
-        pack = Pack(self.path)
-        return [self._problem(each, file_of(pack, each)) for each in lint(pack)]
+        pack, ready = Pack(self.path), self._seen
+        found = problems_of(pack, ready.obstacles if ready else {})
+        notes = ready.notes if ready and ready.pack.files.path == self.path else []
+        return [*(self._problem(each, file_of(pack, each)) for each in found), *map(Problem, notes)]
 
     def _problem(self, finding: PackFinding, file: str) -> Problem:
         levels = self.pack.levels if self.pack else []
@@ -407,7 +409,9 @@ class PackScreen(ThumbnailScreen):
         if finding.code == "no-author":
             go = partial(self._form, 1)
         elif entry:
-            found = next((each for each in level_findings(entry.named.level) if each.code == finding.code), None)
+            level, ready = entry.named.level, self._seen
+            known = *level_findings(level), ready.obstacles.get(level) if ready else None
+            found = next((each for each in known if each and each.code == finding.code), None)
             go = partial(self._edit, entry, found)
 
         def accept(why: str) -> None:

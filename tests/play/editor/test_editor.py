@@ -32,8 +32,9 @@ from ninja_game.play.menus.panels import Menu
 from ninja_game.runs.packs import lint
 from ninja_game.runs.run import run_level
 from ninja_game.search.certificate import verified_run
+from ninja_game.search.task import Progress, obstacle
 from ninja_game.sim.inputs import with_press_bits
-from ninja_game.sim.kinds import NINJA
+from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.ui.input.keys import SCANCODES
 from ninja_game.ui.text_entry import TextEntry
@@ -332,7 +333,7 @@ def certified(room: Maker, late: int) -> None:
     """Have the solver found a run that begins so many ticks late."""
     session = room.editor.session
     inputs = with_press_bits(bytes(late) + bytes([2]) * 100)
-    session.certifier.search = Search(session.draft.level, verified_run(session.draft.level, inputs), end="Done")
+    session.certifier.search = Search(session.draft.level, run=verified_run(session.draft.level, inputs), end="Done")
     room.frames()
 
 
@@ -360,6 +361,21 @@ def test_a_certified_level_needs_no_other_certificate_in_a_pack(room: Maker, tmp
     before = (pack / "certificates" / "room.exit.replay.txt").read_text()
     certified(room, 0)
     assert (pack / "certificates" / "room.exit.replay.txt").read_text() == before, "what is not saved certifies nothing"
+
+
+def test_what_kept_the_solver_from_a_run_is_the_first_problem_and_a_click_goes_there(room: Maker) -> None:
+    session, level = room.editor.session, room.draft.level
+    exit_ = next(number for number, record in enumerate(level.objects) if record.kind == EXIT)
+    why = obstacle(level, 0, Progress(untouched=(exit_,)))
+    session.certifier.search = Search(level, 20.0, obstacles=(why,), end="No run in 20 s")
+    room.wait(lambda: session.findings[:1] == [why], "the problem")
+    room.press("f4")
+    assert room.editor.view.hint.endswith("Make the way there easier, or give the solver more time.")
+    assert session.tools.pointer == (120.0, 540.0), "the switch"
+    room.press("b")
+    room.drag((300, 300))
+    room.wait(lambda: session.examined is room.draft.level, "findings")
+    assert why not in session.findings, "of another level"
 
 
 def test_a_ninja_far_away_leaves_no_route(room: Maker) -> None:
