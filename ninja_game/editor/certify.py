@@ -92,14 +92,14 @@ class Search:
     """
 
     level: Level | None = None
-    seconds: float = 0.0
-    obstacles: tuple[Finding, ...] = ()
     run: Replay | None = None
     route: Route = ()
     share: float = 0.0
     worlds: int | None = None
     began: float = field(default_factory=monotonic)
     end: str = ""
+    seconds: float = 0.0
+    obstacles: tuple[Finding, ...] = ()
 
 
 class Certifier:
@@ -142,7 +142,7 @@ class Certifier:
         if not compiled_available():
             self.search = Search(end=f"Certifying needs Numba: {how_to_install('fast')}")
             return
-        self.search, self._job.problem = Search(level, longer), ""
+        self.search, self._job.problem = Search(level, seconds=longer), ""
         self._job.ask(self.search)
 
     def stop(self) -> None:

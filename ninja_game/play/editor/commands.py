@@ -30,7 +30,7 @@ from ninja_game.play.editor.view import EditorView
 from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.panels import Action, FormPanel, Menu, Row, nothing
+from ninja_game.play.menus.panels import CANCEL, Action, FormPanel, Menu, Row, nothing
 from ninja_game.play.workspace.document import DocumentCommands
 from ninja_game.player.catalogue import Entry
 from ninja_game.sim.level import COLUMNS, ROWS
@@ -313,4 +313,10 @@ class EditorCommands(DocumentCommands):
             self.ask_about_recovered(name, lambda: self.session.begin(found.source, found), found.forget, about=about)
 
     def new(self) -> None:
-        self.unless_unsaved(lambda: self.session.begin(new_source(self.app.settings.name)))
+        begin, author = self.session.begin, self.app.settings.name
+        rows: list[Row] = [
+            ("A room", lambda: begin(new_source(author, room=True)), "A floor, the ninja, the exit and its switch"),
+            ("Empty", lambda: begin(new_source(author)), "Nothing at all"),
+            CANCEL,
+        ]
+        self.unless_unsaved(lambda: self.app.push(Menu(self.app, "New level from", rows)))

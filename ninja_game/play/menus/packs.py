@@ -24,7 +24,7 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.generator.daily import FOLDER as DAILY
 from ninja_game.levels.findings import Finding, PackFinding
 from ninja_game.levels.warnings import level_findings
-from ninja_game.play.app import App
+from ninja_game.play.app import WARNING_MS, App
 from ninja_game.play.clipboard import copy_link, pasted_text
 from ninja_game.play.menus.panels import CANCEL, FormPanel, Menu, Row
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
@@ -41,11 +41,24 @@ from ninja_game.ui.widgets import Button, Choice, Widget, draw_all_gold
 WIDE, HIGH = 93, 106
 """Of a cell, px."""
 
+LONGEST_NOTICE = 300
+"""Characters."""
+
 SECONDS = 20.0
 """For each search of a run."""
 
 PULL = 6
 """px that the mouse moves with its button down before it takes something along."""
+
+_NO_PACK = (
+    "A pack is a folder with your levels in episodes.",
+    "New pack makes one; levels that you have made can be dragged into it then.",
+)
+_NO_LEVELS = (
+    "Click the episode, or a free place, twice: New level makes one here.",
+    "Or choose at the right where your levels are, and drag them into the places.",
+    "Make ready then certifies all, and gives you a zip and a link to share.",
+)
 
 Edit = Callable[[Entry, Finding | None], object]
 
@@ -455,12 +468,14 @@ class PackScreen(ThumbnailScreen):
         """Write the zip, and put the link into the clipboard."""
         name = ready.pack.name
         self.app.write_export(name, ".zip", lambda path: write_atomically(path, ready.zipped))
-        notes = [self.app.notice, *ready.notes]
+        saved, codes = self.app.notice, dict.fromkeys(each.code.replace("-", " ") for each in ready.findings)
+        problems = counted(len(ready.findings), "open problem") + f" ({', '.join(codes)})" * bool(codes)
+        notes = [f"{saved}, with {problems}" if codes else saved, *ready.notes]
         if ready.link:
             copy_link(self.app, lambda: ready.link, title=name)
             notes.insert(1, "the link is in the clipboard")
-        self.app.notify("; ".join(notes))
-        self.status = f"{counted(len(ready.pack.levels), 'level')}, {counted(len(ready.findings), 'problem')}"
+        self.app.notify(shown_text("; ".join(notes), LONGEST_NOTICE), ms=WARNING_MS)
+        self.status = f"{counted(len(ready.pack.levels), 'level')}, {problems}"
 
     def leave(self) -> None:
         super().leave()
@@ -475,12 +490,8 @@ class PackScreen(ThumbnailScreen):
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)
         theme, faint = self.theme, self.theme.palette.faint
-        if self.pack is None:
-            texts = [
-                "A pack is a folder with your levels in episodes.",
-                "New pack makes one; levels that you have made can be dragged into it then.",
-            ]
-            theme.paragraph(surface, texts, (36, 200, 720, 80), 13, 20, align="centre")
+        if not (self.pack and self.pack.levels):
+            theme.paragraph(surface, _NO_LEVELS if self.pack else _NO_PACK, (36, 360, 560, 90), 13, 20, align="centre")
         theme.text(surface, self.status or self._counts(), 36, 530, size=10, colour=faint, width=720)
 
     def _counts(self) -> str:
@@ -492,11 +503,7 @@ class PackScreen(ThumbnailScreen):
         alone = f", {len(self.pack.singles)} in none" if self.pack.singles else ""
         episodes = sum(cell.head for cell in self.cells) - 1
         where = f"{counted(len(levels), 'level')} in {counted(episodes, 'episode')}{alone}"
-        return (
-            f"{where}; {f'{to_do} to certify' if to_do else 'all certified'}"
-            if levels
-            else "Drag levels here, or click a free place twice: New level"
-        )
+        return f"{where}; {f'{to_do} to certify' if to_do else 'all certified'}" if levels else where
 
     def draw_widgets(self, surface: pygame.Surface) -> None:
         """What the mouse takes along lies over all."""

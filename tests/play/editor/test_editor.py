@@ -24,11 +24,12 @@ from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import parse_replay
 from ninja_game.play.editor.controls import COMMANDS
 from ninja_game.play.editor.object_list import ObjectList
+from ninja_game.play.editor.parts import FIRST_STEPS
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.panels import Menu
+from ninja_game.play.menus.panels import FormPanel, Menu
 from ninja_game.runs.packs import lint
 from ninja_game.runs.run import run_level
 from ninja_game.search.certificate import verified_run
@@ -367,7 +368,7 @@ def test_what_kept_the_solver_from_a_run_is_the_first_problem_and_a_click_goes_t
     session, level = room.editor.session, room.draft.level
     exit_ = next(number for number, record in enumerate(level.objects) if record.kind == EXIT)
     why = obstacle(level, 0, Progress(untouched=(exit_,)))
-    session.certifier.search = Search(level, 20.0, obstacles=(why,), end="No run in 20 s")
+    session.certifier.search = Search(level, seconds=20.0, obstacles=(why,), end="No run in 20 s")
     room.wait(lambda: session.findings[:1] == [why], "the problem")
     room.press("f4")
     assert room.editor.view.hint.endswith("Make the way there easier, or give the solver more time.")
@@ -560,7 +561,10 @@ def test_a_new_level_knows_nothing_of_the_one_before(room: Maker) -> None:
     assert sum(key[0] == "route" and bool(mark.rects) for key, mark in room.editor.view.sheet.marks.items()) == 2  # type: ignore[index]
     session.source = replace(session.source, draft=session.draft)
     room.chord("n", pygame.KMOD_LCTRL)
+    assert getattr(room.editor.properties.widgets[1], "text", "") not in FIRST_STEPS
+    room.choose("Empty")
     room.frames(2)
+    assert room.editor.properties.widgets[1].text == FIRST_STEPS[0]  # type: ignore[attr-defined]
     assert not any(key[0] == "route" and mark.rects for key, mark in room.editor.view.sheet.marks.items())  # type: ignore[index]
     certifier = session.certifier
     assert (certifier.text, certifier.busy, certifier.is_stale(session.draft.level)) == ("", False, False)
@@ -627,3 +631,10 @@ def test_what_was_saved_is_said_in_the_editor_only(room: Maker) -> None:
     room.choose_in_menu("Leave the editor")
     assert isinstance(room.top(), MainMenu)
     assert not room.app.notice
+
+
+def test_what_went_wrong_is_still_said_over_a_screen_that_opens_then(room: Maker) -> None:
+    room.app.notify("What went wrong")
+    room.press("f2")
+    room.shown(FormPanel)
+    assert room.app.notice == "What went wrong"
