@@ -173,8 +173,8 @@ UNSEEN = {"dummy", "offscreen"}
 FALLBACK_RATE = 60
 """Pictures per second where the display does not say its rate."""
 
-NOTICE, NOTICE_WIDE = 12.5, 620.0
-"""Size of a notice's letters, and how wide its lines are at most."""
+NOTICE, NOTICE_WIDE, NOTICE_LINES = 12.5, 620.0, 5
+"""Size of a notice's letters, how wide its lines are at most, and how many are shown."""
 
 NOTICE_MS, WARNING_MS = 4000, 12_000
 """How long a notice is shown, and what went wrong when the game started."""
@@ -413,7 +413,7 @@ class App:
     def _draw_notice(self, theme: Theme) -> pygame.Rect:
         (left, _), (right, _) = theme.canvas.logical((0, 0)), theme.canvas.logical(theme.canvas.window)
         middle, y = (left + right) / 2, 30.0
-        lines, high = wrapped(theme, self.notice, NOTICE_WIDE, NOTICE), 1.5 * NOTICE * theme.scales[0]
+        lines, high = wrapped(theme, self.notice, NOTICE_WIDE, NOTICE)[:NOTICE_LINES], 1.5 * NOTICE * theme.scales[0]
         wide = min(NOTICE_WIDE, max(theme.width(line, NOTICE) for line in lines)) + 28
         rect = theme.window(self.surface, middle - wide / 2, y, wide, high * len(lines) + 12)
         for k, line in enumerate(lines):

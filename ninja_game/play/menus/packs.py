@@ -41,9 +41,6 @@ from ninja_game.ui.widgets import Button, Choice, Widget, draw_all_gold
 WIDE, HIGH = 93, 106
 """Of a cell, px."""
 
-LONGEST_NOTICE = 300
-"""Characters."""
-
 SECONDS = 20.0
 """For each search of a run."""
 
@@ -147,9 +144,9 @@ class PackScreen(ThumbnailScreen):
 
     # --- what there is ---
 
-    def _read(self) -> None:
-        """All packs as they are now."""
-        before, catalogue = self.path, self.player.catalogue
+    def _read(self, shown: Path | None = None) -> None:
+        """All packs as they are now; this one on the shelves, or the one before."""
+        before, catalogue = shown or self.path, self.player.catalogue
         catalogue.problems.clear()
         self.sets = catalogue.packs()
         self.mine = [each for each in self.sets if each.changeable and each.path and each.path.name != DAILY]
@@ -225,9 +222,8 @@ class PackScreen(ThumbnailScreen):
     def _new_pack(self) -> None:
         def make(name: str) -> None:
             path = packs.new_pack(self.folder, name, self.player.settings.name)
-            self._read()
             self.beside = "yours" if self.player.catalogue.own() else "none"
-            self._show(next(each for each in self.mine if each.path == path))
+            self._read(path)
 
         self.ask("Name of the pack", "My pack", make)
 
@@ -239,9 +235,7 @@ class PackScreen(ThumbnailScreen):
             if link_kind(text) != "pack":
                 raise NinjaGameError("there is no link of a pack in the clipboard: copy all of it first")
             pack = Pack(Path(f"#{text.partition('#')[2]}"))
-            path = packs.copy_pack(pack, self.folder, pack.name)
-            self._read()
-            self._show(next((each for each in self.mine if each.path == path), None))
+            self._read(packs.copy_pack(pack, self.folder, pack.name))
             self.app.notify(f"{shown_text(pack.name)} is among your packs now: Episodes plays it")
 
         self.do(take)
@@ -288,7 +282,7 @@ class PackScreen(ThumbnailScreen):
         elif cell.level:
             self._level_menu(cell)
         elif cell.episode is None:
-            self.ask("Name of the episode", "New episode", partial(self._new_episode, self._column()))
+            self.ask("Name of the episode", "New episode", partial(packs.new_episode, self.path, column=self._column()))
         else:
             self._episode_menu(cell.episode)
 
@@ -297,9 +291,6 @@ class PackScreen(ThumbnailScreen):
             self._drop(None)
         else:
             self._level_menu(self.side[index])
-
-    def _new_episode(self, column: int, name: str) -> None:
-        packs.new_episode(self.path, name, column)
 
     def _column(self) -> int:
         """The last column that has episodes."""
@@ -335,7 +326,10 @@ class PackScreen(ThumbnailScreen):
         def name_column(name: str) -> None:
             packs.describe(path, {"columns": [*columns[:column], name, *columns[column + 1 :]]})
 
-        rename, begin = partial(packs.rename_episode, path, number), partial(self._new_episode, self._column() + 1)
+        rename, begin = (
+            partial(packs.rename_episode, path, number),
+            partial(packs.new_episode, path, column=self._column() + 1),
+        )
         rows: list[Row] = [
             ("New level...", lambda: self.ask("Name of the level", "New level", level), "An empty one"),
             ("Rename...", lambda: self.ask("Another name", episode.name, rename), ""),
@@ -474,7 +468,7 @@ class PackScreen(ThumbnailScreen):
         if ready.link:
             copy_link(self.app, lambda: ready.link, title=name)
             notes.insert(1, "the link is in the clipboard")
-        self.app.notify(shown_text("; ".join(notes), LONGEST_NOTICE), ms=WARNING_MS)
+        self.app.notify("; ".join(notes), ms=WARNING_MS)
         self.status = f"{counted(len(ready.pack.levels), 'level')}, {problems}"
 
     def leave(self) -> None:
