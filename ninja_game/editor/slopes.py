@@ -12,15 +12,16 @@ _SOFT = {FULL, *(tile for tiles in _SLOPES.values() for tile in tiles)}
 """Tiles that are rock whose shape is found; other ones stay as they are."""
 _AIR = dict(zip(((1, 1), (-1, 1), (1, -1), (-1, -1)), range(len(QUARTERS)), strict=True))
 """The quarter of a slope by the sides, right or left and below or above, where it has air."""
-_LONGEST = 3
+_LONGEST = 4
+"""Steps that are longer, or end on both sides farther apart, are all alike."""
 
 
 def sloped(before: Draft, after: Draft) -> Draft:
     """The draft after a stroke of full or empty tiles, with slopes at corners of the rock near what changed.
 
-    Steps of one cell become slopes of 45°, steps of two cells slopes of 22° or 67°; other corners are cut at 45°.
+    Steps of one cell become slopes of 45°, longer ones end in a slope of 22° or 67°; other corners are cut at 45°.
     """
-    near = _around(changed_cells(before, after), 2)
+    near = _around(changed_cells(before, after), _LONGEST - 1)
     tiles: Tiles = dict.fromkeys(near, FULL)
     for cell in _around(near, 1):
         if after.tile(cell) in _SOFT:
@@ -45,12 +46,14 @@ def _corner(draft: Draft, cell: Cell) -> Tiles:
         return {}
     (dx,), (dy,) = open_x, open_y
     quarter = _AIR[dx, dy]
-    # How many cells wide and high the step is that ends here: behind it the rock rises, or goes on.
+    # How many cells wide and high the step is that ends here: behind it the rock rises, or goes on, or ends (0).
     wide = next((n for n in range(1, _LONGEST) if rock(-dx * n, dy) and rock(-dx * n, 0)), _LONGEST)
     high = next((n for n in range(1, _LONGEST) if rock(dx, -dy * n) and rock(0, -dy * n)), _LONGEST)
-    if (wide, high) == (2, 1) and rock(-dx, 0):
+    wide *= all(rock(-dx * n, 0) for n in range(1, wide))
+    high *= all(rock(0, -dy * n) for n in range(1, high))
+    if wide > high == 1:
         thin, thick, behind = *_GENTLE, (column - dx, row)
-    elif (wide, high) == (1, 2) and rock(0, -dy):
+    elif high > wide == 1:
         thin, thick, behind = *_STEEP, (column, row - dy)
     else:
         return {cell: _SLOPES["1"][quarter]}

@@ -8,19 +8,18 @@ from __future__ import annotations
 import os
 from collections import Counter
 from collections.abc import Iterator
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.files.reading import LeftOut, files_below, files_in
+from ninja_game.files.reading import LeftOut, files_below, files_in, stamp_of
 from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.formats.pack.files import PackFiles, certificate_name, is_pack
+from ninja_game.formats.pack.files import CERTIFICATES, PackFiles, certificate_name, is_pack
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.pack.pars import Pars
@@ -281,7 +280,7 @@ class Catalogue:
 
     def _pack_at(self, path: Path) -> Pack | None:
         """A pack, read again when its files have changed; None, and a problem, where it cannot be read."""
-        stamp = _stamp(path)
+        stamp = [(file, stamp_of(file)) for file in (path, *(path / name for name in files_in(path)))]
         if path not in self._packs or self._packs[path][0] != stamp:
             try:
                 self._packs[path] = stamp, Pack(path), ""
@@ -303,7 +302,7 @@ class Catalogue:
         """
         entries: list[Entry] = []
         if self.folder is not None:
-            packs = list(self._pack_paths())
+            packs = [*self._pack_paths(), self.folder / CERTIFICATES]
             for found in files_below(self.folder):
                 if isinstance(found, LeftOut):
                     self.problems.append(str(found))
@@ -313,11 +312,7 @@ class Catalogue:
 
     def _entries_of(self, file: Path) -> list[Entry]:
         """The levels of one file of the player's."""
-        try:
-            state = file.stat()
-        except OSError:
-            return []
-        stamp = state.st_mtime_ns, state.st_size
+        stamp = stamp_of(file)
         known = self._read.get(file)
         if known is None or known.stamp != stamp:
             known = self._read[file] = _read(file, stamp)
@@ -325,25 +320,15 @@ class Catalogue:
         return known.entries
 
 
-def _stamp(path: Path) -> list[tuple[str, int, int]]:
-    """What changes when a pack's files do."""
-    found = []
-    with suppress(OSError):
-        for file in [path, *(path / name for name in files_in(path))]:
-            about = file.stat()
-            found.append((file.name, about.st_mtime_ns, about.st_size))
-    return found
-
-
 class _ReadFile(NamedTuple):
     """What was found in a file, and when it had been changed last."""
 
-    stamp: tuple[int, int]
+    stamp: list[int]
     entries: list[Entry]
     problems: list[str]
 
 
-def _read(file: Path, stamp: tuple[int, int]) -> _ReadFile:
+def _read(file: Path, stamp: list[int]) -> _ReadFile:
     try:
         return _ReadFile(stamp, [Entry(level, "yours") for level in load_levels(file)], [])
     except NinjaGameError as error:

@@ -208,6 +208,7 @@ class Heuristics:
                 self._bar_one_way(x, y, float(record["face_x"]), float(record["face_y"]))
         self.exits = exits
         self.switches = (exits + doors)[:MAX_BITS]
+        self.switch_ids = [int(objects[switch.slot]["id"]) for switch in self.switches]
         self.slots = np.array([switch.slot for switch in self.switches], np.int64)
         self.enemies = np.array([slot for slot in range(1, used) if int(objects[slot]["kind"]) in MOVING], np.int64)
         self.gold_slots = np.array([slot for slot, _, _ in gold], np.int64)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.legend import (
@@ -65,6 +66,11 @@ def write_ascii_level(
     text += ["\n", *(f"{line}\n" for line in lines)] if lines else []
     text += ["\n", legend_text()] if legend else []
     return "".join(text)
+
+
+def headers_of(named: object) -> dict[str, Any]:
+    """All that a level's file says about it, by header: of a NamedLevel, a Draft."""
+    return {key: getattr(named, key) for key in HEADER_KEYS}
 
 
 def header_text(value: str) -> str:

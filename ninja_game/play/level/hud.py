@@ -23,7 +23,7 @@ from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL, LIFETIME
-from ninja_game.ui.canvas import HEIGHT, WIDTH, Point
+from ninja_game.ui.canvas import WIDTH, Point
 from ninja_game.ui.input.bindings import MOVES
 from ninja_game.ui.theme import Palette, Theme, mixed, wrapped
 from ninja_game.ui.widgets import draw_medal, draw_stamp
@@ -233,19 +233,21 @@ class Hud:
     def box(
         self, text: str, tiles: tuple[int, ...], things: Things, eye: Point | None, covers: bool, *, keys: float = 0.0
     ) -> Box:
-        """Where a text of the level lies: along the lower or the upper border, over what is solid.
+        """Where a text of the level lies: along the upper border, else the lower one, over what is solid.
 
-        Where it would hide something there, one that may cover open space lies where there is most of it, another in
-        the border below, beside the gold.
+        Where it would hide something there, or open space that it may not cover, it lies where it hides least; over
+        nothing that it is to keep clear of, nor the ninja, or else in the border below, beside the gold.
         """
         theme = self.theme
-        for rows, width in ((2, 360), (2, 200), (0, 360)):
-            lines = text.split("\n") if keys else wrapped(theme, text, width, SAID)
+        high = SAID_LINE * theme.scales[0]
+        if eye:
+            things = (*things, (*eye, MUST))
+        for rows, width in ((1, 1), (2, 1), (2, 0.6), (0, 1), (0, 0.6)):
+            lines = text.split("\n") if keys else wrapped(theme, text, width * SAID_WIDE, SAID)
             w = max(theme.width(line, SAID) for line in lines) + 28 + keys
-            left, y, covered, hidden = solid_place(tiles, w, 20.0 * len(lines) + 19, things, eye, rows=rows)
-            must = MUST if keys else 1
-            if not (hidden >= must if covers and rows else covered if not covers else 0):
-                return lines, left, y, w, 20.0, 10.0, SAID
+            left, y, covered, hidden = solid_place(tiles, w, high * len(lines) + 19, things, eye, rows=rows)
+            if hidden < (MUST if keys else 1) and (covers or not rows or not covered):
+                return lines, left, y, w, high, 10.0, SAID
         text = text.replace("\n", "    ")
         size = min(SAID, SAID * BESIDE_GOLD / theme.width(text, SAID))
         w = theme.width(text, size) + 28
@@ -296,7 +298,7 @@ def solid_place(
 
     The third is how much it covers, the last how much of that are things, gold and the author's way. What is full is no
     way, open space far from all that is full hardly one. Of equal places it is the one nearest to ``eye``, or to the
-    middle of the lower border. ``rows``: at the left, in the middle and at the right of so many heights only, from the
+    middle of the upper border. ``rows``: at the left, in the middle and at the right of so many heights only, from the
     upper border to the lower one.
     """
     full = [SHAPE[tile] == FULL for tile in tiles]
@@ -312,12 +314,12 @@ def solid_place(
         covered = sum(ways[column * ROWS + row] for column in columns for row in heights if row < ROWS)
         hidden = sum(worth for a, b, worth in things if -NEAR < a - x < w + NEAR and -NEAR < b - y < h + NEAR)
         far = hypot(x + w / 2 - eye[0], y + h / 2 - eye[1]) if eye else 0.0
-        return covered + hidden, far or abs(x + w / 2 - WIDTH / 2) + HEIGHT - y, hidden
+        return covered + hidden, far or abs(x + w / 2 - WIDTH / 2) + y, hidden
 
     ways = [way(*divmod(place, ROWS)) for place in range(COLUMNS * ROWS)]
     edge = CELL + 4
     lefts = [edge + k * (WIDTH - 2 * edge - w) / 8 for k in range(0, 9, 4 if rows else 1)]
-    apart = (LOWEST - h - edge) / (rows - 1) if rows else 6
+    apart = (LOWEST - h - edge) / max(1, rows - 1) if rows else 6
     tops = [edge + k * apart for k in range(rows or int((LOWEST - h - edge) / 6))]
     x, y = min(((x, y) for x in lefts for y in tops), key=cost)
     covered, _, hidden = cost((x, y))
@@ -352,9 +354,13 @@ PRIZE = 54.0
 POINTER_UP, POINTER_REACH = 24.0, 50.0
 """px from a thing to the middle of its pointer, and to where it ends."""
 
-FOOT, SAID, IN_BORDER, BESIDE_GOLD, KEYS_WIDE, NAME_FROM = 11.0, 12.5, 576.0, 490.0, 70.0, 90.0
-"""Sizes of the lines in the borders and of what a level says; where that is in a border; its width there; of keys;
-px from which on there is room for a name beside it."""
+FOOT, IN_BORDER, BESIDE_GOLD, KEYS_WIDE, NAME_FROM = 11.0, 576.0, 490.0, 70.0, 90.0
+"""Size of the lines in the borders; where what a level says is in a border; its width there; of keys; px from which on
+there is room for a name beside it."""
+
+SAID, SAID_LINE, SAID_WIDE = 15.0, 22.0, 440.0
+"""Size of what a level says, height of its lines, and how wide they are at most."""
+
 _TOOLS = {"quick_save": "save", "quick_load": "load", "rewind": "rewind", "slow": "slow", "step": "step"}
 _TOOLS_NAMED = 600
 """Ticks of a practice run in which the keys of its tools are named: where they work, and not for ever."""

@@ -83,7 +83,7 @@ class DocumentCommands:
         except (NinjaGameError, OSError) as error:
             self.app.notify(f"Not saved: {reason(error)}")
         else:
-            self.app.notify(self.saved_text(path))
+            self.app.notify(self.saved_text(path), here=True)
             then()
 
     def unless_unsaved(self, action: Action) -> None:

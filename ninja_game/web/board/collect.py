@@ -12,7 +12,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from ninja_game.errors import FileError, NinjaGameError, ReplayError, reason
-from ninja_game.files.reading import LeftOut, decoded, files_below, read_bytes
+from ninja_game.files.reading import LeftOut, decoded, files_below, read_bytes, stamp_of
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.recording import holds_recordings
 from ninja_game.formats.replay.episode import is_episode, parse_episode, write_episode
@@ -21,7 +21,6 @@ from ninja_game.runs.chunks import Chunk
 from ninja_game.runs.recording_reader import records_of
 from ninja_game.sim.inputs import MAX_TICKS
 from ninja_game.sim.level import Level
-from ninja_game.web.pages.memo import stamp_here
 
 MOST_BYTES = 2**20
 """Of a file: a hundred times a long run."""
@@ -108,8 +107,8 @@ class RunFolder:
             return SentFile(name, problem=reason(error))
 
     def stamp(self, name: str) -> list[int]:
-        """As ``stamp_here``; [] for a file so new that it may be changed again in the same moment."""
-        found = stamp_here(f"{self._root}/{name}")
+        """As ``stamp_of``; [] for a file so new that it may be changed again in the same moment."""
+        found = stamp_of(f"{self._root}/{name}")
         return found if found and time.time_ns() - max(found[1:3]) > SETTLED else []
 
     def recordings(self, file: SentFile) -> list[Sent]:

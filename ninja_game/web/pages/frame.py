@@ -12,13 +12,14 @@ from typing import TypeAlias
 import pygame
 
 from ninja_game.errors import FileError
+from ninja_game.files.reading import stamp_of
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.tree import Tree, leads_below
 from ninja_game.play.window import icon, png_of
 from ninja_game.ui.glyphs import CAP
 from ninja_game.ui.lettering import SPACING, WEIGHTS, glyph
 from ninja_game.ui.theme import PALETTES, Palette, mixed
-from ninja_game.web.pages.memo import Memo, digest_of, program, stamp_here
+from ninja_game.web.pages.memo import Memo, digest_of, program
 
 LONGEST = 400
 """Characters of a text that are shown."""
@@ -145,13 +146,10 @@ class Pages:
 
     def _make(self, name: str, data: object, content: Callable[[], str | bytes]) -> None:
         digest = digest_of([program(), data])
-        if self._memo.recall(name) != [digest, *self._there(name)]:
+        file = f"{self._root}/{name}"
+        if self._memo.recall(name) != [digest, *stamp_of(file)]:
             self._site.write(name, content())
-            self._memo.note(name, [digest, *self._there(name)])
-
-    def _there(self, name: str) -> list[int]:
-        """What tells that a file is not the one that was written."""
-        return stamp_here(f"{self._root}/{name}")
+            self._memo.note(name, [digest, *stamp_of(file)])
 
     def write_replay(self, name: str, text: str) -> None:
         """A replay that pages lead to, or the page of one, in the site's folder of them."""

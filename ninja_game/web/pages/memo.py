@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
@@ -28,15 +27,6 @@ def program() -> str:
     here = Path(__file__).parent
     files = sorted({*here.parents[1].rglob("*.py"), *here.glob("*.*")})
     return digest_of([sha256(each.read_bytes()).hexdigest() for each in files])
-
-
-def stamp_here(path: str) -> list[int]:
-    """What tells that a file is another one than before, [] for none: size, times; git and archives set no ctime."""
-    try:
-        about = os.lstat(path)
-    except (OSError, ValueError):
-        return []
-    return [about.st_size, about.st_mtime_ns, about.st_ctime_ns, about.st_ino]
 
 
 class Memo:

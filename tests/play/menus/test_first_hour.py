@@ -118,7 +118,7 @@ def test_text_of_the_start_hides_neither_a_thing_nor_gold_nor_the_way(driver: Me
         hud = Hud(app.theme)
         box = hud.box(*shown)
         card = hud.said(app.surface, box)
-        bands += abs(box[2] - 28) < 1 or abs(box[2] + 20 * len(box[0]) + 19 - 573) < 1
+        bands += abs(box[2] - 28) < 1 or abs(box[2] + box[4] * len(box[0]) + 19 - 573) < 1
         texts += 1
         way, places = Simulation(each.named.level), [(o.x, o.y) for o in play.attempt.simulation.world.objects[1:]]
         for keys in run.inputs:
@@ -436,14 +436,18 @@ def test_text_in_play_lies_over_rock_near_the_ninja_or_else_in_the_border(driver
     level.play.eye = (40, 500)
     level.play.sayings.text = "Another one"
     assert hud_view(level.play).said == ("Another one", tiles, things, (40, 500), False)
-    for eye in ((40.0, 500.0), (750.0, 500.0)):
+    for eye in ((40.0, 440.0), (750.0, 440.0)):
         lines, left, y, w, high, *_ = hud.box(text, tiles, things, eye, covers=False)
         assert y < IN_BORDER
         cells = {(int(a // 24) - 1, int(b // 24) - 1) for a in (left, left + w) for b in (y, y + high * len(lines))}
         assert all(tiles[column * ROWS + row] == 1 for column, row in cells), "over rock only"
         far.append(left)
     assert far[0] < far[1]
-    assert hud.box(text, (0,) * 713, (), None, covers=False)[2] == IN_BORDER
+    shown = hud.said(driver.app.surface, hud.box("One" + 9 * " word", (0,) * 713, (), (396.0, 60.0), covers=False))
+    assert shown.top < driver.app.canvas.px(120), "near the upper border, in the open too"
+    assert not shown.collidepoint(driver.app.canvas.point(396, 60)), "but never over the ninja"
+    everywhere = tuple((12.0 + 24 * x, 12.0 + 24 * y, MUST) for x in range(33) for y in range(25))
+    assert hud.box(text, (0,) * 713, everywhere, None, covers=False)[2] == IN_BORDER
 
 
 WELL = room_level(["#...#"] * 10 + ["#@..#"], ())
