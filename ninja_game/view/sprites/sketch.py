@@ -85,7 +85,7 @@ class Sketch:
     def limb(self, colour: Colour, joints: Sequence[Point], widths: Sequence[float]) -> None:
         """A line through joints, round at each and as wide as is said for it."""
         fine, circle, polygon = self._fine, pygame.draw.circle, pygame.draw.polygon
-        # In the sheet's px at once: a figure has some fifty of these, and is drawn anew for each picture.
+        # In the sheet's px at once: a figure has some fifty of these, and is drawn again for each picture.
         zoom, cosine, sine = self._zoom, self._cos, self._sin
         left, top = self._ax * self._fine_by, self._ay * self._fine_by
         grown, before = self.grown * zoom, None
