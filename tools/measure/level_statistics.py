@@ -2,7 +2,6 @@
 
     python3 tools/dev.py tool measure.level_statistics   # our set
     python3 tools/dev.py tool measure.level_statistics levels/20-0-*.txt   # single levels
-    python3 tools/dev.py tool measure.level_statistics --plots docs/pictures/levels
 
 A figure outside the reference's quartiles is marked: - below, + above. Of a single level it says which kinds it has,
 and which levels of the set share most of its solid cells. Of the set it says what it lacks and which levels are too
@@ -24,7 +23,6 @@ from ninja_game.runs.packs import certificate
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from tools import ROOT
-from tools.draw.level_plots import draw_difficulty, draw_figures
 from tools.measure.level_figures import (
     ALL_VARIANTS,
     DESIGN,
@@ -169,7 +167,6 @@ def main() -> None:
     parser.add_argument("levels", nargs="*", type=Path, help="single levels; without them the whole pack")
     parser.add_argument("--pack", type=Path, default=ROOT / "levels")
     parser.add_argument("--doc", metavar="PAGE", type=Path, help=f"write the tables below {HEADING!r} of this page")
-    parser.add_argument("--plots", metavar="FOLDER", type=Path, help="draw the plots into this folder too")
     arguments: Any = parser.parse_args()
     pack = Pack(arguments.pack)
     if arguments.levels:
@@ -178,9 +175,6 @@ def main() -> None:
         tell_set(pack)
     if arguments.doc:
         write_page(pack, arguments.doc)
-    if arguments.plots:
-        draw_figures(list(figures_of_set(pack).values()), arguments.plots)
-        draw_difficulty(pack, arguments.plots)
 
 
 if __name__ == "__main__":
