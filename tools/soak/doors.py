@@ -169,7 +169,7 @@ def loop(trial: Trial, pool: Pool, rng: random.Random, *, grow: bool, kept: Path
         yield
 
 
-def sound_inputs(names: list[str], kept: Path | None, *, reference: bool) -> Pool:
+def sound_inputs(names: list[str], kept: Path | None) -> Pool:
     """What is mutated: tests/corpus, a folder for each door, our own levels and runs, and what earlier nights kept."""
     found: Pool = {name: [] for name in names}
     for file in sorted((ROOT / "tests" / "corpus").glob("*/*")):
@@ -181,32 +181,7 @@ def sound_inputs(names: list[str], kept: Path | None, *, reference: bool) -> Poo
         texts = [file.read_bytes() for file in sorted(ROOT.glob(place))[::9]]
         for name in found.keys() & doors:
             found[name] += texts
-    if reference:
-        from tests.support import reference as data
-
-        every = (data.levels(), data.scenes(), data.fuzz(), data.random_runs())
-        found.get("level string", []).extend({each.data.encode(): None for rows in every for each in rows})
     return found
-
-
-def write_smallest(trial: Trial, pool: Pool, folder: Path, longest: int) -> None:
-    """Write few short inputs that reach all the lines of a pool, and a sound one, one folder per door."""
-    for name, inputs in pool.items():
-        known: set[Any] = set()
-        sound = False
-        for data in sorted(set(inputs), key=len):
-            if sound and len(data) > longest:
-                break
-            before = trial.outcomes[f"{name}: read"], len(trial.wrong)
-            reached = lines_of(partial(trial.read, name, data))
-            was_read = trial.outcomes[f"{name}: read"] > before[0]
-            wanted = not reached <= known if len(data) <= longest else was_read
-            if (wanted or (was_read and not sound)) and len(trial.wrong) == before[1]:
-                known |= reached
-                sound = sound or was_read
-                file = folder / name.replace(" ", "-") / sha256(data).hexdigest()[:12]
-                file.parent.mkdir(parents=True, exist_ok=True)
-                file.write_bytes(data)
 
 
 def options_of(words: list[str] | None = None) -> argparse.Namespace:
@@ -220,11 +195,6 @@ def options_of(words: list[str] | None = None) -> argparse.Namespace:
     parser.add_argument("--corpus", type=Path, help="folder of inputs to begin with; --coverage keeps its own there")
     parser.add_argument("--findings", type=Path, default=Path("findings"), help="folder of what is wrong (./findings)")
     parser.add_argument("--read", type=Path, help="read this one file, through the --door")
-    parser.add_argument(
-        "--smallest", type=Path, help="write few short inputs of the corpus here that reach the same code"
-    )
-    parser.add_argument("--longest", type=int, default=900, help="bytes of those (default 900)")
-    parser.add_argument("--reference", action="store_true", help="begin with the texts of ../shared/n14 too")
     return parser.parse_args(words)
 
 
@@ -244,10 +214,7 @@ def main() -> int:
             trial.read(options.door[0], options.read.read_bytes())
             return trial.summary()
         wanted = [name for name in DOORS if name in (options.door or DOORS)]
-        pool = sound_inputs(wanted, options.corpus, reference=options.reference)
-        if options.smallest:
-            write_smallest(trial, pool, options.smallest, options.longest)
-            return trial.summary()
+        pool = sound_inputs(wanted, options.corpus)
         texts = options.texts or (10**12 if options.minutes else 100_000)
 
         def over() -> bool:
