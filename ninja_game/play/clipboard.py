@@ -49,5 +49,4 @@ def copy_link(app: App, make: Callable[[], str], *, title: str, notice: str = "L
 
 
 def copy_level_link(app: App, named: NamedLevel | Draft, title: str) -> None:
-    """Put the link of a level into the clipboard."""
     copy_link(app, lambda: level_link(named.level, **headers_of(named) | {"name": title}), title=title)

@@ -64,7 +64,6 @@ class RunSplits:
 
     @property
     def ticks(self) -> int:
-        """Ticks run."""
         return len(self.positions)
 
     @cached_property

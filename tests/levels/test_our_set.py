@@ -17,8 +17,17 @@ from ninja_game.runs.packs import lint
 from ninja_game.runs.run import run_level
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from tests.support.memories import BOTH
-from tools.measure.level_figures import KNOWN, alike, common_motifs, variants
-from tools.measure.level_statistics import MOST_SHARED, MOST_WITH_MOTIF, figures_of_set, missing, motif_text
+from tools.measure.level_statistics import (
+    KNOWN,
+    MOST_SHARED,
+    MOST_WITH_MOTIF,
+    alike,
+    common_motifs,
+    figures_of_set,
+    missing,
+    motif_text,
+    variants,
+)
 
 OURS = Pack(data_folder("levels"))
 LEVELS = {file: named.level for file, named in OURS.levels.items()}

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from ninja_game.formats.ascii.legend import SYMBOLS
-from ninja_game.formats.ascii.object_forms import FORMS
+from ninja_game.formats.ascii.object_lines import FORMS
 from ninja_game.levels.picture import COLOURS
 from ninja_game.player.statistics import KILLERS
 from ninja_game.sim import events, kinds

@@ -18,10 +18,18 @@ from ninja_game.formats.ascii.legend import (
     legend_text,
     visible_parts,
 )
-from ninja_game.formats.ascii.match import point_of
-from ninja_game.formats.ascii.object_forms import DOORS, FORMS, MOVEMENTS, SIDES, WEAPONS, door_middle, natural_offset
-from ninja_game.formats.ascii.object_lines import Listed, read_object_line
-from ninja_game.formats.ascii.picture import FRAME, Cell
+from ninja_game.formats.ascii.object_lines import (
+    DOORS,
+    FORMS,
+    MOVEMENTS,
+    SIDES,
+    WEAPONS,
+    Listed,
+    door_middle,
+    natural_offset,
+    read_object_line,
+)
+from ninja_game.formats.ascii.picture import FRAME, Cell, point_of
 from ninja_game.formats.ascii.places import number_text, place_text, read_cell, same_bits
 from ninja_game.sim import kinds
 from ninja_game.sim.kinds import EXIT, NINJA

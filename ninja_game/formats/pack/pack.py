@@ -29,7 +29,6 @@ class Pack:
 
     @property
     def name(self) -> str:
-        """What it is called."""
         return self.index.name
 
     @cached_property

@@ -83,7 +83,6 @@ class DailyScreen(ThumbnailScreen):
 
     @property
     def file(self) -> Path:
-        """Where the level is, or will be."""
         return daily.daily_file(self.player.folder / LEVELS, self.day)
 
     def enter(self) -> None:

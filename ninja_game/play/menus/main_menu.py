@@ -77,7 +77,6 @@ class MainMenu(MenuScreen):
 
     @property
     def begun(self) -> bool:
-        """Whether any level has been tried."""
         return self.player.statistics.played().attempts > 0
 
     def _where(self) -> str:

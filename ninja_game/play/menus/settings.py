@@ -123,7 +123,6 @@ class BindingTable(ListView):
         self.fill(actions)
 
     def inputs(self, action: str) -> tuple[str, ...]:
-        """The names of the inputs that an action has now."""
         return tuple(getattr(self.screen.player.settings, self.device).get(action, self._default(action)))
 
     def _default(self, action: str) -> tuple[str, ...]:

@@ -54,7 +54,6 @@ class DocumentCommands:
         return []
 
     def saved_text(self, path: Path) -> str:
-        """What to say of a document that was saved."""
         raise NotImplementedError
 
     def save(self, then: Action = nothing) -> None:

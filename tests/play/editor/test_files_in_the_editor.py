@@ -31,7 +31,7 @@ from ninja_game.player.backup import read_backup, write_backup
 from ninja_game.signals import Terminated
 from tests.support.level_maker import ROOM, Maker
 from tests.support.own_pack import PACK
-from tools.draw.good_levels import written
+from tools.draw.screens import written
 
 
 def test_saved_levels_are_in_the_browser_at_once(room: Maker, tmp_path: Path) -> None:
