@@ -45,7 +45,7 @@ def iqm(values: Any) -> NDArray[np.float64]:
 
 
 def interval(scores: NDArray[np.float64]) -> tuple[float, float]:
-    """Where the interquartile mean lies of scores (RESAMPLES, runs), which differ by the levels: runs are drawn again."""
+    """Where the interquartile mean of scores (RESAMPLES, runs) lies, levels drawn again: here runs are, too."""
     runs = np.random.default_rng(0).integers(scores.shape[1], size=scores.shape)
     low, high = np.quantile(iqm(np.take_along_axis(scores, runs, 1)), [(1 - SHARE) / 2, (1 + SHARE) / 2])
     return float(low), float(high)
@@ -66,10 +66,11 @@ def load_results(folder: Path) -> dict[tuple[str, str], list[dict[str, Any]]]:
         except (KeyError, TypeError, ValueError) as error:
             raise FileError("not results of examples/measure.py", file=str(path), found=str(error)[:80]) from error
         if not of_format:
-            raise FileError("results of another format", file=str(path), found=str(run["format"])[:9], expected=str(FORMAT))
+            raise FileError("results of another format", file=str(path), found=str(run["format"])[:9], expected="2")
         if others:
-            found_there = str(run["digests"][others[0]])[:12]
-            raise FileError(f"measured in other levels: {others[0]}", str(path), found=found_there, expected=DIGESTS[others[0]])
+            (levels, *_), digests = others, run["digests"]
+            found_there, expected = str(digests[levels])[:12], DIGESTS[levels]
+            raise FileError(f"measured in other levels: {levels}", str(path), found=found_there, expected=expected)
     if not found:
         raise FileError("there are no results", file=str(folder), expected="files *.json of examples/measure.py")
     return dict(found)
@@ -125,17 +126,17 @@ def table(results: dict[tuple[str, str], list[dict[str, Any]]]) -> str:
     for (track, name), runs in sorted(results.items()):
         curve = runs[0]["training"].get("curve")
         count = f"{len(runs)}{'' if all('levels' in run for run in runs) else '*'}"
-        both = [(score(runs, TEST, "passed"), score(runs, TEST, "par")) for score in (rates, redrawn)]
-        (passed, par), (passed_again, par_again) = both
+        passed, par = (rates(runs, TEST, name) for name in ("passed", "par"))
+        passed_again, par_again = (redrawn(runs, TEST, name) for name in ("passed", "par"))
         cells = [shown(passed[:, grade], passed_again[..., grade]) for grade in range(len(GRADES))]
         cells += [shown(normalised(passed, chance), normalised(passed_again, chance))]
         cells += [shown(par.mean(-1), par_again.mean(-1))]
         grades = learned_in(runs[0])
-        gaps = [(score(runs, TRAIN, "passed") - tried)[..., grades] for score, tried in zip((rates, redrawn), (passed, passed_again))]
-        cells += [shown(*(gap.mean(-1) for gap in gaps), "+.1f") if grades else "-"]
+        gap, gap_again = (rates(runs, TRAIN, "passed") - passed, redrawn(runs, TRAIN, "passed") - passed_again)
+        cells += [shown(gap[:, grades].mean(-1), gap_again[..., grades].mean(-1), "+.1f") if grades else "-"]
         same = [run for run in runs if run["digests"][SET] == DIGESTS[SET]]
         few = f" ({len(same)} of {len(runs)} runs)" * (len(same) < len(runs))
-        cells += [shown(*(score(same, SET, "passed")[..., 0] for score in (rates, redrawn))) + few if same else "-"]
+        cells += [shown(rates(same, SET, "passed")[:, 0], redrawn(same, SET, "passed")[..., 0]) + few if same else "-"]
         lines.append([track, name, count, f"{curve[-1][0] / 1e6:.1f}M" if curve else "-", *cells])
     return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
 

@@ -68,7 +68,7 @@ FORMS = {"text": as_text, "json": as_json, "csv": as_csv}
 @click.argument("agent_name", metavar="AGENT")
 @click.option(
     "--levels", metavar="LEVELS", multiple=True, default=("test",), show_default=True,
-    help="test, set, bench:val:easy, a level of the game, a file or folder, generated:3:1-8. May be given several times.",
+    help="test, set, bench:val:easy, a level of the game, a file, generated:3:1-8. May be given several times.",
 )  # fmt: skip
 @click.option("--episodes", type=click.IntRange(1, 100_000), default=20, show_default=True, help="Tries in each level.")
 @click.option(

@@ -115,8 +115,8 @@ def by_level(found: dict[str, NDArray[Any]]) -> dict[str, str]:
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of an agent that was not trained.")
 @click.option("--output", "-o", required=True, type=click.Path(dir_okay=False, path_type=Path))
 @click.option(
-    "--digests", is_flag=True, is_eager=True, expose_value=False, help="Tell the sha256 of the levels, and measure nothing.",
-    callback=lambda _context, _option, wanted: wanted and tell_digests(),
+    "--digests", is_flag=True, is_eager=True, expose_value=False, help="Tell the sha256 of the levels.",
+    callback=lambda _context, _option, wanted: tell_digests(wanted),
 )  # fmt: skip
 def main(agent_name: str, name: str | None, track: str, seed: int, output: Path) -> None:
     try:
@@ -146,11 +146,12 @@ def main(agent_name: str, name: str | None, track: str, seed: int, output: Path)
         click.echo(f"{levels}: passed {shown}")
 
 
-def tell_digests() -> None:
-    """Print the digests of the levels that there are, and end."""
-    for name in DIGESTS:
+def tell_digests(wanted: bool) -> None:
+    """Print the digests of the levels that there are, if they are wanted, and end."""
+    for name in DIGESTS if wanted else ():
         click.echo(f"{levels_of(name).digest}  {name}")
-    sys.exit()
+    if wanted:
+        sys.exit()
 
 
 if __name__ == "__main__":

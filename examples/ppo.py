@@ -50,6 +50,8 @@ SQUARES = ((6, 1, 16), (2, 16, 32))
 """Of a network that sees a picture: pixels across a square, channels, features of each of the first layers."""
 SMALLEST_DEVIATION = 0.02
 """Of an observation; what hardly ever changes would be blown up otherwise."""
+LEARNED_IN = "bench:train:easy:0-98999"
+"""All easy levels to learn in but those of `bench:val`."""
 POINTS = 20
 """Of the curve."""
 OPEN, EXIT_X, EXIT_Y, SWITCH_X, SWITCH_Y = map(
@@ -325,10 +327,11 @@ def train(
 
 
 @click.command(help=__doc__.replace("\n    python3", "\n\b\n    python3", 1))
-@click.option("--level", default="bench:train:easy:0-98999", show_default=True, help="As of an environment: where it learns.")
+@click.option("--level", default=LEARNED_IN, show_default=True, help="As of an environment: where it learns.")
 @click.option(
-    "--watch", default="bench:val:easy:0-299", show_default=True, metavar="LEVELS", help="Levels that the curve tells too; '': none."
-)
+    "--watch", default="bench:val:easy:0-299", show_default=True, metavar="LEVELS",
+    help="Levels that the curve tells too; '': none.",
+)  # fmt: skip
 @click.option("--steps", type=click.IntRange(1), default=10_000_000, show_default=True, help="Of all worlds together.")
 @click.option("--seed", type=click.IntRange(0, 999), default=0, show_default=True)
 @click.option("--pixels", is_flag=True, help="See a picture, 84 x 84, and nothing else; some twenty times as slow.")

@@ -31,7 +31,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from examples.agents import LARGEST, PolicyAgent
-from examples.ppo import POINTS, Networks, Player, Settings, advantages, compiled, new_networks, random_play
+from examples.ppo import (
+    LEARNED_IN, POINTS, Networks, Player, Settings, advantages, compiled, new_networks, random_play,
+)  # fmt: skip
 from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.learn.levels import level_source
 from ninja_game.learn.levels.source import LevelSource
@@ -249,7 +251,7 @@ def train(level: Any, steps: int, seeds: list[int], each: int, folder: Path, set
 
 
 @click.command(help=__doc__.replace("\n    python3", "\n\b\n    python3", 1))
-@click.option("--level", default="bench:train:easy:0-98999", show_default=True, help="As of an environment: where they learn.")
+@click.option("--level", default=LEARNED_IN, show_default=True, help="As of an environment: where they learn.")
 @click.option("--steps", type=click.IntRange(1), default=100_000_000, show_default=True, help="Of each seed.")
 @click.option("--first", type=click.IntRange(0, 999), default=0, show_default=True, help="Seed.")
 @click.option("--count", type=click.IntRange(1, 100), default=10, show_default=True, help="Seeds.")

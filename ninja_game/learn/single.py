@@ -25,7 +25,7 @@ from ninja_game.learn.draws import checked_seed
 from ninja_game.learn.kernels import TERMINATED, TRUNCATED
 from ninja_game.learn.levels import DEFAULT_LEVEL, Origin
 from ninja_game.learn.rendering import EpisodePicture, checked_size, episode_text
-from ninja_game.learn.worlds import EnvSettings, EnvState, EnvWorlds, refuse_unknown
+from ninja_game.learn.worlds import EnvSettings, EnvState, EnvWorlds, checked_options, refuse_unknown
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import JUMP_HELD, pressed
 from ninja_game.sim.level import Level
@@ -98,9 +98,7 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
         """
         self._check_open()
         seed = None if seed is None else checked_seed(seed)
-        options = options or {}
-        if options.keys() - {"level"}:
-            raise ArgumentError(f"options are {sorted(options)}; expected 'level' or none")
+        options = checked_options(options, "level")
         super().reset(seed=seed)
         new_seed = seed is not None or not self._started
         if new_seed:
@@ -173,9 +171,9 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
         return SavedEpisode(self.worlds.save(), self.inputs, self._running)
 
     def restore(self, saved: SavedEpisode) -> tuple[Any, dict[str, Any]]:
-        """Go back to a saved moment; its observation and info, without events.
+        """Go back to a saved moment; its observation and info, without events. Chance does not go back.
 
-        Raises ArgumentError for a moment of other levels or settings.
+        With ``repeat`` what follows is drawn on, so the same actions may end otherwise (``EnvWorlds.restore``). Raises ArgumentError for a moment of other levels or settings.
         """
         self._check_started("restore")
         self.worlds.restore(saved.state)

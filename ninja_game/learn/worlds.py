@@ -30,7 +30,6 @@ from ninja_game.learn.goal_distance import GoalDistance
 from ninja_game.learn.kernels import ENDED, EVENTS, PLAYED, RANDOM, TERMINATED, TRUNCATED, WAIT, advance_worlds
 from ninja_game.learn.levels import LevelChoice, Origin, level_source
 from ninja_game.learn.levels.places import new_levels, put_levels
-from ninja_game.learn.levels.source import nearest
 from ninja_game.learn.observations.observation import Observation, PartLike
 from ninja_game.learn.observations.part import Setting
 from ninja_game.learn.protocol import CHANCES, beginnings
@@ -81,10 +80,16 @@ class EnvSettings(Shown, total=False):
 
 def refuse_unknown(settings: Mapping[str, object], *own: str) -> None:
     """Raise ArgumentError for a name that no argument of an environment has; ``own``: further ones that it has."""
-    known = [*own, *sorted(EnvSettings.__optional_keys__)]
-    for name in settings:
-        if name not in EnvSettings.__optional_keys__:
-            raise ArgumentError(f"an environment has no argument {name!r}; expected such as {nearest(name, known)}")
+    for name in settings.keys() - EnvSettings.__optional_keys__:
+        known = ", ".join(sorted({*own, *EnvSettings.__optional_keys__}))
+        raise ArgumentError(f"an environment has no argument {name!r}; expected one of {known}")
+
+
+def checked_options(options: object, *known: str) -> dict[str, Any]:
+    """The options of a reset. Raises ArgumentError for others."""
+    if options is not None and (not isinstance(options, dict) or options.keys() - {*known}):
+        raise ArgumentError(f"options are {options!r:.60}; expected a dict of {', '.join(known)}, or none")
+    return dict(options or {})
 
 
 class EnvWorlds:

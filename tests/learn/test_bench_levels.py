@@ -97,8 +97,19 @@ def test_sources_by_name(words: str, count: int, first: str) -> None:
 
 @pytest.mark.parametrize(
     "wrong",
-    ["", "set", "train:5000000", "test:harder", "train:9-3", "train:-3", f"train:{'9' * 5000}", "test:",
-    "test:easy:", "test:0-1000", "test:easy:2"],
+    [
+        "",
+        "set",
+        "train:5000000",
+        "test:harder",
+        "train:9-3",
+        "train:-3",
+        f"train:{'9' * 5000}",
+        "test:",
+        "test:easy:",
+        "test:0-1000",
+        "test:easy:2",
+    ],
 )
 def test_other_names_are_told(wrong: str) -> None:
     with pytest.raises(ArgumentError, match="expected 'bench:train'"):
