@@ -32,7 +32,15 @@ from numpy.typing import NDArray
 
 from examples.agents import LARGEST, PolicyAgent
 from examples.ppo import (
-    LEARNED_IN, POINTS, Networks, Player, Settings, advantages, compiled, new_networks, random_play,
+    LEARNED_IN,
+    POINTS,
+    Networks,
+    Player,
+    Settings,
+    advantages,
+    compiled,
+    new_networks,
+    random_play,
 )  # fmt: skip
 from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.learn.levels import level_source

@@ -19,7 +19,6 @@ import gymnasium
 import numpy as np
 from gymnasium.error import ClosedEnvironmentError, ResetNeeded, UnsupportedMode
 
-from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import Actions
 from ninja_game.learn.draws import checked_seed
 from ninja_game.learn.kernels import TERMINATED, TRUNCATED
@@ -171,9 +170,9 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
         return SavedEpisode(self.worlds.save(), self.inputs, self._running)
 
     def restore(self, saved: SavedEpisode) -> tuple[Any, dict[str, Any]]:
-        """Go back to a saved moment; its observation and info, without events. Chance does not go back.
+        """Go back to a saved moment; its observation and info, without events.
 
-        With ``repeat`` what follows is drawn on, so the same actions may end otherwise (``EnvWorlds.restore``). Raises ArgumentError for a moment of other levels or settings.
+        Chance does not go back: with ``repeat`` what follows differs. Raises ArgumentError for other levels or settings.
         """
         self._check_started("restore")
         self.worlds.restore(saved.state)

@@ -130,6 +130,11 @@ def test_versions_are_what_they_were() -> None:
     assert chosen == [5, 1, 14, 7, 5]
 
 
+def wrong_words() -> dict[str, Any]:
+    """As a user's program that no tool has checked."""
+    return {"typo": 1}
+
+
 @pytest.mark.parametrize(
     "wrong,told",
     [
@@ -137,7 +142,7 @@ def test_versions_are_what_they_were() -> None:
         (lambda env: env.reset(options={"lvl": 1}), "options are {'lvl': 1}; expected a dict of level"),
         (lambda env: env.step(6), "found the actions [6]; expected 0 to 5"),
         (lambda _: NinjaEnv([]), "level is []; expected a name"),
-        (lambda _: NinjaEnv(**{"typo": 1}), "no argument 'typo'; expected one of actions, body, flat"),
+        (lambda _: NinjaEnv(**wrong_words()), "no argument 'typo'; expected one of actions, body, flat"),
     ],
 )
 def test_what_is_wrong_with_an_argument_is_told(wrong: Any, told: str) -> None:

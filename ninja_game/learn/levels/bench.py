@@ -204,13 +204,12 @@ def bench_source(text: str) -> BenchSource:
     found = re.fullmatch(rf"(\w+)(?::({'|'.join(GRADES)}))?(?::([0-9]{{1,6}})(?:-([0-9]{{1,6}}))?)?", text)
     split, grade, first, last = found.groups() if found else (text.partition(":")[0], None, None, None)
     all_of = numbers = VAL if split == "val" else range(COUNTS.get(split, 0))
-    if first:
-        numbers = numbers[int(first) : int(last or first) + 1]
+    numbers = numbers[int(first) : int(last or first) + 1] if first else numbers
     if grade:
-        step = len(GRADES)
-        numbers = range(numbers.start + (list(GRADES).index(grade) - numbers.start) % step, numbers.stop, step)
+        numbers = numbers[(list(GRADES).index(grade) - numbers.start) % len(GRADES) :: len(GRADES)]
     if not found or not numbers or int(last or first or 0) >= len(all_of):
-        expected = f"'bench:train', 'bench:val' or 'bench:test'{', ' * bool(all_of)}"
-        expected += f"with grade {', '.join(GRADES)}, or numbers 0 to {len(all_of) - 1}, or both" if all_of else ""
-        raise ArgumentError(f"found 'bench:{text:.60}'; expected {expected}, as 'bench:train:easy:0-9'")
+        expected = f"with grade {', '.join(GRADES)}, or numbers 0 to {len(all_of or VAL) - 1}, or both"
+        raise ArgumentError(
+            f"found 'bench:{text:.60}'; expected 'bench:train', 'bench:val' or 'bench:test', {expected}"
+        )
     return BenchSource("train" if split == "val" else split, numbers)
