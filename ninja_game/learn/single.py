@@ -97,12 +97,11 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
         """
         self._check_open()
         seed = None if seed is None else checked_seed(seed)
-        options = checked_options(options, "level")
+        level = checked_options(options, "level").get("level")
         super().reset(seed=seed)
         new_seed = seed is not None or not self._started
         if new_seed:
             self._seed = int(self.np_random.integers(2**63)) if seed is None else seed
-        level = options.get("level")
         if level is not None and not isinstance(level, int | np.integer) and level not in self.worlds.source.names:
             self.worlds = EnvWorlds(level, 1, threads=1, **self._settings)
             level, new_seed = None, True
@@ -172,7 +171,7 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
     def restore(self, saved: SavedEpisode) -> tuple[Any, dict[str, Any]]:
         """Go back to a saved moment; its observation and info, without events.
 
-        Chance does not go back: with ``repeat`` what follows differs. Raises ArgumentError for other levels or settings.
+        Chance does not go back: with ``repeat`` what follows differs. Raises ArgumentError for one of other settings.
         """
         self._check_started("restore")
         self.worlds.restore(saved.state)
