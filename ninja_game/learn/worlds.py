@@ -307,7 +307,7 @@ class EnvWorlds:
     def restore(self, state: EnvState, worlds: WorldChoice = None) -> None:
         """Put saved states into worlds, the same or others, as many. Raises ArgumentError if they do not fit.
 
-        They show that moment's observation, no reward and no events. Which keys are repeated from here on is drawn anew.
+        They show that moment's observation, no reward and no events. Which keys are repeated from here on differs.
         """
         numbers = numbers_of(worlds, self.count, "worlds")
         if state.owner != self._owner() or len(state.levels) != len(numbers):

@@ -21,7 +21,7 @@ def test_the_command_writes_the_table(tmp_path: Path) -> None:
     words += ["--episodes", "2", "--time-limit", "40", "--memory", "plain"]
     shown = CliRunner().invoke(main, words)
     assert shown.exit_code == 0, shown.output
-    assert before_compiling  # what is told before anything is compiled
+    assert before_compiling  # says so before anything is compiled
     assert [line.split()[0] for line in shown.stdout.splitlines()] == ["level", "00-0-first-steps", "near", "random:"]
     out = tmp_path / "random.json"
     assert CliRunner().invoke(main, [*words, "--json", "-o", str(out)]).exit_code == 0
