@@ -31,17 +31,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from examples.agents import LARGEST, PolicyAgent
-from examples.ppo import (
-    LEARNED_IN,
-    POINTS,
-    Networks,
-    Player,
-    Settings,
-    advantages,
-    compiled,
-    new_networks,
-    random_play,
-)  # fmt: skip
+from examples.ppo import LEARNED_IN, POINTS, Networks, Player, Settings, advantages, compiled, new_networks, random_play
 from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.learn.levels import level_source
 from ninja_game.learn.levels.source import LevelSource

@@ -44,7 +44,7 @@ def test_padlock_says_what_opens_an_episode(tmp_path: Path) -> None:
     data = player_data(tmp_path, *(episode(number) for number in range(3)))
     data.progress.level_passed((0, 0), legitimate=True)
     locks = [data.lock_of_episode(data.catalogue.episodes[number]) for number in range(3)]
-    assert locks == ["", "Finish 4 more levels of episode 1 first", "Finish episode 2 first"]
+    assert locks == ["", "Finish 4 more levels of episode 1.1 first", "Finish episode 1.2 first"]
     data.close()
 
 
