@@ -33,6 +33,7 @@ from ninja_game.web.board.runs import _near_to_another, judge
 from ninja_game.web.pages.published import published_levels
 from tests.support.forgeries import WALKING, record, replay
 from tests.support.reference import require_reference
+from tests.test_entry_points import PACKAGE, readers
 from tests.web.test_board import DIGEST, levels, put, runs, slow_walk  # noqa: F401
 from tools.measure import near_copies
 
@@ -103,8 +104,9 @@ def test_no_name_outside_the_folder_is_told(tmp_path: Path, levels: Path, runs: 
 
 
 def test_the_board_asks_no_other_program() -> None:
-    for path in Path("ninja_game/web/board").glob("*.py"):
-        assert "subprocess" not in path.read_text("utf-8")
+    found = set().union(*(readers(path.read_text("utf-8")) for path in (PACKAGE / "web" / "board").glob("*.py")))
+    assert "read_utf8" in found
+    assert not [name for name in found if re.match(r"subprocess|os\.(popen|system|exec|spawn)", name)]
 
 
 # --- the ledger ---
