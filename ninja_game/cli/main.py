@@ -122,8 +122,8 @@ class Commands(click.Group):
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """The table of commands, without importing them."""
         width = max(map(len, COMMANDS))
-        for folder, group in GROUPS.items():
-            with formatter.section(folder.capitalize()):
+        for title, group in GROUPS.items():
+            with formatter.section(title.capitalize()):
                 formatter.write_dl([(name.ljust(width), text) for name, text in group.items()])
 
     def invoke(self, ctx: click.Context) -> Any:
