@@ -154,7 +154,8 @@ def test_odd_value_falls_back_alone_with_a_word(tmp_path: Path, line: str) -> No
 UNREADABLE = [b"a = " + b"[" * 5000, b"\xff\xfe", b"\xed\xa0\x80 = 1", b"a = 1\na = 2", b"[a]\n[a]", b"x" * 2**17,
               b"a.b = 1\na = 2"]  # fmt: skip
 READABLE = [b"look = 3\nkeys = 4\nsound = [1]", b"[[look]]\n[[keys]]",
-            b"[keys]\njump = [" + b"'a', " * (MOST_INPUTS + 1) + b"]", b"keys.jump = []", b"[look.palette]"]  # fmt: skip
+            b"[keys]\njump = [" + b"'a', " * (MOST_INPUTS + 1) + b"]", b"keys.jump = []",
+            b"[look.palette]"]  # fmt: skip
 
 
 def kept_aside(folder: Path) -> list[bytes]:
