@@ -188,9 +188,6 @@ def neighbours(cell: Cell) -> tuple[Cell, ...]:
     return (column + 1, row), (column, row + 1), (column - 1, row), (column, row - 1)
 
 
-ENEMIES = (kinds.TURRET, kinds.FLOOR_GUARD, kinds.DRONE, kinds.THWUMP, kinds.LAUNCHER)
-
-
 class Run(NamedTuple):
     """Cells in a row that one can stand in: ``length`` of them from ``column`` on."""
 

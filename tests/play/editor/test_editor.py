@@ -14,7 +14,7 @@ from ninja_game.backend.memories import compiled_available
 from ninja_game.editor.brush import OBJECT_TYPES, object_of_type, placed
 from ninja_game.editor.certify import Search
 from ninja_game.editor.files import Source
-from ninja_game.editor.reach import CELL, LANDED, STARTS, Reach
+from ninja_game.editor.reach import LANDED, SQUARE, STARTS, Reach
 from ninja_game.editor.specs import SWITCH, points
 from ninja_game.editor.stamp import Selection, Stamp, put
 from ninja_game.formats.ascii.places import place_text
@@ -364,7 +364,7 @@ def test_what_can_be_reached_follows_pointer_speed_and_level(room: Maker) -> Non
     assert "standing" in room.editor.view.hint
     standing = shown(396, 541)
     left, right = edges(standing)
-    assert abs((396 - left) - (right - 396)) <= 2 * CELL, "standing, both sides are alike"
+    assert abs((396 - left) - (right - 396)) <= 2 * SQUARE, "standing, both sides are alike"
     # A jump straight up is the world's own: the highest square is where the highest of a run is.
     jump = run_level(
         room.editor.session.level_to_test(here=True),
@@ -372,7 +372,7 @@ def test_what_can_be_reached_follows_pointer_speed_and_level(room: Maker) -> Non
         memory="plain",
     )
     top = min(y for _, y, _ in standing.spans)
-    assert top <= jump.positions[:, 1].min() < top + 2 * CELL
+    assert top <= jump.positions[:, 1].min() < top + 2 * SQUARE
     room.frames(2)
     changed = pygame.mask.from_threshold(before, (0, 0, 0), (8, 8, 8, 255), room.app.surface).count()
     assert before.get_width() * before.get_height() - changed > 3000
