@@ -9,7 +9,7 @@ from typing import NamedTuple
 from ninja_game.editor.draft import cell_of
 from ninja_game.editor.motion import Motion
 from ninja_game.formats.ascii.legend import DIRECTION_WORDS, PAD_NORMALS
-from ninja_game.formats.ascii.object_forms import DOORS, MOVEMENTS, SIDES, WEAPONS, door_middle
+from ninja_game.formats.ascii.object_forms import DOORS, MOVEMENTS, SIDES, WEAPONS
 from ninja_game.sim.kinds import DOOR, DRONE, EXIT, FLOOR_GUARD, KIND_NAMES, LAUNCH_PAD, ONE_WAY, THWUMP
 from ninja_game.sim.level import ObjectSpec, makes_object, well_formed
 
@@ -71,11 +71,9 @@ def with_word(spec: ObjectSpec, name: str, text: str) -> ObjectSpec:
 
 def settled(spec: ObjectSpec) -> ObjectSpec:
     """A spec whose values agree: an automatic door senses in the middle of its side."""
-    if spec.kind == DOOR and well_formed(spec) and not has_switch(spec):
-        side = word(spec, "side")
-        column, row = spec.values[4:6]
-        if side and column.is_integer() and row.is_integer():
-            return spec._replace(values=(*door_middle(int(column), int(row), side), *spec.values[2:]))
+    automatic = spec.kind == DOOR and well_formed(spec) and not has_switch(spec)
+    if automatic and word(spec, "side") and all(value.is_integer() for value in spec.values[4:6]):
+        return spec._replace(values=(*_door_point(spec.values), *spec.values[2:]))
     return spec
 
 
