@@ -18,14 +18,13 @@ from ninja_game.formats.ascii.reader import parse_ascii_level, sections
 from ninja_game.formats.ascii.writer import (
     HEADER_KEYS,
     drawn_only,
-    header_text,
     picture_rows,
     same_record,
     tile_lines,
     write_ascii_level,
     write_object_lines,
 )
-from ninja_game.formats.lines import UNCOMMENTED, numbered_lines
+from ninja_game.formats.lines import UNCOMMENTED, header_text, numbered_lines
 from ninja_game.sim.level import ObjectSpec
 
 _ROW = re.compile(r"(\s*+\d*+\s*+\|).*(\|.*)")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import difflib
-import json
 import re
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
@@ -11,6 +10,7 @@ from typing import NamedTuple
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.object_forms import FORMS, Form, Token, at_token, record_values
 from ninja_game.formats.ascii.places import read_cell, read_number, shown
+from ninja_game.formats.lines import read_quoted
 from ninja_game.sim.level import ObjectSpec
 
 _TOKEN = re.compile(r';.*|"(?:[^"\\]|\\.)*+"|[^\s;"]+|".*')
@@ -185,15 +185,6 @@ def _read_raw(tokens: Sequence[Token]) -> Listed:
 
 def _read_values(text: str) -> tuple[float, ...]:
     return tuple(read_number(part) for part in text.split(","))
-
-
-def read_quoted(text: str) -> str | None:
-    """What stands in double quotes, with JSON's escapes; None if that is not in order."""
-    try:
-        value = json.loads(text)
-    except ValueError:
-        return None
-    return value if isinstance(value, str) else None
 
 
 def _read_string(text: str) -> str:

@@ -22,6 +22,7 @@ from ninja_game.formats.ascii.object_forms import DOORS, FORMS, MOVEMENTS, SIDES
 from ninja_game.formats.ascii.object_lines import Listed, read_object_line
 from ninja_game.formats.ascii.picture import FRAME, Cell
 from ninja_game.formats.ascii.places import number_text, place_text, read_cell, same_bits
+from ninja_game.formats.lines import header_text
 from ninja_game.sim import kinds
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec, well_formed
@@ -65,12 +66,6 @@ def write_ascii_level(
     text += ["\n", *(f"{line}\n" for line in lines)] if lines else []
     text += ["\n", legend_text()] if legend else []
     return "".join(text)
-
-
-def header_text(value: str) -> str:
-    """A header's value as it is written: in double quotes as JSON where it would not come back otherwise."""
-    plain = value == value.strip() and not value.startswith('"') and value.isprintable()
-    return value if plain else json.dumps(value)
 
 
 def _tile_char(number: int) -> str:

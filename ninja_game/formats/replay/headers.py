@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import re
 from collections.abc import Sequence
@@ -12,7 +11,7 @@ from typing import NamedTuple, TypeVar
 
 from ninja_game.errors import LevelError, ReplayError
 from ninja_game.formats.ascii.reader import parse_ascii_level
-from ninja_game.formats.lines import MOST_NAME, Line
+from ninja_game.formats.lines import MOST_NAME, Line, read_quoted
 from ninja_game.formats.numbers import NAN, parse_number
 from ninja_game.formats.replay.made import Made, names_of_text, parse_made
 from ninja_game.sim.level import Level
@@ -102,13 +101,10 @@ class Headers:
         """A header's text; one in double quotes is JSON."""
         value = self.raw(key)
         if value.startswith('"'):
-            try:
-                decoded = json.loads(value)
-            except ValueError:
-                decoded = None
-            if not isinstance(decoded, str):
+            quoted = read_quoted(value)
+            if quoted is None:
                 raise self.error(key, f"a broken text in '{key}'", "text, or a JSON string", "close the double quotes")
-            value = decoded
+            value = quoted
         if len(value) > MOST_NAME:
             raise self.error(key, f"a text of {len(value):,} characters in '{key}'", f"at most {MOST_NAME:,}")
         return value
