@@ -93,7 +93,7 @@ EDITS = [
     f"UPDATE {table} SET {column} = {value}"
     for table, columns in (
         ("replay", ("name", "player", "body", "outcome", "final_tick", "gold", "score", "made_at", "kept", "inputs",
-                    "level_text", "level", "digest", "practice")),
+                    "level_text", "level", "digest", "made")),
         ("level_best", ("level", "body")), ("level_mark", ("level", "fastest", "most_gold")),
         ("episode_best", ("score", "made_at", "episode")),
         ("episode_replay", ("episode", "place")), ("progress", ("beaten_episode", "reached_level")),

@@ -32,7 +32,6 @@ KEYS = (
     "level-record",
     "level-digest",
     "digest",
-    "practice",
     "demo-length",
     "level-data",
     "waypoints",
@@ -134,16 +133,13 @@ class Headers:
         raise self.error(key, f"an unknown {key}", " or ".join(choices))
 
     def made(self) -> Made:
-        """How the run was made; ``practice``, which older texts have, is an assist."""
+        """How the run was made."""
         try:
-            made = parse_made(self.text("made"))
+            return parse_made(self.text("made"))
         except ValueError:
             expected = "such as played (practice), edited 34, searched (improve, search)"
             hint = "leave the line out if you do not know"
             raise self.error("made", "not how a run is made", expected, hint) from None
-        if "practice" in self.lines and self.choice("practice", ("yes", "no")) == "yes" and not made.assists:
-            return made._replace(played=True, assists=("practice",))
-        return made
 
     def co_authors(self) -> tuple[str, ...]:
         """The names of who took part."""
