@@ -13,7 +13,6 @@ from typing import IO, TYPE_CHECKING, Any
 
 import click
 
-from ninja_game.cli.main import complain
 from ninja_game.cli.run_options import (
     InputPath,
     budget_option,
@@ -23,7 +22,7 @@ from ninja_game.cli.run_options import (
     memory_option,
     with_progress,
 )
-from ninja_game.cli.terminal import BAD_INPUT, data_output
+from ninja_game.cli.terminal import BAD_INPUT, complain, data_output
 from ninja_game.files.shown_text import shown_text
 
 if TYPE_CHECKING:
