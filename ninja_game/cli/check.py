@@ -114,7 +114,7 @@ def check(
 
 
 class _Tally:
-    """What was found for how many levels."""
+    """Counts levels by what was found of them."""
 
     def __init__(self) -> None:
         self.levels = 0

@@ -18,7 +18,7 @@ _OURS = {
     # The lines that count are drawn again in their place, by rich.
     "stderr": re.compile(rf"({_COLOURS}|\r|\x1b\[(?:\?25[hl]|1A|2K))"),
 }
-"""What our own output does besides printing; a name has passed ``shown_text`` and holds none of it."""
+"""Control sequences of our own output; names have passed ``shown_text`` and hold none."""
 
 _DATA = re.compile(r"(\n|\t)")
 

@@ -29,7 +29,7 @@ class Pack:
 
     @property
     def name(self) -> str:
-        """What it is called."""
+        """The pack's name."""
         return self.index.name
 
     @cached_property

@@ -25,7 +25,7 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
 MAGIC = "ninja-game replay"
 VERSION = 3
 LAST_LINE = "end"
-"""Of a replay with claims, so that a cut one is noticed."""
+"""The end of a replay with claims, so that one that was cut off is noticed."""
 RULES_VERSION = 1
 """The rules that replays are recorded under; a change of the world that changes any replay raises it."""
 

@@ -16,7 +16,7 @@ OPENING_SECONDS = 1.0
 """How long a start waits for another program that has locked the file."""
 
 MOST_CELL_BYTES = 2**26
-"""Of a value, and of a row; SQLite itself makes values of a gigabyte where a file asks for it."""
+"""The largest value, and row; SQLite itself makes values of a gigabyte where a file asks for it."""
 
 MOST_STEPS = 30
 """Millions of instructions of SQLite to look through a file: some four seconds; the records of years take one."""
@@ -26,7 +26,7 @@ _WRITE_VERSION = 18
 
 
 VERSION = 7
-"""Of the tables, in a file's header; raise it with every change of them."""
+"""The version of the tables, in a file's header; raise it with every change of them."""
 
 SCHEMA = (
     """CREATE TABLE replay (
