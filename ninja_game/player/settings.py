@@ -219,8 +219,8 @@ RULES = {
 def read_settings(path: Path) -> tuple[Settings, list[str]]:
     """The settings in a file, and messages about what in it could not be used.
 
-    A missing file gives the defaults. A file that is not TOML, or from a newer game, is moved aside; a wrong value only
-    falls back to its default.
+    A missing file gives the defaults. A file that is not TOML, or from another version of the game, is moved aside; a
+    wrong value only falls back to its default.
     """
     try:
         with _long_numbers():
@@ -232,7 +232,7 @@ def read_settings(path: Path) -> tuple[Settings, list[str]]:
     except (FileError, ValueError) as error:
         return Settings(), [f"The settings file is damaged ({shown_text(str(error))}). {_put_aside(path, 'damaged')}"]
     if data.get("version", VERSION) != VERSION:
-        return Settings(), [f"The settings file is from another version of the game. {_put_aside(path, 'newer')}"]
+        return Settings(), [f"The settings file is from another version of the game. {_put_aside(path, 'other')}"]
     return _settings_of(data)
 
 
@@ -334,7 +334,7 @@ def _changed_text(path: Path, before: Settings, after: Settings) -> str:
                 text = document.as_string()
                 parse_toml(text, any_number=True)
                 return text
-            why = "newer"
+            why = "other"
     except FileNotFoundError:
         return ""
     except (FileError, TOMLKitError, ValueError, TypeError, KeyError, RecursionError):

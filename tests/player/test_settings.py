@@ -207,12 +207,12 @@ def test_damaged_file_is_set_aside(tmp_path: Path, text: str) -> None:
     assert (tmp_path / "settings.damaged-1.toml").read_text() == text
 
 
-@pytest.mark.parametrize("version", ["2", "99", '"x"'])
-def test_newer_file_is_set_aside(tmp_path: Path, version: str) -> None:
+@pytest.mark.parametrize("version", ["0", "2", "99", '"x"'])
+def test_file_of_another_version_is_set_aside(tmp_path: Path, version: str) -> None:
     path = tmp_path / "settings.toml"
     path.write_text(f"version = {version}\n")
-    assert "newer" in read_settings(path)[1][0]
-    assert (tmp_path / "settings.newer-1.toml").is_file()
+    assert "settings.other-1.toml" in read_settings(path)[1][0]
+    assert (tmp_path / "settings.other-1.toml").is_file()
 
 
 def test_wrong_value_falls_back_alone_and_is_named(tmp_path: Path) -> None:
