@@ -53,7 +53,7 @@ PROGRAMS = {
     "release": ("tools.release",),
     "change-rules": ("tools.breaks", "--rules"),
 }
-DRAWINGS = ("draw.good_levels", "draw.how_it_works", "draw.screens", "draw.settings_page")
+DRAWINGS = ("draw.how_it_works", "draw.screens")
 LINT = (("ruff", "check"), ("ruff", "format", "--check"), ("mypy",), ("lint-imports",))
 FIX = (("ruff", "check", "--fix"), ("ruff", "format"), *LINT[2:])
 GOOD = "lint: all good"

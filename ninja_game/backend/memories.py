@@ -238,8 +238,7 @@ def _compiler(checked: bool) -> Compiler:
     """One of the two compilers of this process. NINJA_GAME_CHECKED=1 leaves only the one that checks indices."""
     choose_memory("compiled")
     from ninja_game.backend.kernel_cache import attach_cache
-    from ninja_game.backend.numba_import import import_numba
-    from ninja_game.backend.numba_pipeline import make_pipeline
+    from ninja_game.backend.numba_import import import_numba, make_pipeline
 
     try:
         numba = import_numba()

@@ -118,7 +118,12 @@ def _answer(
             draw(output, runs[0].level, [(each.name, its) for each, its in zip(runs, positions, strict=True)], keep)
         else:
             _film(runs, output)
-    click.echo(json.dumps(rows) if as_data else "\n".join(_line(told, row) for row in rows))
+    if as_data:
+        click.echo(json.dumps(rows))
+    else:
+        entry, ladder = found[0].run.entry, found[0].run.ladder
+        click.echo(shown_text(f"{entry.episode} {entry.title}, {category.name.lower()}, {ladder}:".strip(), LONGEST))
+        click.echo("\n".join(_line(told, row) for row in rows))
 
 
 def _line(told: str, row: Mapping[str, Any]) -> str:

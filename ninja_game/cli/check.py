@@ -169,6 +169,8 @@ def _rows(level: NamedLevel, found: Mapping[str, Certified]) -> str:
 
 
 def _row(goal: str, certified: Certified, level: NamedLevel) -> str:
+    from ninja_game.search.task import obstacle
+
     first = goal == "exit" or not certified.gold
     run = certified.run
     if run:
@@ -176,11 +178,8 @@ def _row(goal: str, certified: Certified, level: NamedLevel) -> str:
         best = f"best {seconds_text(run.end_tick):>7} s  {run.end_tick:>5} ticks  {run.gold:>3} gold"
         return f"{mark} {best}  {certified.how}"
     mark = click.style("??      " if first else "all gold", fg="yellow")
-    if not certified.gold or not certified.progress:
-        return f"{mark} no run found"
-    progress = certified.progress
-    names = options.never_collected(level.level, progress.untaken or ())
-    return f"{mark} no run found: {progress.gold} of {certified.gold} at most, {names}"
+    why = f": {obstacle(level.level, certified.gold, certified.progress).sentence}" if certified.progress else ""
+    return f"{mark} no run found{why}"
 
 
 def _facts(level: NamedLevel, found: Mapping[str, Certified], files: Mapping[str, Path]) -> dict[str, Any]:

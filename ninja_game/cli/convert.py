@@ -153,10 +153,9 @@ class Output:
 
 
 def _ascii_text(level: NamedLevel, legend: bool) -> str:
-    from ninja_game.formats.ascii.writer import HEADER_KEYS, write_ascii_level
+    from ninja_game.formats.ascii.writer import headers_of, write_ascii_level
 
-    about = {key: getattr(level, key) for key in HEADER_KEYS}
-    return write_ascii_level(level.level, **about, legend=legend)
+    return write_ascii_level(level.level, **headers_of(level), legend=legend)
 
 
 def _strings_text(levels: Sequence[NamedLevel | Recording]) -> str:

@@ -33,6 +33,7 @@ def link(files: Sequence[Path], record: int | None, base: str) -> None:
 
 def link_of(files: Sequence[Path], record: int | None = None) -> str:
     """The link of what files hold: one pack, one level, or all the recordings. Raises NinjaGameError."""
+    from ninja_game.formats.ascii.writer import headers_of
     from ninja_game.formats.links.making import level_link, recording_link
     from ninja_game.formats.load import load_levels, load_replays, texts_of
     from ninja_game.formats.pack.files import PackFiles, is_pack
@@ -49,4 +50,4 @@ def link_of(files: Sequence[Path], record: int | None = None) -> str:
     if len(files) > 1:
         raise click.UsageError("a link carries one level; make a pack of several, or give replays only")
     named = choose(load_levels(first), "levels", first, record)
-    return level_link(named.level, name=named.name, author=named.author, comment=named.comment)
+    return level_link(named.level, **headers_of(named))

@@ -165,23 +165,12 @@ def progress_line() -> Iterator[ShownProgress]:
 
 
 def not_found_text(task: Task, progress: Progress | None) -> str:
-    """What a search that found no run says, with the gold that it could not get."""
-    if not task.gold_wanted or not progress or progress.untaken is None:
-        return "no run to the exit found; more time or another --seed may find one"
-    return (
-        f"no run with {task.gold_wanted} gold to the exit found: {progress.gold} at most were collected at once, "
-        f"{never_collected(task.level, progress.untaken)}; more time or another --seed may find one"
-    )
+    """What a search that found no run says: what it never came to."""
+    from ninja_game.search.task import obstacle
 
-
-def never_collected(level: Level, untaken: Sequence[int]) -> str:
-    """The pieces of gold that no search ever collected, by name."""
-    from ninja_game.levels.warnings import object_name
-    from ninja_game.sim.level import makes_object
-
-    objects = list(filter(makes_object, level.objects))
-    names = [object_name(objects[id_], id_) for id_ in untaken]
-    return f"never {', '.join(names)}" if names else "each piece now and then"
+    gold = f"with {task.gold_wanted} gold " if task.gold_wanted else ""
+    why = f": {obstacle(task.level, task.gold_wanted, progress).sentence}" if progress else ""
+    return f"no run {gold}to the exit found{why}; more time or another --seed may find one"
 
 
 def progress_text(progress: Progress) -> str:

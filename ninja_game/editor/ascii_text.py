@@ -16,8 +16,8 @@ from ninja_game.formats.ascii.object_lines import Listed, OddTile, read_object_l
 from ninja_game.formats.ascii.problems import Problems
 from ninja_game.formats.ascii.reader import parse_ascii_level, sections
 from ninja_game.formats.ascii.writer import (
-    HEADER_KEYS,
     drawn_only,
+    headers_of,
     picture_rows,
     same_record,
     tile_lines,
@@ -32,8 +32,7 @@ _RULER = re.compile(r";[\s\d]*")
 
 
 def ascii_text(draft: Draft) -> str:
-    name, author, comment, teaches, says = draft.about
-    return write_ascii_level(draft.level, name=name, author=author, comment=comment, teaches=teaches, says=says)
+    return write_ascii_level(draft.level, **headers_of(draft))
 
 
 def updated_text(text: str, opened: Draft, draft: Draft) -> str:
@@ -57,10 +56,10 @@ def reads_as(text: str, draft: Draft, *, named: bool = True) -> bool:
         read = parse_ascii_level(text)
     except LevelError:
         return False
-    given = (read.name if named else draft.name, read.author, read.comment, read.teaches, read.says)
+    given = headers_of(read) | ({} if named else {"name": draft.name})
     objects = read.level.objects
     return (
-        given == draft.about
+        given == headers_of(draft)
         and read.level.tiles == draft.level.tiles
         and len(objects) == len(draft.objects)
         and all(map(same_record, objects, draft.objects))
@@ -91,7 +90,8 @@ class _Lines:
     def _change_header(self) -> None:
         places = {line.partition(":")[0].strip(): number for number, line in self.header}
         last = max([self.first, *places.values()])
-        for key, before, value in zip(HEADER_KEYS, self.opened.about, self.draft.about, strict=True):
+        for key, value in headers_of(self.draft).items():
+            before = getattr(self.opened, key)
             if value != before:
                 line = f"{key}: {header_text(value)}".rstrip()
                 if key in places:

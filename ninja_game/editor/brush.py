@@ -9,8 +9,7 @@ from ninja_game.editor.draft import Cell, cell_of
 from ninja_game.editor.motion import TILE_IDS, Motion
 from ninja_game.editor.specs import SWITCH, carried, has_switch, object_type_name, points, settled, with_word, word
 from ninja_game.formats.ascii.legend import TILE_CHARS
-from ninja_game.formats.ascii.object_forms import natural_offset
-from ninja_game.formats.ascii.object_lines import Listed, read_object_line
+from ninja_game.formats.ascii.object_lines import Listed, natural_offset, read_object_line
 from ninja_game.sim import kinds
 from ninja_game.sim.level import ObjectSpec
 

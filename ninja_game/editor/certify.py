@@ -16,6 +16,7 @@ from ninja_game.backend.memories import compiled_available
 from ninja_game.editor.draft import Cell, cell_of, is_inside
 from ninja_game.errors import BudgetError, LevelError
 from ninja_game.files.user_folder import how_to_install
+from ninja_game.levels.findings import Finding
 from ninja_game.runs.run import RunResult, run_level
 from ninja_game.runtime import NewestJob
 from ninja_game.sim.level import Level
@@ -86,7 +87,8 @@ class _StoppedError(Exception):
 class Search:
     """The solver's work on a level: ``run``, the best one found, and its ``route``; ``share`` of the time that is over.
 
-    ``worlds``: how many moments it has tried, None until it is ready. ``end``: why it is over, "" as long as it is not.
+    ``worlds``: how many moments it has tried, None until it is ready. ``end``: why it is over, "" as long as it is not;
+    ``obstacles``: what kept it from a run in all its ``seconds``.
     """
 
     level: Level | None = None
@@ -96,6 +98,8 @@ class Search:
     worlds: int | None = None
     began: float = field(default_factory=monotonic)
     end: str = ""
+    seconds: float = 0.0
+    obstacles: tuple[Finding, ...] = ()
 
 
 class Certifier:
@@ -132,12 +136,13 @@ class Certifier:
         return self.search.level is not None and level != self.search.level
 
     def start(self, level: Level) -> None:
-        """Begin with a level; what was found for another one is forgotten."""
+        """Begin with a level, for twice as long as a time that found nothing; what was found before is forgotten."""
         self.stop()
+        longer = 2 * self.search.seconds if self.search.obstacles and self.search.level == level else self.seconds
         if not compiled_available():
             self.search = Search(end=f"Certifying needs Numba: {how_to_install('fast')}")
             return
-        self.search, self._job.problem = Search(level), ""
+        self.search, self._job.problem = Search(level, seconds=longer), ""
         self._job.ask(self.search)
 
     def stop(self) -> None:
@@ -156,10 +161,13 @@ class Certifier:
         self._job.finish(CLOSING_SECONDS)
 
     def _work(self, search: Search) -> None:
+        seen: list[Progress] = []
+
         def report(progress: Progress) -> None:
             if search.end:
                 raise _StoppedError
-            search.share, search.worlds = min(1.0, progress.seconds / self.seconds), progress.worlds
+            search.share, search.worlds = min(1.0, progress.seconds / search.seconds), progress.worlds
+            seen[:] = [progress]
 
         def better(run: Replay) -> None:
             if search.end or search.level is None:
@@ -170,6 +178,9 @@ class Certifier:
             return
         with suppress(_StoppedError):
             from ninja_game.search.solve import Task, solve
+            from ninja_game.search.task import obstacle
 
-            solve(Task(search.level, seconds=self.seconds), report=report, on_better=better)
-        search.end = search.end or ("Done" if search.run else "No run found in the time; that proves nothing")
+            if not solve(Task(search.level, seconds=search.seconds), report=report, on_better=better) and seen:
+                search.obstacles = (obstacle(search.level, 0, seen[0]),)
+        found = f"No run in {search.seconds:.0f} s: the first problem says why. F7 looks twice as long"
+        search.end = search.end or ("Done" if search.run else found)

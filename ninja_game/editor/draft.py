@@ -28,11 +28,6 @@ class Draft:
     def objects(self) -> tuple[ObjectSpec, ...]:
         return self.level.objects
 
-    @property
-    def about(self) -> tuple[str, str, str, str, str]:
-        """Name, author, comment, what it teaches, what it says to the player."""
-        return self.name, self.author, self.comment, self.teaches, self.says
-
     def tile(self, cell: Cell) -> int:
         """The tile of a cell; a full one in the border."""
         return self.level.tile(*cell) if is_inside(cell) else 1

@@ -21,7 +21,8 @@ from ninja_game.formats.links.fragment import is_link
 from ninja_game.formats.load import load_levels, texts_of
 from ninja_game.formats.named_level import NamedLevel, parse_levels
 from ninja_game.runtime import NewestJob
-from ninja_game.sim.level import Level
+from ninja_game.sim.kinds import EXIT, NINJA
+from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 
 SUFFIX = ".txt"
 
@@ -40,9 +41,11 @@ class Source:
     windows: bool = False
 
 
-def new_source(author: str = "") -> Source:
-    """An empty level that has no file."""
-    return Source(Draft(Level(), author=author))
+def new_source(author: str = "", *, room: bool = False) -> Source:
+    """A level that has no file: an empty one, or a room with a floor, the ninja and an exit."""
+    floor = tuple(int(row == ROWS - 1) for _ in range(COLUMNS) for row in range(ROWS))
+    things = ObjectSpec(NINJA, (84.0, 542.0)), ObjectSpec(EXIT, (684.0, 540.0, 396.0, 540.0))
+    return Source(Draft(Level(floor, things) if room else Level(), author=author))
 
 
 def open_source(path: Path, record: int = 0) -> Source:

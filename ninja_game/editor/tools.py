@@ -17,10 +17,8 @@ from ninja_game.editor.brush import (
     snapped,
     with_switch,
 )
-from ninja_game.editor.curves import covered, curve, spread
 from ninja_game.editor.draft import Cell, Draft, Tiles, cell_of, changed_cells, is_inside
 from ninja_game.editor.motion import SYMMETRIES, Motion
-from ninja_game.editor.slopes import sloped
 from ninja_game.editor.specs import has_switch, points, properties, with_word
 from ninja_game.editor.stamp import (
     ObjectPart,
@@ -39,6 +37,7 @@ from ninja_game.editor.stamp import (
     removed,
     reordered,
 )
+from ninja_game.editor.strokes import covered, curve, sloped, spread
 from ninja_game.sim.kinds import GOLD, MINE, NINJA
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import WORLD_HEIGHT, WORLD_WIDTH

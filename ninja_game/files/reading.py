@@ -6,7 +6,6 @@ import codecs
 import os
 import stat
 from collections.abc import Iterator
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
@@ -130,13 +129,17 @@ def open_regular(path: Path) -> IO[bytes]:
     return os.fdopen(handle, "rb")
 
 
-def stamp_of(path: Path) -> tuple[int, int]:
-    """What changes when a file is written; the same for all that are not there or no regular files."""
-    with suppress(OSError):
-        about = path.stat()
-        if stat.S_ISREG(about.st_mode):
-            return about.st_mtime_ns, about.st_size
-    return 0, 0
+NO_FILE: list[int] = []
+"""The stamp of what is not there."""
+
+
+def stamp_of(path: Path | str) -> list[int]:
+    """What changes when a file or folder is written or replaced: its size, times and number; copies set no ctime."""
+    try:
+        about = os.stat(path)  # noqa: PTH116 - a path of text is cheaper, and a board asks of each run
+    except (OSError, ValueError):
+        return NO_FILE
+    return [about.st_size, about.st_mtime_ns, about.st_ctime_ns, about.st_ino]
 
 
 def read_bytes(path: Path, limit: int = MAX_BYTES) -> bytes:

@@ -52,7 +52,6 @@ class Generated:
 
     @property
     def author(self) -> str:
-        """Who made it."""
         return AUTHOR
 
     @property

@@ -178,7 +178,6 @@ def _lay(scene: Scene, points: list[Point], wanted: int) -> bool:
 
 
 def centre_of(points: list[Point]) -> Point:
-    """The middle of some points."""
     return sum(x for x, _ in points) / len(points), sum(y for _, y in points) / len(points)
 
 

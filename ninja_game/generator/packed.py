@@ -47,7 +47,6 @@ class PackedLevel(NamedTuple):
 
     @property
     def named(self) -> NamedLevel:
-        """The level with name and author."""
         comment = f"seed {self.seed}, difficulty {self.wanted}: measured {self.difficulty:.1f}"
         return NamedLevel(self.name, AUTHOR, comment, self.level, "")
 

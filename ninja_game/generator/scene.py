@@ -48,13 +48,11 @@ def disc(x: float, y: float, wide: float, high: float) -> Ink:
 
 
 def box(left: float, top: float, right: float, bottom: float) -> Ink:
-    """A rectangle."""
     shape: Ink = (left <= X) & (right >= X) & (top <= Y) & (bottom >= Y)
     return shape
 
 
 def poly(*corners: Point) -> Ink:
-    """A polygon."""
     odd = np.zeros(X.shape, bool)
     for (x0, y0), (x1, y1) in pairwise([*corners, corners[0]]):
         if y0 != y1:
@@ -241,7 +239,6 @@ def middle(cell: Cell) -> Point:
 
 
 def cell_of(point: Point) -> Cell:
-    """The cell of a point."""
     return int(point[0] // CELL), int(point[1] // CELL)
 
 
@@ -272,7 +269,6 @@ class Scene:
 
     @property
     def level(self) -> Level:
-        """The level as it is now."""
         cells = ((c, r) for c in range(1, COLUMNS + 1) for r in range(1, ROWS + 1))
         return Level(tuple(TILE_OF_CHAR[self.tiles.get(cell, ".")] for cell in cells), tuple(self.objects))
 

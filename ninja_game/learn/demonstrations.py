@@ -123,7 +123,6 @@ def _same_run(recording: Recording, inputs: bytes) -> bool:
 
 
 def bytes_of(observations: Observed) -> int:
-    """The memory that observations take."""
     return sum(part.nbytes for part in (observations.values() if isinstance(observations, dict) else [observations]))
 
 

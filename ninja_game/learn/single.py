@@ -21,11 +21,10 @@ from gymnasium.error import ClosedEnvironmentError, ResetNeeded, UnsupportedMode
 
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import Actions
-from ninja_game.learn.draws import checked_seed
-from ninja_game.learn.kernels import TERMINATED, TRUNCATED
 from ninja_game.learn.levels import DEFAULT_LEVEL, Origin
+from ninja_game.learn.levels.source import checked_seed
 from ninja_game.learn.rendering import EpisodePicture, checked_size, episode_text
-from ninja_game.learn.worlds import EnvSettings, EnvState, EnvWorlds, refuse_unknown
+from ninja_game.learn.worlds import TERMINATED, TRUNCATED, EnvSettings, EnvState, EnvWorlds, refuse_unknown
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import JUMP_HELD, pressed
 from ninja_game.sim.level import Level

@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import Actions
-from ninja_game.learn.draws import checked_seed
 from ninja_game.learn.levels import DEFAULT_LEVEL, Origin
+from ninja_game.learn.levels.source import checked_seed
 from ninja_game.learn.observations.observation import Observed
 from ninja_game.learn.rendering import EpisodePicture, checked_size
 from ninja_game.learn.worlds import EnvSettings, EnvWorlds, refuse_unknown

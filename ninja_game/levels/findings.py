@@ -16,6 +16,7 @@ class Rule(NamedTuple):
     about_switch: bool = False
 
 
+_EASIER = "Make the way there easier, or give the solver more time."
 LEVEL_RULES = {
     "too-many-objects": Rule(
         "there are {count} objects, more than {most}: the level cannot be played", "Take some away."
@@ -82,6 +83,9 @@ LEVEL_RULES = {
     ),
     "duplicate": Rule("the same object is in this place already", "Delete one of the two."),
     "mine-over-gold": Rule("it is drawn over a piece of gold", "Move one of the two."),
+    "untouched-switch": Rule("its switch was touched in no try of the solver", _EASIER, True),
+    "unreached-exit": Rule("open, it was reached in no try of the solver", _EASIER),
+    "gold-left": Rule("{most} at most were collected at once, {never}", _EASIER),
 }
 """What may be odd about a level, by code."""
 

@@ -22,24 +22,23 @@ from ninja_game.player.settings import BY_COLUMN, Settings
 from ninja_game.runtime import in_page_or_not
 from ninja_game.sim.rules import TICK_MS
 from ninja_game.ui.audio.player import AudioOutput, AudioPlayer
-from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
+from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.input.bindings import Bindings, InputEvent
 from ninja_game.ui.spreadsheet import draw_spreadsheet
-from ninja_game.ui.theme import PALETTES, Area, Palette, Theme, palette_named
+from ninja_game.ui.theme import PALETTES, Palette, Theme, palette_named, wrapped
 
 
 class Screen:
     """One thing that fills the window: a menu, a level being played, a panel over it. Subclasses say what it does.
 
     ``see_through``: the screen below is drawn first. ``below_runs``: the screen below is updated too. ``redraw``: the
-    app sets it when the whole window must be drawn again (resized, uncovered, another palette). ``notice_area``: where
-    notices are shown, logical px. ``wipes``: whether it comes and goes with a wipe.
+    app sets it when the whole window must be drawn again (resized, uncovered, another palette). ``wipes``: whether it
+    comes and goes with a wipe.
     """
 
     see_through = False
     wipes = True
     below_runs = False
-    notice_area: Area = (0, HEIGHT - 24, WIDTH, 24)
 
     def __init__(self, app: App) -> None:
         self.app = app
@@ -174,6 +173,9 @@ UNSEEN = {"dummy", "offscreen"}
 FALLBACK_RATE = 60
 """Pictures per second where the display does not say its rate."""
 
+NOTICE, NOTICE_WIDE, NOTICE_LINES = 12.5, 620.0, 5
+"""Size of a notice's letters, how wide its lines are at most, and how many are shown."""
+
 NOTICE_MS, WARNING_MS = 4000, 12_000
 """How long a notice is shown, and what went wrong when the game started."""
 
@@ -212,6 +214,7 @@ class App:
         self.mood = 0
         self.notice = ""
         self._notice_ms = 0
+        self._notice_on: Screen | None = None
         self.window = window or Window(size, self.settings)
         self.wipe = Wipe()
         # In a page whole pictures in a row cost too much.
@@ -255,9 +258,9 @@ class App:
         if author != before and not self.settings.name:
             self.change_settings(name=author.strip()[:40])
 
-    def notify(self, text: str, *, ms: int = NOTICE_MS) -> None:
-        """Show a line below the stage for a while, whatever screen is on top."""
-        self.notice, self._notice_ms = text, ms
+    def notify(self, text: str, *, ms: int = NOTICE_MS, here: bool = False) -> None:
+        """Show a text near the upper edge for a while, whatever screen is on top; ``here``: only as long as this is."""
+        self.notice, self._notice_ms, self._notice_on = text, ms, self.top if here else None
         self.stack.redraw_all()
 
     def report_problems(self) -> None:
@@ -342,6 +345,13 @@ class App:
     def frame(self, real_ms: int) -> None:
         """One turn of the loop: events, time, picture."""
         started = time.perf_counter()
+        self.advance(real_ms)
+        if self.running and self.stack:
+            self.draw()
+        self.frame_ms = 1000 * (time.perf_counter() - started)
+
+    def advance(self, real_ms: int) -> None:
+        """A turn without its picture."""
         for event in pygame.event.get():
             self._handle(event)
             if not (self.running and self.stack):
@@ -353,12 +363,10 @@ class App:
             screen.update(real_ms)
         if self.notice:
             self._notice_ms -= real_ms
-            if self._notice_ms <= 0:
+            if self._notice_ms <= 0 or (self.stack and self._notice_on not in (None, self.top)):
                 self.notify("")
         if self.stack:
             self.audio_output.music(self.top.music, real_ms)
-            self.draw()
-        self.frame_ms = 1000 * (time.perf_counter() - started)
 
     def _handle(self, raw: pygame.Event) -> None:
         """Deal with what concerns the window; a screen that waits for a press takes it before the keys of the app.
@@ -400,14 +408,23 @@ class App:
         changed = self.stack.draw(self.surface)
         self.wipe.draw(self.surface, self.theme)
         if self.notice and not isinstance(self.top, BossScreen):
-            theme, (x, y, w, h) = self.top.theme, self.top.notice_area
-            rect = theme.canvas.fill_rect(self.surface, theme.palette.panel, x, y, w, h)
-            theme.text(self.surface, self.notice, x + w / 2, y + 7, size=9.5, align="centre", width=w - 40)
+            rect = self._draw_notice(self.top.theme)
             changed = None if changed is None else [*changed, rect]
         if changed is None:
             pygame.display.flip()
         elif changed:
             pygame.display.update(changed)
+
+    def _draw_notice(self, theme: Theme) -> pygame.Rect:
+        (left, _), (right, _) = theme.canvas.logical((0, 0)), theme.canvas.logical(theme.canvas.window)
+        middle, y = (left + right) / 2, 30.0
+        lines, high = wrapped(theme, self.notice, NOTICE_WIDE, NOTICE)[:NOTICE_LINES], 1.5 * NOTICE * theme.scales[0]
+        wide = min(NOTICE_WIDE, max(theme.width(line, NOTICE) for line in lines)) + 28
+        rect = theme.window(self.surface, middle - wide / 2, y, wide, high * len(lines) + 12)
+        for k, line in enumerate(lines):
+            top = y + 6 + high * (k + 0.5) - NOTICE / 2
+            theme.text(self.surface, line, middle, top, size=NOTICE, align="centre", width=NOTICE_WIDE + 4)
+        return rect
 
     def write_export(self, title: str, suffix: str, content: str | Callable[[Path], object]) -> None:
         """Write a file among the player's exports, and say where. ``content``: text, or what writes the path."""

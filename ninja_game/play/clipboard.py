@@ -8,6 +8,7 @@ import pygame
 
 from ninja_game.editor.draft import Draft
 from ninja_game.errors import NinjaGameError, reason
+from ninja_game.formats.ascii.writer import headers_of
 from ninja_game.formats.links.making import level_link
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.play.app import App
@@ -48,5 +49,4 @@ def copy_link(app: App, make: Callable[[], str], *, title: str, notice: str = "L
 
 
 def copy_level_link(app: App, named: NamedLevel | Draft, title: str) -> None:
-    """Put the link of a level into the clipboard."""
-    copy_link(app, lambda: level_link(named.level, name=title, author=named.author, comment=named.comment), title=title)
+    copy_link(app, lambda: level_link(named.level, **headers_of(named) | {"name": title}), title=title)

@@ -27,7 +27,6 @@ class Wipe:
         self._before, self._left = surface.copy(), WIPE_MS
 
     def update(self, real_ms: int) -> None:
-        """Let ``real_ms`` pass."""
         self._left -= real_ms
         if self._left <= 0:
             self._before = None

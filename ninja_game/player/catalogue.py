@@ -8,20 +8,19 @@ from __future__ import annotations
 import os
 from collections import Counter
 from collections.abc import Iterator
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.files.reading import LeftOut, files_below, files_in
+from ninja_game.files.reading import LeftOut, files_below, files_in, stamp_of
 from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.formats.pack.files import PackFiles, certificate_name, is_pack
-from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
+from ninja_game.formats.pack.files import CERTIFICATES, PackFiles, certificate_name, is_pack
+from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.replay.episode import episode_key
@@ -58,13 +57,14 @@ class Entry:
     def place(self) -> str:
         """Its place as players count it; "" for a level in no episode."""
         episode, _, level = self.episode.partition("-")
-        return f"Episode {int(episode) + 1}, level {int(level) + 1}" if level else ""
+        return f"Episode {episode_code(int(episode))}, level {int(level) + 1}" if level else ""
 
     @property
     def mood(self) -> int:
-        """The column of its episode, and ten times its place in it; 0 for a level in none."""
+        """The column of its episode, and ten times its place in that column; 0 for a level in none."""
         episode, _, level = self.episode.partition("-")
-        return int(episode) // EPISODES_PER_COLUMN + 10 * int(level) if level else 0
+        column, place = divmod(int(episode) if level else 0, EPISODES_PER_COLUMN)
+        return column + 10 * (LEVELS_PER_EPISODE * place + int(level or 0))
 
     @property
     def title(self) -> str:
@@ -92,8 +92,8 @@ class Episode:
 
     @property
     def code(self) -> str:
-        """How players count it: from 1. Files, documents and boards count from 0, in two digits."""
-        return str(self.number + 1)
+        """How players count it."""
+        return episode_code(self.number)
 
     def title(self, level: int) -> str:
         """How a level of it is announced."""
@@ -132,6 +132,18 @@ class EpisodeSet(NamedTuple):
     def levels(self) -> list[Entry]:
         """Every level, those of the episodes first, in their order."""
         return [entry for number in sorted(self.episodes) for entry in self.episodes[number].levels] + [*self.singles]
+
+
+def episode_code(number: int) -> str:
+    """How players count an episode: its column and its place in it, from 1.
+
+    Files, documents and boards count from 0, in two digits.
+
+    >>> episode_code(0), episode_code(13)
+    ('1.1', '2.4')
+    """
+    column, place = divmod(number, EPISODES_PER_COLUMN)
+    return f"{column + 1}.{place + 1}"
 
 
 def author_name(author: str) -> str:
@@ -268,7 +280,7 @@ class Catalogue:
 
     def _pack_at(self, path: Path) -> Pack | None:
         """A pack, read again when its files have changed; None, and a problem, where it cannot be read."""
-        stamp = _stamp(path)
+        stamp = [(file, stamp_of(file)) for file in (path, *(path / name for name in files_in(path)))]
         if path not in self._packs or self._packs[path][0] != stamp:
             try:
                 self._packs[path] = stamp, Pack(path), ""
@@ -290,7 +302,7 @@ class Catalogue:
         """
         entries: list[Entry] = []
         if self.folder is not None:
-            packs = list(self._pack_paths())
+            packs = [*self._pack_paths(), self.folder / CERTIFICATES]
             for found in files_below(self.folder):
                 if isinstance(found, LeftOut):
                     self.problems.append(str(found))
@@ -300,11 +312,7 @@ class Catalogue:
 
     def _entries_of(self, file: Path) -> list[Entry]:
         """The levels of one file of the player's."""
-        try:
-            state = file.stat()
-        except OSError:
-            return []
-        stamp = state.st_mtime_ns, state.st_size
+        stamp = stamp_of(file)
         known = self._read.get(file)
         if known is None or known.stamp != stamp:
             known = self._read[file] = _read(file, stamp)
@@ -312,25 +320,15 @@ class Catalogue:
         return known.entries
 
 
-def _stamp(path: Path) -> list[tuple[str, int, int]]:
-    """What changes when a pack's files do."""
-    found = []
-    with suppress(OSError):
-        for file in [path, *(path / name for name in files_in(path))]:
-            about = file.stat()
-            found.append((file.name, about.st_mtime_ns, about.st_size))
-    return found
-
-
 class _ReadFile(NamedTuple):
     """What was found in a file, and when it had been changed last."""
 
-    stamp: tuple[int, int]
+    stamp: list[int]
     entries: list[Entry]
     problems: list[str]
 
 
-def _read(file: Path, stamp: tuple[int, int]) -> _ReadFile:
+def _read(file: Path, stamp: list[int]) -> _ReadFile:
     try:
         return _ReadFile(stamp, [Entry(level, "yours") for level in load_levels(file)], [])
     except NinjaGameError as error:

@@ -79,8 +79,8 @@ def next_par(pars: Pars, mark: Mark) -> str:
     """The medal after the one that a mark brings, its time, and by how much that was missed; "" after the best."""
     medal = pars.next_medal(mark.fastest)
     par = pars.par(medal) if medal else 0
-    faster = seconds_text(mark.fastest - par)
-    return f"{medal.capitalize()} medal: {seconds_text(par)} s, {faster} s faster" if medal else ""
+    missing = seconds_text(mark.fastest - par)
+    return f"{medal.capitalize()} medal: {seconds_text(par)} s, {missing} s to go" if medal else ""
 
 
 def reached(entry: Entry, mark: Mark | None) -> str:

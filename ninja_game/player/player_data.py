@@ -121,12 +121,10 @@ class PlayerData:
 
     @property
     def columns_complete(self) -> int:
-        """How many columns of episodes are complete."""
         return complete_columns(self.progress, self.catalogue.episodes.keys())
 
     @property
     def columns_present(self) -> int:
-        """How many columns have episodes."""
         return len({episode.column for episode in self.catalogue.episodes.values()})
 
     def change_settings(self, settings: Settings) -> str:

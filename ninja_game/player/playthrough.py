@@ -5,6 +5,7 @@ game.md §1.4, §2, §8.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -13,22 +14,21 @@ from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
-from ninja_game.errors import LevelError
+from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.reading import stamp_of
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.replay.episode import lifetimes
-from ninja_game.formats.replay.text import Replay
+from ninja_game.formats.replay.text import Replay, parse_replay, write_replay
 from ninja_game.formats.sayings import Saying, read_sayings
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry, Episode
-from ninja_game.player.going_on import keep_place, kept_place
 from ninja_game.player.marks import next_par
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import LOCKED, UNLOCKED, new_unlocks
 from ninja_game.player.saving import EPISODE_BEST, count_of, replay_of, save_best, told
-from ninja_game.player.store import Work
+from ninja_game.player.store import Store, Work
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.simulation import Body, Simulation
@@ -77,7 +77,6 @@ class LevelContext:
 
     @property
     def title(self) -> str:
-        """How the level is announced."""
         return self.entry.title
 
     @property
@@ -440,3 +439,24 @@ def left_half_way(data: PlayerData, asked: Episode | None = None) -> EpisodeRun 
     else:
         run.go_behind()
     return run if run.position or not data.progress_in(asked.pack).is_beaten(asked.number) else None
+
+
+_PLACE = "episode left half-way"
+
+
+def keep_place(store: Store, key: str, replays: Sequence[Replay] = ()) -> None:
+    """Note the episode with which play goes on, "" for none, and its runs. Raises sqlite3.Error."""
+    with store.change() as db:
+        value = json.dumps([key, *map(write_replay, replays)])
+        db.execute("REPLACE INTO fact (name, value) VALUES (?, ?)", (_PLACE, value))
+
+
+def kept_place(store: Store) -> tuple[str, list[Replay]]:
+    """The key of the episode that play goes on with, and its runs; ("", []) where there is none, or it is damaged."""
+    for (value,) in store.rows("SELECT value FROM fact WHERE name = ?", (_PLACE,), [str]):
+        try:
+            key, *texts = json.loads(value)
+            return str(key), [parse_replay(text) for text in texts]
+        except (NinjaGameError, ValueError, TypeError, AttributeError, RecursionError):
+            break
+    return "", []

@@ -143,7 +143,6 @@ def new_unlocks(store: Store, columns: int, present: int) -> list[str]:
 
 
 def is_place(place: Place, column: int) -> bool:
-    """Whether a place is one of a column's."""
     return place[0] // EPISODES_PER_COLUMN == column in range(COLUMNS) and place[1] in range(LEVELS_PER_EPISODE)
 
 

@@ -47,7 +47,6 @@ def told(data: PlayerData, work: Work) -> list[str]:
 
 
 def replay_of(data: PlayerData, entry: Entry, attempt: Attempt) -> Replay:
-    """An attempt as the player's replay."""
     return attempt.replay(entry.title, data.settings.name)
 
 

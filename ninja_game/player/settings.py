@@ -6,7 +6,7 @@ import re
 import sys
 from collections.abc import Callable, Iterator, Mapping, MutableMapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -42,67 +42,12 @@ GHOSTS = ("best", "next", "silver", "gold", "author")
 MOST_INPUTS = 16
 """Keys or buttons of one action at most."""
 
-_SITE = re.compile(r"https?://[!-~]+")
-_COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
-
 InputNames = Mapping[str, tuple[str, ...]]
 """Action to the names of its inputs (``ui/input/bindings.py``)."""
 
 
-@dataclass(frozen=True)
-class Settings:
-    """Every setting. ``keys`` and ``pad`` hold only the actions whose inputs are not the default ones.
-
-    What each means and may be: ``RULES``, and docs/settings.md.
-    """
-
-    palette: str = DEFAULT_PALETTE
-    ninja_colour: str = DEFAULT_COLOUR
-    fullscreen: bool = False
-    smooth: bool = True
-    reduced_motion: bool = False
-    reduced_gore: bool = False
-    shake: int = 50
-    particles: int = 100
-    show_ghost: bool = True
-    ghost: str = "best"
-    show_keys: bool = False
-    show_frame_time: bool = False
-    frame_limit: int = 0
-    window_width: int = 0
-    window_height: int = 0
-    volume: int = 70
-    effects_volume: int = 99
-    loop_volume: int = 99
-    music_volume: int = 45
-    music_in_practice: bool = True
-    text_scale: int = 0
-    level_width: int = 0
-    tabs_height: int = 0
-    play_speed: int = 100
-    practice: bool = False
-    level_texts: bool = True
-    game_speed: int = 100
-    invincible: bool = False
-    tap_to_run: bool = False
-    text_size: int = 100
-    sound_cues: bool = False
-    name: str = ""
-    site: str = ""
-    dead_zone: float = 0.35
-    keys: InputNames = field(default_factory=dict)
-    pad: InputNames = field(default_factory=dict)
-
-    def changed(self, **values: Any) -> Settings:
-        """These settings with some of them changed. Raises ValueError for a value that a setting cannot have."""
-        for name, value in values.items():
-            if not RULES[name].fits(value):
-                raise ValueError(f"{name} is {value!r}; expected {RULES[name].expected}")
-        return replace(self, **values)
-
-
 class Rule(NamedTuple):
-    """Where a setting stands in the file, and what it may be."""
+    """Where a setting stands in the file, what it may be, and what it means."""
 
     table: str
     fits: Callable[[Any], bool]
@@ -110,15 +55,25 @@ class Rule(NamedTuple):
     meaning: str
 
 
-def _flag(table: str, meaning: str) -> Rule:
-    return Rule(table, lambda value: isinstance(value, bool), "true or false", meaning)
+def _setting(default: Any, table: str, fits: Callable[[Any], bool], expected: str, meaning: str) -> Any:
+    """A field with its rule."""
+    return field(default=default, metadata={"rule": Rule(table, fits, expected, meaning)})
 
 
-def _whole(table: str, low: int, high: int, meaning: str) -> Rule:
+def _flag(default: bool, table: str, meaning: str) -> Any:
+    return _setting(default, table, lambda value: isinstance(value, bool), "true or false", meaning)
+
+
+def _whole(default: int, table: str, low: int, high: int, meaning: str) -> Any:
     def fits(value: Any) -> bool:
         return isinstance(value, int) and not isinstance(value, bool) and low <= value <= high
 
-    return Rule(table, fits, f"a whole number from {low} to {high}", meaning)
+    return _setting(default, table, fits, f"a whole number from {low} to {high}", meaning)
+
+
+def _text(default: str, table: str, pattern: str, expected: str, meaning: str) -> Any:
+    fits = re.compile(pattern).fullmatch
+    return _setting(default, table, lambda value: isinstance(value, str) and bool(fits(value)), expected, meaning)
 
 
 def _is_share(value: Any) -> bool:
@@ -127,19 +82,6 @@ def _is_share(value: Any) -> bool:
 
 def _is_name(value: Any) -> bool:
     return isinstance(value, str) and len(value) <= 40 and (not value or value.isprintable())
-
-
-def _is_word(value: Any) -> bool:
-    """A name in small letters; which palettes there are is known where they are drawn."""
-    return isinstance(value, str) and re.fullmatch(r"[a-z-]{1,24}", value) is not None
-
-
-def _is_site(value: Any) -> bool:
-    return isinstance(value, str) and len(value) <= 200 and (not value or _SITE.fullmatch(value) is not None)
-
-
-def _is_colour(value: Any) -> bool:
-    return isinstance(value, str) and (value == DEFAULT_COLOUR or _COLOUR.fullmatch(value) is not None)
 
 
 def _is_bindings(value: Any) -> bool:
@@ -152,64 +94,82 @@ def _is_bindings(value: Any) -> bool:
     )
 
 
-def _bindings(what: str, example: str) -> Rule:
+def _bindings(what: str, example: str) -> dict[str, Rule]:
     expected = f"lists of names of {what}, such as jump = {example}"
-    return Rule("", _is_bindings, expected, f"{what} of each action that has others than the default ones")
+    return {"rule": Rule("", _is_bindings, expected, f"{what} of each action that has others than the default ones")}
 
 
-RULES = {
-    "palette": Rule(
-        "look", _is_word, "the name of a palette, such as 'classic'", "colours; by-column: each column has its own"
-    ),
-    "ninja_colour": Rule(
-        "look", _is_colour, "'' or a colour such as '#186285'", "of the ninja; empty: as the palette has it"
-    ),
-    "fullscreen": _flag("look", "the whole screen instead of a window"),
-    "smooth": _flag("look", "positions between two ticks are drawn"),
-    "reduced_motion": _flag("look", "fewer particles, no shake, no wipes, no freeze; nothing plays behind the menus"),
-    "reduced_gore": _flag("look", "no blood"),
-    "shake": _whole("look", 0, 100, "of the picture at explosions, percent"),
-    "particles": _whole("look", 0, 100, "share of the particles that are shown, percent"),
-    "show_ghost": _flag("look", "a run to race against plays along"),
-    "ghost": Rule(
-        "look", GHOSTS.__contains__, "'best', 'next', 'silver', 'gold' or 'author'", "your best run, or a medal's pace"
-    ),
-    "show_keys": _flag("look", "the keys that are held, while one plays"),
-    "show_frame_time": _flag("look", "ms that a picture takes"),
-    "frame_limit": _whole("look", 0, 1000, "pictures a second; 0: as the display"),
-    "window_width": _whole("look", 0, 16384, "px; 0: as it fits the screen"),
-    "window_height": _whole("look", 0, 16384, "px; 0: as it fits the screen"),
-    "volume": _whole("sound", 0, 99, "of all that is heard"),
-    "effects_volume": _whole("sound", 0, 99, "of all but the music, a share of the volume"),
-    "loop_volume": _whole("sound", 0, 99, "of sounds that go on, a share of the effects"),
-    "music_volume": _whole("sound", 0, 99, "of the music, a share of the volume"),
-    "music_in_practice": _flag("sound", "music in practice mode too"),
-    "text_scale": _whole("tas", 0, 400, "size of the text in the TAS editor, percent; 0: as it suits the window"),
-    "level_width": _whole(
-        "tas", 0, 99, "of the level in the TAS editor, percent of the window; 0: as it suits the window"
-    ),
-    "tabs_height": _whole(
-        "tas", 0, 99, "of the tabs in the TAS editor, percent of the window; 0: as it suits the window"
-    ),
-    "play_speed": _whole("tas", 10, 800, "of playing in the TAS editor, percent"),
-    "practice": _flag("play", "practice mode: saving states, rewinding, slow motion; nothing counts"),
-    "level_texts": _flag("play", "levels that have not been passed say how they are meant"),
-    "game_speed": _whole("accessibility", 50, 100, "of play, percent; below 100 a run is assisted: no record"),
-    "invincible": _flag("accessibility", "nothing that is met kills; a run is assisted: no record"),
-    "tap_to_run": _flag("accessibility", "a press of a running key runs until the next one"),
-    "text_size": _whole("accessibility", 100, 150, "of all texts but those of the TAS editor, percent"),
-    "sound_cues": _flag("accessibility", "marks where a sound warns: rocket, laser, chase, turret"),
-    "name": Rule("play", _is_name, "at most 40 printable characters", "of the player, in replays"),
-    "site": Rule(
-        "play",
-        _is_site,
-        "'' or an address such as 'https://example.org/game/'",
+@dataclass(frozen=True)
+class Settings:
+    """Every setting. ``keys`` and ``pad`` hold only the actions whose inputs are not the default ones."""
+
+    # Which palettes there are is known where they are drawn.
+    palette: str = _text(
+        DEFAULT_PALETTE, "look", "[a-z-]{1,24}", "the name of a palette, such as 'classic'",
+        "colours; by-column: each column has its own",
+    )  # fmt: skip
+    ninja_colour: str = _text(
+        DEFAULT_COLOUR, "look", "|#[0-9a-fA-F]{6}", "'' or a colour such as '#186285'",
+        "of the ninja; empty: as the palette has it",
+    )  # fmt: skip
+    fullscreen: bool = _flag(False, "look", "the whole screen instead of a window")
+    smooth: bool = _flag(True, "look", "positions between two ticks are drawn")
+    reduced_motion: bool = _flag(
+        False, "look", "fewer particles, no shake, no wipes, no freeze; nothing plays behind the menus"
+    )
+    reduced_gore: bool = _flag(False, "look", "no blood")
+    shake: int = _whole(50, "look", 0, 100, "of the picture at explosions, percent")
+    particles: int = _whole(100, "look", 0, 100, "share of the particles that are shown, percent")
+    show_ghost: bool = _flag(True, "look", "a run to race against plays along")
+    ghost: str = _text(
+        "best", "look", "|".join(GHOSTS), "'best', 'next', 'silver', 'gold' or 'author'",
+        "your best run, or a medal's pace",
+    )  # fmt: skip
+    show_keys: bool = _flag(False, "look", "the keys that are held, while one plays")
+    show_frame_time: bool = _flag(False, "look", "ms that a picture takes")
+    frame_limit: int = _whole(0, "look", 0, 1000, "pictures a second; 0: as the display")
+    window_width: int = _whole(0, "look", 0, 16384, "px; 0: as it fits the screen")
+    window_height: int = _whole(0, "look", 0, 16384, "px; 0: as it fits the screen")
+    volume: int = _whole(70, "sound", 0, 99, "of all that is heard")
+    effects_volume: int = _whole(99, "sound", 0, 99, "of all but the music, a share of the volume")
+    loop_volume: int = _whole(99, "sound", 0, 99, "of sounds that go on, a share of the effects")
+    music_volume: int = _whole(45, "sound", 0, 99, "of the music, a share of the volume")
+    music_in_practice: bool = _flag(True, "sound", "music in practice mode too")
+    text_scale: int = _whole(0, "tas", 0, 400, "size of the text in the TAS editor, percent; 0: as it suits the window")
+    level_width: int = _whole(
+        0, "tas", 0, 99, "of the level in the TAS editor, percent of the window; 0: as it suits the window"
+    )
+    tabs_height: int = _whole(
+        0, "tas", 0, 99, "of the tabs in the TAS editor, percent of the window; 0: as it suits the window"
+    )
+    play_speed: int = _whole(100, "tas", 10, 800, "of playing in the TAS editor, percent")
+    practice: bool = _flag(False, "play", "practice mode: saving states, rewinding, slow motion; nothing counts")
+    level_texts: bool = _flag(True, "play", "levels that have not been passed say how they are meant")
+    game_speed: int = _whole(100, "accessibility", 50, 100, "of play, percent; below 100 a run is assisted: no record")
+    invincible: bool = _flag(False, "accessibility", "nothing that is met kills; a run is assisted: no record")
+    tap_to_run: bool = _flag(False, "accessibility", "a press of a running key runs until the next one")
+    text_size: int = _whole(100, "accessibility", 100, 150, "of all texts but those of the TAS editor, percent")
+    sound_cues: bool = _flag(False, "accessibility", "marks where a sound warns: rocket, laser, chase, turret")
+    name: str = _setting("", "play", _is_name, "at most 40 printable characters", "of the player, in replays")
+    site: str = _text(
+        "", "play", "|(?!.{201})https?://[!-~]+", "'' or an address such as 'https://example.org/game/'",
         "address of the page with the game to which links lead",
-    ),
-    "dead_zone": Rule("pad", _is_share, "a number from 0.05 to 0.95", "share of a stick's way that counts as rest"),
-    "keys": _bindings("keys", "['z', 'lshift']"),
-    "pad": _bindings("buttons", "['a']"),
-}
+    )  # fmt: skip
+    dead_zone: float = _setting(
+        0.35, "pad", _is_share, "a number from 0.05 to 0.95", "share of a stick's way that counts as rest"
+    )
+    keys: InputNames = field(default_factory=dict, metadata=_bindings("keys", "['z', 'lshift']"))
+    pad: InputNames = field(default_factory=dict, metadata=_bindings("buttons", "['a']"))
+
+    def changed(self, **values: Any) -> Settings:
+        """These settings with some of them changed. Raises ValueError for a value that a setting cannot have."""
+        for name, value in values.items():
+            if not RULES[name].fits(value):
+                raise ValueError(f"{name} is {value!r}; expected {RULES[name].expected}")
+        return replace(self, **values)
+
+
+RULES: dict[str, Rule] = {each.name: each.metadata["rule"] for each in fields(Settings)}
 """By setting. Bindings are tables of their own: ``[keys]`` and ``[pad-buttons]``."""
 
 
@@ -345,7 +305,6 @@ def _changed_text(path: Path, before: Settings, after: Settings) -> str:
 
 
 def _new_text(settings: Settings) -> str:
-    """A file with all settings."""
     import tomlkit
 
     document = tomlkit.document()

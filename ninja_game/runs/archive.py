@@ -227,7 +227,6 @@ class Totals:
     outcomes: Counter[str] = field(default_factory=Counter)
 
     def add(self, result: Result) -> None:
-        """Count a result."""
         if isinstance(result, Unreadable):
             self.unreadable += 1
             return

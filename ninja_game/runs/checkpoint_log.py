@@ -93,7 +93,6 @@ class CheckpointLog:
         return key in self._places
 
     def __getitem__(self, key: str) -> list[Result]:
-        """The results of a finished chunk."""
         end = self._file.tell()
         self._file.seek(self._places[key])
         found, results = _parse(self._file.readline())

@@ -64,7 +64,6 @@ class RunSplits:
 
     @property
     def ticks(self) -> int:
-        """Ticks run."""
         return len(self.positions)
 
     @cached_property
@@ -96,7 +95,8 @@ def run_splits(
     counts: dict[tuple[str, int | None], int] = {}
     for keys in recording.inputs[: affordable_ticks(recording.level, budget)]:
         run.step_keys(keys)
-        positions.append((run.ninja.x, run.ninja.y))
+        ninja = run.ninja
+        positions.append((ninja.x, ninja.y))
         for event in run.events:
             if event.name in events:
                 number = counts.get((event.name, event.object_id), 0)

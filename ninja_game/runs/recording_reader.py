@@ -84,7 +84,6 @@ def records_of(text: str, file: str = "") -> list[LevelRecord]:
 def recordings_of(
     records: Iterable[LevelRecord], file: str, level: Level | None = None
 ) -> Iterator[Recording | Unreadable]:
-    """The recording of each record."""
     for record in records:
         try:
             yield recording_of(record, file, _level(record.level) if record.level else level)
@@ -94,7 +93,6 @@ def recordings_of(
 
 @lru_cache(LEVELS_KEPT)
 def _level(text: str) -> Level:
-    """A level by its text."""
     return parse_level_string(text)
 
 

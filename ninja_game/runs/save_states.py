@@ -38,7 +38,6 @@ class SaveStates(Generic[State]):
         return self._ticks[self._at(tick)] != tick
 
     def keep(self, tick: int, state: State) -> None:
-        """Keep a state."""
         at = self._at(tick) + 1
         self._ticks.insert(at, tick)
         self._states.insert(at, state)

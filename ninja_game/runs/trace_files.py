@@ -178,10 +178,6 @@ def _read_arrays(archive: ZipFile, found: Mapping[str, ZipInfo], number: int) ->
     return FiledTrace(int(array("record", np.int64)), str(array("name")), run, str(array("file")), inputs)
 
 
-def _too_large(path: Path) -> FileError:
-    return FileError("the trace is too large", str(path), expected=f"at most {MOST_BYTES >> 20} MiB, unpacked")
-
-
 def is_trace(path: Path) -> bool:
     """Whether a file is a trace, by what it begins with. Raises FileError for what is not a regular file; OSError."""
     with open_regular(path) as file:
@@ -192,7 +188,8 @@ def read_traces(path: Path) -> Iterator[FiledTrace]:
     """The traces of a CSV or .npz file, by what the file begins with. Raises FormatError, FileError, OSError."""
     with open_regular(path) as file:
         if os.fstat(file.fileno()).st_size > MOST_BYTES:
-            raise _too_large(path)
+            expected = f"at most {MOST_BYTES >> 20} MiB, unpacked"
+            raise FileError("the trace is too large", str(path), expected=expected)
         zipped = file.read(len(ZIPPED)) == ZIPPED
         file.seek(0)
         if zipped:

@@ -20,7 +20,7 @@ from contextlib import contextmanager, suppress
 from functools import partial
 from itertools import islice
 from multiprocessing import get_context, parent_process
-from typing import Any, Protocol, TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.user_folder import how_to_install
@@ -51,54 +51,27 @@ class WorkerLostError(NinjaGameError):
     """A job was lost with its worker again and again."""
 
 
-class Workers(Protocol):
-    """Something that runs jobs.
-
-    ``lost``: what is raised when a worker died; ``tries``: a job that is lost so often is given up.
-    """
-
-    lost: tuple[type[BaseException], ...]
-    tries: int
-
-    @property
-    def count(self) -> int:
-        """Jobs that run at a time."""
-
-    def submit(self, function: Callable[[J], R], job: J) -> Any:
-        """A future of ``function(job)``."""
-
-    def renew(self) -> None:
-        """Replace workers that died."""
-
-    def close(self) -> None:
-        """Let the workers go when they have done their jobs; those that have not started are dropped."""
-
-    def kill(self) -> None:
-        """Let the workers go at once."""
-
-
 class Local:
-    """Threads or processes of this machine."""
+    """Threads or processes of this machine.
+
+    ``count``: jobs that run at a time; ``lost``: what is raised when a worker died; ``tries``: a job that is lost so
+    often is given up.
+    """
 
     lost: tuple[type[BaseException], ...] = (BrokenProcessPool, MemoryError)
     tries = TRIES
 
     def __init__(self, count: int, *, processes: bool = False) -> None:
-        self._count = count
+        self.count = count
         self._processes = processes
         self._executor = self._start()
 
     def _start(self) -> Executor:
         if not self._processes:
-            return ThreadPoolExecutor(self._count)
+            return ThreadPoolExecutor(self.count)
         # Not fork: a child that inherits the locks of our threads may wait for ever. Its locks start a process too.
         with _safe_path():
-            return ProcessPoolExecutor(self._count, get_context("spawn"), _begin_worker)
-
-    @property
-    def count(self) -> int:
-        """Jobs that run at a time."""
-        return self._count
+            return ProcessPoolExecutor(self.count, get_context("spawn"), _begin_worker)
 
     def submit(self, function: Callable[[J], R], job: J) -> Any:
         """A future of ``function(job)``. This starts processes."""
@@ -117,7 +90,6 @@ class Local:
         self._executor = self._start()
 
     def close(self) -> None:
-        """Let the workers go."""
         self._executor.shutdown(cancel_futures=True)
 
     def kill(self) -> None:
@@ -206,17 +178,18 @@ class Cluster:
         return max(1, sum(map(int, self._client.nthreads().values())))
 
     def submit(self, function: Callable[[J], R], job: J) -> Any:
-        """A future of ``function(job)``."""
         return self._client.submit(function, job, pure=False)
 
     def renew(self) -> None:
         """Nothing: the scheduler knows the workers that are left."""
 
     def close(self) -> None:
-        """Leave the cluster, which goes on."""
         self._client.close()
 
     kill = close
+
+
+Workers: TypeAlias = Local | Cluster
 
 
 @contextmanager

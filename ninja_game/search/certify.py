@@ -16,8 +16,10 @@ from ninja_game.files.reading import read_text
 from ninja_game.files.tree import Tree
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel
+from ninja_game.formats.pack.files import certificate_name
 from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
+from ninja_game.runs.packs import KINDS
 from ninja_game.search.certificate import UnverifiedRunError, named_run, verified_run
 from ninja_game.search.solve import Progress, Task, solve
 
@@ -150,6 +152,18 @@ def kept_run(level: NamedLevel, path: Path, task: Task) -> tuple[Replay, bool] |
         return verified_run(level.level, inputs, body=task.body, gold=task.gold), same
     except UnverifiedRunError:
         return None
+
+
+def keep_run(level: NamedLevel, run: Replay) -> None:
+    """Make a run of a level file the certificate beside it, for each goal that it serves better than the one there.
+
+    Raises NinjaGameError for a certificate that cannot be read; OSError.
+    """
+    for kind, gold in zip(KINDS, (0, level.level.gold), strict=True):
+        path = Path(level.file).parent / certificate_name(Path(level.file).name, kind)
+        kept, of_this_level = kept_run(level, path, Task(level.level, gold=gold)) or (None, False)
+        if run.gold >= gold and not (kept and of_this_level and kept.end_tick <= run.end_tick):
+            _write(level, path, run)
 
 
 def _write(level: NamedLevel, path: Path | None, run: Replay) -> None:

@@ -206,6 +206,7 @@ class Heuristics:
                 self._bar_one_way(x, y, float(record["face_x"]), float(record["face_y"]))
         self.exits = exits
         self.switches = (exits + doors)[:MAX_BITS]
+        self.switch_ids = [int(objects[switch.slot]["id"]) for switch in self.switches]
         self.slots = np.array([switch.slot for switch in self.switches], np.int64)
         self.enemies = np.flatnonzero(np.isin(objects["kind"], kinds.MOVING_ENEMIES))
         self.gold_slots = np.array([slot for slot, _, _ in gold], np.int64)

@@ -303,15 +303,12 @@ class LocalSearch:
 
     @property
     def ticks(self) -> int:
-        """Ticks of the best run."""
         return int(self.counters.best_ticks)
 
     @property
     def played(self) -> int:
-        """Ticks simulated so far."""
         return int(self.counters.played)
 
     @property
     def trials(self) -> int:
-        """Edited runs tried so far."""
         return int(self.counters.trials)

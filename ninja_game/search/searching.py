@@ -194,6 +194,15 @@ class Search:
         return index, b"".join(reversed(parts))
 
     @property
+    def untouched(self) -> list[int]:
+        """Ids of the exits, unless one was opened, and locked doors whose switch no search has touched so far."""
+        opened = int(np.bitwise_or.reduce(np.maximum(self.goal.masks, 0)))
+        switches = enumerate(zip(self.heuristics.switch_ids, self.heuristics.switches, strict=True))
+        closed = [(id_, switch) for bit, (id_, switch) in switches if not opened >> bit & 1 and not switch.trap]
+        shut = sum(not switch.door for _, switch in closed) == len(self.heuristics.exits)
+        return [id_ for id_, switch in closed if switch.door or shut]
+
+    @property
     def ticks(self) -> int:
         """Ticks simulated since ``begin``."""
         return int(self.counters.ticks)

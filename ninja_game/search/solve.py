@@ -160,8 +160,8 @@ class _Job:
         found = None
         while not found and not spend(0):
             found = route.step(spend)
-        if route.gold:
-            self.state.note_gold(route.most, [self.heuristics.gold_ids[piece] for piece in route.never_taken()])
+        never = [self.heuristics.gold_ids[piece] for piece in route.never_taken()] if route.gold else None
+        self.state.note_left(route.search.untouched, route.most, never)
         if found:
             self.state.submit(found)
 
@@ -198,6 +198,7 @@ class _Job:
             worlds = search.worlds
             if until_found and (self.state.runs or search.best()):
                 break
+        self.state.note_left(search.untouched)
         best = search.best()
         if not best:
             return None

@@ -7,14 +7,17 @@ ticks of a local search; a tick of a search counts more, for its save-states and
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from threading import Event, Lock
 
 from ninja_game.formats.replay.text import Replay
+from ninja_game.levels.findings import Finding, found
+from ninja_game.levels.warnings import object_name
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.nodes import Resolution
-from ninja_game.sim.level import Level
+from ninja_game.sim.kinds import EXIT
+from ninja_game.sim.level import Level, makes_object
 from ninja_game.simulation import Body
 
 CANDIDATES = 4
@@ -27,8 +30,8 @@ Report = Callable[["Progress"], None]
 class Progress:
     """Where a solver stands. ``best``: end tick of the best run, -1: none yet.
 
-    Where gold is wanted and as long as there is no run: ``gold``, the most pieces that were collected at once, and
-    ``untaken``, ids of those that never were.
+    As long as there is no run: ``untouched``, ids of exits and locked doors whose switch was never touched; where gold
+    is wanted ``gold``, the most pieces that were collected at once, and ``untaken``, ids of those that never were.
     """
 
     best: int = -1
@@ -38,6 +41,7 @@ class Progress:
     doing: str = ""
     gold: int = 0
     untaken: tuple[int, ...] | None = None
+    untouched: tuple[int, ...] | None = None
 
 
 @dataclass(frozen=True)
@@ -70,6 +74,26 @@ class Task:
         return self.work or self.seconds * WORK_PER_SECOND
 
 
+def obstacle(level: Level, gold: int, progress: Progress) -> Finding:
+    """What kept a search from a run to the exit with so much gold, and where that is."""
+    numbers = [number for number, record in enumerate(level.objects) if makes_object(record)]
+
+    def at(code: str, ids: Iterable[int]) -> Finding:
+        names = [object_name(level.objects[numbers[id_]], id_) for id_ in ids]
+        never = f"never {', '.join(names)}" if names else "each piece now and then"
+        finding = found(code, tuple(numbers[id_] for id_ in ids), most=progress.gold, never=never)
+        return finding if code == "gold-left" else finding._replace(names=", ".join(names))
+
+    if gold > progress.gold and progress.untaken is not None:
+        return at("gold-left", progress.untaken)
+    exits = [id_ for id_, number in enumerate(numbers) if level.objects[number].kind == EXIT]
+    return at("untouched-switch", progress.untouched) if progress.untouched else at("unreached-exit", exits)
+
+
+def _never(earlier: tuple[int, ...] | None, ids: list[int]) -> tuple[int, ...]:
+    return tuple(id_ for id_ in ids if earlier is None or id_ in earlier)
+
+
 @dataclass
 class SharedProgress:
     """What the jobs share: the best runs, the count of work, and the end."""
@@ -97,14 +121,15 @@ class SharedProgress:
             if inputs not in self.runs:
                 self.runs = sorted([*self.runs, inputs], key=lambda run: (len(run), run))[:CANDIDATES]
 
-    def note_gold(self, most: int, untaken: list[int]) -> None:
-        """Note how far a search for gold has come: pieces at once, and ids of those that it never collected."""
+    def note_left(self, untouched: list[int], most: int = 0, untaken: list[int] | None = None) -> None:
+        """Note what a search never came to: switches, gold; the most pieces at once."""
         with self.lock:
-            self.progress.gold = max(self.progress.gold, most)
-            earlier = self.progress.untaken
-            self.progress.untaken = tuple(id_ for id_ in untaken if earlier is None or id_ in earlier)
+            progress = self.progress
+            progress.gold = max(progress.gold, most)
+            progress.untouched = _never(progress.untouched, untouched)
+            progress.untaken = progress.untaken if untaken is None else _never(progress.untaken, untaken)
             if self.report:
-                self.report(replace(self.progress))
+                self.report(replace(progress))
 
     def count(self, ticks: int, worlds: int, doing: str) -> None:
         """Add to the progress and show it."""

@@ -38,7 +38,7 @@ class LayoutPreferences(NamedTuple):
 
 
 class TasLayout(NamedTuple):
-    """Logical px: areas of the parts. ``strip``: of the names of the tabs; ``notices``: a part of the foot."""
+    """Logical px: areas of the parts. ``strip``: of the names of the tabs."""
 
     size: Point
     head: Area
@@ -47,7 +47,6 @@ class TasLayout(NamedTuple):
     tabs: Area
     roll: Area
     foot: Area
-    notices: Area
 
 
 def tas_canvas(window: tuple[int, int], text_scale: int = 0) -> Canvas:
@@ -86,7 +85,6 @@ def tas_layout(size: Point, preferences: LayoutPreferences) -> TasLayout:
         tabs=(_EDGE, top + _BETWEEN, left, tabs),
         roll=(aside, _ABOVE, w - aside - _EDGE, h - _ABOVE - _BELOW),
         foot=(0, h - _FOOT, w, _FOOT),
-        notices=(236, h - _FOOT, w - 236, _FOOT),
     )
 
 

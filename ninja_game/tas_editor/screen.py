@@ -76,7 +76,7 @@ class TasScreen(WorkspaceScreen):
     def theme(self) -> Theme:
         """The TAS editor's own: a larger window has room for more, where other screens are larger."""
         if self.splitters.fit():
-            self.redraw, self.notice_area = True, self.splitters.layout.notices
+            self.redraw = True
         return self.editor.theme
 
     def commands(self) -> Commands:

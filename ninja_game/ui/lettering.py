@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from collections.abc import Sequence
 from functools import lru_cache
 from itertools import pairwise
 from math import ceil, cos, floor, radians, sin
@@ -155,6 +156,22 @@ def _arc(x: float, y: float, rx: float, ry: float, start: float, end: float) -> 
     return [(x + rx * cos(angle), y + ry * sin(angle)) for angle in angles]
 
 
+def _drawn_round_line(surface: pygame.Surface, colour: tuple[int, ...], points: Sequence[Point], radius: float) -> None:
+    """A line with round ends and bends, px."""
+    for point in points:
+        pygame.draw.circle(surface, colour, point, radius)
+    for a, b in pairwise(points):
+        dx, dy = b[0] - a[0], b[1] - a[1]
+        length = (dx * dx + dy * dy) ** 0.5 or 1.0
+        nx, ny = -dy / length * radius, dx / length * radius
+        corners = [(a[0] + nx, a[1] + ny), (b[0] + nx, b[1] + ny), (b[0] - nx, b[1] - ny), (a[0] - nx, a[1] - ny)]
+        pygame.draw.polygon(surface, colour, corners)
+
+
+_round_line = getattr(pygame.draw, "round_line", _drawn_round_line)
+"""The page has it as one shape: a text is made of some hundred."""
+
+
 class StrokeFont:
     """Letters of one size (px) and weight."""
 
@@ -166,12 +183,13 @@ class StrokeFont:
         self._pad = self._weight / 2 * self._unit + 1
         self._fallback = pygame.font.Font(None, max(6, round(size * 1.35)))
         self._picture = lru_cache(maxsize=None)(self._draw)
+        self.width = lru_cache(maxsize=_KEPT)(self._width)
 
     def _advance(self, letter: Glyph) -> float:
         """From one letter to the next, px."""
         return (letter.width + SPACING + self._weight) * self._unit
 
-    def width(self, text: str) -> int:
+    def _width(self, text: str) -> int:
         """Width of a text, px."""
         if not text:
             return 0
@@ -196,16 +214,7 @@ class StrokeFont:
             points = [(left + x * zoom, top + y * zoom) for x, y in line]
             # Small dots would be lost.
             radius = max(width * 0.66, 0.85 * _FINE) if len(points) == 1 else width / 2
-            for point in points:
-                pygame.draw.circle(fine, colour, point, radius)
-            for a, b in pairwise(points):
-                dx, dy = b[0] - a[0], b[1] - a[1]
-                length = (dx * dx + dy * dy) ** 0.5 or 1.0
-                nx, ny = -dy / length * radius, dx / length * radius
-                pygame.draw.polygon(
-                    fine, colour,
-                    [(a[0] + nx, a[1] + ny), (b[0] + nx, b[1] + ny), (b[0] - nx, b[1] - ny), (a[0] - nx, a[1] - ny)],
-                )  # fmt: skip
+            _round_line(fine, colour, points, radius)
         return pygame.transform.smoothscale(fine, size)
 
     def render(self, text: str, colour: Colour) -> pygame.Surface:

@@ -23,8 +23,11 @@ _COPIES, _FAINT = 6, (255, 255, 255, 60)
 _BAND, _HORIZON = 3, 140
 """The sky's colour changes in bands so high, down to the horizon, px of the sheet."""
 
-_KEPT = 4
-"""Grounds of so many sizes and moods stay in memory: one as large as a 4K screen takes 33 MB."""
+_KEPT, _SHEETS = 4, 24
+"""Grounds of so many sizes and moods stay in memory: one as large as a 4K screen takes 33 MB; and small sheets."""
+
+_LIFT = 40
+"""How much higher or lower the layers lie from one level to another, px of the sheet."""
 
 Numbers = Iterator[float]
 
@@ -43,18 +46,23 @@ def ground(size: tuple[int, int], palette: Palette) -> pygame.Surface:
     return pygame.transform.smoothscale(painted(palette), size)
 
 
-@lru_cache
+@lru_cache(maxsize=_SHEETS)
 def painted(palette: Palette) -> pygame.Surface:
-    """The ground on its small sheet; nobody may draw on it."""
+    """The ground on its small sheet: sky, sun or moon, layers; nobody may draw on it."""
     scenery = palette.scenery
     sky, horizon, far, near = (getattr(palette, role) for role in GROUND_ROLES)
     sheet = pygame.Surface((_WIDE, _HIGH))
-    for y in range(0, _HIGH, _BAND):
-        sheet.fill(mixed(sky, horizon, y / _HORIZON), (0, y, _WIDE, _BAND))
-    numbers = _numbers(scenery)
+    for band in range(0, _HIGH, _BAND):
+        sheet.fill(mixed(sky, horizon, band / _HORIZON), (0, band, _WIDE, _BAND))
+    numbers = _numbers(palette.name)
+    if scenery != "paper":
+        x, y, radius = _WIDE * next(numbers), _HIGH * (0.06 + 0.2 * next(numbers)), 14 + 20 * next(numbers)
+        for size, share in ((1.3, 0.3), (1.14, 0.5), (1.0, 0.8)):
+            pygame.draw.circle(sheet, mixed(sky, horizon, max(share, y / _HORIZON)), (x, y), size * radius)
+    lift = _LIFT * (next(numbers) - 0.5)
     for nearness, wide in _LAYERS:
         layer = pygame.Surface((_WIDE, _HIGH), pygame.SRCALPHA)
-        SCENERIES[scenery](layer, mixed(far, near, nearness), _HIGH * (0.3 + 0.5 * nearness), numbers)
+        SCENERIES[scenery](layer, mixed(far, near, nearness), _HIGH * (0.3 + 0.5 * nearness) + lift, numbers)
         haze = layer.copy()
         haze.fill(_FAINT, special_flags=pygame.BLEND_RGBA_MULT)
         for copy in range(_COPIES):
@@ -62,6 +70,64 @@ def painted(palette: Palette) -> pygame.Surface:
             sheet.blit(haze, (round(wide * cos(turn)), round(wide * sin(turn))))
         sheet.blit(layer, (0, 0))
     return sheet
+
+
+@lru_cache(maxsize=_SHEETS)
+def grain(palette: Palette) -> pygame.Surface:
+    """White where the rock of a palette that has a scenery is plain, the rest in its kind; nobody may draw on it."""
+    sheet = pygame.Surface((_WIDE, _HIGH), pygame.SRCALPHA)
+    GRAINS[palette.scenery](sheet, _numbers(f"rock of {palette.name}"))
+    # Made small and large again, it is soft.
+    return pygame.transform.smoothscale(pygame.transform.smoothscale(sheet, (_WIDE // 2, _HIGH // 2)), (_WIDE, _HIGH))
+
+
+def _white(numbers: Numbers) -> tuple[int, int, int, int]:
+    """Some white, premultiplied."""
+    return (round(255 * next(numbers)),) * 4
+
+
+def _strata(sheet: pygame.Surface, numbers: Numbers, slant: float = 0.1, wave: float = 7.0) -> None:
+    """Layers of earth, one on another."""
+    top, start = -160.0, 2 * pi * next(numbers)
+
+    def height(x: float) -> float:
+        return top + slant * x + wave * sin(start + top / 60 + x / 45)
+
+    while top < _HIGH:
+        _ridge(sheet, pygame.Color(_white(numbers)), height)
+        top += 9 + 26 * next(numbers)
+
+
+def _stones(sheet: pygame.Surface, numbers: Numbers) -> None:
+    """Round ones, large and small."""
+    for _ in range(260):
+        place = _WIDE * next(numbers), _HIGH * next(numbers)
+        pygame.draw.circle(sheet, _white(numbers), place, 7 + 20 * next(numbers) ** 2)
+
+
+def _bricks(sheet: pygame.Surface, numbers: Numbers) -> None:
+    """Rows of blocks."""
+    for y in range(0, _HIGH, 12):
+        x = -24.0 * next(numbers)
+        while x < _WIDE:
+            wide = 14 + 24 * next(numbers)
+            pygame.draw.rect(sheet, _white(numbers), (x + 1, y + 1, wide - 2, 10))
+            x += wide
+
+
+def _facets(sheet: pygame.Surface, numbers: Numbers) -> None:
+    """Broken faces that catch the light."""
+    for y in range(0, _HIGH, 30):
+        for x in range(0, _WIDE, 30):
+            a, b, c = ((x + 50 * next(numbers) - 10, y + 50 * next(numbers) - 10) for _ in range(3))
+            pygame.draw.polygon(sheet, _white(numbers), [a, b, c])
+
+
+GRAINS: dict[str, Callable[[pygame.Surface, Numbers], None]] = {
+    "hills": _strata, "clouds": _stones, "dunes": lambda sheet, numbers: _strata(sheet, numbers, 0.45, 3.0),
+    "towers": _bricks, "crystals": _facets, "paper": lambda *_: None,
+}  # fmt: skip
+"""How rock is marked, by the kind of a scenery: each leaves white what is plain."""
 
 
 def _numbers(name: str) -> Numbers:

@@ -336,7 +336,10 @@ MOODS = (MORNING, NOON, AFTERNOON, DUSK, NIGHT)
 GROUND_ROLES = "sky", "background", "far", "near"
 """From the upper edge of the sky to the lower one, then from the farthest layer to the nearest one."""
 
-TONE = (-18, -16, 9, 15, -16)
+TONES = 5
+"""So many a mood has; the levels of an episode go through them, each episode from another one on."""
+
+TONE = (-13, -16, 9, 15, -16)
 """By mood: degrees in YIQ by which rock and scenery turn from a level of an episode to the next one."""
 
 PALETTES: dict[str, Palette] = {palette.name: palette for palette in (CLASSIC, DARK, CONTRAST, SAFE, SAFE_DARK, *MOODS)}
@@ -347,20 +350,23 @@ def palette_named(name: str, mood: int = 0) -> Palette:
     return PALETTES.get(name) or _tone(mood % 10 % len(MOODS), mood // 10)
 
 
-@lru_cache
+@lru_cache(maxsize=512)
 def _tone(column: int, level: int) -> Palette:
-    """The mood of a column as it is in a level of an episode: other hues, as light."""
+    """The mood of a column as it is in its ``level``th level: other hues, as light; its name is the seed of shapes."""
     mood = MOODS[column]
     colours: dict[str, Any] = {}
     for role in (*GROUND_ROLES, "tile") if level else ():
         y, i, q = rgb_to_yiq(*(channel / 255 for channel in getattr(mood, role)[:3]))
-        turned = complex(i, q) * rect(1, radians(TONE[column] * level))
+        turned = complex(i, q) * rect(1, radians(TONE[column] * ((level + 2 * (level // TONES)) % TONES)))
         colours[role] = pygame.Color(*(round(255 * channel) for channel in yiq_to_rgb(y, turned.real, turned.imag)))
     return replace(mood, name=f"{mood.name} {level}", **colours) if level else mood
 
 
 NINJA_COLOURS = ("", "#d9127f", "#7d7700", "#1a6488", "#765484", "#6a2424", "#f7f7f7", "#c79400", "#787887", "#bfbfc6")
 """The ninja's colours: the palette's own, then one per completed column (game.md §8)."""
+
+RUN_COLOURS = tuple(map(pygame.Color, ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")))
+"""Of several runs in turn; people who see few colours can tell them apart."""
 
 
 def mixed(a: pygame.Color, b: pygame.Color, share: float) -> pygame.Color:

@@ -6,6 +6,7 @@ Positions and sizes are logical px of the 792 x 600 stage. A widget answers ``Tr
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from math import pi, sin
 from typing import Generic, TypeVar
 
 import pygame
@@ -284,6 +285,18 @@ def draw_medal(
     at = y - letter / 2
     ink = _INK if reached else palette.faint
     theme.text(surface, medal[0].upper(), x, at, size=letter, colour=ink, align="centre", bold=True, height=size)
+
+
+def draw_stamp(
+    surface: pygame.Surface, theme: Theme, medal: str, x: float, y: float, size: float, stamp: float, shine: float
+) -> None:
+    """A medal that is stamped, ``stamp`` 0…1 of the way: it comes too large, and light sweeps over it."""
+    if stamp > STAMP_SEEN:
+        draw_medal(surface, theme, medal, x, y, size * stamp * (1 + 0.6 * sin(pi * stamp)), shine=shine)
+
+
+STAMP_SEEN = 0.2
+"""How far a stamp has come when it is first seen."""
 
 
 def draw_all_gold(surface: pygame.Surface, theme: Theme, x: float, y: float, size: float = 11) -> None:

@@ -16,17 +16,18 @@ from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import CELEBRATING, DEAD
 from ninja_game.simulation import Simulation
 from ninja_game.ui.audio.player import AudioOutput
-from ninja_game.ui.canvas import Canvas, Point
+from ninja_game.ui.audio.table import warning_of
+from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas, Point
 from ninja_game.ui.theme import Palette, Theme, palette_named
 from ninja_game.view.effects.effects import Effects
 from ninja_game.view.effects.particles import Particles
 from ninja_game.view.ninja.ninja_animation import NinjaAnimation, draw_ghost, draw_ninja, draw_ragdoll
 from ninja_game.view.ninja.ragdoll import Ragdoll
-from ninja_game.view.sound_cues import draw_sound_cues
 from ninja_game.view.sprites.backdrop import Backdrop
-from ninja_game.view.sprites.drawing import DrawTarget, shared_book
+from ninja_game.view.sprites.drawing import DrawTarget, drawing, shared_book
 from ninja_game.view.sprites.moving_sprites import draw_moving, draw_pulses
 from ninja_game.view.sprites.object_animation import ObjectAnimation
+from ninja_game.view.sprites.sketch import Sketch
 
 if TYPE_CHECKING:
     from ninja_game.view.overlays import Overlays
@@ -37,6 +38,39 @@ SHAKE, SHAKE_KEPT, SHAKE_REACH = 9.0, 0.78, 200.0
 
 DANCE_TICKS, ENTER_TICKS, DOOR_STEP = 36, 10, 2.0
 """How long the ninja dances before its exit, and steps to it and through it; px that it stands below the middle."""
+
+CUE_ABOVE = 24.0
+"""How far over its source a mark stands, px."""
+_CUE_BORDER = 14.0
+
+_CUE_SHAPES: dict[str, list[Point]] = {
+    "rocket": [(0, -6), (5, 5), (0, 2), (-5, 5)],
+    "weapon": [(1, -6), (-5, 1), (-1, 1), (-1, 6), (5, -1), (1, -1)],
+    "chase": [(-1.6, -6), (1.6, -6), (0.8, 2), (-0.8, 2)],
+    "turret": [(0, -6), (6, 0), (0, 6), (-6, 0)],
+}
+
+
+@drawing(10)
+def cue(s: Sketch, p: Palette, warning: str) -> None:
+    """A disc with the shape of a warning."""
+    s.disc(p.outline, 0, 0, 9)
+    s.disc(p.bright, 0, 0, 7.8)
+    s.polygon(p.mine, _CUE_SHAPES[warning])
+    if warning == "chase":
+        s.disc(p.mine, 0, 4.6, 1.4)
+    elif warning == "turret":
+        s.disc(p.bright, 0, 0, 2.4)
+
+
+def draw_sound_cues(target: DrawTarget, world: World) -> None:
+    """The marks of a world, above their sources and never out of the stage."""
+    for o in world.objects[1 : world.id_count + 1]:
+        warning = warning_of(o)
+        if warning:
+            x = min(WIDTH - _CUE_BORDER, max(_CUE_BORDER, o.x))
+            y = min(HEIGHT - _CUE_BORDER, max(_CUE_BORDER, o.y - CUE_ABOVE))
+            target.sprite(cue(warning), x, y)
 
 
 class DrawnGhost(Protocol):

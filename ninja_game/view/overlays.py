@@ -1,9 +1,10 @@
-"""Overlays that show how the world works: hit boxes, grid, edge states, lines of sight, cells. They only read it."""
+"""Overlays that show how the world works: hit boxes, grid, edges, lines of sight, cells, thinkers. They only read."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 import pygame
 
@@ -19,10 +20,12 @@ from ninja_game.sim.states import AUTOMATIC, WEAPON_ZAP
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.theme import Palette
-from ninja_game.view.sprites.drawing import DrawTarget
+from ninja_game.view.sprites.drawing import DrawTarget, is_near
 
-OVERLAY_ACTIONS = ("overlay_hitboxes", "overlay_grid", "overlay_edges", "overlay_rays", "overlay_cells")
-HIT_BOXES, GRID, EDGES, RAYS, CELLS = OVERLAY_ACTIONS
+OVERLAY_ACTIONS = (
+    "overlay_hitboxes", "overlay_grid", "overlay_edges", "overlay_rays", "overlay_cells", "overlay_thinkers",
+)  # fmt: skip
+HIT_BOXES, GRID, EDGES, RAYS, CELLS, THINKERS = OVERLAY_ACTIONS
 
 
 class Overlays:
@@ -51,6 +54,8 @@ class Overlays:
             _draw_cells(target, world)
         if RAYS in self.on:
             _draw_rays(target, simulation)
+        if THINKERS in self.on:
+            _draw_thinkers(target, world)
         if HIT_BOXES in self.on:
             for shape in hit_shapes(world):
                 _draw_shape(target, shape)
@@ -153,6 +158,28 @@ def _draw_rays(target: DrawTarget, simulation: Simulation) -> None:
                 target.disc(target.palette.faint, end_x, end_y, 1.5)
 
 
+def _draw_thinkers(target: DrawTarget, world: World) -> None:
+    """A ring round each object that thinks, and a strong one with a dot for the next; a line leads to who follows."""
+    row = list(thinkers(world))
+    for number, o in enumerate(row):
+        if is_near(o.x, o.y):
+            ink, width = (target.palette.switch, 0.8) if number else (target.palette.accent, 2.0)
+            target.disc(ink, o.x, o.y, _THINKER, width)
+    for one, other in pairwise(row[:2]):
+        target.disc(target.palette.accent, one.x, one.y, 2.0)
+        target.line(target.palette.accent, one.x, one.y, other.x, other.y, 0.8)
+
+
+def thinkers(world: World) -> Iterator[Object]:
+    """The objects that think in turn, one every fourth tick; the next one first (objects.md §2.4)."""
+    slot = world.think_cursor
+    for _ in range(world.slots_used if slot else 0):
+        yield world.objects[slot]
+        slot = world.objects[slot].ring_next
+        if slot == world.think_cursor:
+            return
+
+
 def _looks(o: Object) -> bool:
     return o.kind in {TURRET, LAUNCHER} or (o.kind == DRONE and o.weapon != WEAPON_ZAP)
 
@@ -185,6 +212,9 @@ class HitShape:
     vx: float = 0.0
     vy: float = 0.0
 
+
+_THINKER = 9.0
+"""Radius of the ring round an object that thinks, px."""
 
 _SMALLEST = 1.0
 """Half size, px, at which a point is drawn: the tip of a rocket."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 from click.testing import CliRunner, Result
@@ -14,9 +15,11 @@ from ninja_game.cli.film import film as command
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.demo import write_demo
 from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.episode import write_episode
-from ninja_game.formats.replay.text import parse_replay
+from ninja_game.formats.replay.text import Replay, parse_replay
 from ninja_game.play.replay import film
+from ninja_game.play.replay.film import Film, section_of
 from ninja_game.play.replay.playback import Playback
 from ninja_game.runs.compare import run_splits
 from ninja_game.runs.run import record_replay
@@ -87,6 +90,28 @@ def test_film_never_replaces_its_replay_and_needs_a_known_form(replay: Path, tmp
     assert replay.read_text() == text
     assert ".gif" in str(film_of(replay, "-o", tmp_path / "film.avi").exception)
     assert not (tmp_path / "film.avi").exists()
+
+
+def test_each_ghost_has_a_colour_and_a_name(replay: Path, tmp_path: Path) -> None:
+    demo = write_demo(Demo(bytes(4) + bytes([2] * 9), 13.0))
+    folders = []
+    for number, authors in enumerate((("Ann",), ("Bea",), ("Ann", "Bea"))):
+        records = [f"$Late#{author}##{WALK}#{demo}#" for author in authors]
+        ghosts = tmp_path / f"{number}.txt"
+        ghosts.write_text("\n".join(records))
+        folders.append(tmp_path / str(number))
+        assert film_of(replay, "-o", folders[-1], "--to", 3, "--size", "792x600", "--ghost", ghosts).exit_code == 0
+    pictures = [(folder / "00003.png").read_bytes() for folder in folders]
+    assert len(set(pictures)) == 3, "two names, and two colours over each other"
+
+
+def test_a_section_of_an_episode_simulates_each_run_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    recording = Recording(parse_level_string(WALK), Replay.of_inputs(bytes([2] * 9), parse_level_string(WALK)))
+    looked = Mock(return_value=9)
+    monkeypatch.setattr(Playback, "find_end", looked)
+    parts = section_of([Film(recording), Film(recording)], 3, 60)
+    assert [each.moments for each in parts] == [range(3, 50), range(11)]
+    assert looked.call_count == 2
 
 
 def test_section_ghosts_and_keys(replay: Path, tmp_path: Path) -> None:

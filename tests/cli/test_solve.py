@@ -75,7 +75,7 @@ def test_solve_says_when_it_found_nothing(tmp_path: Path) -> None:
     out = tmp_path / "out.replay.txt"
     result = command("solve", level_file(tmp_path, CLOSED_IN), "--ticks", "300000", "--jobs", "1", "-o", out)
     assert result.exit_code == 1
-    assert "no run to the exit found" in result.stdout
+    assert "no run to the exit found: exit" in result.stdout
     assert not out.exists()
 
 
@@ -226,7 +226,9 @@ def test_missing_gold_is_told_and_does_not_fail_the_check(tmp_path: Path) -> Non
     assert result.exit_code == 0
     assert json.loads(result.stdout)["runs"]["gold"] is None
     result = command("check", level, "--gold", "both", "--ticks", "300000", "--jobs", "1")
-    assert "all gold no run found: 1 of 2 at most, never gold at 700,300px (object 3)" in result.stdout
+    assert (
+        "all gold no run found: 1 at most were collected at once, never gold at 700,300px (object 3)" in result.stdout
+    )
     assert command("check", level, "--gold", "all", "--ticks", "300000", "--jobs", "1").exit_code == 1
 
 

@@ -317,13 +317,25 @@ def test_slopes_set_themselves_on_steps_and_corners(tools: EditorTools) -> None:
     drag(tools, (372, 564), (756, 564))
     for left, row in ((16, 22), (18, 21), (19, 20), (20, 19), (20, 18), (21, 17)):
         drag(tools, (24 * left + 12, 24 * row + 12), (732, 24 * row + 12))
-    hill = ["......s####", ".....h#####", ".....H#####", "....s######", "...s#######", ".fF########", "s##########"]
+    hill = ["......fF###", ".....h#####", ".....H#####", "....s######", "...s#######", ".fF########", "s##########"]
     assert picture(tools, range(15, 26), range(17, 24)) == hill
     tools.tile = 0
     drag(tools, (588, 420), (660, 492))
     assert picture(tools, range(15, 26), range(17, 24))[:2] == ["......s#a..", ".....h###.."]
     tools.undo()
     assert picture(tools, range(15, 26), range(17, 24)) == hill
+
+
+def test_an_ellipse_has_gentle_and_steep_ends_where_its_steps_are_long(tools: EditorTools) -> None:
+    tools.slopes, tools.tool = True, "ellipse"
+    drag(tools, (60, 60), (516, 324))
+    assert picture(tools, range(2, 22), range(2, 8)) == [
+        "......fF####Dd......", "...fF##########Dd...", "..s##############a..", ".s################a.",
+        "h##################g", "H##################G",
+    ]  # fmt: skip
+    tools.undo()
+    drag(tools, (60, 60), (204, 204))
+    assert picture(tools, range(2, 9), range(2, 9))[0] == "..s#a..", "not where the two ends would meet"
 
 
 def test_the_preview_of_a_press_shows_the_slopes_too(tools: EditorTools) -> None:

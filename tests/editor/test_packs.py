@@ -108,10 +108,27 @@ def test_a_pack_is_made_ready_and_only_what_changed_is_done_again(pack: Path, tm
     assert certificate.exists()
     assert other.stat().st_mtime_ns == kept
     assert "Par times: 8 of 8 levels" in said
-    assert (ready.findings, ready.notes, ready.link[:6]) == ([], [], "#pack=")
+    # Whether all gold is found in a second depends on the machine.
+    notes = [note for note in ready.notes if "no run with all gold in 1 s" not in note]
+    assert (ready.findings, notes, ready.link[:6]) == ([], [], "#pack=")
     (tmp_path / "pack.zip").write_bytes(ready.zipped)
     assert PackFiles(tmp_path / "pack.zip").names == Pack(pack).files.names
     assert ready.zipped == Pack(pack).files.zipped()
+
+
+def test_what_keeps_a_level_from_a_certificate_is_a_problem_of_the_pack(pack: Path) -> None:
+    for file in pack.glob("0[01]-[0-9]-*.txt"):
+        if file.name != FIRST:
+            packs.place(pack, file.name, None)
+            file.unlink()
+    text = (pack / FIRST).read_text("utf-8")
+    (pack / FIRST).write_text(text.replace("ox...", "o....").replace("22 |##", "22 |x#"), "utf-8")
+    ready = make_ready(pack, seconds=1.0, jobs=1, say=str)
+    told = "no run to the exit found: exit at 30,18 (object 6): its switch was touched in no try of the solver"
+    assert [finding.hint for finding in ready.findings if finding.text == told] == [
+        "Make the way there easier, or give the solver more time."
+    ]
+    assert list(ready.obstacles) == [Pack(pack).levels[FIRST].level]
 
 
 def test_the_command_makes_a_pack_ready(pack: Path, tmp_path: Path) -> None:

@@ -8,8 +8,9 @@ import pytest
 from hypothesis import given, strategies as st
 
 from ninja_game.errors import DemoError
-from ninja_game.formats.n14.demo import parse_demo, parse_legacy_demo, write_legacy_demo
+from ninja_game.formats.n14.demo import parse_demo, parse_legacy_demo
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, Demo
+from tests.support.legacy_demos import write_legacy_demo
 
 
 def demo_of(keys: str) -> Demo:

@@ -9,8 +9,7 @@ import pytest
 
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.legend import SYMBOLS, TILE_CHARS
-from ninja_game.formats.ascii.object_forms import DOORS, FORMS, MOVEMENTS, SIDES
-from ninja_game.formats.ascii.object_lines import read_object_line
+from ninja_game.formats.ascii.object_lines import DOORS, FORMS, MOVEMENTS, SIDES, read_object_line
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.levels.warnings import level_warnings
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from ninja_game.formats.n14.demo import parse_demo, parse_legacy_demo, write_demo, write_legacy_demo
+from ninja_game.formats.n14.demo import parse_demo, parse_legacy_demo, write_demo
 from ninja_game.formats.n14.level_file import LevelRecord, read_level_file, write_level_file
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
 from ninja_game.formats.recording import demo_replay, parse_replays
@@ -14,6 +14,7 @@ from ninja_game.formats.replay.text import Replay, parse_replay, write_replay
 from ninja_game.sim.inputs import Demo
 from ninja_game.sim.kinds import NINJA, VALUE_COUNTS
 from tests.support import reference
+from tests.support.legacy_demos import write_legacy_demo
 
 Named = tuple[str, str, str]
 """Name, in-game string, demo."""

@@ -22,7 +22,7 @@ from ninja_game.sim.inputs import Input
 from ninja_game.sim.kinds import LAUNCH_PAD, MINE, ONE_WAY
 from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import TICKS_PER_SECOND
-from tools.measure.level_figures import figures
+from tools.measure.level_statistics import figures
 
 MARKS = {
     "objects": (50, 110), "gold": (26, 60), "enemies": (3, 11), "mines": (0, 36), "solid": (0.13, 0.64),

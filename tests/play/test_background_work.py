@@ -20,7 +20,7 @@ from ninja_game.runtime import NewestJob
 from ninja_game.search.formula import background
 from ninja_game.search.formula.background import SpanSearch
 from ninja_game.search.formula.task import SpanTask
-from ninja_game.search.task import Task
+from ninja_game.search.task import Progress, Task
 from ninja_game.sim.level import Level
 from ninja_game.tas_editor import opening
 from ninja_game.tas_editor.tabs import lead_tab
@@ -158,11 +158,15 @@ def test_a_run_whose_rules_cannot_be_loaded_says_why(
 def test_a_search_that_was_stopped_changes_nothing_and_nobody_waits_for_it(monkeypatch: pytest.MonkeyPatch) -> None:
     ready = Event()
     old, new = Level(), Level((1,) * len(Level().tiles))
+    times: list[float] = []
 
-    def solve(task: Task, *, report: object, on_better: Callable[[Replay], object]) -> None:
+    def solve(task: Task, *, report: Callable[[Progress], object], on_better: Callable[[Replay], object]) -> None:
         ready.wait(LONGEST)
+        times.append(task.seconds)
         if task.level is old:
             on_better(Replay.of_inputs(b"", old))
+        else:
+            report(Progress())
 
     monkeypatch.setattr("ninja_game.search.solve.solve", solve)
     monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
@@ -176,7 +180,11 @@ def test_a_search_that_was_stopped_changes_nothing_and_nobody_waits_for_it(monke
     ready.set()
     certifier._job.finish(LONGEST)
     assert (certifier.search.level is new, certifier.search.run) == (True, None)
-    assert certifier.text == "No run found in the time; that proves nothing"
+    assert certifier.text == "No run in 20 s: the first problem says why. F7 looks twice as long"
+    assert [finding.code for finding in certifier.search.obstacles] == ["unreached-exit"]
+    certifier.start(new)
+    certifier._job.finish(LONGEST)
+    assert times[-2:] == [20.0, 40.0]
 
 
 def test_the_tas_editor_is_left_without_waiting_for_a_comparison(

@@ -38,7 +38,7 @@ from tests.support.recorded import hold_against
 
 GOLDEN = Path(__file__).parent / "golden" / "drawings.txt"
 CLASSIC = PALETTES["classic"]
-SHAPES = ("polygon", "box", "framed_box", "disc", "ring", "stroke")
+SHAPES = ("polygon", "box", "framed_box", "disc", "ring", "stroke", "limb")
 VALUES: dict[str, tuple[Any, ...]] = {
     **dict.fromkeys(("active", "awake", "chasing", "flicker", "pressed", "seeker", "spin", "used"), (0, 1)),
     **dict.fromkeys(("mechanism", "mood", "variant"), (0, 1, 2)),
@@ -56,7 +56,8 @@ def shapes(paint: Callable[..., None], palette: Palette, *values: Any) -> list[s
     def word(value: Any) -> str:
         if isinstance(value, pygame.Color):
             return role_of(value, palette)
-        points = [value] if isinstance(value, tuple) else value if isinstance(value, list) else [(value,)]
+        given = value if isinstance(value, list | tuple) else [value]
+        points = given if given and isinstance(given[0], tuple) else [given]
         return " ".join(px(*point) for point in points)
 
     def noted(name: str) -> Callable[..., None]:

@@ -121,12 +121,14 @@ def test_texts_of_the_board_are_watched_over_the_menu(driver: MenuDriver) -> Non
 def test_link_from_the_editor_opens_in_it(
     driver: MenuDriver, clipboard: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    link = level_link(load_levels(bundled_levels()[0])[0].level, name="mine")
+    says, teaches = "at 3,4: Jump | switch: Out!", "jumps"
+    link = level_link(load_levels(bundled_levels()[0])[0].level, name="mine", says=says, teaches=teaches)
     source = open_source(Path(link))
     assert source.path is None
     screen = EditorScreen(driver.app, source)
     screen.session.copy_link()
-    assert load_levels(clipboard[0])[0].name == "mine"
+    copied = load_levels(clipboard[0])[0]
+    assert (copied.name, copied.says, copied.teaches) == ("mine", says, teaches)
     screen.session.begin(new_source())
     monkeypatch.setattr(pygame.scrap, "get_text", lambda: f" {clipboard[0]}\n")
     screen.session.paste_string()

@@ -23,7 +23,7 @@ from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import LevelRun
 from ninja_game.player.settings import BY_COLUMN
 from ninja_game.sim import kinds
-from ninja_game.ui.scenery import ground
+from ninja_game.ui.scenery import grain, ground, painted
 from ninja_game.ui.theme import MOODS, PALETTES, Palette, palette_named
 from ninja_game.view.sprites import moving_sprites as moving, static_sprites as static
 from ninja_game.view.sprites.drawing import SpriteBook, SpriteKey
@@ -197,6 +197,10 @@ def test_each_level_of_an_episode_has_its_tone_and_what_stands_on_it_looks_the_s
     tones = [palette_named(BY_COLUMN, 10 * level) for level in range(5)]
     assert len({tuple(tone.tile) for tone in tones}) == len({tuple(tone.background) for tone in tones}) == 5
     assert {tone.base for tone in tones} == {MOODS[0]}
+    following = palette_named(BY_COLUMN, 10 * 5)
+    assert {tuple(following.tile), tuple(tones[2].tile)} == {tuple(following.tile)}, "the next episode begins elsewhere"
+    assert len({pygame.image.tobytes(painted(tone), "RGB") for tone in (*tones, following)}) == 6
+    assert len({pygame.image.tobytes(grain(tone), "RGBA") for tone in (*tones, following)}) == 6
     named = app.player.catalogue.ours.levels[0].named
     app.push(LevelScreen(app, LevelRun(app.player, Entry(named, "game", "00-2"))))
     app.frame(0)

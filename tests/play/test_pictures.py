@@ -8,6 +8,7 @@ and look at them. A picture that differs is written beside the accepted one as
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pygame
@@ -17,12 +18,13 @@ from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.play.lab.screen import export_figure
 from ninja_game.player.settings import Settings
 from ninja_game.sim.death import kill
+from ninja_game.sim.kinds import DRONE, LAUNCHER, TURRET
 from ninja_game.sim.states import ELECTRIC, EXPLOSIVE
 from ninja_game.simulation import Simulation
 from ninja_game.ui.theme import PALETTES
 from ninja_game.view import level_view
 from ninja_game.view.level_view import LevelView, OffscreenContext
-from ninja_game.view.overlays import OVERLAY_ACTIONS, Overlays
+from ninja_game.view.overlays import OVERLAY_ACTIONS, Overlays, thinkers
 from ninja_game.view.sprites.thumbnail import thumbnail
 from tests.support.own_pack import PACK
 from tests.support.recorded import ACCEPT
@@ -64,6 +66,27 @@ def scene(
     surface = pygame.Surface(SIZE)
     view.draw(surface, 0.5, whole=True)
     return surface
+
+
+def test_who_thinks_next_is_the_first_of_those_that_think() -> None:
+    """One of them every fourth tick, in turn: the first one goes to the end of the row; the overlay shows it."""
+    level = load_replays(sorted(PACK.glob("certificates/*.replay.txt"))[6])[0].level
+    looking = [each for each in level.objects if each.kind in (TURRET, LAUNCHER, DRONE)]
+    run = Simulation(replace(level, objects=(*level.objects, *2 * looking)))
+    view = LevelView(OffscreenContext(SIZE, None), run, seed=7)
+    view.overlays = Overlays()
+    view.overlays.toggle("overlay_thinkers")
+    row, pictures = [o.slot for o in thinkers(run.world)], []
+    assert len(row) == len(set(row)) == sum(bool(o.thinking) for o in run.world.objects[1 : run.world.slots_used]) > 1
+    for place in range(8):
+        assert [o.slot for o in thinkers(run.world)] == (row if place < 4 else [*row[1:], row[0]])
+        run.step_keys(0)
+        surface = pygame.Surface(SIZE)
+        view.draw(surface, 1.0, whole=True)
+        pictures.append(pygame.image.tobytes(surface, "RGB"))
+    view.overlays.toggle("overlay_thinkers")
+    view.draw(surface, 1.0, whole=True)
+    assert pygame.image.tobytes(surface, "RGB") != pictures[-1]
 
 
 SCENES = {

@@ -10,7 +10,7 @@ import pytest
 
 from ninja_game.formats.load import load_levels
 from ninja_game.sim.level import Level
-from ninja_game.ui.theme import PALETTES
+from ninja_game.ui.theme import MOODS, PALETTES
 from ninja_game.view.sprites.thumbnail import thumbnail
 
 SHELF = "ninja-game level 1\nname: Shelf\n" + "\n".join(
@@ -56,7 +56,17 @@ def test_light_below_the_ground_fades_without_an_edge(tmp_path: Path, palette: s
     # The floor is at 384 px, the step's side at 384 px from the left.
     rows = [[picture.get_at((x, 400)) for x in range(300, 460)], [picture.get_at((336, y)) for y in range(392, 440)]]
     for row in rows:
-        assert max(abs(a[k] - b[k]) for a, b in pairwise(row) for k in range(3)) <= 5
+        assert max(abs(a[k] - b[k]) for a, b in pairwise(row) for k in range(3)) <= 6, "the rock's own marks included"
+
+
+@pytest.mark.parametrize("palette", [each.name for each in MOODS])
+def test_rock_of_a_mood_is_marked_and_never_much(tmp_path: Path, palette: str) -> None:
+    file = tmp_path / "step.txt"
+    file.write_text(STEP, "utf-8")
+    picture = thumbnail(load_levels(file)[0].level, PALETTES[palette], WIDTH)
+    rock = [picture.get_at((x, y)) for x in range(60, 740, 7) for y in range(450, 560, 7)]
+    spread = [max(colour[k] for colour in rock) - min(colour[k] for colour in rock) for k in range(3)]
+    assert 4 <= max(spread) <= 16
 
 
 def test_plain_palettes_are_flat(shelf: Level) -> None:

@@ -16,8 +16,7 @@ from ninja_game.sim import states
 from ninja_game.sim.events import DIED, EVENT_NAMES, LANDED
 from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER
 from ninja_game.simulation import Simulation
-from ninja_game.ui.audio.patterns import CHAIN_TICKS, STRIDE, Footsteps, GoldLadder, Variants
-from ninja_game.ui.audio.player import LOUDEST, AudioPlayer
+from ninja_game.ui.audio.player import CHAIN_TICKS, LOUDEST, STRIDE, AudioPlayer, Footsteps, GoldLadder, Variants
 from ninja_game.ui.audio.table import (
     BY_DEATH,
     BY_EVENT,

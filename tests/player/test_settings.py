@@ -12,7 +12,7 @@ from hypothesis import given, settings as hypothesis_settings, strategies as st
 
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.settings import GHOSTS, MOST_INPUTS, RULES, Settings, read_settings, write_changes
-from tools.draw import settings_page
+from tools.draw import how_it_works
 
 PRINTABLE = st.text(st.characters(exclude_categories=["Cs", "Cc", "Cf", "Zl", "Zp", "Zs", "Co", "Cn"]), max_size=30)
 BINDINGS = st.dictionaries(PRINTABLE, st.lists(PRINTABLE, max_size=3).map(tuple), max_size=4)
@@ -98,7 +98,7 @@ def test_a_wrong_binding_is_reported_and_another_setting_still_saved(tmp_path: P
 
 
 def test_page_of_the_settings_has_each_with_its_default() -> None:
-    assert settings_page.PAGE.read_text("utf-8") == settings_page.page()
+    assert how_it_works.SETTINGS.read_text("utf-8") == how_it_works.settings_page()
 
 
 def test_two_games_change_only_what_their_players_changed(tmp_path: Path) -> None:

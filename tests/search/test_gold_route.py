@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from ninja_game.backend.memories import compiled_available
+from ninja_game.formats.load import parse_level
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.text import Replay
 from ninja_game.sim.kinds import GOLD
@@ -26,6 +27,7 @@ from ninja_game.search.nodes import Resolution, open_start
 from ninja_game.search.route import Route
 from ninja_game.search.searching import Search
 from ninja_game.search.solve import Progress, Task, solve
+from ninja_game.search.task import obstacle
 
 COLUMN = 23
 FLOOR = 566
@@ -168,6 +170,38 @@ def test_gold_that_was_never_collected_is_told() -> None:
     progress: list[Progress] = []
     assert solve(Task(WALLED_IN, gold=-1, work=2_000_000), report=progress.append) is None
     assert (progress[-1].gold, progress[-1].untaken) == (1, (3,))
+    why = obstacle(WALLED_IN, WALLED_IN.gold, progress[-1])
+    assert why.sentence == "1 at most were collected at once, never gold at 700,300px (object 3)"
+    assert [WALLED_IN.objects[number].kind for number in why.records] == [GOLD]
+
+
+UNTOUCHED, UNREACHED = "its switch was touched in no try of the solver", "open, it was reached in no try of the solver"
+FAR_SWITCH = {3: "." * 27 + "x", 23: "..@............X"}
+FAR_EXIT = {3: "." * 27 + "X", 23: "..@........x"}
+WALLED = "." * 19 + "#"
+BEHIND_A_LOCK = {
+    **dict.fromkeys(range(1, 23), WALLED), 9: "........###........#", 10: "........#&#........#",
+    11: "........###........#", 23: "..@......................x.X",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "rows, lines, said",
+    [
+        (FAR_SWITCH, "", f"exit at 16,23 (object 1): {UNTOUCHED}"),
+        (FAR_EXIT, "", f"exit at 28,3 (object 1): {UNREACHED}"),
+        (
+            BEHIND_A_LOCK, "locked door 20,23 left switch 10,10",
+            f"exit at 28,23 (object 1), locked door at 20,23 (object 2): {UNTOUCHED}",
+        ),
+    ],
+)  # fmt: skip
+def test_what_keeps_a_run_from_the_exit_is_told(rows: dict[int, str], lines: str, said: str) -> None:
+    picture = [f"|{rows.get(row, ''):.<31}|" for row in range(1, 24)]
+    level = parse_level("\n".join(["ninja-game level 1", *picture, lines]))
+    progress: list[Progress] = []
+    assert solve(Task(level, work=2_000_000), report=progress.append) is None
+    assert obstacle(level, 0, progress[-1]).sentence == said
 
 
 def test_a_run_may_go_from_switch_to_switch_without_gold() -> None:

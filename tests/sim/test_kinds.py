@@ -15,7 +15,7 @@ import pytest
 from ninja_game.budget import OBJECT_COSTS
 from ninja_game.editor.brush import OBJECT_TYPES
 from ninja_game.formats.ascii.legend import SYMBOLS
-from ninja_game.formats.ascii.object_forms import FORMS
+from ninja_game.formats.ascii.object_lines import FORMS
 from ninja_game.learn.observations.pixels import SHADES
 from ninja_game.levels.picture import COLOURS
 from ninja_game.play.level.sayings import WHY

@@ -7,8 +7,7 @@ from itertools import combinations
 import pytest
 
 from ninja_game.backend.memories import compiled_available
-from ninja_game.backend.numba_import import import_numba
-from ninja_game.backend.numba_pipeline import make_pipeline
+from ninja_game.backend.numba_import import import_numba, make_pipeline
 from ninja_game.sim.events import emit
 from ninja_game.sim.memory.compiled import CompiledWorlds
 from ninja_game.sim.memory.compiler import Compiler

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 
 import pytest
 from hypothesis import given, settings, strategies as st
@@ -75,7 +76,7 @@ def test_the_state_digest_tells_all_else_that_moves(seed: int) -> None:
 
 
 @pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
-@settings(max_examples=60)
+@settings(max_examples=int(os.environ.get("EXAMPLES", "60")))
 @given(seed=seeds, body=bodies)
 def test_plain_and_compiled_worlds_are_equal_in_every_field_and_event(seed: int, body: Body) -> None:
     plain, compiled = (Simulation(crowded_level(seed), body=body, memory=memory) for memory in ("plain", "compiled"))

@@ -6,13 +6,14 @@ from dataclasses import replace
 from itertools import repeat
 
 from ninja_game import parse_level, record_replay, write_replay
-from ninja_game.formats.n14.demo import write_demo, write_legacy_demo
+from ninja_game.formats.n14.demo import write_demo
 from ninja_game.formats.replay.headers import Waypoint
 from ninja_game.formats.replay.made import Made
 from ninja_game.formats.replay.text import Replay
 from ninja_game.sim.inputs import Demo
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.simulation import Body
+from tests.support.legacy_demos import write_legacy_demo
 from tests.support.samples import SPIKED, WALK, WALK_END, replay_of_walk
 
 RIGHT, JUMP, TRIGGER = 2, 4, 8

@@ -225,7 +225,7 @@ def _levels(driver: MenuDriver) -> Iterator[str]:
     driver.frames(20)
     driver.press("f5")
     yield "practice"
-    for key in ("1", "2", "3", "4", "5"):
+    for key in "123456":
         driver.press(key)
     yield "practice-overlays"
     home(driver)
@@ -353,7 +353,7 @@ def _messages(driver: MenuDriver, screen: EditorScreen) -> Iterator[str]:
     tools.history.change(replace(tools.draft, says=said))
     driver.frames(2)
     yield "editor-messages-in-the-level"
-    driver.chord("m", pygame.KMOD_LSHIFT)
+    driver.chord("m", pygame.KMOD_SHIFT)
     driver.frames(2)
     yield "editor-messages"
     driver.press("escape")

@@ -35,7 +35,7 @@ class NoPage:
 
     def measure(self, text: str, size: int) -> int:
         """A width."""
-        return len(text) * size // 2
+        return len(text) * size // 3
 
 
 if __name__ == "__main__":

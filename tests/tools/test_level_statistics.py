@@ -10,7 +10,7 @@ from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from tests.support.reference import levels as reference_levels, recordings, require_reference
 from tools.measure import level_statistics
-from tools.measure.level_figures import (
+from tools.measure.level_statistics import (
     ALL_VARIANTS,
     KINDS_OF_REFERENCE,
     KNOWN,
@@ -18,12 +18,12 @@ from tools.measure.level_figures import (
     alike,
     common_motifs,
     figures,
+    missing,
     motifs,
     quartiles,
     shared_share,
     variants,
 )
-from tools.measure.level_statistics import missing
 
 OBJECTS = "5^100,566!11^160,564,130,564!0^300,100!0^300,124!12^60,60!6^60,84,5,1,0,2!9^60,60,1,0,2,2,1,0,0!2^60,60,0,-1"
 

@@ -17,7 +17,8 @@ from ninja_game.runs import archive
 from ninja_game.runs.archive import verify_all
 from ninja_game.runs.chunks import Chunk
 from ninja_game.runs.workers import WorkerLostError
-from ninja_game.web.board import runs as board_runs
+from ninja_game.web.board import collect, runs as board_runs
+from ninja_game.web.board.collect import RunFolder, SentFile
 from ninja_game.web.pages import memo
 from ninja_game.web.pages.memo import Memo
 from tests.support.forgeries import WALKING, replay
@@ -86,6 +87,36 @@ def test_only_what_is_new_is_simulated_and_written(
     simulated.clear()
     board(runs, levels / "00-0-level.txt", "--site", site, "--again")
     assert simulated == ["ann.txt", "bad.txt", "bea.txt"]
+
+
+def test_a_file_that_lies_there_as_before_is_not_read(
+    levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch  # noqa: F811
+) -> None:  # fmt: skip
+    """Its size and times tell; one that was written a moment ago is read again, since it may change unseen."""
+    read: list[str] = []
+    file = RunFolder.file
+
+    def noting(self: RunFolder, name: str) -> SentFile:
+        read.append(name)
+        return file(self, name)
+
+    monkeypatch.setattr(RunFolder, "file", noting)
+    path = put(runs, "ann.txt", replay(author="Ann"))
+    monkeypatch.setattr(collect, "SETTLED", 10**18)
+    board(runs, levels)
+    board(runs, levels)
+    assert read == ["ann.txt"] * 2
+    monkeypatch.setattr(collect, "SETTLED", 0)
+    board(runs, levels)
+    assert read == ["ann.txt"] * 3, "no stamp was noted yet"
+    board(runs, levels)
+    assert read == ["ann.txt"] * 3
+    times = path.stat()
+    path.write_text(replay(author="Bea"), "utf-8")
+    os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
+    assert times.st_size == path.stat().st_size
+    board(runs, levels)
+    assert read == ["ann.txt"] * 4
 
 
 def test_a_lost_worker_is_not_remembered(

@@ -34,12 +34,68 @@ def pace(rate, limit, seconds):
     boot.start(js.host)
     app, passed = boot.app(), []
     app.change_settings(frame_limit=limit)
-    app.frame = passed.append
+    app.advance, app.draw, boot.LONG = passed.append, int, 1e9
     start = boot._Game.last
     for number in range(1, round(rate * seconds) + 1):
         # Displays are not quite even.
         boot.turn(start + 1000 * number / rate + (0.4 if number % 2 else -0.4))
     return json.dumps(passed)
+"""
+
+
+LATE = """
+import json, os
+os.environ["NINJA_GAME_HOME"] = "/player-of-the-late"
+import boot, js
+boot.start(js.host)
+done = []
+boot.app().advance, boot.app().draw = lambda ms: done.append("time"), lambda: done.append("picture")
+for boot.LONG in (-1, -1, -1, 1e9):
+    boot.turn(boot._Game.last)
+json.dumps(done)
+"""
+
+HEAVY = """
+import pygame
+screen = pygame.display.set_mode()
+screen.fill("#000000")
+pygame.display.flip()
+layers = [pygame.Surface((50, 50)) for _ in range(5)]
+for layer in layers:
+    layer.fill("#ff0000")
+    screen.blit(layer, (0, 0))
+js.host.patience = -1
+pygame.display.flip()
+"""
+
+IN_TURNS = """
+(heavy) => {
+  const red = () => canvas.getContext("2d").getImageData(9, 9, 1, 1).data[0];
+  python.runPython(heavy);
+  const seen = [red()];
+  while (host.painter.goOn(-1)) seen.push(red());
+  host.patience = Infinity;
+  return seen;
+}
+"""
+
+DOT = """
+import os, tempfile
+from ninja_game.ui.lettering import StrokeFont
+import pygame
+screen = pygame.display.set_mode()
+screen.fill("#000000")
+screen.blit(StrokeFont(100, bold=False).render("i", "#ffffff"), (0, 0))
+pygame.display.flip()
+"""
+
+INK = """
+(dot) => {
+  python.runPython(dot);
+  const data = canvas.getContext("2d").getImageData(0, 0, 40, 110).data;
+  const row = (y) => data.slice(160 * y, 160 * (y + 1)).some((value, at) => at % 4 === 0 && value > 128);
+  return [...Array(110).keys()].map((y) => (row(y) ? "#" : " ")).join("").trim().split(/ +/).length;
+}
 """
 
 
@@ -195,3 +251,24 @@ assert CHANNEL.number == 2 and CHANNEL.get_busy() and LOOP.get_busy() and LOOP.g
     eventually(page, lambda: page.evaluate(busy) == [False, True], "the sound does not end, or the loop does")
     page.evaluate("() => { python.runPython('pygame.mixer.stop()'); }")
     assert page.evaluate(busy) == [False, False]
+
+
+@pytest.mark.slow
+def test_a_turn_that_takes_long_leaves_its_picture_to_the_next(page: Any) -> None:
+    """Two in a row never do."""
+    done = json.loads(page.evaluate("text => python.runPython(text)", LATE))
+    assert done == ["time", "picture", "time", "picture"]
+
+
+@pytest.mark.slow
+def test_what_is_not_seen_yet_is_painted_over_some_turns(page: Any) -> None:
+    """And what is seen at once, at the end."""
+    seen = page.evaluate(IN_TURNS, HEAVY)
+    assert len(seen) > 4
+    assert seen == [0] * (len(seen) - 1) + [255]
+
+
+@pytest.mark.slow
+def test_a_letter_has_its_dot(page: Any) -> None:
+    """As a line of no length it would not be painted."""
+    assert page.evaluate(INK, DOT) == 2

@@ -1,14 +1,11 @@
-"""All drawings and all screens on one picture: `python3 tools/dev.py tool draw.contact_sheet [--out FILE]`.
+"""All drawings and all screens on one picture: `python3 tools/dev.py tool draw.contact_sheet`.
 
 Look at it critically after a change of any drawing: would a player buy this?
 """
 
 from __future__ import annotations
 
-import argparse
-import sys
 import tempfile
-from collections.abc import Callable
 from pathlib import Path
 
 import pygame
@@ -34,6 +31,8 @@ from ninja_game.view.sprites.drawing import SpriteBook, SpriteKey
 from tests.support.game_screens import run_tour
 from tests.support.menu_driver import MenuDriver
 from tools import ROOT
+
+OUT = ROOT / "docs" / "contact-sheet.png"
 
 SCALE = 3.0
 CELL = 150, 138
@@ -108,25 +107,21 @@ POSES: list[tuple[str, Pose, float]] = [
 
 def paint_things(palette: Palette, shown: list[Shown]) -> pygame.Surface:
     """The table of things, and below it the ninja."""
-    cells = len(shown) + len(POSES)
-    rows = -(-len(shown) // COLUMNS) - (-len(POSES) // COLUMNS)
+    first = -(-len(shown) // COLUMNS) * COLUMNS
+    rows = -(-(first + len(POSES)) // COLUMNS)
     sheet = pygame.Surface((2 * MARGIN + COLUMNS * CELL[0], 2 * MARGIN + rows * CELL[1]))
     sheet.fill(palette.background)
     theme = Theme(palette, Canvas((1188, 900)))
     book = SpriteBook(SCALE, palette)
-    place = -1
-    for index in range(cells):
-        place += 1
-        if index == len(shown):
-            place = -(-place // COLUMNS) * COLUMNS
+    for place in [*range(len(shown)), *range(first, first + len(POSES))]:
         x = MARGIN + place % COLUMNS * CELL[0] + CELL[0] // 2
         y = MARGIN + place // COLUMNS * CELL[1] + CELL[1] // 2 - 12
-        if index < len(shown):
-            label, parts = shown[index]
+        if place < len(shown):
+            label, parts = shown[place]
             for key, dx, dy in parts:
                 book.sprite(key).blit(sheet, (round(x + dx * SCALE), round(y + dy * SCALE)))
         else:
-            label, pose, speed = POSES[index - len(shown)]
+            label, pose, speed = POSES[place - first]
             ninja_sprite(SCALE, palette, pose, 1, (speed, 0), colour=palette.ninja).blit(sheet, (x, y))
         text = theme.lettering.rendered(label, 9, palette.faint)
         sheet.blit(text, (x - text.get_width() // 2, y + CELL[1] // 2 - 8))
@@ -174,26 +169,15 @@ def grid(pictures: list[tuple[str, pygame.Surface]], width: int, palette: Palett
     return sheet
 
 
-def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--out", type=Path, default=ROOT / "docs" / "contact-sheet.png")
-    parser.add_argument("--part", choices=["things", "palettes", "screens", "all"], default="all")
-    arguments = parser.parse_args()
+def main() -> None:
     pygame.display.init()
     pygame.font.init()
     pygame.display.set_mode((64, 64))
     classic = PALETTES["classic"]
-    makers: dict[str, Callable[[], pygame.Surface]] = {
-        "things": lambda: paint_things(classic, THINGS),
-        "palettes": paint_palettes,
-        "screens": lambda: grid(screen_pictures(), 2 * MARGIN + COLUMNS * CELL[0], classic),
-    }
-    wanted = list(makers) if arguments.part == "all" else [arguments.part]
-    sheet = stacked([makers[name]() for name in wanted], classic.background)
-    arguments.out.parent.mkdir(parents=True, exist_ok=True)
-    pygame.image.save(sheet, str(arguments.out))
-    print(f"{arguments.out}: {sheet.get_width()} x {sheet.get_height()} px")
-    return 0
+    screens = grid(screen_pictures(), 2 * MARGIN + COLUMNS * CELL[0], classic)
+    sheet = stacked([paint_things(classic, THINGS), paint_palettes(), screens], classic.background)
+    pygame.image.save(sheet, str(OUT))
+    print(f"{OUT}: {sheet.get_width()} x {sheet.get_height()} px")
 
 
 def screen_pictures() -> list[tuple[str, pygame.Surface]]:
@@ -212,4 +196,4 @@ def screen_pictures() -> list[tuple[str, pygame.Surface]]:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

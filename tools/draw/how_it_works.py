@@ -1,34 +1,30 @@
-"""Draw the pictures of docs/ that explain, from the rules and the figures of the lab: `python3 tools/dev.py docs`."""
+"""Draw the pictures of docs/ that explain, from the rules and the figures of the lab, and write docs/settings.md."""
 
 from __future__ import annotations
 
 from pathlib import Path
 from xml.sax.saxutils import escape
 
+from ninja_game.cli import windows
 from ninja_game.formats.ascii.legend import TILE_FAMILIES, TILE_OF_CHAR
 from ninja_game.play.lab.screen import export_figure
+from ninja_game.player.settings import BINDING_TABLES, RULES, Settings, key_of
 from ninja_game.view.sprites.tile_sheet import outline
 from tools import ROOT
 
-PICTURES = ROOT / "docs" / "pictures"
+SETTINGS, PICTURES = ROOT / "docs" / "settings.md", ROOT / "docs" / "pictures"
+SETTINGS_HEAD = """# Settings
+
+`settings.toml` lies in the player's folder ([Player data](player-data.md)). The screens of the game change it; edit it
+by hand if you like: comments stay, and what is missing or wrong has its default. This page is written by
+`python3 tools/dev.py docs`.
+
+| table | key | meaning | values | default |
+|---|---|---|---|---|
+"""
 CLASSES = ("45°", "concave", "convex", "22° thin", "22° thick", "67° thin", "67° thick", "half")
 
-FIGURES = (
-    "grid.png",
-    "bodies.png",
-    "cells.png",
-    "edges.png",
-    "projection.png",
-    "doors.png",
-    "response.png",
-    "grids.png",
-    "nine-cells.png",
-    "bullets.png",
-    "rays.png",
-    "drones.png",
-    "pairs.gif",
-    "tick.gif",
-)
+FIGURES = [f"{name}.{'gif' if name in {'pairs', 'tick'} else 'png'}" for name in windows.FIGURES]
 """Figures of the lab, and films of them."""
 
 Point = tuple[float, float]
@@ -136,7 +132,23 @@ def draw_legend() -> Picture:
 
 VECTORS = {"shapes.svg": draw_shapes, "tick.svg": draw_tick, "tiles.svg": draw_legend}
 
+
+def settings_page() -> str:
+    """docs/settings.md, a row for each setting."""
+    rows = []
+    for name, rule in RULES.items():
+        key = "*action*" if name in BINDING_TABLES else f"`{key_of(name)}`"
+        table = BINDING_TABLES.get(name, rule.table)
+        default = getattr(Settings(), name)
+        shown = (
+            str(default).lower() if isinstance(default, bool) else repr(default) if default != {} else "see the game"
+        )
+        rows.append(f"| `[{table}]` | {key} | {rule.meaning} | {rule.expected} | {shown} |\n")
+    return SETTINGS_HEAD + "".join(rows)
+
+
 if __name__ == "__main__":
+    SETTINGS.write_text(settings_page(), "utf-8")
     PICTURES.mkdir(exist_ok=True)
     for name, draw in VECTORS.items():
         draw().save(PICTURES / name)

@@ -1,7 +1,7 @@
 """Levels with the routes of their certificates: `python3 tools/dev.py tool draw.level_sheet LEVEL… --out FILE`.
 
-Red: the run to the exit; yellow: the run with all gold. `--certificates FOLDER` says where they are (default: beside
-the levels). Look at the picture with the list of questions in levels/README.md.
+Red: the run to the exit; yellow: the run with all gold, where the certificates lie beside the levels. Look at the
+picture with the list of questions in levels/README.md.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ from ninja_game.ui.theme import PALETTES
 from ninja_game.view.sprites.thumbnail import thumbnail
 from tools.draw.contact_sheet import MARGIN, grid
 
+COLUMNS = 2
 ROUTES = {"exit": pygame.Color(220, 40, 40), "gold": pygame.Color(235, 180, 0)}
 
 
@@ -37,9 +38,9 @@ def route(named: NamedLevel, certificate: Path) -> NDArray[np.float64]:
         return np.zeros((0, 2))
 
 
-def draw_level(named: NamedLevel, width: int, certificates: Path | None) -> tuple[pygame.Surface, str]:
-    """A level with its routes, ``width`` px wide, and what they take as words."""
-    picture = thumbnail(named.level, PALETTES["classic"], width)
+def draw_level(named: NamedLevel, certificates: Path | None) -> tuple[pygame.Surface, str]:
+    """A level with its routes, and what they take as words."""
+    picture = thumbnail(named.level, PALETTES["classic"], WIDTH)
     canvas = Canvas(picture.get_size())
     words = []
     for name, colour in ROUTES.items():
@@ -56,21 +57,17 @@ def main(argv: list[str]) -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("levels", nargs="+", type=Path)
     parser.add_argument("--out", type=Path, required=True)
-    parser.add_argument("--columns", type=int, default=2)
-    parser.add_argument("--width", type=int, default=WIDTH, help="of one level, px")
-    parser.add_argument("--certificates", type=Path)
     parser.add_argument("--without-routes", action="store_true")
     parser.add_argument("--unnamed", action="store_true", help="numbers instead of names, for blind comparisons")
     args = parser.parse_args(argv)
-    folder = args.certificates or args.levels[0].parent / "certificates"
+    folder = None if args.without_routes else args.levels[0].parent / "certificates"
     pictures: list[tuple[str, pygame.Surface]] = []
     for level in (level for path in args.levels for level in load_levels(path)):
-        drawn, words = draw_level(level, args.width, None if args.without_routes else folder)
+        drawn, words = draw_level(level, folder)
         named = f"{Path(level.file).stem[:4]} {level.name}: {words}"
         pictures.append((str(len(pictures) + 1) if args.unnamed else named, drawn))
     pygame.font.init()
-    width = args.columns * (args.width + MARGIN) + MARGIN
-    pygame.image.save(grid(pictures, width, PALETTES["dark"], args.columns), args.out)
+    pygame.image.save(grid(pictures, COLUMNS * (WIDTH + MARGIN) + MARGIN, PALETTES["dark"], COLUMNS), args.out)
     return 0
 
 

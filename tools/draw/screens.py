@@ -1,7 +1,11 @@
-"""Draw the pictures of docs/ that show screens of the program: `python3 tools/dev.py docs`."""
+"""Draw the pictures of docs/ that show screens of the program: `python3 tools/dev.py docs`.
+
+Those of docs/good-levels.md too, and what is said about them there.
+"""
 
 from __future__ import annotations
 
+import re
 import tempfile
 from pathlib import Path
 from random import Random
@@ -12,6 +16,7 @@ import pygame
 
 from ninja_game.editor.files import open_source
 from ninja_game.formats.load import load_replays
+from ninja_game.play.menus.good_levels import PICTURE, GoodLevel, GoodLevelsScreen
 from ninja_game.play.replay.paths import paths_picture
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.runs.compare import run_splits
@@ -22,7 +27,8 @@ from tests.support.own_pack import PACK, instead_of_ours
 from tests.support.tas_driver import TasDriver
 from tools import ROOT
 
-PICTURES = ROOT / "docs" / "pictures"
+PAGE, PICTURES = ROOT / "docs" / "good-levels.md", ROOT / "docs" / "pictures"
+HEAD = "## Ten of ours, read closely\n"
 
 
 def editor_picture(folder: Path) -> pygame.Surface:
@@ -104,7 +110,45 @@ def draw(name: str) -> pygame.Surface:
         return SCREENS[name](Path(folder))
 
 
+def name_of(level: GoodLevel) -> str:
+    """The level's file without its ending, which is that of its picture too."""
+    return Path(level.entry.named.file).stem
+
+
+def chapter(levels: list[GoodLevel]) -> str:
+    """The chapter of the page."""
+    parts = [HEAD, "The editor has this chapter too (*File > Good levels*) and opens a copy of each.\n"]
+    for level in levels:
+        title = level.entry.named.name
+        notes = "\n".join(f"{number}. {text}" for number, (_, _, text) in enumerate(level.notes, 1))
+        picture = f"![{title} with the numbers of the notes](pictures/good-levels/{name_of(level)}.png)"
+        parts.append(f"### {title}\n\n{level.about}\n\n{picture}\n\n{notes}\n")
+    return "\n".join(parts)
+
+
+def written(page: str, levels: list[GoodLevel]) -> str:
+    """The page with the chapter as it is now, in its place."""
+    return re.sub(rf"{HEAD}.*?(?=^## |\Z)", lambda _: f"{chapter(levels)}\n", page, flags=re.DOTALL | re.MULTILINE)
+
+
+def good_levels(folder: Path) -> None:
+    """Draw the ten levels with the numbers of their notes, and write the chapter."""
+    driver = MenuDriver(folder, (792, 600))
+    screen = GoodLevelsScreen(driver.app, lambda _: None)
+    driver.app.push(screen)
+    for number, level in enumerate(screen.levels):
+        screen.list.index = number
+        screen.redraw = True
+        driver.frames(3)
+        picture = driver.app.surface.subsurface(driver.app.canvas.rect(*PICTURE))
+        pygame.image.save(picture, str(PICTURES / "good-levels" / f"{name_of(level)}.png"))
+    driver.close()
+    PAGE.write_text(written(PAGE.read_text("utf-8"), screen.levels), "utf-8")
+
+
 if __name__ == "__main__":
     for name in SCREENS:
         pygame.image.save(draw(name), str(PICTURES / name))
-    print(f"drew {len(SCREENS)} pictures into docs/pictures")
+    with tempfile.TemporaryDirectory() as temporary:
+        good_levels(Path(temporary))
+    print(f"drew {len(SCREENS)} pictures into docs/pictures, and those of docs/good-levels.md")

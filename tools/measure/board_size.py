@@ -26,10 +26,8 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.runs.conversion import replay_texts
-from ninja_game.runs.run import run_level
-from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
 from tests.support.reference import recordings, write_pack
-from tools.measure.near_copies import EDITS, LONGEST_BLOCK
+from tools.measure.near_copies import EDITS, surviving
 
 MOST_EDITS, EACH = 10, 20
 """Edits of a certificate; runs that a player has sent."""
@@ -37,18 +35,13 @@ MOST_EDITS, EACH = 10, 20
 
 def edited(recording: Recording, rng: random.Random) -> Iterator[Replay]:
     """Runs to the exit, each with one edit more than the one before, for ever."""
-    first = bytes(each & KEYS_DOWN for each in recording.inputs)
-    keys, done = bytearray(first), 0
     ways: set[str] = set()
     while True:
-        tried = keys.copy()
-        rng.choice(list(EDITS.values()))(tried, rng)
-        inputs = with_press_bits(bytes(tried) + bytes(LONGEST_BLOCK))
-        run = run_level(recording.level, inputs)
-        if run.outcome == "exit" and run.xy_sha256 not in ways:
-            ways.add(run.xy_sha256)
-            yield Replay(inputs[: run.ticks], run.end_tick, "exit", run.gold, level=recording.level)
-            keys, done = (tried, done + 1) if done < MOST_EDITS else (bytearray(first), 0)
+        runs = surviving(recording, lambda keys: rng.choice(list(EDITS.values()))(keys, rng))
+        for inputs, run in itertools.islice(runs, MOST_EDITS):
+            if run.xy_sha256 not in ways:
+                ways.add(run.xy_sha256)
+                yield Replay(inputs, run.end_tick, "exit", run.gold, level=recording.level)
 
 
 def texts() -> Iterator[str]:

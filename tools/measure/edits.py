@@ -153,7 +153,6 @@ def measure_tas(folder: Path, options: argparse.Namespace) -> bool:
 
 
 def main() -> int:
-    """Exit code 1 for more time than is allowed."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("where", choices=("editor", "tas"))
     parser.add_argument("--size", default="1584x1200", type=lambda text: tuple(map(int, text.split("x"))))

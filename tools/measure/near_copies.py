@@ -8,11 +8,10 @@ ours, in which changes are made at random places, one after the other, each kept
 
 from __future__ import annotations
 
-import argparse
 import random
 from collections import defaultdict
 from collections.abc import Callable, Iterator
-from itertools import combinations
+from itertools import combinations, islice
 
 import numpy as np
 
@@ -83,21 +82,26 @@ EDITS: dict[str, Callable[[bytearray, random.Random], None]] = {
 }
 
 
-def edited(recording: Recording, kind: str) -> Iterator[tuple[int, bytes, RunResult]]:
-    """A run after each of COUNTS changes, as far as it gets: how many, inputs, the result."""
-    rng = random.Random(f"{recording.name} {kind}")
-    keys, done = bytearray(each & KEYS_DOWN for each in recording.inputs), 0
+def surviving(recording: Recording, edit: Callable[[bytearray], None]) -> Iterator[tuple[bytes, RunResult]]:
+    """Inputs and result of a run after each edit that still passes, one after the other."""
+    keys = bytearray(each & KEYS_DOWN for each in recording.inputs)
     for _ in range(MOST_TRIES):
         tried = keys.copy()
-        EDITS[kind](tried, rng)
+        edit(tried)
         inputs = with_press_bits(bytes(tried) + bytes(LONGEST_BLOCK))
         run = run_level(recording.level, inputs)
         if run.outcome == "exit":
-            keys, done = tried, done + 1
-            if done in COUNTS:
-                yield done, inputs[: run.ticks], run
-        if done == COUNTS[-1]:
-            return
+            keys = tried
+            yield inputs[: run.ticks], run
+
+
+def edited(recording: Recording, kind: str) -> Iterator[tuple[int, bytes, RunResult]]:
+    """A run after each of COUNTS changes, as far as it gets: how many, inputs, the result."""
+    rng = random.Random(f"{recording.name} {kind}")
+    runs = surviving(recording, lambda keys: EDITS[kind](keys, rng))
+    for done, (inputs, run) in enumerate(islice(runs, COUNTS[-1]), 1):
+        if done in COUNTS:
+            yield done, inputs, run
 
 
 def noticed(recording: Recording, kind: str) -> Iterator[tuple[int, bool]]:
@@ -110,14 +114,11 @@ def noticed(recording: Recording, kind: str) -> Iterator[tuple[int, bool]]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--certificates", type=int, default=CERTIFICATES)
-    arguments = parser.parse_args()
     pairs, equal = honest_pairs()
     told = [found for one, other in pairs for found in near_ones(course_of_row(other), [course_of_row(one)])]
     print(f"honest pairs: {len(told)} of {len(pairs)} remarked; {equal} more pairs are equal in every position")
     print("| changes |", " | ".join(map(str, COUNTS)), "|")
-    chosen = every_nth([path for path in bundled_replays() if ".exit." in path.name], arguments.certificates)
+    chosen = every_nth([path for path in bundled_replays() if ".exit." in path.name], CERTIFICATES)
     for kind in EDITS:
         rows: dict[int, list[bool]] = {count: [] for count in COUNTS}
         for path in chosen:

@@ -4,9 +4,9 @@
     python3 tools/dev.py tool soak.doors --coverage --minutes 480 --findings found --corpus kept
     python3 tools/dev.py tool soak.doors --door "pack zip" --read found/pack-zip-1f2e3d4c
 
-The doors stand in `door_table.py`. With ``--coverage`` inputs that reach new code are kept and mutated further: by
-Atheris where it is installed (`pip install atheris`, Linux), else by a slower loop of our own. Exit code 0: nothing
-found; 1: something was; each finding is a file of ``--findings``, printed with its traceback and what repeats it.
+The doors stand in `door_table.py`. With ``--coverage`` inputs that reach new code are mutated further, and kept in the
+folder ``--corpus``. Exit code 0: nothing found; 1: something was; each finding is a file of ``--findings``, printed
+with its traceback and what repeats it.
 """
 
 from __future__ import annotations
@@ -24,25 +24,22 @@ import traceback
 import warnings
 from collections import Counter
 from collections.abc import Callable, Iterator
-from contextlib import nullcontext
 from functools import partial
 from hashlib import sha256
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from types import ModuleType
 from typing import Any, NoReturn
 
 from coverage import Coverage
 
 from tools import ROOT
+from tools.soak.door_table import DOORS, errors_of
 from tools.soak.mutators import mutated
 
 SLOW_S, HANGS_S = 2.0, 20.0
 """Processor time of an input that is a finding, and after which its reading is ended; a busy machine does not count."""
 WATCHED = 5
 """How much longer code takes that tells where it is."""
-GUIDED_MOST = 2**14
-"""Longest input with coverage, bytes: short ones reach the same code in less time."""
 
 MEMORY = 4 * 2**30
 """Of the whole process, address space."""
@@ -68,8 +65,7 @@ def _end_hang(*_: object) -> NoReturn:
 class Trial:
     """Tries inputs on doors. ``findings``: where what is wrong is kept; ``wrong``: how often each was seen."""
 
-    def __init__(self, table: ModuleType, place: Path, findings: Path, slow: float) -> None:
-        self.doors, self._errors_of = table.DOORS, table.errors_of
+    def __init__(self, place: Path, findings: Path, slow: float) -> None:
         self.outcomes: Counter[str] = Counter()
         self.wrong: Counter[str] = Counter()
         self.slowest = 0.0, ""
@@ -83,8 +79,8 @@ class Trial:
         began = time.process_time()
         signal.setitimer(signal.ITIMER_PROF, HANGS_S)
         try:
-            self.doors[name].read(data, self._place)
-        except self._errors_of(name) as error:
+            DOORS[name].read(data, self._place)
+        except errors_of(name) as error:
             outcome = "refused"
             str(error)
         except (Exception, HangError) as error:  # noqa: BLE001 - foreign errors are what is searched
@@ -155,9 +151,9 @@ def lines_of(read: Callable[[], None]) -> set[tuple[str, int]]:
 Pool = dict[str, list[bytes]]
 
 
-def loop(trial: Trial, pool: Pool, rng: random.Random, *, grow: bool) -> Iterator[None]:
-    """Read one odd input after another; where the pool grows, those that reach new lines join it."""
-    names = [name for name in pool for _ in range(trial.doors[name].share)]
+def loop(trial: Trial, pool: Pool, rng: random.Random, *, grow: bool, kept: Path | None) -> Iterator[None]:
+    """Read one odd input after another; where the pool grows, those that reach new lines join it, and are ``kept``."""
+    names = [name for name in pool for _ in range(DOORS[name].share)]
     known: dict[str, set[Any]] = {name: set() for name in pool}
     while True:
         name = rng.choice(names)
@@ -168,54 +164,13 @@ def loop(trial: Trial, pool: Pool, rng: random.Random, *, grow: bool) -> Iterato
         elif not (reached := lines_of(partial(trial.read, name, data))) <= known[name]:
             known[name] |= reached
             pool[name].append(data)
+            if kept:
+                (kept / sha256(name.encode() + data).hexdigest()).write_bytes(name.encode() + b"\n" + data)
         yield
 
 
-def guided(atheris: Any, trial: Trial, pool: Pool, seed: int, corpus: Path, over: Callable[[], bool]) -> NoReturn:
-    """The same by Atheris, whose corpus of new inputs lies in a folder: the name of a door, a line end, the input."""
-    for name, inputs in pool.items():
-        for data in inputs:
-            (corpus / sha256(name.encode() + data).hexdigest()).write_bytes(name.encode() + b"\n" + data)
-    names = list(pool)
-
-    def parts(data: bytes) -> tuple[str, bytes]:
-        name, _, inside = data.partition(b"\n")
-        return (
-            (name.decode("latin-1"), inside)
-            if name.decode("latin-1") in pool
-            else (names[len(data) % len(names)], data)
-        )
-
-    def read(data: bytes) -> None:
-        trial.read(*parts(data))
-        trial.tell_progress()
-        if over():
-            os._exit(trial.summary())
-
-    def mutator(data: bytes, most: int, seed: int) -> bytes:
-        rng = random.Random(seed)
-        name, inside = parts(data)
-        if rng.random() < 0.2:
-            inside = atheris.Mutate(inside, len(inside) + 64)
-        else:
-            inside = mutated(inside, rng.choice(pool[name if rng.random() < 0.8 else rng.choice(names)]), rng)
-        return (name.encode() + b"\n" + inside)[:most]
-
-    options = [
-        f"-seed={seed}",
-        f"-max_len={GUIDED_MOST}",
-        "-timeout=600",
-        "-rss_limit_mb=0",
-        "-len_control=0",
-        "-verbosity=0",
-    ]
-    atheris.Setup([sys.argv[0], str(corpus), *options], read, custom_mutator=mutator)
-    atheris.Fuzz()
-    raise AssertionError("Atheris has ended")
-
-
-def sound_inputs(names: list[str], kept: Path | None, *, reference: bool) -> Pool:
-    """What is mutated: tests/corpus, a folder for each door, our own levels and runs, and what Atheris has kept."""
+def sound_inputs(names: list[str], kept: Path | None) -> Pool:
+    """What is mutated: tests/corpus, a folder for each door, our own levels and runs, and what earlier nights kept."""
     found: Pool = {name: [] for name in names}
     for file in sorted((ROOT / "tests" / "corpus").glob("*/*")):
         found.get(file.parent.name.replace("-", " "), []).append(file.read_bytes())
@@ -226,32 +181,7 @@ def sound_inputs(names: list[str], kept: Path | None, *, reference: bool) -> Poo
         texts = [file.read_bytes() for file in sorted(ROOT.glob(place))[::9]]
         for name in found.keys() & doors:
             found[name] += texts
-    if reference:
-        from tests.support import reference as data
-
-        every = (data.levels(), data.scenes(), data.fuzz(), data.random_runs())
-        found.get("level string", []).extend({each.data.encode(): None for rows in every for each in rows})
     return found
-
-
-def write_smallest(trial: Trial, pool: Pool, folder: Path, longest: int) -> None:
-    """Write few short inputs that reach all the lines of a pool, and a sound one, one folder per door."""
-    for name, inputs in pool.items():
-        known: set[Any] = set()
-        sound = False
-        for data in sorted(set(inputs), key=len):
-            if sound and len(data) > longest:
-                break
-            before = trial.outcomes[f"{name}: read"], len(trial.wrong)
-            reached = lines_of(partial(trial.read, name, data))
-            was_read = trial.outcomes[f"{name}: read"] > before[0]
-            wanted = not reached <= known if len(data) <= longest else was_read
-            if (wanted or (was_read and not sound)) and len(trial.wrong) == before[1]:
-                known |= reached
-                sound = sound or was_read
-                file = folder / name.replace(" ", "-") / sha256(data).hexdigest()[:12]
-                file.parent.mkdir(parents=True, exist_ok=True)
-                file.write_bytes(data)
 
 
 def options_of(words: list[str] | None = None) -> argparse.Namespace:
@@ -262,14 +192,9 @@ def options_of(words: list[str] | None = None) -> argparse.Namespace:
     parser.add_argument("--seed", type=int, default=1, help="of chance (default 1)")
     parser.add_argument("--door", action="append", help="only this door; may be given again")
     parser.add_argument("--coverage", action="store_true", help="keep and mutate what reaches new code")
-    parser.add_argument("--corpus", type=Path, help="folder of inputs to begin with; Atheris keeps its own there too")
+    parser.add_argument("--corpus", type=Path, help="folder of inputs to begin with; --coverage keeps its own there")
     parser.add_argument("--findings", type=Path, default=Path("findings"), help="folder of what is wrong (./findings)")
     parser.add_argument("--read", type=Path, help="read this one file, through the --door")
-    parser.add_argument(
-        "--smallest", type=Path, help="write few short inputs of the corpus here that reach the same code"
-    )
-    parser.add_argument("--longest", type=int, default=900, help="bytes of those (default 900)")
-    parser.add_argument("--reference", action="store_true", help="begin with the texts of ../shared/n14 too")
     return parser.parse_args(words)
 
 
@@ -282,53 +207,30 @@ def main() -> int:
     signal.signal(signal.SIGPROF, _end_hang)
     faulthandler.register(signal.SIGPROF, chain=True)
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, resource.getrlimit(resource.RLIMIT_AS)[1]))
-    instrumented: Any = nullcontext()
-    atheris = _atheris() if options.coverage else None
-    if atheris:
-        # The rules have trials of their own (`soak.worlds`).
-        instrumented = atheris.instrument_imports(include=["ninja_game"], exclude=["ninja_game.sim"])
-    with instrumented:
-        from tools.soak import door_table
     ram = Path("/dev/shm")
     with TemporaryDirectory(dir=ram if ram.is_dir() else None) as place:
-        trial = Trial(door_table, Path(place), options.findings, SLOW_S * (WATCHED if options.coverage else 1))
+        trial = Trial(Path(place), options.findings, SLOW_S * (WATCHED if options.coverage else 1))
         if options.read:
             trial.read(options.door[0], options.read.read_bytes())
             return trial.summary()
-        wanted = [name for name in door_table.DOORS if name in (options.door or door_table.DOORS)]
-        pool = sound_inputs(wanted, options.corpus, reference=options.reference)
-        if options.smallest:
-            write_smallest(trial, pool, options.smallest, options.longest)
-            return trial.summary()
+        wanted = [name for name in DOORS if name in (options.door or DOORS)]
+        pool = sound_inputs(wanted, options.corpus)
         texts = options.texts or (10**12 if options.minutes else 100_000)
 
         def over() -> bool:
             late = options.minutes and time.monotonic() - trial.started > options.minutes * 60
             return bool(late) or trial.outcomes.total() >= texts
 
-        if atheris:
-            # Databases are SQLite's code more than ours, and slow.
-            pool = {name: inputs for name, inputs in pool.items() if options.door or trial.doors[name].share > 1}
-            corpus = options.corpus or Path(place) / "corpus"
-            corpus.mkdir(exist_ok=True)
-            guided(atheris, trial, pool, options.seed, corpus, over)
+        if options.coverage and options.corpus:
+            options.corpus.mkdir(exist_ok=True)
         for name, inputs in pool.items():
             for data in inputs:
                 trial.read(name, data)
-        for _ in loop(trial, pool, random.Random(options.seed), grow=options.coverage):
+        for _ in loop(trial, pool, random.Random(options.seed), grow=options.coverage, kept=options.corpus):
             trial.tell_progress()
             if over():
                 break
         return trial.summary()
-
-
-def _atheris() -> Any:
-    """The library Atheris; None where it is not installed."""
-    try:
-        import atheris  # type: ignore[import-not-found,import-untyped,unused-ignore]
-    except ImportError:
-        return None
-    return atheris
 
 
 if __name__ == "__main__":

@@ -6,9 +6,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ninja_game.errors import LevelError
-from ninja_game.formats.ascii.match import Placed, PlacedTile, merge_picture_and_list
 from ninja_game.formats.ascii.object_lines import OddTile, read_object_line, suggestion
-from ninja_game.formats.ascii.picture import ROW_END, ROW_START, read_picture
+from ninja_game.formats.ascii.picture import (
+    ROW_END,
+    ROW_START,
+    Placed,
+    PlacedTile,
+    merge_picture_and_list,
+    read_picture,
+)
 from ninja_game.formats.ascii.places import shown
 from ninja_game.formats.ascii.problems import Problems
 from ninja_game.formats.ascii.writer import HEADER_KEYS, MAGIC, VERSION, write_ascii_level

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.legend import (
@@ -17,10 +18,18 @@ from ninja_game.formats.ascii.legend import (
     legend_text,
     visible_parts,
 )
-from ninja_game.formats.ascii.match import point_of
-from ninja_game.formats.ascii.object_forms import DOORS, FORMS, MOVEMENTS, SIDES, WEAPONS, door_middle, natural_offset
-from ninja_game.formats.ascii.object_lines import Listed, read_object_line
-from ninja_game.formats.ascii.picture import FRAME, Cell
+from ninja_game.formats.ascii.object_lines import (
+    DOORS,
+    FORMS,
+    MOVEMENTS,
+    SIDES,
+    WEAPONS,
+    Listed,
+    door_middle,
+    natural_offset,
+    read_object_line,
+)
+from ninja_game.formats.ascii.picture import FRAME, Cell, point_of
 from ninja_game.formats.ascii.places import number_text, place_text, read_cell, same_bits
 from ninja_game.formats.lines import header_text
 from ninja_game.sim import kinds
@@ -66,6 +75,11 @@ def write_ascii_level(
     text += ["\n", *(f"{line}\n" for line in lines)] if lines else []
     text += ["\n", legend_text()] if legend else []
     return "".join(text)
+
+
+def headers_of(named: object) -> dict[str, Any]:
+    """All that a level's file says about it, by header: of a NamedLevel, a Draft."""
+    return {key: getattr(named, key) for key in HEADER_KEYS}
 
 
 def _tile_char(number: int) -> str:

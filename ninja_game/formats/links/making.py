@@ -6,6 +6,7 @@ import json
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from ninja_game.errors import FormatError, LinkError
 from ninja_game.files.beside import PLACE
@@ -22,9 +23,9 @@ _NAME_LIMIT = 100
 """Characters of the name of a file in a pack."""
 
 
-def level_link(level: Level, *, name: str = "", author: str = "", comment: str = "") -> str:
-    """The link of a level, from the # on. Raises LinkError."""
-    return write_link("level", [write_ascii_level(level, name=name, author=author, comment=comment)])
+def level_link(level: Level, **headers: Any) -> str:
+    """The link of a level, from the # on. ``headers``: as ``write_ascii_level`` has them. Raises LinkError."""
+    return write_link("level", [write_ascii_level(level, **headers)])
 
 
 def replay_text(replay: Replay, level: Level | None = None) -> str:

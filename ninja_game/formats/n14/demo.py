@@ -74,21 +74,16 @@ def write_demo(demo: Demo) -> str:
 MAX_DIGITS = 50_000
 """The game stops recording at 5000 words of ten ticks."""
 
-_RUN_DIGIT = "7"
-_SAME_DIGITS = re.compile(r"([0-7])\1{4,66}")
 _DIGIT_RUN = re.compile(r"7([0-7])([0-7]{2})|7.*", re.DOTALL)
 _RUN_OFFSET = 4
 
-_SAME_CHARS = re.compile(r"(.)\1{2,49}", re.DOTALL)
 _RUN_CODES = range(103, 151)
 _CODE_OFFSET = 100
 
 _PADDING = "3"
 _FIRST_PAIR, _LAST_PAIR, _BACKSLASH = 34, 98, 92
-_CHAR_OF_PAIR = {f"{value:02o}": chr(_FIRST_PAIR + value + (_FIRST_PAIR + value >= _BACKSLASH)) for value in range(64)}
 
 _KEYS_OF_DIGIT = bytes.maketrans(b"01234567", bytes(range(8)))
-_DIGIT_OF_KEYS = bytes.maketrans(bytes(range(16)), b"0120456401204564")
 
 
 def parse_legacy_demo(text: str, *, length: float | None = None) -> Demo:
@@ -149,19 +144,3 @@ def _check_length(digits: int) -> None:
     """Raise DemoError for more than the game records (one digit may be padding)."""
     if digits > MAX_DIGITS + 1:
         raise DemoError("a legacy demo that is too long", found=f"{digits} ticks", expected=f"at most {MAX_DIGITS}")
-
-
-def write_legacy_demo(demo: Demo) -> str:
-    """The legacy text of a demo's inputs, padded to whole words; triggers and length are lost.
-
-    Left and right together are written as neither. Raises DemoError for more ticks than the game records.
-    """
-    check_inputs(demo.inputs)
-    padded = len(demo.inputs) // 10 * 10 + 10
-    _check_length(padded - 1)
-    digits = demo.inputs.translate(_DIGIT_OF_KEYS).decode("ascii").ljust(padded, "0")
-    digits = _SAME_DIGITS.sub(lambda run: f"{_RUN_DIGIT}{run[1]}{len(run[0]) - _RUN_OFFSET:02o}", digits)
-    if len(digits) % 2:
-        digits += _PADDING
-    chars = "".join(_CHAR_OF_PAIR[digits[place : place + 2]] for place in range(0, len(digits), 2))
-    return "A" + _SAME_CHARS.sub(lambda run: chr(_CODE_OFFSET + len(run[0])) + run[1], chars)

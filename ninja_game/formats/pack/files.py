@@ -89,7 +89,6 @@ class PackFiles:
 
     @property
     def levels(self) -> list[str]:
-        """The names of the level files."""
         return [name for name in self.names if LEVEL_FILES.fullmatch(name)]
 
     @property

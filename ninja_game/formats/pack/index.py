@@ -156,7 +156,6 @@ class _Table:
             )
 
     def tables(self, key: str) -> list[_Table]:
-        """The tables [[key]]."""
         tables = self.table.get(key, [])
         if not isinstance(tables, list) or not all(isinstance(each, dict) for each in tables):
             raise PackError(

@@ -29,7 +29,6 @@ class Pack:
 
     @property
     def name(self) -> str:
-        """The pack's name."""
         return self.index.name
 
     @cached_property

@@ -4,15 +4,22 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from itertools import groupby, pairwise
+from itertools import groupby, pairwise, product
 from typing import NamedTuple
 
-from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, check_inputs, pressed
+from ninja_game.sim.inputs import ALL_KEYS, JUMP_PRESSED, KEYS_DOWN, check_inputs, with_press_bits
 
 _WIDTH = 100
 
 KEY_NAMES = (".", "L", "R", "LR", "J", "LJ", "RJ", "LRJ")
 """The word of each sum of keys that are down."""
+
+
+_WORDS = {
+    (keys, usual): KEY_NAMES[keys & KEYS_DOWN] + ("" if keys == usual else "!" if keys & JUMP_PRESSED else "-")
+    for keys, usual in product(range(ALL_KEYS + 1), repeat=2)
+}
+"""The word of a tick by its input, marked where that is not what its keys alone make, the second number."""
 
 
 class Marker(NamedTuple):
@@ -37,7 +44,7 @@ def write_inputs(inputs: bytes, markers: Sequence[Marker] = ()) -> list[str]:
     ['R*3', '#corner RJ*3 .']
     """
     check_inputs(inputs)
-    ticks = list(_ticks_as_text(inputs))
+    ticks = [_WORDS[pair] for pair in zip(inputs, with_press_bits(inputs), strict=True)]
     lines: list[str] = []
     parts = [Marker(0, ""), *sorted(markers), Marker(len(inputs), "")]
     for (start, name), (end, _) in pairwise(parts):
@@ -55,12 +62,3 @@ def _runs(ticks: Sequence[str]) -> Iterator[str]:
     for text, group in groupby(ticks):
         count = sum(1 for _ in group)
         yield f"{text}*{count}" if count > 1 else text
-
-
-def _ticks_as_text(inputs: bytes) -> Iterator[str]:
-    """Keys of every tick, marked where the trigger is not what the keys say."""
-    held_before = 0
-    for keys in inputs:
-        mark = "" if keys == pressed(keys, held_before) else "!" if keys & JUMP_PRESSED else "-"
-        yield KEY_NAMES[keys & KEYS_DOWN] + mark
-        held_before = keys & JUMP_HELD

@@ -107,7 +107,6 @@ class _Reader:
         return stack[0]
 
     def _word(self, text: str, stack: list[_Block], seen: set[str], place: tuple[str, int, int]) -> None:
-        """One word of a line."""
         if text.startswith(";"):
             return
         if text == "(":
@@ -133,7 +132,6 @@ class _Reader:
             stack[-1].add([(_KEY_BITS[match[1]], match[2], count)], count, place)
 
     def _file(self, name: str, files: list[str], place: tuple[str, int, int]) -> _Block:
-        """The block of another file."""
         self._included += 1
         if self._include is None:
             raise ReplayError("a text that is in no folder takes in no file", *place, repr(name[:40]))

@@ -27,8 +27,7 @@ from ninja_game.errors import ArgumentError
 from ninja_game.files.reading import read_bytes
 from ninja_game.files.user_folder import data_folder
 from ninja_game.generator.packed import FROZEN, MOST_BYTES, frozen_level
-from ninja_game.learn.draws import draws
-from ninja_game.learn.levels.source import LevelSource
+from ninja_game.learn.levels.source import LevelSource, draws
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, KEYS_DOWN, pressed
 from ninja_game.sim.kinds import EXIT, GOLD, KIND_OF, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec

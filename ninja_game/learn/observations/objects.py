@@ -253,7 +253,6 @@ def observe_planes(
     maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
     solid: Any, bounds: Any, slots: Any, planes: Any, highest: Any, closed: Any,
 ) -> None:  # fmt: skip
-    """Write the planes of some worlds."""
     for k in range(first, last):
         index = which[k]
         level = level_of[index]

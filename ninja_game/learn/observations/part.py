@@ -39,7 +39,6 @@ class Setting:
 
     @property
     def maps(self) -> Any:
-        """The levels as kernels take them."""
         return self.worlds.maps
 
     def kernel(self, entry: Kernel[R]) -> Kernel[R]:

@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 
 from ninja_game.editor.brush import SNAPS
-from ninja_game.editor.draft import Cell, Draft, cell_of
+from ninja_game.editor.draft import Cell, cell_of
 from ninja_game.editor.files import SUFFIX, Source, draft_of, new_source, open_source, recovered
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
 from ninja_game.editor.specs import points
@@ -17,7 +17,7 @@ from ninja_game.editor.tools import TOOLS
 from ninja_game.errors import LevelError, NinjaGameError, reason
 from ninja_game.files.shown_text import counted, file_stem
 from ninja_game.files.user_folder import LEVELS, free_path
-from ninja_game.formats.ascii.writer import HEADER_KEYS
+from ninja_game.formats.ascii.writer import headers_of
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
 from ninja_game.play.editor.controls import COMMANDS
@@ -30,7 +30,7 @@ from ninja_game.play.editor.view import EditorView
 from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.panels import Action, FormPanel, Menu, Row, nothing
+from ninja_game.play.menus.panels import CANCEL, Action, FormPanel, Menu, Row, nothing
 from ninja_game.play.workspace.document import DocumentCommands
 from ninja_game.player.catalogue import Entry
 from ninja_game.sim.level import COLUMNS, ROWS
@@ -184,10 +184,10 @@ class EditorCommands(DocumentCommands):
             ("Save", self.save, "Ctrl+S"), ("Save as...", self.save_as, "Ctrl+Shift+S"),
             ("Open...", self.open, "Ctrl+O"), ("New", self.new, "Ctrl+N"), ("About the level...", self.about, "F2"),
             ("Messages...", self.messages, "What the level says while it is played: Shift+M"),
-            ("Copy a link", session.copy_link, "Opens the level"), ("Copy as an N string", session.copy_string, ""),
-            ("Paste an N string", session.paste_string, "From the clipboard; any format of levels, or a link"),
+            ("Copy a link", session.copy_link, "Opens the level"), ("Copy as level text of N", session.copy_string, ""),
+            ("Paste a level", session.paste_string, "From the clipboard: text in any format, of N too, or a link"),
             ("Export a picture", session.export_picture, "A PNG file among your exports"),
-            ("Keep the solver's run", session.keep_certificate, "As a replay among yours"),
+            ("Keep the run that was found", session.keep_certificate, "As a replay among yours"),
             ("Good levels", self.good_levels, "Ten of the game's, and what makes each of them good"),
             ("Leave the editor", self.leave, ""),
         ]  # fmt: skip
@@ -250,15 +250,15 @@ class EditorCommands(DocumentCommands):
     def about(self) -> None:
         """Name, author, comment, what the level teaches."""
         prompts = {"teaches": "What it teaches"}
-        about = zip(HEADER_KEYS[:-1], self.session.draft.about, strict=False)
-        fields = [(prompts.get(key, key.capitalize()), text, 200) for key, text in about]
+        about = headers_of(self.session.draft)
+        fields = [(prompts.get(key, key.capitalize()), text, 200) for key, text in about.items() if key != "says"]
 
         def on_accept(texts: list[str]) -> None:
-            name, author, comment, teaches = texts
             tools = self.session.tools
             tools.finish()
-            self.app.know_author(tools.draft.author, author)
-            tools.history.change(Draft(tools.draft.level, name, author, comment, teaches, tools.draft.says))
+            self.app.know_author(tools.draft.author, texts[1])
+            # The last header, what it says, has a screen of its own.
+            tools.history.change(replace(tools.draft, **(about | dict(zip(about, texts, strict=False)))))
 
         self.app.push(FormPanel(self.app, "About the level", fields, "OK", on_accept))
 
@@ -313,4 +313,10 @@ class EditorCommands(DocumentCommands):
             self.ask_about_recovered(name, lambda: self.session.begin(found.source, found), found.forget, about=about)
 
     def new(self) -> None:
-        self.unless_unsaved(lambda: self.session.begin(new_source(self.app.settings.name)))
+        begin, author = self.session.begin, self.app.settings.name
+        rows: list[Row] = [
+            ("A room", lambda: begin(new_source(author, room=True)), "A floor, the ninja, the exit and its switch"),
+            ("Empty", lambda: begin(new_source(author)), "Nothing at all"),
+            CANCEL,
+        ]
+        self.unless_unsaved(lambda: self.app.push(Menu(self.app, "New level from", rows)))

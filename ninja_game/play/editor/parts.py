@@ -19,6 +19,7 @@ from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.view import LAYOUT, EditorView
 from ninja_game.play.workspace.part import Part
+from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme, wrapped
@@ -28,9 +29,15 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from ninja_game.levels.findings import Finding
-    from ninja_game.sim.level import ObjectSpec
 
 ROW = 23.0
+
+FIRST_STEPS = (
+    "First draw a floor; put the ninja",
+    "(9) on it, and the exit (]) with",
+    "its switch. F5 plays the level",
+)
+"""What the panel says of an empty level."""
 
 
 def panel_key(tools: EditorTools) -> tuple[object, ...]:
@@ -45,7 +52,8 @@ def panel_key(tools: EditorTools) -> tuple[object, ...]:
             kind,
             spec and tuple(points(spec).items()),
         )
-    return tools.objects, tools.spec.kind if tools.objects else tools.tile, tools.effective_tool in CURVES
+    empty = tools.draft.level == Level()
+    return empty, tools.objects, tools.spec.kind if tools.objects else tools.tile, tools.effective_tool in CURVES
 
 
 def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
@@ -73,6 +81,7 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
             rows.append(lambda area: _setting(area, tools, "spacing", words, "How far apart they lie along it"))
     else:
         title = f"Draw: {tile_name(tools.tile)}"
+        rows += [partial(Label, text=text, size=9.5) for text in FIRST_STEPS if tools.draft.level == Level()]
         texts = ("1 to 8: shape", "Q W A S: its solid corner", "E: full    D: empty", "H, J, U: mirror, flip, turn")
         rows += [partial(Label, text=text, size=9.5, faint=True) for text in texts]
         words = [("slopes: by hand", False), ("slopes: by themselves", True)]
@@ -319,7 +328,7 @@ class FilePart(EditorPart):
         if stale and not certifier.busy:
             text = f"{'Certified before' if run else 'Not certified since'} the last change: F7 again"
         elif run and not certifier.busy:
-            text += ". To keep it: File, Keep the solver's run"
+            text += ". To keep it: File, Keep the run that was found"
         for number, line in enumerate(wrapped(theme, text, w, 9)[:3]):
             colour = palette.good if run and not stale else palette.text
             theme.text(surface, line, x, y + 36 + 12 * number, size=9, colour=colour)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 from time import monotonic
+from typing import TYPE_CHECKING
 
 from ninja_game.editor.brush import object_of_type, placed
 from ninja_game.editor.certify import Certifier, Route, TestMap, Try, map_of, route_of
@@ -13,9 +14,12 @@ from ninja_game.editor.files import Autosave, RecoveredDraft, Source, draft_of_t
 from ninja_game.editor.reach import STARTS, Ask, Reach, find_reach
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.editor.tools import EditorTools
-from ninja_game.errors import NinjaGameError
-from ninja_game.files.reading import stamp_of
+from ninja_game.errors import NinjaGameError, reason
+from ninja_game.files.reading import NO_FILE, stamp_of
+from ninja_game.files.user_folder import LEVELS
+from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import write_level_string
+from ninja_game.formats.pack.files import is_pack
 from ninja_game.levels.findings import Finding
 from ninja_game.levels.warnings import level_findings
 from ninja_game.play.app import App
@@ -27,6 +31,9 @@ from ninja_game.sim.level import Level
 from ninja_game.ui.widgets import following
 from ninja_game.view.sprites.thumbnail import thumbnail
 
+if TYPE_CHECKING:
+    from ninja_game.formats.replay.text import Replay
+
 LOOK_SPACING = 0.5
 """Seconds from one look at the level's file to the next."""
 
@@ -35,11 +42,14 @@ CHECK_SPACING = 0.1
 
 PICTURE_WIDTH = 1584
 
+Question = tuple[Level, tuple[Finding, ...]]
+"""A level to examine, and what the solver has found of it."""
 Examined = tuple[Level, list[Finding]]
 
 
-def _examine(level: Level) -> Examined:
-    return level, level_findings(level)
+def _examine(question: Question) -> Examined:
+    level, found = question
+    return level, [*found, *level_findings(level)]
 
 
 class EditorSession:
@@ -53,7 +63,7 @@ class EditorSession:
         self.app = app
         self.certifier = Certifier()
         self.tools = EditorTools(new_source().draft)
-        self._checks: NewestJob[Level, Examined] = NewestJob(_examine)
+        self._checks: NewestJob[Question, Examined] = NewestJob(_examine)
         self._reaches: NewestJob[Ask, Reach] = NewestJob(find_reach)
         self._maps: NewestJob[tuple[Try, ...], TestMap] = NewestJob(map_of)
         self.start = "off"
@@ -66,8 +76,9 @@ class EditorSession:
         self.tools.load(found.draft if found else source.draft)
         self.tries: tuple[Try, ...] = ()
         self.last_try: Route = ()
-        self._file_stamp, self._looked_at = (0, 0), 0.0
-        self._asked: Level | None = None
+        self._file_stamp, self._looked_at = NO_FILE, 0.0
+        self._certified: tuple[Replay | None, Path | None] = None, None
+        self._asked: Question | None = None
         self._asked_at = 0.0
 
     def begin(self, source: Source, found: RecoveredDraft | None = None) -> None:
@@ -128,6 +139,7 @@ class EditorSession:
     def update(self) -> None:
         """Keep the level safe, examine it, look for what can be reached: all in the background."""
         self._follow_pointer()
+        self._certify_file()
         self.autosave.poll(self.draft, self.source)
         if self.autosave.problem:
             self.app.notify(self.autosave.problem)
@@ -135,10 +147,14 @@ class EditorSession:
         if self._checks.problem:
             self.app.notify(f"The level could not be examined: {self._checks.problem}")
             self._checks.problem = ""
-        due = self.draft.level is not self._asked and monotonic() - self._asked_at >= CHECK_SPACING
+        level = self.draft.level
+        found = () if self.certifier.is_stale(level) else self.certifier.search.obstacles
+        before = self._asked
+        news = before is None or level is not before[0] or found is not before[1]
+        due = news and monotonic() - self._asked_at >= CHECK_SPACING
         if due and not self.tools.dragging:
-            self._asked, self._asked_at = self.draft.level, monotonic()
-            self._checks.ask(self.draft.level)
+            self._asked, self._asked_at = (level, found), monotonic()
+            self._checks.ask(self._asked)
 
     @property
     def test_map(self) -> TestMap | None:
@@ -153,7 +169,7 @@ class EditorSession:
         self._looked_at = now
         stamp, before = stamp_of(path), self._file_stamp
         self._file_stamp = stamp
-        if stamp == before or not any(stamp):
+        if stamp in (before, NO_FILE):
             return None
         found = open_source(path)
         return found if found.digest != self.source.digest else None
@@ -164,8 +180,24 @@ class EditorSession:
         self.source = source
         self.tools.history.change(source.draft)
 
+    def _certify_file(self) -> None:
+        """Put the solver's run beside the level's file as soon as that holds its level: packs need no other then."""
+        run, path = self.certifier.search.run, self.source.path
+        done = self.certifier.busy or (run, path) == self._certified
+        if run is None or path is None or done or not self.is_saved or self.certifier.is_stale(self.draft.level):
+            return
+        self._certified = run, path
+        if path.parent == self.app.player.folder / LEVELS or is_pack(path.parent):
+            from ninja_game.search.certify import keep_run
+
+            try:
+                keep_run(load_levels(path)[0], run)
+            except (NinjaGameError, OSError) as error:
+                self.app.notify(f"No certificate: {reason(error)}")
+
     def close(self) -> None:
         self.certifier.close()
+        self._certify_file()
         self.autosave.close()
 
     # --- files ---
@@ -194,7 +226,7 @@ class EditorSession:
         try:
             text = write_level_string(self.draft.level, exact=True)
         except NinjaGameError as error:
-            self.app.notify(f"This level cannot be written as an N string: {error}")
+            self.app.notify(f"This level cannot be written as level text of N: {error}")
             return
         copy_text(self.app, text, title=self.name, suffix=".nlevel")
 

@@ -74,7 +74,6 @@ class LabScreen(MenuScreen):
             self.enter()
 
     def _choose(self, index: int) -> None:
-        """Go to the figure itself."""
         self.focus_on(next(widget for widget in self.widgets if isinstance(widget, FigureArea)))
 
     def demonstrate(self) -> None:
@@ -200,7 +199,6 @@ class FigurePicture:
         sheet.close()
 
     def drawn(self) -> pygame.Surface:
-        """The figure as it is now."""
         self.draw()
         return self.surface.subsurface(self.area)
 

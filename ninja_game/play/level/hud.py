@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from math import hypot, pi, sin
+from math import hypot
 
 import pygame
 
@@ -23,10 +23,10 @@ from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL, LIFETIME
-from ninja_game.ui.canvas import HEIGHT, WIDTH, Point
+from ninja_game.ui.canvas import WIDTH, Point
 from ninja_game.ui.input.bindings import MOVES
 from ninja_game.ui.theme import Palette, Theme, mixed, wrapped
-from ninja_game.ui.widgets import draw_medal
+from ninja_game.ui.widgets import draw_medal, draw_stamp
 
 _BAR_LEFT, _BAR_MIDDLE = 24.0, 12.0
 _BAR_LONGEST = 630.0
@@ -70,7 +70,8 @@ class HudView:
     """What is written over a level now.
 
     ``lifetime``: ticks, for the time bar; ``label``: a word in its place; ``pars``: medals, and with which lifetime
-    each is lost. ``foot``: texts at the left and the right of the border below. ``keys``: those of the present tick,
+    each is lost. ``foot``: texts at the left and the right of the border below, ``name``: what is at the
+    left where a text lies there. ``keys``: those of the present tick,
     ``frame_ms``: of the last picture; None: not shown.
     ``said``: a text of the level, its tiles and the things of which it covers as little as can be, the place near which
     it should be, and whether it may cover anything but rock: else it may lie in the border below. ``moves``: the keys
@@ -83,6 +84,7 @@ class HudView:
     lifetime: float
     label: str
     foot: tuple[str, str]
+    name: str = ""
     pars: Sequence[tuple[str, float]] = ()
     keys: int | None = None
     frame_ms: float | None = None
@@ -109,6 +111,12 @@ class Hud:
         said = self.box(*view.said, keys=KEYS_WIDE if view.moves else 0) if view.said else None
         in_border = said is not None and said[2] == IN_BORDER
         written = [top, self.foot(surface, "" if in_border else view.foot[0], view.foot[1])]
+        if said is not None and in_border:
+            # It lies beside the text at the right, and leaves the rest to the level's own name.
+            left = max(24.0, RIGHT - self.theme.width(view.foot[1], FOOT) - 14 - said[3])
+            said = said[0], left, *said[2:]
+            if left > NAME_FROM:
+                written.append(self.foot(surface, self.theme.fit(view.name, left - 36, FOOT), ""))
         if view.frame_ms is not None:
             written.append(self.frame_time(surface, view.frame_ms))
         if view.keys is not None:
@@ -194,11 +202,10 @@ class Hud:
             behind.blit(surface, (0, 0), place)
         rect = theme.panel(surface, x, y, w, h, 4)
         middle = x + w / 2
-        if medal and view.stamp > STAMP_SEEN:
+        if medal:
             # It grows a little too large, but never over the words beside it.
-            size = PRIZE * view.stamp * (1 + 0.6 * sin(pi * view.stamp))
             at = middle - (head + 14) / 2, y + 9 + PRIZE / 2
-            draw_medal(surface, theme, medal, *at, size, shine=view.shine)
+            draw_stamp(surface, theme, medal, *at, PRIZE, view.stamp, view.shine)
         across = middle + beside / 2
         theme.text(surface, title, across, y + 9, size=TITLE, align="centre", bold=True)
         accent = theme.palette.accent
@@ -226,19 +233,21 @@ class Hud:
     def box(
         self, text: str, tiles: tuple[int, ...], things: Things, eye: Point | None, covers: bool, *, keys: float = 0.0
     ) -> Box:
-        """Where a text of the level lies: along the lower or the upper border, over what is solid.
+        """Where a text of the level lies: along the upper border, else the lower one, over what is solid.
 
-        Where it would hide something there, one that may cover open space lies where there is most of it, another in
-        the border below, beside the gold.
+        Where it would hide something there, or open space that it may not cover, it lies where it hides least; over
+        nothing that it is to keep clear of, nor the ninja, or else in the border below, beside the gold.
         """
         theme = self.theme
-        for rows, width in ((2, 360), (2, 200), (0, 360)):
-            lines = text.split("\n") if keys else wrapped(theme, text, width, SAID)
+        high = SAID_LINE * theme.scales[0]
+        if eye:
+            things = (*things, (*eye, MUST))
+        for rows, width in ((1, 1), (2, 1), (2, 0.6), (0, 1), (0, 0.6)):
+            lines = text.split("\n") if keys else wrapped(theme, text, width * SAID_WIDE, SAID)
             w = max(theme.width(line, SAID) for line in lines) + 28 + keys
-            left, y, covered, hidden = solid_place(tiles, w, 20.0 * len(lines) + 19, things, eye, rows=rows)
-            must = MUST if keys else 1
-            if not (hidden >= must if covers and rows else covered if not covers else 0):
-                return lines, left, y, w, 20.0, 10.0, SAID
+            left, y, covered, hidden = solid_place(tiles, w, high * len(lines) + 19, things, eye, rows=rows)
+            if hidden < (MUST if keys else 1) and (covers or not rows or not covered):
+                return lines, left, y, w, high, 10.0, SAID
         text = text.replace("\n", "    ")
         size = min(SAID, SAID * BESIDE_GOLD / theme.width(text, SAID))
         w = theme.width(text, size) + 28
@@ -289,7 +298,7 @@ def solid_place(
 
     The third is how much it covers, the last how much of that are things, gold and the author's way. What is full is no
     way, open space far from all that is full hardly one. Of equal places it is the one nearest to ``eye``, or to the
-    middle of the lower border. ``rows``: at the left, in the middle and at the right of so many heights only, from the
+    middle of the upper border. ``rows``: at the left, in the middle and at the right of so many heights only, from the
     upper border to the lower one.
     """
     full = [SHAPE[tile] == FULL for tile in tiles]
@@ -305,12 +314,12 @@ def solid_place(
         covered = sum(ways[column * ROWS + row] for column in columns for row in heights if row < ROWS)
         hidden = sum(worth for a, b, worth in things if -NEAR < a - x < w + NEAR and -NEAR < b - y < h + NEAR)
         far = hypot(x + w / 2 - eye[0], y + h / 2 - eye[1]) if eye else 0.0
-        return covered + hidden, far or abs(x + w / 2 - WIDTH / 2) + HEIGHT - y, hidden
+        return covered + hidden, far or abs(x + w / 2 - WIDTH / 2) + y, hidden
 
     ways = [way(*divmod(place, ROWS)) for place in range(COLUMNS * ROWS)]
     edge = CELL + 4
     lefts = [edge + k * (WIDTH - 2 * edge - w) / 8 for k in range(0, 9, 4 if rows else 1)]
-    apart = (LOWEST - h - edge) / (rows - 1) if rows else 6
+    apart = (LOWEST - h - edge) / max(1, rows - 1) if rows else 6
     tops = [edge + k * apart for k in range(rows or int((LOWEST - h - edge) / 6))]
     x, y = min(((x, y) for x in lefts for y in tops), key=cost)
     covered, _, hidden = cost((x, y))
@@ -339,14 +348,19 @@ WIDE = WIDTH - 150.0
 MARK, RIGHT = 12.0, 768.0
 """Size of a medal on the time bar; right edge of what is written in the borders."""
 
-PRIZE, STAMP_SEEN = 54.0, 0.2
-"""Size of the medal of a pass; how far its stamp has come when it is first seen."""
+PRIZE = 54.0
+"""Size of the medal of a pass."""
 
 POINTER_UP, POINTER_REACH = 24.0, 50.0
 """px from a thing to the middle of its pointer, and to where it ends."""
 
-FOOT, SAID, IN_BORDER, BESIDE_GOLD, KEYS_WIDE = 11.0, 12.5, 576.0, 550.0, 70.0
-"""Sizes of the lines in the borders and of what a level says; where that is in a border; its width there; of keys."""
+FOOT, IN_BORDER, BESIDE_GOLD, KEYS_WIDE, NAME_FROM = 11.0, 576.0, 490.0, 70.0, 90.0
+"""Size of the lines in the borders; where what a level says is in a border; its width there; of keys; px from which on
+there is room for a name beside it."""
+
+SAID, SAID_LINE, SAID_WIDE = 15.0, 22.0, 440.0
+"""Size of what a level says, height of its lines, and how wide they are at most."""
+
 _TOOLS = {"quick_save": "save", "quick_load": "load", "rewind": "rewind", "slow": "slow", "step": "step"}
 _TOOLS_NAMED = 600
 """Ticks of a practice run in which the keys of its tools are named: where they work, and not for ever."""
@@ -385,6 +399,7 @@ def hud_view(play: LevelPlay) -> HudView:
         play.shown_lifetime,
         practice if context.practice_mode else "",
         (title, hint or f"gold {gold}"),
+        name=shown_text(context.entry.title),
         pars=_pars_ahead(play),
         keys=play.keys if settings.show_keys and not hint else None,
         frame_ms=app.frame_ms if settings.show_frame_time else None,
@@ -467,7 +482,7 @@ def _ready_hint(key: KeyName, *, practice_mode: bool, show_tutorial: bool) -> st
     if show_tutorial:
         return f"{key('left')} and {key('right')} to run    {key('jump')} to jump, hold it to go higher    {begin}"
     if practice_mode:
-        return f"{begin}    {key('overlay_hitboxes')} to {key('overlay_cells')}: look inside"
+        return f"{begin}    {key('overlay_hitboxes')} to {key('overlay_thinkers')}: look inside"
     return begin
 
 

@@ -26,7 +26,7 @@ STILL_TICKS, AWAY = 240, 2 * CELL
 
 CLIMB = (
     "Hold %s, and press {jump} each time you touch the wall\n"
-    "{jump} alone: you fly to the other side\n%s first: you just drop"
+    "{jump} alone: you fly to the other side\n%s before you jump: you let go of the wall and fall"
 )
 SLIPS, CLIMBED = 2, 4 * CELL
 """CLIMB is said after so many slips from a wall back to where the jump began, until the ninja is so many px higher."""
@@ -45,7 +45,10 @@ WHY = {
 }
 """What helps against each killer, said after its first kill."""
 
-FALL_HELP = "Slide down a wall to slow your fall, or land on a slope that goes down in your direction."
+FALL_HELP = (
+    "More than ten times your height, from the top of your jump, is too far. "
+    "Slide down a wall, or land on a slope that goes down your way."
+)
 
 
 class Sayings:

@@ -182,7 +182,7 @@ class LevelScreen(Screen):
         full = "Full speed", partial(self._play_at, 100), "Back to normal: records count again"
         watch_it = partial(self._watch, run), "See the author of the level do it"
         why = f"after {STUCK_AFTER} failed tries" if run else "no run recorded"
-        skip_it = self.go_on, "You can come back to it any time"
+        skip_it = self.go_on, "The next one opens. This one counts only once you pass it"
         rows: list[Row] = [
             ("Try again", self.retry, ""),
             ("Watch how", *watch_it) if run and seen else (f"Watch how ({why})", None, ""),

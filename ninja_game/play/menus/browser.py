@@ -158,10 +158,10 @@ class Browser(ThumbnailScreen):
             "difficulty": lambda e: (e.pars.difficulty if e.pars and e.pars.difficulty is not None else 1e9, e.title),
             "time": lambda e: mark.fastest if (mark := self.marks.get(e.digest)) else 1e9,
         }
-        # A name is found before a comment.
-        keys["listed"] = lambda e: not all(word in e.title.casefold() for word in words)
         if self.sort in keys:
             found.sort(key=keys[self.sort])  # type: ignore[arg-type]
+        # A name is found before a comment.
+        found.sort(key=lambda e: not all(word in e.title.casefold() for word in words))
         if found != self.shown:
             self.shown = found
             self.list.index = self.list.first = 0

@@ -11,7 +11,6 @@ from threading import Event
 import pygame
 
 from ninja_game.backend.memories import choose_memory
-from ninja_game.files.shown_text import counted
 from ninja_game.files.user_folder import LEVELS
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.generator import daily
@@ -84,7 +83,6 @@ class DailyScreen(ThumbnailScreen):
 
     @property
     def file(self) -> Path:
-        """Where the level is, or will be."""
         return daily.daily_file(self.player.folder / LEVELS, self.day)
 
     def enter(self) -> None:
@@ -122,7 +120,7 @@ class DailyScreen(ThumbnailScreen):
 
     @property
     def streak(self) -> int:
-        """How many days in a row were passed, up to today, or up to yesterday as long as today is not over."""
+        """How many days in a row have had their level passed, whenever that was, up to today, or yesterday."""
         count = int(self.is_passed(self.day))
         day = self.day - timedelta(1)
         while self.is_passed(day):
@@ -193,9 +191,9 @@ class DailyScreen(ThumbnailScreen):
         theme.text(surface, entry.title, SIDE, TOP + 24, size=17, bold=True, width=SIDE_WIDTH)
         mark = self.player.marks.of(entry.digest)
         played = self.player.statistics.played(entry.digest)
-        lines = [f"{counted(self.streak, 'day', 'days')} in a row", f"{entry.all_gold} gold"]
-        if entry.pars and entry.pars.grade:
-            lines.insert(1, entry.pars.grade)
+        lines = [f"{self.streak} daily levels in a row"] if self.streak > 1 else []
+        lines += [entry.pars.grade] if entry.pars and entry.pars.grade else []
+        lines.append(f"{entry.all_gold} gold")
         lines.append(self.player.reached(entry, mark))
         if entry.pars and mark:
             lines.append(next_par(entry.pars, mark))

@@ -88,6 +88,13 @@ class Cells(ListView):
         return index if index is not None and self.numbers[index] >= 0 else None
 
 
+def _how_far(passed: int, count: int) -> str:
+    """How much of an episode without a best has been passed; levels that were skipped are not."""
+    if passed == count:
+        return f"All {count} levels passed, but not yet in one go"
+    return f"{passed} of {count} levels passed. Skipped ones count once you pass them" if passed else f"{count} levels"
+
+
 def draw_look(surface: pygame.Surface, theme: Theme, look: str, area: Area) -> None:
     """One cell by its state: shape tells it as well as colour."""
     canvas, palette = theme.canvas, theme.palette
@@ -242,8 +249,8 @@ class EpisodeGrid(ThumbnailScreen):
         super().draw_frame(surface)
         theme, palette = self.app.theme, self.app.theme.palette
         if len(self.packs) < 2:
-            opens, columns = "Finish an episode and the one below it opens.", "Columns begin at 1, 11, 21, 31 and 41."
-            for line, text in enumerate((opens, f"{columns} The left one is easiest.")):
+            opens = "Finish an episode and the one below it opens: 1.2 comes after 1.1."
+            for line, text in enumerate((opens, "Each column has a theme of its own. The left one is easiest.")):
                 theme.text(surface, text, LEFT, 64 + 14 * line, size=10, colour=palette.faint, width=WIDE)
         self.grid.draw_names(surface, theme, self.pack.columns)
         for place, (look, text) in enumerate(LOOKS):
@@ -255,13 +262,12 @@ class EpisodeGrid(ThumbnailScreen):
         if episode is None:
             theme.text(surface, "No episodes", SIDE, 66, size=16, colour=palette.faint, bold=True)
             return
-        head = f"Episode {episode.code}: {episode.name}"
+        head = f"{episode.code}  {episode.name}"
         theme.text(surface, head, SIDE, 66, size=16, bold=True, width=264)
         best = self.player.records.episode_best(episode.key)
         clock = f"Your best: {seconds_text(best.score)} s left on the clock" if best else ""
-        passed = all(each.digest in self.passed for each in episode.levels)
         count = len(episode.levels)
-        text = clock or (f"All {count} levels passed, but not yet in one go" if passed else f"{count} levels")
+        text = clock or _how_far(sum(each.digest in self.passed for each in episode.levels), count)
         theme.text(surface, self._hint() if self._state(episode.number) == LOCKED else text, SIDE, 96, size=11,
                    colour=palette.good if best else palette.faint)  # fmt: skip
 

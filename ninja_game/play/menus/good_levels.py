@@ -62,7 +62,6 @@ class GoodLevelsScreen(ThumbnailScreen):
 
     @property
     def level(self) -> GoodLevel:
-        """The selected one."""
         return self.levels[self.list.index]
 
     def _show(self, _: int) -> None:

@@ -39,10 +39,10 @@ from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Widget
 from ninja_game.view.level_view import LevelView
 
-PANEL: Area = 44, 96, 256, 390
-"""Where the panel lies."""
+PANEL: Area = 14, 96, 232, 390
+"""Where the panel lies: at the edge, so that the run behind it is seen."""
 
-HEAD, FIRST, ROW, EDGE = 98, 62, 43, 22
+HEAD, FIRST, ROW, EDGE = 98, 62, 43, 16
 """Heights of the title, of the first button and of a row of two, and the width of the panel's edge, px."""
 
 
@@ -77,7 +77,6 @@ class MainMenu(MenuScreen):
 
     @property
     def begun(self) -> bool:
-        """Whether any level has been tried."""
         return self.player.statistics.played().attempts > 0
 
     def _where(self) -> str:
@@ -176,9 +175,9 @@ class MainMenu(MenuScreen):
 
 
 BAND: tuple[tuple[Point, ...], ...] = (
-    ((22, 74), (200, 72), (200, 80), (22, 78)),
-    ((198, 72), (234, 62), (226, 73), (200, 78)),
-    ((198, 75), (228, 80), (216, 86), (198, 80)),
+    ((16, 74), (180, 72), (180, 80), (16, 78)),
+    ((178, 72), (214, 62), (206, 73), (180, 78)),
+    ((178, 75), (208, 80), (196, 86), (178, 80)),
 )
 """The headband under the name and its two ends: corners, px from the panel's."""
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.editor import packs
-from ninja_game.editor.packing import ReadyPack, make_ready
+from ninja_game.editor.packing import ReadyPack, make_ready, problems_of
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.writing import write_atomically
@@ -24,13 +24,13 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.generator.daily import FOLDER as DAILY
 from ninja_game.levels.findings import Finding, PackFinding
 from ninja_game.levels.warnings import level_findings
-from ninja_game.play.app import App
+from ninja_game.play.app import WARNING_MS, App
 from ninja_game.play.clipboard import copy_link, pasted_text
 from ninja_game.play.menus.panels import CANCEL, FormPanel, Menu, Row
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
 from ninja_game.player.catalogue import Entry, EpisodeSet
-from ninja_game.runs.packs import file_of, lint
+from ninja_game.runs.packs import file_of
 from ninja_game.runtime import NewestJob
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.input.keys import chord
@@ -46,6 +46,16 @@ SECONDS = 20.0
 
 PULL = 6
 """px that the mouse moves with its button down before it takes something along."""
+
+_NO_PACK = (
+    "A pack is a folder with your levels in episodes.",
+    "New pack makes one; levels that you have made can be dragged into it then.",
+)
+_NO_LEVELS = (
+    "Click the episode, or a free place, twice: New level makes one here.",
+    "Or choose at the right where your levels are, and drag them into the places.",
+    "Make ready then certifies all, and gives you a zip and a link to share.",
+)
 
 Edit = Callable[[Entry, Finding | None], object]
 
@@ -134,9 +144,9 @@ class PackScreen(ThumbnailScreen):
 
     # --- what there is ---
 
-    def _read(self) -> None:
-        """All packs as they are now."""
-        before, catalogue = self.path, self.player.catalogue
+    def _read(self, shown: Path | None = None) -> None:
+        """All packs as they are now; this one on the shelves, or the one before."""
+        before, catalogue = shown or self.path, self.player.catalogue
         catalogue.problems.clear()
         self.sets = catalogue.packs()
         self.mine = [each for each in self.sets if each.changeable and each.path and each.path.name != DAILY]
@@ -212,9 +222,8 @@ class PackScreen(ThumbnailScreen):
     def _new_pack(self) -> None:
         def make(name: str) -> None:
             path = packs.new_pack(self.folder, name, self.player.settings.name)
-            self._read()
             self.beside = "yours" if self.player.catalogue.own() else "none"
-            self._show(next(each for each in self.mine if each.path == path))
+            self._read(path)
 
         self.ask("Name of the pack", "My pack", make)
 
@@ -226,9 +235,7 @@ class PackScreen(ThumbnailScreen):
             if link_kind(text) != "pack":
                 raise NinjaGameError("there is no link of a pack in the clipboard: copy all of it first")
             pack = Pack(Path(f"#{text.partition('#')[2]}"))
-            path = packs.copy_pack(pack, self.folder, pack.name)
-            self._read()
-            self._show(next((each for each in self.mine if each.path == path), None))
+            self._read(packs.copy_pack(pack, self.folder, pack.name))
             self.app.notify(f"{shown_text(pack.name)} is among your packs now: Episodes plays it")
 
         self.do(take)
@@ -275,7 +282,7 @@ class PackScreen(ThumbnailScreen):
         elif cell.level:
             self._level_menu(cell)
         elif cell.episode is None:
-            self.ask("Name of the episode", "New episode", partial(self._new_episode, self._column()))
+            self.ask("Name of the episode", "New episode", partial(packs.new_episode, self.path, column=self._column()))
         else:
             self._episode_menu(cell.episode)
 
@@ -284,9 +291,6 @@ class PackScreen(ThumbnailScreen):
             self._drop(None)
         else:
             self._level_menu(self.side[index])
-
-    def _new_episode(self, column: int, name: str) -> None:
-        packs.new_episode(self.path, name, column)
 
     def _column(self) -> int:
         """The last column that has episodes."""
@@ -322,7 +326,10 @@ class PackScreen(ThumbnailScreen):
         def name_column(name: str) -> None:
             packs.describe(path, {"columns": [*columns[:column], name, *columns[column + 1 :]]})
 
-        rename, begin = partial(packs.rename_episode, path, number), partial(self._new_episode, self._column() + 1)
+        rename, begin = (
+            partial(packs.rename_episode, path, number),
+            partial(packs.new_episode, path, column=self._column() + 1),
+        )
         rows: list[Row] = [
             ("New level...", lambda: self.ask("Name of the level", "New level", level), "An empty one"),
             ("Rename...", lambda: self.ask("Another name", episode.name, rename), ""),
@@ -397,8 +404,10 @@ class PackScreen(ThumbnailScreen):
 
     def problems(self) -> list[Problem]:
         """What is odd about the pack."""
-        pack = Pack(self.path)
-        return [self._problem(each, file_of(pack, each)) for each in lint(pack)]
+        pack, ready = Pack(self.path), self._seen
+        found = problems_of(pack, ready.obstacles if ready else {})
+        notes = ready.notes if ready and ready.pack.files.path == self.path else []
+        return [*(self._problem(each, file_of(pack, each)) for each in found), *map(Problem, notes)]
 
     def _problem(self, finding: PackFinding, file: str) -> Problem:
         levels = self.pack.levels if self.pack else []
@@ -407,7 +416,9 @@ class PackScreen(ThumbnailScreen):
         if finding.code == "no-author":
             go = partial(self._form, 1)
         elif entry:
-            found = next((each for each in level_findings(entry.named.level) if each.code == finding.code), None)
+            level, ready = entry.named.level, self._seen
+            known = *level_findings(level), ready.obstacles.get(level) if ready else None
+            found = next((each for each in known if each and each.code == finding.code), None)
             go = partial(self._edit, entry, found)
 
         def accept(why: str) -> None:
@@ -451,12 +462,14 @@ class PackScreen(ThumbnailScreen):
         """Write the zip, and put the link into the clipboard."""
         name = ready.pack.name
         self.app.write_export(name, ".zip", lambda path: write_atomically(path, ready.zipped))
-        notes = [self.app.notice, *ready.notes]
+        saved, codes = self.app.notice, dict.fromkeys(each.code.replace("-", " ") for each in ready.findings)
+        problems = counted(len(ready.findings), "open problem") + f" ({', '.join(codes)})" * bool(codes)
+        notes = [f"{saved}, with {problems}" if codes else saved, *ready.notes]
         if ready.link:
             copy_link(self.app, lambda: ready.link, title=name)
             notes.insert(1, "the link is in the clipboard")
-        self.app.notify("; ".join(notes))
-        self.status = f"{counted(len(ready.pack.levels), 'level')}, {counted(len(ready.findings), 'problem')}"
+        self.app.notify("; ".join(notes), ms=WARNING_MS)
+        self.status = f"{counted(len(ready.pack.levels), 'level')}, {problems}"
 
     def leave(self) -> None:
         super().leave()
@@ -471,12 +484,8 @@ class PackScreen(ThumbnailScreen):
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)
         theme, faint = self.theme, self.theme.palette.faint
-        if self.pack is None:
-            texts = [
-                "A pack is a folder with your levels in episodes.",
-                "New pack makes one; levels that you have made can be dragged into it then.",
-            ]
-            theme.paragraph(surface, texts, (36, 200, 720, 80), 13, 20, align="centre")
+        if not (self.pack and self.pack.levels):
+            theme.paragraph(surface, _NO_LEVELS if self.pack else _NO_PACK, (36, 360, 560, 90), 13, 20, align="centre")
         theme.text(surface, self.status or self._counts(), 36, 530, size=10, colour=faint, width=720)
 
     def _counts(self) -> str:
@@ -488,11 +497,7 @@ class PackScreen(ThumbnailScreen):
         alone = f", {len(self.pack.singles)} in none" if self.pack.singles else ""
         episodes = sum(cell.head for cell in self.cells) - 1
         where = f"{counted(len(levels), 'level')} in {counted(episodes, 'episode')}{alone}"
-        return (
-            f"{where}; {f'{to_do} to certify' if to_do else 'all certified'}"
-            if levels
-            else "Drag levels here, or click a free place twice: New level"
-        )
+        return f"{where}; {f'{to_do} to certify' if to_do else 'all certified'}" if levels else where
 
     def draw_widgets(self, surface: pygame.Surface) -> None:
         """What the mouse takes along lies over all."""
@@ -527,8 +532,10 @@ class PackScreen(ThumbnailScreen):
     def _draw_state(self, surface: pygame.Surface, theme: Theme, level: Entry, x: float, y: float, w: float) -> None:
         palette = theme.palette
         if level.pars is None:
-            changed = f'"{Path(level.named.file).name}"' in self.measured and level.source != "yours"
-            text, colour = ("changed", palette.bad) if changed else ("no run yet", palette.faint)
+            name = Path(level.named.file).name
+            pack = self.pack.pack if self.pack and level.source == self.pack.key else None
+            known = "certified" if pack and pack.certificate(name, "exit") else "no run yet"
+            text, colour = ("changed", palette.bad) if pack and f'"{name}"' in self.measured else (known, palette.faint)
             theme.text(surface, text, x, y, size=8.5, colour=colour, width=w)
             return
         theme.text(surface, f"{seconds_text(level.pars.exit)} s", x, y, size=8.5, colour=palette.good, width=w - 14)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from math import cos, sin
+from random import Random
 
 import pygame
 
@@ -12,14 +14,29 @@ from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal
 from ninja_game.player.catalogue import Episode
+from ninja_game.player.marks import worst_medal
 from ninja_game.player.playthrough import EpisodeRun
-from ninja_game.player.saving import OF_A_LEVEL
+from ninja_game.player.saving import EPISODE_BEST, OF_A_LEVEL
+from ninja_game.sim.rules import TICK_MS
 from ninja_game.ui.canvas import WIDTH
-from ninja_game.ui.widgets import Button, Widget
+from ninja_game.ui.widgets import Button, Widget, draw_stamp
+from ninja_game.view.effects.particles import Particle, Particles
+from ninja_game.view.sprites.drawing import DrawTarget, shared_book
+from ninja_game.view.sprites.light import Look, light_picture
 
 PICTURE = 132
 
-CLOCK = "Your result: the time left on the clock after the last level"
+LEVEL_TICKS, STAMP_TICKS, SHINE_TICKS, FEAST_TICKS = 8, 14, 20, 130
+"""The marks of the levels come one after the other, so many ticks apart; then the medal is stamped, papers fly, light
+sweeps over it; and all of it is over."""
+
+PAPERS, PRIZE, MIDDLE = 70, 64.0, 318.0
+"""How many papers fly; size of the medal that all levels have, and the height, px, at which it and the score stand."""
+
+GLOW = Look("gold_light", 230, 110)
+"""The light behind the score."""
+
+CLOCK = "What was left on the clock after the last level"
 
 
 class EpisodePassed(ThumbnailScreen):
@@ -30,6 +47,44 @@ class EpisodePassed(ThumbnailScreen):
         self.run = run
         self._play = play
         self.title = f"Episode {run.episode.code} passed"
+        self.particles = Particles()
+        self.ticks = 0.0
+
+    @property
+    def medal(self) -> str:
+        """What all its levels have, or better; "" where one has none."""
+        return worst_medal(self.run.episode.levels, self.player.marks.all())
+
+    @property
+    def _marks_end(self) -> int:
+        """The tick in which all levels have shown their marks."""
+        return LEVEL_TICKS * len(self.run.episode.levels)
+
+    def update(self, real_ms: int) -> None:
+        """Let the feast go on: a note for each level, the medal's stamp, papers; all at once in reduced motion."""
+        super().update(real_ms)
+        before, settings = self.ticks, self.app.settings
+        if before >= FEAST_TICKS:
+            return
+        self.redraw = True
+        self.ticks = before + real_ms / TICK_MS
+        if settings.reduced_motion:
+            self.ticks = float(FEAST_TICKS)
+            self.chime("medal")
+            return
+        for place in range(len(self.run.episode.levels)):
+            if before < LEVEL_TICKS * (place + 1) <= self.ticks:
+                self.chime(f"gold-{place + 1}")
+        if before < self._marks_end + STAMP_TICKS <= self.ticks:
+            self.chime("medal")
+            self.particles.thin = settings.particles / 100
+            rng = Random(self.run.score)  # noqa: S311 - presentation
+            for variant in range(PAPERS):
+                angle, far = rng.uniform(-3.6, 0.5), rng.uniform(120, 380)
+                flight = far * cos(angle), 0.55 * far * sin(angle)
+                born, life = self.ticks + rng.uniform(0, 12), rng.uniform(50, 75)
+                paper = Particle("confetti", WIDTH / 2, MIDDLE, *flight, life, 1.3, variant, born, 190.0)
+                self.particles.add(paper)
 
     @property
     def next_episode(self) -> Episode | None:
@@ -39,7 +94,8 @@ class EpisodePassed(ThumbnailScreen):
         following = self.next_episode
         buttons: list[Widget] = []
         if following is not None:
-            buttons.append(Button((236, 440, 320, 36), f"Next: episode {following.code}", self.go_on, size=13))
+            text = f"Next: {following.code} {following.name}"
+            buttons.append(Button((236, 440, 320, 36), text, self.go_on, size=13, hint="The next episode"))
         watch = Button((236, 482, 156, 30), "Watch the run", self.watch, hint="The best run of this episode")
         watch.enabled = self.player.records.episode_best(self.run.episode.key) is not None
         return [*buttons, watch, Button((400, 482, 156, 30), "Episodes", self._episodes)]
@@ -64,6 +120,10 @@ class EpisodePassed(ThumbnailScreen):
         super().draw_frame(surface)
         theme, palette = self.app.theme, self.app.theme.palette
         episode = self.run.episode
+        if self.ticks >= self._marks_end + STAMP_TICKS:
+            light = light_picture(GLOW, theme.canvas.scale, palette)
+            px, py = theme.canvas.point(WIDTH / 2, MIDDLE)
+            surface.blit(light, (px - light.width // 2, py - light.height // 2))
         theme.text(surface, episode.name, WIDTH / 2, 76, size=20, align="centre", bold=True, width=WIDTH - 96)
         count = len(episode.levels)
         left = (WIDTH - count * (PICTURE + 8) + 8) / 2
@@ -72,18 +132,44 @@ class EpisodePassed(ThumbnailScreen):
             self.thumbnails.draw(surface, entry, x, 124, PICTURE)
             middle = x + PICTURE / 2
             theme.text(surface, entry.title, middle, 232, size=10, align="centre", width=PICTURE, height=15)
+            if self.ticks < LEVEL_TICKS * (place + 1):
+                continue
             mark = self.player.marks.of(entry.digest)
             for line, words in enumerate(self.player.reached(entry, mark).split(", ")):
                 y = 247 + 14 * line
                 theme.text(surface, words, middle, y, size=10, colour=palette.faint, align="centre", width=PICTURE)
             all_gold_and_medal(surface, theme, entry, mark, x + PICTURE - 11, 135)
-        score = f"{seconds_text(self.run.score)} s left"
+        self._draw_score(surface)
+        if following := self.next_episode:
+            self.thumbnails.draw(surface, following.levels[0], 170, 435, 58)
+        target = DrawTarget(theme.canvas, palette.base, shared_book(theme.canvas.scale, palette.base))
+        target.begin(surface)
+        Particles.draw(self.particles.front, target, self.ticks)
+
+    def _draw_score(self, surface: pygame.Surface) -> None:
+        """The score between its medal and what it is worth; below it what the episode has brought."""
+        theme, palette, run = self.app.theme, self.app.theme.palette, self.run
+        score = f"{seconds_text(run.score)} s left"
+        half = theme.lettering.width(score, 44, bold=True) / 2
+        stamp = min(1.0, max(0.0, (self.ticks - self._marks_end) / STAMP_TICKS))
         theme.text(surface, score, WIDTH / 2, 290, size=44, align="centre", bold=True, height=60)
-        what = CLOCK if self.run.whole else "Practice or help was used, so it does not count as a record"
-        theme.text(surface, what, WIDTH / 2, 340, size=11, colour=palette.faint, align="centre")
-        notices = [notice for notice in self.run.notices if notice not in OF_A_LEVEL]
-        for line, notice in enumerate(notices[-4:]):
-            y = 364 + 17 * line
+        if self.medal:
+            shine = (self.ticks - self._marks_end - STAMP_TICKS) / SHINE_TICKS
+            draw_stamp(surface, theme, self.medal, WIDTH / 2 - half - 52, MIDDLE, PRIZE, stamp, shine)
+        best = self.player.records.episode_best(run.episode.key)
+        told, news = "", [notice for notice in run.notices if notice not in OF_A_LEVEL and notice != EPISODE_BEST]
+        if not run.whole:
+            told = "A level was skipped or passed with help: this does not count as a record"
+            told = "Practice counts for no record" if run.practice_mode else told
+        elif best is None or best.score <= run.score:
+            theme.text(surface, "Your best", WIDTH / 2 + half + 16, 310, size=13, colour=palette.good, bold=True)
+        else:
+            told = f"Your best: {seconds_text(best.score)} s left"
+        theme.text(surface, CLOCK, WIDTH / 2, 350, size=11, colour=palette.faint, align="centre")
+        if self.medal:
+            news.insert(0, f"{self.medal.capitalize()} medal: every level has it, or a better one")
+        for line, notice in enumerate([*filter(None, [told]), *news][:4]):
+            y = 370 + 17 * line
             theme.text(
                 surface, notice, WIDTH / 2, y, size=12, colour=palette.good, align="centre", width=WIDTH - 96, height=17
             )

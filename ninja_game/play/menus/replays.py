@@ -126,7 +126,7 @@ class ReplaysScreen(MenuScreen):
 
     def places(self) -> list[tuple[str, Iterable[Path | LeftOut]]]:
         """Where files are looked for, and what that is called."""
-        return [("Your folder", files_below(self.player.replay_folder)), ("Bundled", self.bundled())]
+        return [("Your folder", files_below(self.player.replay_folder)), ("Included", self.bundled())]
 
     def bundled(self) -> list[Path]:
         """The authors' runs of the levels in which a gold medal has opened them."""

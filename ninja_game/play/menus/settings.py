@@ -123,7 +123,6 @@ class BindingTable(ListView):
         self.fill(actions)
 
     def inputs(self, action: str) -> tuple[str, ...]:
-        """The names of the inputs that an action has now."""
         return tuple(getattr(self.screen.player.settings, self.device).get(action, self._default(action)))
 
     def _default(self, action: str) -> tuple[str, ...]:
@@ -301,7 +300,7 @@ class SettingsScreen(ThumbnailScreen):
         named = [(name.replace("-", " ").title(), name) for name in PALETTES]
         palettes = [("By column (default)", BY_COLUMN), *named]
         colours = list(zip(COLOUR_NAMES, NINJA_COLOURS, strict=True))[:count]
-        looks = "Classic is plain grey, as of old. In Contrast and Safe, what kills has spikes"
+        looks = "Classic is plain grey. Contrast and Safe mark everything deadly with spikes"
         more = "Finish a whole column of episodes for more" if count < len(NINJA_COLOURS) else ""
         return [
             self._choice(0, "Palette", "palette", palettes, looks),
@@ -309,9 +308,7 @@ class SettingsScreen(ThumbnailScreen):
             self._choice(2, "Full screen", "fullscreen", SWITCH, "F11 at any time"),
             self._choice(3, "Smooth motion", "smooth", SWITCH, "Draws more than the 40 ticks a second of the game"),
             self._choice(4, "Frame rate", "frame_limit", RATES),
-            self._choice(5, "Race against", "ghost", RACED, f"A ghost; {self.app.controls.name('ghost')} hides it"),
-            self._choice(6, "Show keys in play", "show_keys", SWITCH),
-            self._choice(7, "Show frame time", "show_frame_time", SWITCH),
+            self._choice(5, "Show frame time", "show_frame_time", SWITCH),
         ]
 
     def _sound(self) -> list[Widget]:
@@ -330,10 +327,12 @@ class SettingsScreen(ThumbnailScreen):
             TextEntry((LEFT + 220, TOP + STEP, WIDTH_OF_ROW - 220, HEIGHT_OF_ROW), "unnamed",
                       self.player.settings.name, lambda text: self.change(name=text)),
             self._choice(2, "Hints in levels", "level_texts", SWITCH, "Shown until you pass the level"),
+            self._choice(3, "Race against", "ghost", RACED, f"A ghost; {self.app.controls.name('ghost')} hides it"),
+            self._choice(4, "Show keys in play", "show_keys", SWITCH),
         ]  # fmt: skip
         if overclock_unlocked(self.player.columns_complete, self.player.columns_present):
             widgets.append(
-                Slider(self._area(3), "Overclock, ms", (0, FASTEST_TICK_GAIN, 1), lambda: self.app.overclock,
+                Slider(self._area(5), "Overclock, ms", (0, FASTEST_TICK_GAIN, 1), lambda: self.app.overclock,
                        lambda value: setattr(self.app, "overclock", round(value)),
                        hint="Speeds the game up until you quit")
             )  # fmt: skip

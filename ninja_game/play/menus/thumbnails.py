@@ -59,12 +59,14 @@ class Thumbnails:
         return made
 
     def draw(self, surface: pygame.Surface, entry: Entry, x: float, y: float, width: float) -> None:
-        """Show a level's picture, or its frame until it is made."""
+        """Show a level's picture, or an empty room in its colours until it is made."""
         canvas, palette = self.app.canvas, self.app.theme.palette
         picture = self.get(entry, width)
         height = width * 25 / 33
         if picture is None:
-            canvas.fill_rect(surface, palette.tile, x, y, width, height)
+            room, edge = self.app.palette_in(entry.mood), width / 33
+            canvas.fill_rect(surface, room.tile, x, y, width, height)
+            canvas.fill_rect(surface, room.background, x + edge, y + edge, width - 2 * edge, height - 2 * edge)
         else:
             surface.blit(picture, canvas.point(x, y))
         canvas.frame_rect(surface, palette.panel_edge, x - 0.5, y - 0.5, width + 1, height + 1, 1)

@@ -26,8 +26,9 @@ from ninja_game.player.settings import Settings
 from ninja_game.runtime import require_desktop, run_in_background
 from ninja_game.sim.rules import GOLD_BONUS, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
-from ninja_game.ui.theme import GROUND_ROLES, ROLES, Palette, mixed, palette_named
+from ninja_game.ui.theme import GROUND_ROLES, ROLES, RUN_COLOURS, Palette, mixed, palette_named
 from ninja_game.view.level_view import LevelView, OffscreenContext
+from ninja_game.view.sprites.drawing import is_near
 from ninja_game.view.sprites.light import EXIT_OPEN, LOOKS
 
 if TYPE_CHECKING:
@@ -107,7 +108,10 @@ def section_of(films: Sequence[Film], first: int, last: int | None) -> list[Film
         count = len(film.moments)
         start, end = max(0, first - before), count - 1 if last is None else min(count - 1, last - before)
         if start <= end:
-            found.append(replace(film, first=start, last=end))
+            part = replace(film, first=start, last=end)
+            # Else the runs would be simulated once more.
+            vars(part)["moments"] = film.moments[start : end + 1]
+            found.append(part)
         before += count
     if not found:
         raise ArgumentError(f"a film from tick {first} to {last} has no pictures; there are {before:,}")
@@ -123,6 +127,14 @@ class _Panel:
         self.playback = Playback(Simulation(run.level, body=run.body), run.inputs, spacing=0)
         self.view = LevelView(context, self.playback.simulation)
         self.hud = Hud(context.theme)
+        self.ghosts: list[tuple[str, Ghost]] = []
+
+    def follow(self, runs: Sequence[Recording]) -> None:
+        """Let runs go along, each in a colour of its own with a name above it."""
+        for number, run in enumerate(runs):
+            shade = RUN_COLOURS[number % len(RUN_COLOURS)]
+            self.ghosts.append((_called(run), Ghost(run.inputs, run.level, run.body, shade=shade)))
+        self.view.ghosts = [ghost for _, ghost in self.ghosts]
 
     def step(self) -> None:
         self.playback.step()
@@ -141,11 +153,20 @@ class _Panel:
         words = [run.title] * bool(run.episode)
         if self.film.splits:
             words += [f"{seconds_text(self.time)} s", *[text for tick, text in self.told if tick < world.tick][-1:]]
+        for name, ghost in self.ghosts if self.view.context.settings.show_ghost else ():
+            x, y = ghost.place(1.0)
+            if is_near(x, y):
+                covered.append(hud.theme.text(surface, name, x, y - 24, size=9, colour=ghost.shade, align="centre"))
         covered.append(hud.foot(surface, "; ".join(words), ""))
         if self.film.keys:
             covered.append(hud.keys(surface, self.playback.keys_at(world.tick - 1), 704))
         for each in covered:
             self.view.also_covered(each)
+
+
+def _called(run: Recording) -> str:
+    """Whose run it is, in a word."""
+    return (run.author or run.name)[:20]
 
 
 def told_splits(own: RunSplits, others: Sequence[RunSplits]) -> list[tuple[int, str]]:
@@ -154,7 +175,7 @@ def told_splits(own: RunSplits, others: Sequence[RunSplits]) -> list[tuple[int, 
     for split in own.splits:
         words = [str(split)]
         for each in others:
-            there, name = each.by_key.get(split.key), (each.recording.author or each.recording.name)[:20]
+            there, name = each.by_key.get(split.key), _called(each.recording)
             words.append(f"{name} {there.tick - split.tick:+d}" if there else f"{name} never")
         found.append((split.tick, ", ".join(words)))
     return found
@@ -170,7 +191,7 @@ def film_pictures(film: Film) -> Iterator[pygame.Surface]:
         first, *others = [run_splits(each, memory="auto") for each in (*runs, *film.ghosts)]
         told = [told_splits(first, others), *(told_splits(each, [first]) for each in others[: len(film.beside)])]
     panels = [_Panel(film, *each) for each in zip(runs, told, strict=True)]
-    panels[0].view.ghosts = [Ghost(other.inputs, other.level, other.body) for other in film.ghosts]
+    panels[0].follow(film.ghosts)
     surface = pygame.Surface(film.whole_size)
     places = [surface.subsurface((number % 2 * w, number // 2 * h, w, h)) for number in range(len(runs))]
     for tick in range(moments.stop):
@@ -202,7 +223,7 @@ def write_film(film: Film, path: Path, report: Callable[[int], bool] = lambda _:
     try:
         if path.suffix == ".gif":
             palette = palette_named((film.settings or Settings()).palette)
-            write_gif(pictures(), film.length, path, film.whole_size, film.speed, palette)
+            write_gif(pictures(), film.length, path, film.whole_size, film.speed, palette, len(film.ghosts))
         elif path.suffix in _VIDEO:
             write_video(pictures(), path, film.whole_size, film.speed)
         elif path.suffix:
@@ -228,9 +249,10 @@ _VIDEO: dict[str, tuple[str, dict[str, object]]] = {
 
 
 def write_gif(
-    pictures: Iterator[pygame.Surface], length: int, path: Path, size: tuple[int, int], speed: float, palette: Palette
-) -> None:
-    """Write ``length`` pictures of ``size`` px, one a tick, as a GIF in the colours of a palette.
+    pictures: Iterator[pygame.Surface], length: int, path: Path, size: tuple[int, int], speed: float, palette: Palette,
+    ghosts: int = 0,
+) -> None:  # fmt: skip
+    """Write ``length`` pictures of ``size`` px, one a tick, as a GIF in the colours of a palette, and of some ghosts.
 
     Raises OSError, and NinjaGameError in a page, which has no library for GIFs.
     """
@@ -243,7 +265,7 @@ def write_gif(
     ends = [round(number * every * tick_ms / 10) for number in range(-(-length // every) + 1)]
     durations = [10 * (end - start) for start, end in pairwise(ends)]
     colours = Image.new("P", (1, 1))
-    colours.putpalette(film_colours(palette))
+    colours.putpalette(film_colours(palette, ghosts))
 
     def images() -> Iterator[Any]:
         for number, picture in enumerate(pictures):
@@ -297,8 +319,8 @@ def write_folder(pictures: Iterator[pygame.Surface], path: Path) -> None:
         folder.write(f"{number:05d}.png", png_of(picture))
 
 
-def film_colours(palette: Palette) -> list[int]:
-    """The 256 colours of a film, as red, green, blue, …: those of the palette and what lies between them at edges.
+def film_colours(palette: Palette, ghosts: int = 0) -> list[int]:
+    """The 256 colours of a film, as red, green, blue, …: those of palette and ghosts, what lies between them at edges.
 
     The same ones in every picture, so that nothing flickers.
     """
@@ -306,6 +328,7 @@ def film_colours(palette: Palette) -> list[int]:
     found = [*roles]
     for share in (0.33, 0.66):
         found += [mixed(colour, palette.background, share) for colour in roles]
+    found += [mixed(colour, palette.background, share) for colour in RUN_COLOURS[:ghosts] for share in (0.0, 0.55)]
     found += [mixed(colour, palette.outline, 0.5) for colour in roles]
     found += [mixed(palette.tile, palette.background, k / 12) for k in range(1, 12)]
     found += [mixed(palette.tile, palette.on_tile, k / 6) for k in range(1, 6)]

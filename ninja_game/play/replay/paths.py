@@ -11,14 +11,11 @@ from numpy.typing import NDArray
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
-from ninja_game.ui.theme import Palette, Theme
+from ninja_game.ui.theme import RUN_COLOURS, Palette, Theme
 from ninja_game.view.sprites.thumbnail import thumbnail
 
 Path = tuple[str, NDArray[np.float64]]
 """A run's name and its positions, float64 (ticks, 2), px."""
-
-COLOURS = tuple(map(pygame.Color, ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")))
-"""Of the paths in turn; people who see few colours can tell them apart."""
 
 PLOT_HEIGHT = 150
 """Of the speeds, logical px."""
@@ -32,7 +29,7 @@ def paths_picture(level: Level, paths: Sequence[Path], palette: Palette, width: 
     above = thumbnail(level, palette, width)
     theme = Theme(palette, Canvas((width, round(width * HEIGHT / WIDTH))))
     for number, (_, positions) in enumerate(paths):
-        draw_path(above, theme.canvas, positions, COLOURS[number % len(COLOURS)])
+        draw_path(above, theme.canvas, positions, RUN_COLOURS[number % len(RUN_COLOURS)])
     picture = pygame.Surface((width, above.get_height() + theme.canvas.px(PLOT_HEIGHT)))
     picture.fill(palette.background)
     picture.blit(above, (0, 0))
@@ -74,7 +71,7 @@ def _draw_speeds(surface: pygame.Surface, theme: Theme, paths: Sequence[Path]) -
     theme.text(surface, "px/tick", 6, 5, colour=faint)
     x = _LEFT + 20
     for number, (name, _) in enumerate(paths):
-        colour = COLOURS[number % len(COLOURS)]
+        colour = RUN_COLOURS[number % len(RUN_COLOURS)]
         points = [at((tick + 1) / TICKS_PER_SECOND, speed) for tick, speed in enumerate(speeds[number].tolist())]
         if len(points) > 1:
             pygame.draw.lines(surface, colour, False, points, max(1, canvas.px(1)))

@@ -95,11 +95,16 @@ class Ghost:
     """One recording, ticking along.
 
     ``behind``: ticks that it lags behind after a leap: it catches up by the work of a turn with each tick. Not
-    ``alone``: only when it is told to. ``pace``: its ticks for each tick of the clock.
+    ``alone``: only when it is told to. ``pace``: its ticks for each tick of the clock. ``shade``: its colour, None: the
+    palette's for ghosts.
     """
 
-    def __init__(self, inputs: bytes, level: Level, body: Body, *, alone: bool = True, pace: float = 1.0) -> None:
+    def __init__(
+        self, inputs: bytes, level: Level, body: Body, *, alone: bool = True, pace: float = 1.0,
+        shade: pygame.Color | None = None,
+    ) -> None:  # fmt: skip
         self.inputs = inputs
+        self.shade = shade
         self.pace = pace
         self._due = 0.0
         self.simulation = Simulation(level, body=body)
@@ -158,4 +163,4 @@ class Ghost:
         return bx + (x - bx) * fraction, by + (y - by) * fraction
 
     def colour(self, palette: Palette) -> pygame.Color:
-        return palette.ghost
+        return self.shade or palette.ghost

@@ -11,16 +11,18 @@ from ninja_game.budget import TURN_WORK, affordable_ticks, tick_cost
 from ninja_game.formats.links.making import replay_link
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App, Screen
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.clock import RunClock
 from ninja_game.play.level.hud import Hud
-from ninja_game.play.replay.bar import ReplayBar
 from ninja_game.play.replay.film import FilmJob
 from ninja_game.play.replay.playback import Ghost, Playback
 from ninja_game.sim.rules import TICK_MS, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
+from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.input.bindings import InputEvent
+from ninja_game.ui.theme import Theme, mixed
 from ninja_game.view.level_view import LevelView
 from ninja_game.view.overlays import Overlays
 
@@ -275,7 +277,7 @@ class ReplayScreen(Screen):
         hud = Hud(theme)
         written = [
             bar.draw(surface, theme, self.tick, self.end, self.length, self.outcome),
-            bar.write(surface, theme, self.tick, self.end, f"x {SPEEDS[self.speed]:g}"),
+            bar.write(surface, theme, self.tick, self.end, f"x {SPEEDS[self.speed]:g}", still=still),
             hud.head(surface, self.run.title, self._hint()),
             hud.keys(surface, self.playback.keys_at(self.tick - 1), 444),
         ]
@@ -307,3 +309,48 @@ def _with_claims(run: Recording) -> Replay:
     from ninja_game.runs.conversion import recorded_again
 
     return recorded_again(run)
+
+
+_LEFT, _WIDTH, _Y = 24.0, 400.0, 588.0
+
+
+class ReplayBar:
+    """The bar below a replay: a press or a drag seeks. ``dragging``: the mouse holds it."""
+
+    def __init__(self) -> None:
+        self.dragging = False
+
+    def handle(self, event: pygame.Event, canvas: Canvas, length: int) -> int | None:
+        """The tick that the mouse asks for; None if it asks for none."""
+        if event.type == pygame.MOUSEBUTTONUP:
+            self.dragging = False
+        elif event.type == pygame.MOUSEBUTTONDOWN and event.button == 1:
+            x, y = canvas.logical(event.pos)
+            self.dragging = abs(y - _Y) < 9 and _LEFT - 6 < x < _LEFT + _WIDTH + 6
+        elif event.type != pygame.MOUSEMOTION:
+            return None
+        if not self.dragging:
+            return None
+        share = (canvas.logical(event.pos)[0] - _LEFT) / _WIDTH
+        return round(min(1.0, max(0.0, share)) * length)
+
+    @staticmethod
+    def draw(surface: pygame.Surface, theme: Theme, tick: int, end: int, length: int, outcome: str) -> pygame.Rect:
+        """The bar with a mark at the end, coloured by the outcome; its px rectangle."""
+        palette, canvas = theme.palette, theme.canvas
+        trough = mixed(palette.tile, palette.outline, 0.35)
+        rect = canvas.fill_rect(surface, trough, _LEFT, _Y - 2, _WIDTH, 4, 2)
+        at = _LEFT + _WIDTH * min(1.0, tick / max(1, length))
+        canvas.fill_rect(surface, palette.on_tile, _LEFT, _Y - 2, at - _LEFT, 4, 2)
+        mark = _LEFT + _WIDTH * end / max(1, length)
+        colour = {"exit": palette.bar_full, "dead": palette.bar_empty}.get(outcome, palette.accent)
+        canvas.fill_rect(surface, colour, mark - 1, _Y - 5, 2, 10)
+        knob = canvas.circle(surface, palette.on_tile, (at, _Y), 5)
+        return rect.union(knob).inflate(canvas.px(10), canvas.px(10))
+
+    @staticmethod
+    def write(surface: pygame.Surface, theme: Theme, tick: int, end: int, speed: str, *, still: bool) -> pygame.Rect:
+        """Time and speed; the tick too where it stands still."""
+        at = min(tick, end)
+        text = f"{seconds_text(at)} / {seconds_text(end)} s    {speed}" + f"    tick {at}" * still
+        return theme.text(surface, text, 768, 583, size=9, colour=theme.palette.on_tile, align="right")

@@ -54,7 +54,6 @@ class DocumentCommands:
         return []
 
     def saved_text(self, path: Path) -> str:
-        """What to say of a document that was saved."""
         raise NotImplementedError
 
     def save(self, then: Action = nothing) -> None:
@@ -83,7 +82,7 @@ class DocumentCommands:
         except (NinjaGameError, OSError) as error:
             self.app.notify(f"Not saved: {reason(error)}")
         else:
-            self.app.notify(self.saved_text(path))
+            self.app.notify(self.saved_text(path), here=True)
             then()
 
     def unless_unsaved(self, action: Action) -> None:

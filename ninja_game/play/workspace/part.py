@@ -35,7 +35,6 @@ class Part:
         raise NotImplementedError
 
     def commands(self) -> Commands:
-        """The commands that are its own."""
         return {}
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:

@@ -68,10 +68,8 @@ class WorkspaceScreen(MenuScreen):
         self.widgets_changed()
 
     def leave(self) -> None:
-        """Covered or closed: what is held ends, and what was said of the document."""
+        """Covered or closed: what is held ends."""
         super().leave()
-        if self.app.notice:
-            self.app.notify("")
         self.held.end()
         self._grabbed = None  # its release goes to what covers this
 

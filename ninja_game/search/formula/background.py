@@ -25,7 +25,7 @@ from ninja_game.sim.inputs import KEYS_DOWN, fitted_inputs
 class SpanSearch:
     """A search in a thread of its own, on ``jobs`` threads (one a core), for ``seconds`` (0: until it is cancelled).
 
-    ``method``, ``every``, ``seed`` and ``memory`` are those of ``search_span``. ``found``: the best results so far,
+    ``method``, ``every`` and ``memory`` are those of ``search_span``. ``found``: the best results so far,
     best first, each with the whole run; a better list takes the place of an old one. ``own``: what the run's own keys
     bring, None where they do not reach the goal. ``ticks_run``: ticks simulated; ``problem``: why the search could not
     go on, "" if it could.
@@ -36,7 +36,7 @@ class SpanSearch:
 
     def __init__(
         self, task: SpanTask, method: str = "auto", jobs: int | None = None, *, seconds: float = 0.0, every: int = 1,
-        seed: int = 1, memory: str = "auto",
+        memory: str = "auto",
     ) -> None:  # fmt: skip
         require_desktop()
         if method not in ("auto", *METHODS):
@@ -47,7 +47,7 @@ class SpanSearch:
         self.own: Found | None = None
         self.ticks_run = 0
         self.problem = ""
-        self._options = {"method": method, "every": every, "seed": seed, "memory": memory, "threads": jobs}
+        self._options = {"method": method, "every": every, "memory": memory, "threads": jobs}
         self._limit = seconds
         self._cancelled = Event()
         self._thread: Thread | None = None
@@ -117,12 +117,11 @@ class RunSearch(SpanSearch):
     """
 
     def __init__(
-        self, task: SpanTask, jobs: int | None = None, *, seconds: float = 0.0, seed: int = 1, gold: int = 0,
-        others: tuple[bytes, ...] = (),
-    ) -> None:  # fmt: skip
-        super().__init__(task, seconds=seconds)
+        self, task: SpanTask, jobs: int | None = None, *, gold: int = 0, others: tuple[bytes, ...] = ()
+    ) -> None:
+        super().__init__(task)
         self._wanted = Task(
-            task.level, task.body, gold, seconds or LONGEST_SECONDS, seed, min(jobs or cores(), MOST_JOBS),
+            task.level, task.body, gold, LONGEST_SECONDS, jobs=min(jobs or cores(), MOST_JOBS),
             first=fitted_inputs(task.inputs, task.length), others=others,
         )  # fmt: skip
         self._reaches = False

@@ -178,7 +178,6 @@ class _Reader:
         return reduce(_both, (_comparison(a, b, *COMPARISONS[type(sign)]) for (a, b), sign in pairs))
 
     def named(self, node: ast.expr, name: str, parts: Sequence[ast.expr]) -> Formula:
-        """A name with its numbers."""
         count, function = FUNCTIONS.get(name, (self.names.get(name), None))
         if count is None:
             raise self.error(node, "an unknown name", ", ".join([*self.names, *FUNCTIONS]))

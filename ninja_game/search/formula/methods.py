@@ -72,7 +72,6 @@ class Results:
         return trials
 
     def report(self) -> None:
-        """Report how it stands."""
         self.going = self._report(self.worlds.ticks_run, self.best)
 
 

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
+from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.backend.memories import open_worlds
 from ninja_game.batch.batch import Batch
 from ninja_game.errors import ArgumentError
-from ninja_game.search.formula.distances import Distances
-from ninja_game.search.formula.language import FAR
+from ninja_game.search.formula.language import FAR, Values
+from ninja_game.search.heuristics import FARTHEST, Field, Heuristics, points_at
+from ninja_game.search.switches import open_masks
 from ninja_game.sim.kinds import DOOR, EXIT, GOLD, KIND_NAMES, LAUNCHER, MINE, TURRET
 from ninja_game.sim.level import Level
 from ninja_game.sim.states import LAUNCHER_FLIGHT, OUTCOME_DEAD, OUTCOME_EXIT
@@ -109,7 +111,6 @@ def plain_number(number: Any, what: str) -> float:
 
 
 def _object(batch: Batch, number: Any) -> Any:
-    """An object of all worlds, by its id."""
     id_ = id_of(number)
     if not 0 <= id_ < int(batch.records["id_count"][0]) or id_ != int(id_):
         raise ArgumentError(f"there is no object {id_:g}; ids are those that `ninja-game splits` shows")
@@ -139,3 +140,49 @@ def _flags(batch: Batch, number: Any, what: str) -> Any:
         kinds = " and ".join(KIND_NAMES[each] for each in FLAGS[what])
         raise ArgumentError(f"object {float(number):g} is of kind {KIND_NAMES[kind]}; '{what}' is for {kinds}")
     return found[FLAGS[what][kind]]
+
+
+_SPEED = 4.0
+"""px that a tick of a field counts, so that distances in formulas and these are of one size: a step of 6 px is 1.5."""
+
+Target = Callable[[int, float, float], Field]
+"""The field of a target in a switch state, for a ninja at (x, y)."""
+
+
+class Distances:
+    """How far worlds are from a fact that is not so yet, such as ``won``, by the distance fields of the solver.
+
+    The fields of a level, by target and by switch state, are made when a world of the batch first needs them.
+    """
+
+    def __init__(self, level: Level, batch: Batch) -> None:
+        self._level, self._batch = level, batch
+        self._fields: dict[tuple[object, int], Field] = {}
+
+    @cached_property
+    def _heuristics(self) -> Heuristics:
+        alone = open_worlds(self._batch.memory, self._level, box=False)
+        return Heuristics(alone.maps, alone.records)
+
+    def to_exit(self) -> Values:
+        """From the exit, by way of its switch: px about, less than 0 for all worlds."""
+        return self._margins("exit", self._heuristics.field)
+
+    def to_object(self, record: Any) -> Values:
+        """The same from an object, or from the switch of an exit."""
+        found = self._batch.objects[:, int(record["partner"][0])] if int(record["kind"][0]) == EXIT else record
+        place = float(found["x"][0]), float(found["y"][0])
+        return self._margins(place, lambda state, x, y: self._heuristics.field_to(place, state, x, y))
+
+    def _margins(self, key: object, target: Target) -> Values:
+        batch = self._batch
+        places, states = batch.positions, open_masks(batch.objects, self._heuristics.slots)
+        points = points_at(places)
+        margins = np.empty(batch.count)
+        for state in np.unique(states).tolist():
+            here = states == state
+            if (key, state) not in self._fields:
+                x, y = places[np.argmax(here)].tolist()
+                self._fields[key, state] = np.minimum(target(state, x, y), np.float32(FARTHEST))
+            margins[here] = -1.0 - _SPEED * self._fields[key, state][points[here]]
+        return margins

@@ -59,12 +59,10 @@ class SpanTask:
 
     @property
     def length(self) -> int:
-        """Ticks of the span."""
         return self.last - self.first
 
     @property
     def base(self) -> Keys:
-        """The keys that the run has there."""
         given = np.frombuffer(self.inputs[self.first : self.last], np.uint8) & KEYS_DOWN
         return np.pad(given, (0, self.length - len(given)))
 
@@ -165,7 +163,6 @@ class SpanWorlds:
         return at_goal, margin, score
 
     def found(self, trials: Trials, index: int, keys: Keys) -> Found:
-        """One of the trials, with its keys."""
         ticks = int(trials.ticks[index])
         rest = self.rest.tolist() if self.task.rest else []
         gold = int(self.batch.gold[index])

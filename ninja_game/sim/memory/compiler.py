@@ -30,7 +30,7 @@ class Compiler:
 
     Nothing is compiled before a twin is called for the first time. ``checked``: raise IndexError for an index out of
     range, which is silent otherwise. ``attach_cache``: see ``AttachCache``. ``pipeline``: the passes, as
-    ``numba_pipeline`` gives them. ``numba``: the module, as ``numba_import`` gives it.
+    ``numba_import`` gives them. ``numba``: the module, as ``numba_import`` gives it.
     """
 
     def __init__(

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pygame
 
-from ninja_game.play.replay.paths import COLOURS
-from ninja_game.ui.theme import Area, Palette, Theme
+from ninja_game.ui.theme import RUN_COLOURS, Area, Palette, Theme
 
 if TYPE_CHECKING:
     from ninja_game.search.formula.language import Values
@@ -80,7 +79,7 @@ class TickRange:
 def colour_of(number: int, palette: Palette) -> pygame.Color:
     """The colour of a plot: on dark panels lighter, on light ones darker."""
     dark = palette.panel.hsla[2] < 50
-    return COLOURS[number % len(COLOURS)].lerp("white" if dark else "black", 0.4 if dark else 0.25)
+    return RUN_COLOURS[number % len(RUN_COLOURS)].lerp("white" if dark else "black", 0.4 if dark else 0.25)
 
 
 def draw_lane(

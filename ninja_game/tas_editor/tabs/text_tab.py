@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from functools import lru_cache
 
 import numpy as np
@@ -9,6 +10,7 @@ import pygame
 from numpy.typing import NDArray
 
 from ninja_game.errors import FormatError
+from ninja_game.files.shown_text import counted
 from ninja_game.formats.replay.input_runs import KEY_NAMES
 from ninja_game.formats.replay.input_text import Inputs
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, pressed, with_press_bits
@@ -24,14 +26,28 @@ LONGEST = 300
 
 
 @lru_cache(maxsize=1)
-def starts_of(track: InputTrack) -> NDArray[np.int64]:
-    """The first ticks of a run's lines, in order; the last line is empty and begins behind the end."""
+def starts_of(track: InputTrack, unfolded: Span | None = None) -> NDArray[np.int64]:
+    """The first ticks of a run's lines, in order; the last line is empty and begins behind the end.
+
+    ``unfolded``: the section whose lines are shown, of each other one the first; None: all.
+    """
     inputs = np.frombuffer(track.inputs, np.uint8)
     odd = inputs != np.frombuffer(with_press_bits(track.inputs), np.uint8)
     # Keys that are down, and of a jump that no keyboard makes 16, and 8 where it is pressed.
     looks = inputs & np.uint8(KEYS_DOWN) | (odd * (inputs & np.uint8(JUMP_PRESSED) | np.uint8(16))).astype(np.uint8)
     named = [tick for tick, _ in track.markers]
-    return np.unique([0, *(np.flatnonzero(looks[1:] != looks[:-1]) + 1), *named, len(inputs)])
+    found = np.unique([0, *(np.flatnonzero(looks[1:] != looks[:-1]) + 1), *named, len(inputs)])
+    if unfolded is None:
+        return found
+    inside = (found >= unfolded[0]) & (found <= unfolded[1])
+    return found[inside | np.isin(found, [0, *named, len(inputs)])]
+
+
+def section_at(track: InputTrack, tick: int) -> Span:
+    """The ticks from a marker, or the start, to the next marker, or the end, that has a tick."""
+    bounds = sorted({0, *(at for at, _ in track.markers), len(track)})
+    number = max(0, min(bisect_right(bounds, tick), len(bounds) - 1) - 1)
+    return bounds[number], bounds[min(number + 1, len(bounds) - 1)]
 
 
 def text_of(track: InputTrack, first: int, last: int, *, celeste: bool) -> str:
@@ -57,26 +73,32 @@ class TextTab(Tab):
 
     def __init__(self, editor: TasEditor) -> None:
         super().__init__(editor)
-        self.celeste = False
+        self.celeste = self.folded = False
         self._track = InputTrack(b"")
+        self._unfolded: Span | None = None
         self.starts = starts_of(self._track)
         self._seen: tuple[object, ...] = ()
         self.list = Rows(self._draw_row, self._choose, hint="A click selects the ticks of a line")
         hint = "R*30 RJ*10 or 30,R,J, several with blanks between; #name: a marker; nothing: without these ticks. Enter"
         self.field = EntryField("the line of the cursor's tick", self.put, longest=LONGEST, hint=hint)
         self.notation = Button(UNPLACED, "30,R,J", self._turn, hint="The other notation", size=SMALL)
-        self.widgets: list[Rows | EntryField | Button] = [self.field, self.notation, self.list]
+        hint = "Only the lines from the marker before the cursor to the next one"
+        self.fold = Button(UNPLACED, "Fold", self._fold, hint=hint, size=SMALL)
+        self.widgets: list[Rows | EntryField | Button] = [self.field, self.fold, self.notation, self.list]
 
     def arrange(self, x: float, y: float, w: float, h: float) -> None:
-        self.field.area = x + 4, y + 4, w - 72, 18
+        self.field.area = x + 4, y + 4, w - 120, 18
+        self.fold.area = x + w - 112, y + 4, 44, 18
         self.notation.area = x + w - 64, y + 4, 60, 18
         self.list.area = x + 4, y + 26, w - 8, h - 30
 
     def update(self, real_ms: int) -> None:
         """While it is shown: have the lines of the run as it is, and the one of the cursor's tick in the field."""
-        seen = self.editor.track, self.editor.cursor, self.celeste
+        seen = self.editor.track, self.editor.cursor, self.celeste, self.folded
         if self.editor.tab == self.name and seen != self._seen:
-            self._seen, self._track, self.starts = seen, self.editor.track, starts_of(self.editor.track)
+            self._seen, self._track = seen, self.editor.track
+            self._unfolded = section_at(self._track, self.editor.cursor) if self.folded else None
+            self.starts = starts_of(self._track, self._unfolded)
             self.list.index = int(np.searchsorted(self.starts, self.editor.cursor, "right")) - 1
             self.list.fill(range(len(self.starts)))
             self.field.show(self.text(self.list.index))
@@ -86,8 +108,12 @@ class TextTab(Tab):
         return int(self.starts[index]), int(self.starts[index + 1 :][:1].sum() or self.starts[index])
 
     def text(self, index: int) -> str:
-        """A line."""
-        return text_of(self._track, *self.span(index), celeste=self.celeste)
+        """A line, or how long the section is whose lines are folded."""
+        first, last = self.span(index)
+        if first < last and self._unfolded and not self._unfolded[0] <= first < self._unfolded[1]:
+            name = next((f"#{name}" for tick, name in self._track.markers if tick == first), "the start")
+            return f"{name}: {counted(last - first, 'tick')}"
+        return text_of(self._track, first, last, celeste=self.celeste)
 
     def put(self) -> None:
         """What is in the field instead of its line; the markers there are those that it names."""
@@ -111,7 +137,15 @@ class TextTab(Tab):
             self.editor.go(first)
 
     def _choose(self, index: int) -> None:
-        self.editor.select(*self.span(index))
+        first, last = self.span(index)
+        if self._unfolded and not self._unfolded[0] <= first <= self._unfolded[1]:
+            self.editor.go(first)
+        else:
+            self.editor.select(first, last)
+
+    def _fold(self) -> None:
+        self.folded = not self.folded
+        self.fold.text = "Unfold" if self.folded else "Fold"
 
     def _turn(self) -> None:
         self.celeste = not self.celeste

@@ -1,4 +1,7 @@
-"""Sound: hears the events of each tick and what goes on, and plays it. A machine without sound is not an error."""
+"""Sound: hears the events of each tick and what goes on, and plays it. A machine without sound is not an error.
+
+Some sounds depend on the ones before: variants do not repeat, gold climbs, steps have the pace of a run.
+"""
 
 from __future__ import annotations
 
@@ -7,17 +10,18 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from math import isfinite
 from pathlib import Path
+from random import Random
 from time import monotonic
 
 import pygame
 
 from ninja_game.runtime import run_in_background
 from ninja_game.sim.memory.object_fields import Object
-from ninja_game.sim.memory.schema import World
+from ninja_game.sim.memory.schema import Ninja, World
 from ninja_game.sim.rules import WORLD_WIDTH
+from ninja_game.sim.states import RUNNING
 from ninja_game.ui.audio.music import CALM, LAYERS, Music, heard_in_music, music_levels
-from ninja_game.ui.audio.patterns import Footsteps, GoldLadder, Variants
-from ninja_game.ui.audio.table import CORPSE, GOLD, LOOPS, STEPS, by_hardness, event_sound, has_loop, loop_levels
+from ninja_game.ui.audio.table import CORPSE, GOLD, LOOPS, STEPS, Names, by_hardness, event_sound, has_loop, loop_levels
 
 RATE, BUFFER = 44_100, 512
 """Samples a second, those of our files; and in the mixer's buffer: 12 ms of delay."""
@@ -216,3 +220,57 @@ def _open_mixer() -> bool:
     except (pygame.error, NotImplementedError):
         return False
     return True
+
+
+CHAIN_TICKS = 60
+"""Gold within so many ticks after the piece before it climbs."""
+
+STRIDE = 32.4
+"""From one footstep to the next, px: half a cycle of the drawn legs (view/ninja/figure.py)."""
+
+
+class Variants:
+    """Chooses a variant of a sound, never the same twice in a row."""
+
+    def __init__(self) -> None:
+        self._rng = Random()  # noqa: S311 - which thud it is, is no secret
+        self._last: dict[Names, str] = {}
+
+    def choose(self, names: Names) -> str:
+        others = [name for name in names if name != self._last.get(names)]
+        self._last[names] = self._rng.choice(others or names)
+        return self._last[names]
+
+
+class GoldLadder:
+    """The rung of each piece of gold: one higher in a chain, to the top; the lowest one after a pause or a restart."""
+
+    def __init__(self, rungs: int) -> None:
+        self.top = rungs - 1
+        self._rung, self._tick = -1, -1
+
+    def climb(self, tick: int) -> int:
+        """The rung of gold that is taken in this tick, 0 and up."""
+        chained = self._rung >= 0 and 0 <= tick - self._tick <= CHAIN_TICKS
+        self._rung = min(self._rung + 1, self.top) if chained else 0
+        self._tick = tick
+        return self._rung
+
+
+class Footsteps:
+    """Tells when a foot is put down. The first step of a run comes after half a stride."""
+
+    def __init__(self) -> None:
+        self._way = STRIDE / 2
+
+    def loudness(self, ninja: Ninja) -> float:
+        """How loud the step of this tick is, a share by speed; 0: there is none. To be called every tick."""
+        if ninja.state != RUNNING:
+            self._way = STRIDE / 2
+            return 0.0
+        speed = abs((ninja.x - ninja.prev_x) * -ninja.floor_y + (ninja.y - ninja.prev_y) * ninja.floor_x)
+        self._way += speed
+        if self._way < STRIDE:
+            return 0.0
+        self._way -= STRIDE
+        return min(1.0, 0.4 + speed / 6)

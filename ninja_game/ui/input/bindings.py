@@ -201,6 +201,7 @@ ACTIONS: dict[str, Action] = {
     "overlay_edges": Action("Show edges", ("3",)),
     "overlay_rays": Action("Show rays", ("4",)),
     "overlay_cells": Action("Show cells", ("5",)),
+    "overlay_thinkers": Action("Show who thinks", ("6",)),
     "faster": Action("Replay: faster", ("equals", "kp_plus"), ("rightshoulder",)),
     "slower": Action("Replay: slower", ("minus", "kp_minus"), ("leftshoulder",)),
     "frame_back": Action("Replay: previous tick", ("comma",)),

@@ -96,7 +96,6 @@ def key_label(name: str) -> str:
 
 
 def key_label_of(name: str) -> str:
-    """What a key is called."""
     return {"ctrl": "Ctrl", "delete": "Del", "minus": "-", "equals": "="}.get(name) or key_label(
         {"shift": "lshift"}.get(name, name)
     )

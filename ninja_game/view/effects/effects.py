@@ -10,6 +10,7 @@ from ninja_game.sim import events as ev, states
 from ninja_game.sim.collision.rays import ray_tiles
 from ninja_game.sim.kinds import DRONE, LAUNCHER
 from ninja_game.sim.memory.schema import Event, TileMap, World
+from ninja_game.sim.rules import FATAL_IMPACT, FLOOR_ALLOWANCE
 from ninja_game.view.effects.particles import Particle, Particles
 
 CONFETTI_FALL = 90.0
@@ -42,6 +43,7 @@ class Effects:
             if react:
                 react(self, level, world, event)
         self._wall_and_floor(world)
+        self._fall(world)
         for slot in range(1, world.id_count + 1):
             o = world.objects[slot]
             if o.kind == LAUNCHER and o.routine == states.LAUNCHER_FLIGHT:
@@ -112,6 +114,12 @@ class Effects:
         elif n.state == states.SLIDING and abs(vy) > 0.3:
             y = n.y + self.rng.uniform(-8, 8)
             self.add("dust", n.x - n.wall_x * 10, y, n.wall_x * 4, -vy * 3, life=32, size=0.7, rear=True)
+
+    def _fall(self, world: World) -> None:
+        """Lines trail behind who falls so fast that flat ground kills."""
+        n = world.ninja
+        if n.in_air and n.state != states.DEAD and n.y - n.prev_y > FATAL_IMPACT - FLOOR_ALLOWANCE:
+            self.add("bullet", n.x + self.rng.uniform(-8, 8), n.y - 12, 0, -16, life=24, rear=True)
 
     def _smoke(self, x: float, y: float, hx: float, hy: float) -> None:
         drift = self.rng.uniform(4, 12)

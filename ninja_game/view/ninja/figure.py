@@ -242,16 +242,13 @@ def paint_limbs(s: Sketch, colour: pygame.Color, far: pygame.Color, pose: Pose, 
 def paint_leg(s: Sketch, colour: pygame.Color, hip: Point, foot: Point, facing: int) -> None:
     """Thigh, shin and a hint of a foot."""
     knee = bend(hip, foot, THIGH, SHIN, -facing)
-    s.stroke(colour, hip, knee, 2.7, 1.9)
-    s.stroke(colour, knee, foot, 1.9, 1.3)
-    s.stroke(colour, foot, (foot[0] + 1.7 * facing, foot[1] - 0.1), 1.3, 0.9)
+    s.limb(colour, (hip, knee, foot, (foot[0] + 1.7 * facing, foot[1] - 0.1)), (2.7, 1.9, 1.3, 0.9))
 
 
 def paint_arm(s: Sketch, colour: pygame.Color, shoulder: Point, hand: Point, facing: int) -> None:
     """Upper arm and forearm."""
     elbow = bend(shoulder, hand, UPPER_ARM, FOREARM, facing)
-    s.stroke(colour, shoulder, elbow, 1.9, 1.5)
-    s.stroke(colour, elbow, hand, 1.5, 1.1)
+    s.limb(colour, (shoulder, elbow, hand), (1.9, 1.5, 1.1))
 
 
 def paint_trunk(s: Sketch, colour: pygame.Color, pose: Pose) -> None:

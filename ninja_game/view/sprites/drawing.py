@@ -32,11 +32,11 @@ class SpriteKey(NamedTuple):
 
     def turned(self, degrees: int) -> SpriteKey:
         """This sprite, turned clockwise."""
-        return self._replace(turn=degrees)
+        return SpriteKey(self.drawing, self.parameters, degrees, self.alpha)
 
     def faded(self, alpha: int) -> SpriteKey:
         """This sprite, ``alpha`` eighths as solid."""
-        return self._replace(alpha=alpha)
+        return SpriteKey(self.drawing, self.parameters, self.turn, alpha)
 
 
 @dataclass(frozen=True, eq=False)

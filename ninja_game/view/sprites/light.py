@@ -61,7 +61,16 @@ _GRID = 25
 @lru_cache(maxsize=64)
 def light_picture(look: Look, scale: float, palette: Palette) -> pygame.Surface:
     """A light, strongest in its middle. Nobody may draw on it."""
-    reach, colour = max(1, round(look.reach * scale)), getattr(palette, look.role)[:3]
+    reach = max(1, round(look.reach * scale))
+    sheet = _sheet(getattr(palette, look.role)[:3]).copy()
+    # Made fainter as a whole, it is scaled as px in the page too, not as squares.
+    sheet.fill((255, 255, 255, look.strength), special_flags=pygame.BLEND_RGBA_MULT)
+    return pygame.transform.smoothscale(sheet, (2 * reach + 1, 2 * reach + 1))
+
+
+@lru_cache(maxsize=16)
+def _sheet(colour: tuple[int, ...]) -> pygame.Surface:
+    """The small sheet in a colour, full strength."""
     sheet = pygame.Surface((_GRID, _GRID), pygame.SRCALPHA)
     sheet.fill((*colour, 0))
     half = _GRID / 2
@@ -69,7 +78,5 @@ def light_picture(look: Look, scale: float, palette: Palette) -> pygame.Surface:
         for x in range(_GRID):
             far = ((x + 0.5 - half) ** 2 + (y + 0.5 - half) ** 2) / half**2
             if far < 1:
-                sheet.fill((*colour, round(255 * (1 - far) ** 2)), (x, y, 1, 1))
-    # Made fainter as a whole, it is scaled as px in the page too, not as squares.
-    sheet.fill((255, 255, 255, look.strength), special_flags=pygame.BLEND_RGBA_MULT)
-    return pygame.transform.smoothscale(sheet, (2 * reach + 1, 2 * reach + 1))
+                sheet.set_at((x, y), (*colour, round(255 * (1 - far) ** 2)))
+    return sheet

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import pygame
 
-from ninja_game.ui.scenery import painted
+from ninja_game.ui.scenery import grain, painted
 from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.tile_sheet import TileSheet
 
 EDGES = (("bright", 2, 0, 120), ("outline", -3, 0, 80), ("bright", 9, 12, 62))
 """What is left of the tiles in a colour when they are taken away: so much lower, or higher, and so soft, logical px;
 how strong it is."""
+
+GRAIN = 8
+"""By how much the rock's marks differ from it, of 255 a channel: never enough to be taken for a thing."""
 
 SHADOW, SHADOW_AT = 76, (4, 6)
 """The shadow's strength, and where it falls, logical px."""
@@ -23,6 +26,8 @@ def add_relief(sheet: TileSheet, palette: Palette) -> pygame.Surface:
     small = painted(palette).copy()
     # It is soft, since it is painted on the small sheet of the scenery.
     shadow = pygame.transform.smoothscale(inks["outline"], small.get_size())
+    if palette.scenery != "paper":
+        _add_grain(sheet, palette, inks)
     shadow.fill((SHADOW,) * 4, special_flags=pygame.BLEND_RGBA_MULT)
     share = sheet.canvas.scale * small.width / size[0]
     small.blit(shadow, [round(share * away) for away in SHADOW_AT], special_flags=pygame.BLEND_PREMULTIPLIED)
@@ -42,3 +47,15 @@ def add_relief(sheet: TileSheet, palette: Palette) -> pygame.Surface:
         edge.fill((strength,) * 4, special_flags=pygame.BLEND_RGBA_MULT)
         sheet.surface.blit(edge, (0, 0), special_flags=pygame.BLEND_PREMULTIPLIED)
     return pygame.transform.smoothscale(small, size)
+
+
+def _add_grain(sheet: TileSheet, palette: Palette, inks: dict[str, pygame.Surface]) -> None:
+    """Mark the rock: darker where it is dark on light, lighter where it is not, so that it keeps off the scenery."""
+    role = "bright" if sum(palette.text[:3]) > sum(palette.background[:3]) else "outline"
+    away = max(abs(ink - rock) for ink, rock in zip(getattr(palette, role)[:3], palette.tile[:3], strict=True))
+    pattern = grain(palette)
+    marks = pygame.transform.smoothscale(inks[role], pattern.get_size())
+    marks.blit(pattern, (0, 0), special_flags=pygame.BLEND_RGBA_SUB)
+    marks.fill((round(255 * GRAIN / away),) * 4, special_flags=pygame.BLEND_RGBA_MULT)
+    marks = pygame.transform.smoothscale(marks, sheet.surface.size)
+    sheet.surface.blit(marks, (0, 0), special_flags=pygame.BLEND_PREMULTIPLIED)

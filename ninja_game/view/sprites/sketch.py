@@ -6,7 +6,6 @@ The result is premultiplied by its alpha: averaging is only right that way, and 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
 from math import ceil, cos, floor, radians, sin
 from typing import NamedTuple
 
@@ -78,21 +77,31 @@ class Sketch:
 
     def stroke(self, colour: Colour, a: Point, b: Point, width: float, end_width: float | None = None) -> None:
         """A line with round ends; with ``end_width`` it tapers."""
-        end_width = width if end_width is None else end_width
-        dx, dy = b[0] - a[0], b[1] - a[1]
-        length = (dx * dx + dy * dy) ** 0.5
-        if length > 0:
-            nx, ny = -dy / length / 2, dx / length / 2
-            sides = ((a, width + 2 * self.grown), (b, end_width + 2 * self.grown))
-            left = [(p[0] + nx * w, p[1] + ny * w) for p, w in sides]
-            right = [(p[0] - nx * w, p[1] - ny * w) for p, w in sides]
-            self.polygon(colour, [*left, *reversed(right)])
-        self.disc(colour, *a, width / 2)
-        self.disc(colour, *b, end_width / 2)
+        self.limb(colour, (a, b), (width, width if end_width is None else end_width))
 
     def path(self, colour: Colour, points: Sequence[Point], width: float) -> None:
-        for a, b in pairwise(points):
-            self.stroke(colour, a, b, width)
+        self.limb(colour, points, [width] * len(points))
+
+    def limb(self, colour: Colour, joints: Sequence[Point], widths: Sequence[float]) -> None:
+        """A line through joints, round at each and as wide as is said for it."""
+        fine, circle, polygon = self._fine, pygame.draw.circle, pygame.draw.polygon
+        # In the sheet's px at once: a figure has some fifty of these, and is drawn again for each picture.
+        zoom, cosine, sine = self._zoom, self._cos, self._sin
+        left, top = self._ax * self._fine_by, self._ay * self._fine_by
+        grown, before = self.grown * zoom, None
+        for (across, down), width in zip(joints, widths, strict=True):
+            x, y = left + (across * cosine - down * sine) * zoom, top + (across * sine + down * cosine) * zoom
+            half = width * zoom / 2 + grown
+            circle(fine, colour, (x, y), half)
+            if before:
+                bx, by, begin = before
+                dx, dy = x - bx, y - by
+                length = (dx * dx + dy * dy) ** 0.5
+                if length > 0:
+                    nx, ny = -dy / length, dx / length
+                    ax, ay, cx, cy = nx * begin, ny * begin, nx * half, ny * half
+                    polygon(fine, colour, ((bx + ax, by + ay), (x + cx, y + cy), (x - cx, y - cy), (bx - ax, by - ay)))
+            before = x, y, half
 
     def finish(self, alpha: float = 1.0) -> Sprite:
         """The drawing, as solid as ``alpha`` (0…1)."""

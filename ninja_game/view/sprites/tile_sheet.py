@@ -78,11 +78,10 @@ class TileSheet:
 
     def has_tile(self, area: pygame.Rect) -> bool:
         """Whether any px of an area may be a tile's."""
-        scale = 24 * self.canvas.scale
-        area = area.move(-self._shift[0], -self._shift[1])
-        first_column, last_column = max(0, int(area.left / scale)), min(GRID_COLUMNS - 1, int(area.right / scale))
-        first_row, last_row = max(0, int(area.top / scale)), min(GRID_ROWS - 1, int(area.bottom / scale))
-        columns = (1 << max(0, last_column + 1)) - (1 << min(first_column, GRID_COLUMNS))
+        x, y, size = area.left - self._shift[0], area.top - self._shift[1], 24 * self.canvas.scale
+        first_column, last_column = int(x / size), int((x + area.width) / size)
+        first_row, last_row = max(0, int(y / size)), min(GRID_ROWS - 1, int((y + area.height) / size))
+        columns = (1 << max(0, last_column + 1)) - (1 << max(0, first_column))
         for row in range(first_row, last_row + 1):  # noqa: SIM110 - a hundred times a picture
             if self._rows[row] & columns:
                 return True

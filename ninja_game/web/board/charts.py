@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import dist
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.play.replay.paths import COLOURS
+from ninja_game.ui.theme import RUN_COLOURS
 from ninja_game.web.pages.frame import Markup, joined, tag
 from ninja_game.web.pages.gallery import PICTURE_HEIGHT
 from ninja_game.web.pages.published import PICTURE_WIDTH
@@ -41,12 +42,12 @@ def _share(values: NDArray[np.float64]) -> NDArray[np.float64]:
     return share
 
 
-def paths(picture: str, runs: Sequence[tuple[str, NDArray[np.float64]]]) -> Markup:
-    """Runs, each by name with float64 (ticks, 2), px, over the picture of their level; the first on top."""
+def paths(picture: str, runs: Sequence[tuple[str, str]]) -> Markup:
+    """Runs, each by name with its ``path_data``, over the picture of their level; the first on top."""
     image = tag("image", href=picture, width=PICTURE_WIDTH, height=PICTURE_HEIGHT)
     lines = [
-        tag("path", tag("title", name), d=path_data(positions), class_="way", stroke=_colour(number))
-        for number, (name, positions) in enumerate(runs)
+        tag("path", tag("title", name), d=way, class_="way", stroke=_colour(number))
+        for number, (name, way) in enumerate(runs)
     ]
     said = f"The level with the paths of {', '.join(name for name, _ in runs)}"
     box = f"0 0 {PICTURE_WIDTH} {PICTURE_HEIGHT}"
@@ -62,7 +63,7 @@ def swatch(number: int) -> Markup:
 
 
 def _colour(number: int) -> str:
-    ink = COLOURS[number % len(COLOURS)]
+    ink = RUN_COLOURS[number % len(RUN_COLOURS)]
     return f"#{ink.r:02x}{ink.g:02x}{ink.b:02x}"
 
 
@@ -75,9 +76,10 @@ def path_data(positions: NDArray[np.float64]) -> str:
     whole = positions.round().astype(int)
     length = float(np.hypot(*np.diff(positions, axis=0).T).sum())
     apart = max(NEAREST, length / MOST_POINTS)
-    kept = [whole[0]]
-    for place in whole[1:]:
-        if np.hypot(*(place - kept[-1])) >= apart:
+    first, *others = whole.tolist()
+    kept = [first]
+    for place in others:
+        if dist(place, kept[-1]) >= apart:
             kept.append(place)
     moves = "".join(f"{x}{'' if y < 0 else ' '}{y} " for x, y in np.diff(kept, axis=0).tolist())
     return f"M{kept[0][0]} {kept[0][1]}" + (f"l{moves.rstrip()}" if moves else "")

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import re
+import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -10,7 +12,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from ninja_game.errors import FileError, NinjaGameError, ReplayError, reason
-from ninja_game.files.reading import LeftOut, decoded, files_below, read_bytes
+from ninja_game.files.reading import LeftOut, decoded, files_below, read_bytes, stamp_of
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.recording import holds_recordings
 from ninja_game.formats.replay.episode import is_episode, parse_episode, write_episode
@@ -22,6 +24,9 @@ from ninja_game.sim.level import Level
 
 MOST_BYTES = 2**20
 """Of a file: a hundred times a long run."""
+
+SETTLED = 2 * 10**9
+"""Nanoseconds after which a change shows in the time of a file."""
 
 MOST_RECORDS = 200
 """Of one file with records of N."""
@@ -78,15 +83,18 @@ class RunFolder:
     def __init__(self, folder: Path, levels: Mapping[str, Level]) -> None:
         self.folder = folder
         self.levels = levels
+        self._root = os.fspath(folder)
         self.known: dict[tuple[str, int], bytes] = {}
         """Inputs of runs that were judged just now, by file and record."""
+        self.drawn: dict[tuple[str, int], str] = {}
+        """Paths over the level of runs that were compared just now, as ``path_data``."""
 
-    def files(self) -> Iterator[SentFile]:
-        """All its files, by their paths from there; no link is followed."""
+    def files(self) -> Iterator[tuple[str, str]]:
+        """The paths of all its files from there, and why one is left out; no link is followed."""
+        above = len(self.folder.parts)
         for found in files_below(self.folder, follow_links=False):
             path, why = (found.path, found.why) if isinstance(found, LeftOut) else (found, "")
-            name = path.relative_to(self.folder).as_posix()
-            yield SentFile(name, problem=why) if why else self.file(name)
+            yield "/".join(path.parts[above:]), why
 
     def file(self, name: str) -> SentFile:
         """One of its files."""
@@ -97,6 +105,11 @@ class RunFolder:
             return SentFile(name, problem=str(error).removeprefix(f"{path}: "))
         except OSError as error:
             return SentFile(name, problem=reason(error))
+
+    def stamp(self, name: str) -> list[int]:
+        """As ``stamp_of``; [] for a file so new that it may be changed again in the same moment."""
+        found = stamp_of(f"{self._root}/{name}")
+        return found if found and time.time_ns() - max(found[1:3]) > SETTLED else []
 
     def recordings(self, file: SentFile) -> list[Sent]:
         """What a file holds; one that is refused says why. Paths in replays are not followed."""

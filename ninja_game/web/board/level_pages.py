@@ -13,7 +13,7 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.player.catalogue import Entry
 from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, run_splits, split_table
 from ninja_game.tas.leads import split_name
-from ninja_game.web.board.charts import paths, steps, swatch
+from ninja_game.web.board.charts import path_data, paths, steps, swatch
 from ninja_game.web.board.parts import RUN_HEADS, UP, Parts, signed
 from ninja_game.web.board.ranking import Part, Ranked
 from ninja_game.web.board.rules import FASTEST
@@ -98,7 +98,7 @@ class LevelPages(Parts):
         """The first runs of what is called so: their paths, any two of them, their splits."""
         names = [self.name(run.player) for run in runs]
         found = [run_splits(Recording(run.entry.named.level, run.replay), memory="auto") for run in runs]
-        places = [(name, each.positions) for name, each in zip(names, found, strict=True)]
+        places = [(name, path_data(each.positions)) for name, each in zip(names, found, strict=True)]
         drawn = paths(UP + picture_name(runs[0].entry.digest), places)
         together = tag("p", self.watch(runs, UP, f"Watch the first {len(runs)} together"))
         pairs = [

@@ -10,7 +10,6 @@ from typing import Any
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.player.catalogue import Entry
-from ninja_game.runs.run import run_level
 from ninja_game.web.board.charts import paths
 from ninja_game.web.board.ranking import Part, Ranking
 from ninja_game.web.board.rules import Category
@@ -94,9 +93,8 @@ class Parts:
         about = run.entry, stem, title, facts, BOARD, self.game, self.links, self.site
 
         def content() -> str:
-            way = run_level(run.entry.named.level, run.replay.inputs).positions
             picture = f"{UP}{BOARD}/{picture_name(run.entry.digest)}"
-            return run_page(*about, paths(picture, [(self.name(run.player), way)]))
+            return run_page(*about, paths(picture, [(self.name(run.player), run.path)]))
 
         self.pages.make_replay(f"{stem}.html", [title, *facts, self.links, self.site], content)
 

@@ -6,6 +6,7 @@ import json
 from collections import Counter
 from collections.abc import Iterator
 from datetime import UTC, datetime, timedelta
+from functools import lru_cache
 from operator import attrgetter
 from pathlib import Path
 from typing import Any
@@ -103,6 +104,7 @@ def _rows(path: Path, part: str, rows: list[dict[str, Any]], now: datetime) -> R
     return found
 
 
+@lru_cache(4096)
 def _is_date(text: str, now: datetime) -> bool:
     """Whether a text is a date of ours, and not of a day that is still to come."""
     try:

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
+from hashlib import sha256
 from heapq import nsmallest
 from itertools import pairwise
 from pathlib import Path
@@ -28,7 +29,8 @@ from ninja_game.runs.run import run_level
 from ninja_game.runs.verify import NOT_RUN
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
-from ninja_game.web.board.collect import RunFolder, Sent
+from ninja_game.web.board.charts import path_data
+from ninja_game.web.board.collect import RunFolder, Sent, SentFile
 from ninja_game.web.board.copies import Course, Courses, course_of
 from ninja_game.web.board.players import Players
 from ninja_game.web.pages.memo import Memo, digest_of, program
@@ -78,6 +80,9 @@ class Judged(NamedTuple):
     co_authors: str = ""
     episode: str = ""
 
+
+Waiting = tuple[str, str, list[int], list[Sent], list[Judged]]
+"""A file whose turn comes: name, digest, stamp, what it holds, or what that came to before."""
 
 _TYPES = tuple(get_type_hints(Judged).values())
 
@@ -129,12 +134,22 @@ class Run:
         return self.entry.pars.medal(self.tick) if self.entry.pars else ""
 
     @property
+    def inputs(self) -> bytes:
+        """Its inputs, read again. Raises FileError where the file was changed since."""
+        return self.folder.inputs(self.file, self.record, self.digest, self.tick + 1)
+
+    @property
+    def path(self) -> str:
+        """Its path over the level, as ``path_data``."""
+        drawn = self.folder.drawn.get(self.key)
+        return drawn or path_data(run_level(self.entry.named.level, self.inputs).positions)
+
+    @property
     def replay(self) -> Replay:
-        """Its inputs, read again, and what the simulation says. Raises FileError where the file was changed since."""
+        """Its ``inputs``, and what the simulation says."""
         named = self.entry.named
-        inputs = self.folder.inputs(self.file, self.record, self.digest, self.tick + 1)
         return Replay(
-            inputs, self.tick, "exit", self.gold, name=self.entry.title, author=self.player,
+            self.inputs, self.tick, "exit", self.gold, name=self.entry.title, author=self.player,
             level_name=self.entry.title, level_author=named.author, level=named.level, made=parse_made(self.made),
             co_authors=names_of_text(self.co_authors),
         )  # fmt: skip
@@ -234,14 +249,23 @@ def _judged(
     ]
     budget = min(RUN_BUDGET, max(longest, default=RUN_BUDGET))
     context = digest_of([program(), budget, sorted(shown.entries), sorted(episodes)])
-    files: deque[tuple[str, str, str, list[Sent], list[Judged]]] = deque()
+    files: deque[Waiting] = deque()
 
     def chunks() -> Iterator[Chunk]:
-        for file in folder.files():
-            key = digest_of([context, file.digest])
-            known = _known(memo.recall(key), shown)
-            sent = [] if known else folder.recordings(file)
-            files.append((file.name, file.digest, key, sent, known))
+        for name, why in folder.files():
+            # The stamp comes first: a file that is changed after it is read again the next time.
+            stamp = [] if why else folder.stamp(name)
+            noted = memo.recall(name)
+            *seen, digest, rows = noted if isinstance(noted, list) and len(noted) == 4 else ["", [], "", []]
+            as_before = stamp != [] and seen == [context, stamp]
+            file = None if as_before and (known := _known(rows, shown)) else SentFile(name, problem=why)
+            if file:
+                file = file if why else folder.file(name)
+                known = _known(rows, shown) if [*seen[:1], digest] == [context, file.digest] else []
+                if known:
+                    memo.note(name, [context, stamp, digest, rows])
+            sent = folder.recordings(file) if file and not known else []
+            files.append((name, file.digest if file else str(digest), stamp, sent, known))
             yield from (each.chunk for each in sent)
 
     levels = [entry.named for entry in shown.entries.values()]
@@ -251,19 +275,20 @@ def _judged(
         (), chunks=chunks(), levels=levels, episodes=episodes, strict=True, jobs=jobs, budget=budget
     ):
         yield from _remembered(files)
-        name, digest, key, sent, _ = files[0]
+        name, digest, stamp, sent, _ = files[0]
         row = _row(sent[len(found)], result, folder)
         entry = shown.entries.get(row.level)
         if entry and not row.kind:
             try:
-                shared_text(_run(name, digest, row, entry, folder).replay, entry.named.level)
+                # Its inputs were read from a text, and can be written into one.
+                shared_text(replace(_run(name, digest, row, entry, folder).replay, inputs=b""), entry.named.level)
             except (NinjaGameError, ValueError) as error:
                 row = Judged(row.record, "unreadable", str(error))
         found.append(row)
         certain &= not isinstance(result, Lost)
         if len(found) == len(sent):
             if certain:
-                memo.note(key, found)
+                memo.note(name, [context, stamp, digest, found])
             files.popleft()
             yield name, digest, found
             found, certain = [], True
@@ -283,9 +308,7 @@ def _known(noted: Any, shown: PublishedLevels) -> list[Judged]:
     return []
 
 
-def _remembered(
-    files: deque[tuple[str, str, str, list[Sent], list[Judged]]],
-) -> Iterator[tuple[str, str, list[Judged]]]:
+def _remembered(files: deque[Waiting]) -> Iterator[tuple[str, str, list[Judged]]]:
     """The files in front that the memo knows; they are taken away."""
     while files and not files[0][3]:
         name, digest, _, _, known = files.popleft()
@@ -332,7 +355,8 @@ def _of_players(runs: list[Run], players: Players) -> list[Run]:
     found = []
     for run in runs:
         player, remark = players.meet(run.player)
-        found.append(replace(run, player=player, remark=remark))
+        same = player == run.player and not remark
+        found.append(run if same else replace(run, player=player, remark=remark))
     return found
 
 
@@ -371,10 +395,10 @@ def _remarked(runs: list[Run], memo: Memo) -> list[Run]:
         return runs
     found: list[Run] = []
     courses, known = Courses(MOST_COMPARED), 0
-    key = ""
+    key = digest_of([program(), runs[0].entry.digest])
     for number, run in enumerate(runs):
         # A remark depends on all earlier runs of the level, and on nothing else.
-        key = digest_of([key, program(), run.entry.digest, run.digest, run.record, run.player])
+        key = sha256(f"{key} {run.digest} {run.record} {run.player}".encode("utf-8", "replace")).hexdigest()
         said = memo.recall(key)
         if not isinstance(said, str):
             fast = nsmallest(MOST_COMPARED, range(known, number), key=lambda each: runs[each].tick)
@@ -385,13 +409,15 @@ def _remarked(runs: list[Run], memo: Memo) -> list[Run]:
             courses.add(number, run.tick, partial(replace, course))
             said = f"{near[1]} the run by {runs[near[0]].player} in {runs[near[0]].file}" if near else ""
             memo.note(key, said)
-        found.append(replace(run, remark="; ".join(filter(None, (said, run.remark)))))
+        found.append(replace(run, remark="; ".join(filter(None, (said, run.remark)))) if said else run)
     return found
 
 
 def _course(run: Run) -> Course:
-    inputs = run.replay.inputs
-    return course_of(inputs, run_level(run.entry.named.level, inputs))
+    inputs = run.inputs
+    found = run_level(run.entry.named.level, inputs)
+    run.folder.drawn[run.key] = path_data(found.positions)
+    return course_of(inputs, found)
 
 
 def _near_to_another(player: str, course: Course, earlier: Courses, players: Sequence[str]) -> tuple[int, str] | None:
@@ -403,5 +429,6 @@ def _near_to_another(player: str, course: Course, earlier: Courses, players: Seq
     own = np.array([players[number] == player for number in numbers.tolist()], bool)
     near, until = earlier.near(course), len(players)
     for _ in range(2):  # inputs are aligned only where nothing else is near
-        until = min((number for number, _ in near(own & (numbers < until))), default=until)
-    return next(iter(near(~own & (numbers < until))), None)
+        until = min(near(own & (numbers < until))[0], default=until)
+    others, said = near(~own & (numbers < until))
+    return (others[0], said) if others else None

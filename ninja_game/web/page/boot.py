@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import random
+from time import perf_counter
 from typing import Any
 
 from pygame.host import LINK  # type: ignore[import-not-found]
@@ -11,13 +12,20 @@ from pygame.host import LINK  # type: ignore[import-not-found]
 from ninja_game.play.app import App, build_app
 from ninja_game.play.main import first_screen
 
+LONG = 0.02
+"""A turn whose events and ticks take so many seconds, that which opens a level say, leaves the picture to the next."""
+
 
 class _Game:
-    """``last``: the time of the last picture; ``due``: that of the next one, ms. ``top``: the screen it showed."""
+    """``last``: the time of the last picture; ``due``: that of the next one, ms. ``top``: the screen it showed.
+
+    ``late``: whether the last turn has left its picture to the next.
+    """
 
     app: App
     last = due = 0.0
     top: Any = None
+    late = False
 
 
 def start(host: Any, level: str | None = None, replay: str | None = None) -> None:
@@ -47,6 +55,10 @@ def resume() -> None:
 def turn(now: float) -> bool:
     """One picture at a time in ms, if one is due; whether the game goes on."""
     app = _Game.app
+    if _Game.late:
+        _Game.late = False
+        app.draw()
+        return True
     limit = app.settings.frame_limit
     if limit:
         # A display shows its pictures not quite evenly: one that comes a little early is the one that is due.
@@ -55,9 +67,15 @@ def turn(now: float) -> bool:
         _Game.due = max(_Game.due + 1000 / limit, now)
     passed = int(now) - int(_Game.last)
     _Game.last = now
-    app.frame(max(0, passed))
+    started = perf_counter()
+    app.advance(max(0, passed))
     if not (app.running and app.stack):
         return False
+    _Game.late = perf_counter() - started > LONG
+    if _Game.late:
+        return True
+    app.draw()
+    app.frame_ms = 1000 * (perf_counter() - started)
     if app.top is not _Game.top:
         _Game.top = app.top
         gc.collect()

@@ -10,6 +10,7 @@ class Host {
     this.sounds = new Sounds();
     this.input = new Input(canvas, () => this.ratio, () => this.sounds.unlock());
     this.rate = 60;
+    this.patience = Infinity; // ms after which a picture is painted on in the next turn
     this.resize();
   }
 
@@ -50,7 +51,7 @@ class Host {
   // --- called by shim/pygame ---
 
   paint(address, count) {
-    this.painter.paint(new Float64Array(this.memory.HEAPF64.buffer, address, count));
+    this.painter.paint(new Float64Array(this.memory.HEAPF64.buffer, address, count), this.patience);
   }
 
   events() {

@@ -14,6 +14,7 @@ const RING = 12; // colour, x, y, radius, width inwards
 const LINE = 13; // colour, x, y, to x, to y, width: across or down, whichever the line is not
 const FRAME = 14; // colour, x, y, width, height, line width (0: filled), corner radius
 const TEXT = 15; // colour, text, size, height
+const STROKE = 16; // colour, count of points, width, x, y, ...: round at its ends and bends
 
 const SCREEN = 1;
 const GRAIN = 32; // sizes of canvases are multiples of it, so that freed ones fit again
@@ -41,11 +42,13 @@ export class Painter {
     this.texts = [];
     this.context = null;
     this.colour = 0; // of the shapes whose path is open
+    this.wide = 0; // of the lines whose path is open; 0: it is filled
     this.open = false;
     this.scale = 1;
     this.x = 0;
     this.y = 0;
     this.stack = [];
+    this.rest = null; // of a list that takes longer than a turn may
   }
 
   // --- canvases ---
@@ -91,10 +94,11 @@ export class Painter {
 
   // --- shapes: those of one colour are filled as one path ---
 
-  begin(colour) {
-    if (this.open && this.colour === colour) return;
+  begin(colour, wide = 0) {
+    if (this.open && this.colour === colour && this.wide === wide) return;
     this.finish();
     this.colour = colour;
+    this.wide = wide;
     this.open = true;
     this.context.beginPath();
   }
@@ -102,17 +106,20 @@ export class Painter {
   finish() {
     if (!this.open) return;
     this.open = false;
-    const context = this.context;
-    context.fillStyle = colourOf(this.colour);
+    const { context, wide } = this;
+    const draw = (style) => {
+      context.fillStyle = context.strokeStyle = style;
+      if (wide) context.stroke();
+      else context.fill();
+    };
+    if (wide) Object.assign(context, { lineWidth: wide, lineCap: "round", lineJoin: "round" });
     if (this.colour % 256 !== 255 && this.stack.length === 0) {
       // A shape takes the place of what is there, also where one can look through it.
       context.globalCompositeOperation = "destination-out";
-      context.fillStyle = "black";
-      context.fill();
+      draw("black");
       context.globalCompositeOperation = "source-over";
-      context.fillStyle = colourOf(this.colour);
     }
-    context.fill();
+    draw(colourOf(this.colour));
   }
 
   // Corners at list[at...]; px of the outline are part of the shape, so it is half a px larger on all sides.
@@ -172,6 +179,13 @@ export class Painter {
     context.closePath();
   }
 
+  // Points at list[at...].
+  stroke(list, at, count) {
+    const { context, scale, x, y } = this;
+    context.moveTo(list[at] * scale + x - 1e-3, list[at + 1] * scale + y); // a line of no length is not drawn
+    for (let k = at; k < at + 2 * count; k += 2) context.lineTo(list[k] * scale + x, list[k + 1] * scale + y);
+  }
+
   fillBox(colour, left, top, width, height) {
     const { context, scale, x, y } = this;
     const box = [left * scale + x, top * scale + y, width * scale, height * scale];
@@ -191,6 +205,7 @@ export class Painter {
     if (line > 0) {
       context.strokeStyle = colourOf(colour);
       context.lineWidth = line * scale;
+      context.lineJoin = "miter";
       context.stroke();
     } else {
       context.fillStyle = colourOf(colour);
@@ -252,11 +267,25 @@ export class Painter {
 
   // --- the list ---
 
-  paint(list) {
+  // After `patience` ms what is left becomes the rest, unless it paints on the screen already. A rest comes first.
+  paint(list, patience = Infinity) {
+    this.goOn();
     const { sheets } = this;
+    const until = performance.now() + patience;
+    let hidden = true;
     let at = 0;
     while (at < list.length) {
       const kind = list[at];
+      if (hidden && (kind === CANVAS || kind === TARGET)) {
+        hidden = list[at + 1] !== SCREEN;
+        if (at > 0 && performance.now() > until) {
+          this.finish();
+          this.rest = list.slice(at);
+          return;
+        }
+      } else if (hidden && kind !== FREE) {
+        hidden = this.context !== sheets[SCREEN]?.context;
+      }
       if (kind >= POLYGON && kind <= LINE && kind !== RING) {
         this.begin(list[at + 1]);
         if (kind === DISC) {
@@ -269,6 +298,12 @@ export class Painter {
           this.line(list[at + 2], list[at + 3], list[at + 4], list[at + 5], list[at + 6]);
           at += 7;
         }
+        continue;
+      }
+      if (kind === STROKE) {
+        this.begin(list[at + 1], list[at + 3] * this.scale);
+        this.stroke(list, at + 4, list[at + 2]);
+        at += 4 + 2 * list[at + 2];
         continue;
       }
       if (kind === SHIFT) {
@@ -332,6 +367,14 @@ export class Painter {
       }
     }
     this.finish();
+  }
+
+  // Paint what was left; whether there was something.
+  goOn(patience) {
+    const { rest } = this;
+    this.rest = null;
+    if (rest) this.paint(rest, patience);
+    return rest !== null;
   }
 
   ring(cx, cy, radius, width) {

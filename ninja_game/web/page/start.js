@@ -8,6 +8,7 @@ import { Touch } from "./touch.js";
 import { button, lastLine, reloading, showStop, showTrouble } from "./trouble.js";
 
 const PAGE_STATE_MS = 100; // how often the page looks at what the game shows
+const PAINTING_MS = 16; // how long a turn may paint what is not seen yet
 const KEEP_AFTER_MS = 3000; // when the game runs, what the next visit needs is put aside
 const MENU_KEYS = { back: "Escape", choose: "Enter", up: "ArrowUp", down: "ArrowDown", before: "ArrowLeft", next: "ArrowRight" };
 const PHONE = "(pointer: coarse) and (max-width: 600px), (pointer: coarse) and (max-height: 500px)";
@@ -53,6 +54,7 @@ class Page {
     this.listen();
     await this.openLink();
     boot.turn(performance.now()); // a picture, even behind a message about the link
+    this.host.patience = PAINTING_MS;
     this.look(0);
     this.turn(performance.now());
     document.getElementById("start").remove();
@@ -108,7 +110,7 @@ class Page {
   turn(now) {
     if (this.stopped) return;
     requestAnimationFrame((next) => this.turn(next));
-    if (this.paused || this.folder.saving) return;
+    if (this.paused || this.folder.saving || this.host.painter.goOn(PAINTING_MS)) return;
     try {
       const goesOn = this.boot.turn(now);
       if (!goesOn) this.services.flush();

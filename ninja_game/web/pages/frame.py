@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Callable, Iterable
 from html import escape
@@ -11,6 +12,7 @@ from typing import TypeAlias
 import pygame
 
 from ninja_game.errors import FileError
+from ninja_game.files.reading import stamp_of
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.tree import Tree, leads_below
 from ninja_game.play.window import icon, png_of
@@ -117,6 +119,7 @@ class Pages:
         self.folder = site / name
         self._memo = memo or Memo()
         self._site = Tree(site, kept=False)  # they can always be made again
+        self._root = os.fspath(site)
         self._written: set[str] = set()
         there = self._site.names(name)
         if there and MARK not in there:
@@ -143,17 +146,10 @@ class Pages:
 
     def _make(self, name: str, data: object, content: Callable[[], str | bytes]) -> None:
         digest = digest_of([program(), data])
-        if self._memo.recall(name) != [digest, *self._there(name)]:
+        file = f"{self._root}/{name}"
+        if self._memo.recall(name) != [digest, *stamp_of(file)]:
             self._site.write(name, content())
-            self._memo.note(name, [digest, *self._there(name)])
-
-    def _there(self, name: str) -> list[int]:
-        """What tells that a file is not the one that was written: its size and times; git and archives set no ctime."""
-        try:
-            about = (self._site.root / name).lstat()
-        except OSError:
-            return []
-        return [about.st_size, about.st_mtime_ns, about.st_ctime_ns, about.st_ino]
+            self._memo.note(name, [digest, *stamp_of(file)])
 
     def write_replay(self, name: str, text: str) -> None:
         """A replay that pages lead to, or the page of one, in the site's folder of them."""

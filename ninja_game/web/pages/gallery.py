@@ -9,6 +9,7 @@ from posixpath import normpath
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import counted, shown_text
+from ninja_game.formats.ascii.writer import headers_of
 from ninja_game.formats.links.making import level_link
 from ninja_game.formats.pack.pars import MARGINS, MEDALS, Pars
 from ninja_game.formats.run_time import seconds_text
@@ -118,7 +119,7 @@ def _play(entry: Entry, game: str) -> Content:
     """A link that plays the level; none for a level that fits into no link."""
     named = entry.named
     try:
-        link = level_link(named.level, name=entry.title, author=named.author, comment=named.comment)
+        link = level_link(named.level, **headers_of(named) | {"name": entry.title})
     except NinjaGameError:
         return None
     return tag("p", tag("a", "Play this level", href=game + link, class_="button"))
@@ -127,7 +128,8 @@ def _play(entry: Entry, game: str) -> Content:
 def objects_text(entry: Entry) -> str:
     """How many objects of each kind, the commonest first."""
     counts = Counter(KIND_NAMES[spec.kind] for spec in entry.named.level.objects if makes_object(spec))
-    return ", ".join(f"{count} {kind}" for kind, count in counts.most_common()) or "none"
+    told = [counted(count, kind, "gold" * (kind == "gold")) for kind, count in counts.most_common()]
+    return ", ".join(told) or "none"
 
 
 def _pars(pars: Pars) -> Markup:

@@ -29,13 +29,13 @@ CERTIFICATES = ("exit", "gold")
 
 @dataclass(frozen=True)
 class PublishedLevels:
-    """Levels with what is known of them. ``runs``: by level digest the certificates there are, "exit" or "gold"."""
+    """Levels with what is known of them."""
 
     name: str
     author: str
     comment: str
     levels: EpisodeSet
-    runs: Mapping[str, Mapping[str, Recording]] = field(default_factory=dict)
+    pack: Pack | None = field(default=None, repr=False, compare=False)
 
     @cached_property
     def entries(self) -> dict[str, Entry]:
@@ -45,6 +45,11 @@ class PublishedLevels:
             found.setdefault(entry.digest, entry)
         return found
 
+    @cached_property
+    def runs(self) -> Mapping[str, Mapping[str, Recording]]:
+        """By level digest the certificates there are, "exit" or "gold"."""
+        return {entry.digest: _certificates(self.pack, entry) for entry in self.levels.levels} if self.pack else {}
+
 
 def published_levels(path: Path) -> PublishedLevels:
     """The levels of a pack, or of any file or folder. Raises NinjaGameError, OSError."""
@@ -52,9 +57,7 @@ def published_levels(path: Path) -> PublishedLevels:
         entries = tuple(Entry(level, "yours") for level in load_levels(path))
         return PublishedLevels(path.stem, "", "", EpisodeSet("", path.stem, (), {}, entries))
     pack = Pack(path)
-    levels = episode_set(pack, "")
-    runs = {entry.digest: _certificates(pack, entry) for entry in levels.levels}
-    return PublishedLevels(pack.name, pack.index.author, pack.index.comment, levels, runs)
+    return PublishedLevels(pack.name, pack.index.author, pack.index.comment, episode_set(pack, ""), pack)
 
 
 def _certificates(pack: Pack, entry: Entry) -> dict[str, Recording]:

@@ -28,5 +28,6 @@ def driver(tmp_path: Path) -> Iterator[Maker]:
 def maker_with_a_room(maker: Maker) -> Maker:
     maker.open("Editor")
     maker.editor.session.begin(Source(ROOM))
+    maker.editor.follow_parts()
     maker.frames()
     return maker

@@ -11,23 +11,31 @@ import pygame
 import pytest
 
 from ninja_game.backend.memories import compiled_available
+from ninja_game.editor import packs
 from ninja_game.editor.brush import OBJECT_TYPES, object_of_type, placed
 from ninja_game.editor.certify import Search
-from ninja_game.editor.files import Source
+from ninja_game.editor.files import Source, open_source
 from ninja_game.editor.reach import LANDED, SQUARE, STARTS, Reach
 from ninja_game.editor.specs import SWITCH, points
 from ninja_game.editor.stamp import Selection, Stamp, put
 from ninja_game.formats.ascii.places import place_text
+from ninja_game.formats.load import load_levels
+from ninja_game.formats.pack.pack import Pack
+from ninja_game.formats.replay.text import parse_replay
 from ninja_game.play.editor.controls import COMMANDS
 from ninja_game.play.editor.object_list import ObjectList
+from ninja_game.play.editor.parts import FIRST_STEPS
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.panels import Menu
+from ninja_game.play.menus.panels import FormPanel, Menu
+from ninja_game.runs.packs import lint
 from ninja_game.runs.run import run_level
+from ninja_game.search.certificate import verified_run
+from ninja_game.search.task import Progress, obstacle
 from ninja_game.sim.inputs import with_press_bits
-from ninja_game.sim.kinds import NINJA
+from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.ui.input.keys import SCANCODES
 from ninja_game.ui.text_entry import TextEntry
@@ -322,6 +330,55 @@ def test_a_certificate_is_shown_and_gets_stale(room: Maker) -> None:
     assert room.player.records.replays()
 
 
+def certified(room: Maker, late: int) -> None:
+    """Have the solver found a run that begins so many ticks late."""
+    session = room.editor.session
+    inputs = with_press_bits(bytes(late) + bytes([2]) * 100)
+    session.certifier.search = Search(session.draft.level, run=verified_run(session.draft.level, inputs), end="Done")
+    room.frames()
+
+
+def test_a_certified_level_needs_no_other_certificate_in_a_pack(room: Maker, tmp_path: Path) -> None:
+    session = room.editor.session
+    certified(room, 3)
+    levels = tmp_path / "levels"
+    kept = levels / "certificates" / "room.exit.replay.txt"
+    assert not kept.exists(), "the level has no file yet"
+    room.chord("s", pygame.KMOD_LCTRL)
+    room.frames()
+    first = parse_replay(kept.read_text()).final_tick
+    certified(room, 9)
+    assert parse_replay(kept.read_text()).final_tick == first, "a longer one replaces nothing"
+    certified(room, 0)
+    assert parse_replay(kept.read_text()).final_tick == first - 3
+    room.player.catalogue.own()
+    assert room.player.catalogue.problems == []
+    pack = packs.new_pack(levels, "Pack", "me")
+    file = packs.transfer(load_levels(levels / "room.txt")[0], pack, keep=False)
+    packs.place(pack, file, 0)
+    assert not [finding for finding in lint(Pack(pack)) if "certificate" in finding.code]
+    session.begin(open_source(pack / file))
+    room.drag((300, 300))
+    before = (pack / "certificates" / "room.exit.replay.txt").read_text()
+    certified(room, 0)
+    assert (pack / "certificates" / "room.exit.replay.txt").read_text() == before, "what is not saved certifies nothing"
+
+
+def test_what_kept_the_solver_from_a_run_is_the_first_problem_and_a_click_goes_there(room: Maker) -> None:
+    session, level = room.editor.session, room.draft.level
+    exit_ = next(number for number, record in enumerate(level.objects) if record.kind == EXIT)
+    why = obstacle(level, 0, Progress(untouched=(exit_,)))
+    session.certifier.search = Search(level, seconds=20.0, obstacles=(why,), end="No run in 20 s")
+    room.wait(lambda: session.findings[:1] == [why], "the problem")
+    room.press("f4")
+    assert room.editor.view.hint.endswith("Make the way there easier, or give the solver more time.")
+    assert session.tools.pointer == (120.0, 540.0), "the switch"
+    room.press("b")
+    room.drag((300, 300))
+    room.wait(lambda: session.examined is room.draft.level, "findings")
+    assert why not in session.findings, "of another level"
+
+
 def test_a_ninja_far_away_leaves_no_route(room: Maker) -> None:
     far = ObjectSpec(NINJA, (9000.0, 300.0))
     room.editor.session.tools.load(put(ROOM, Stamp({}, (far,))))
@@ -504,7 +561,10 @@ def test_a_new_level_knows_nothing_of_the_one_before(room: Maker) -> None:
     assert sum(key[0] == "route" and bool(mark.rects) for key, mark in room.editor.view.sheet.marks.items()) == 2  # type: ignore[index]
     session.source = replace(session.source, draft=session.draft)
     room.chord("n", pygame.KMOD_LCTRL)
+    assert getattr(room.editor.properties.widgets[1], "text", "") not in FIRST_STEPS
+    room.choose("Empty")
     room.frames(2)
+    assert room.editor.properties.widgets[1].text == FIRST_STEPS[0]  # type: ignore[attr-defined]
     assert not any(key[0] == "route" and mark.rects for key, mark in room.editor.view.sheet.marks.items())  # type: ignore[index]
     certifier = session.certifier
     assert (certifier.text, certifier.busy, certifier.is_stale(session.draft.level)) == ("", False, False)
@@ -571,3 +631,10 @@ def test_what_was_saved_is_said_in_the_editor_only(room: Maker) -> None:
     room.choose_in_menu("Leave the editor")
     assert isinstance(room.top(), MainMenu)
     assert not room.app.notice
+
+
+def test_what_went_wrong_is_still_said_over_a_screen_that_opens_then(room: Maker) -> None:
+    room.app.notify("What went wrong")
+    room.press("f2")
+    room.shown(FormPanel)
+    assert room.app.notice == "What went wrong"

@@ -31,7 +31,7 @@ from ninja_game.player.backup import read_backup, write_backup
 from ninja_game.signals import Terminated
 from tests.support.level_maker import ROOM, Maker
 from tests.support.own_pack import PACK
-from tools.draw.good_levels import written
+from tools.draw.screens import written
 
 
 def test_saved_levels_are_in_the_browser_at_once(room: Maker, tmp_path: Path) -> None:
@@ -130,7 +130,14 @@ def test_saving_first_goes_on_with_what_was_asked(maker: Maker, tmp_path: Path, 
         maker.choose("Save")
     assert len(list((tmp_path / "levels").iterdir())) == 1
     if asked == "New":
-        assert maker.draft == new_source("").draft
+        maker.choose("A room")
+        assert maker.draft == new_source("", room=True).draft
+        maker.press("f5")
+        maker.keys.script = [2] * 300
+        maker.press("right")
+        maker.frames(320)
+        assert maker.editor.session.tries[-1].over, "a room can be passed as it is"
+        maker.press("space")
         assert isinstance(maker.top(), EditorScreen)
     else:
         assert isinstance(maker.top(), MainMenu if asked == "Leave the editor" else LevelChoice)

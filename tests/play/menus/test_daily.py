@@ -171,7 +171,7 @@ def test_days_in_a_row_and_the_week_are_shown_and_one_way_back(
         making.app.stack.redraw_all()
         making.app.draw()
     drawn = "\n".join(lines)
-    assert "4 days in a row" in drawn
+    assert "4 daily levels in a row" in drawn
     assert drawn.count("10.000 s'") >= 3
     assert "with help" in drawn
     screen.entry = None

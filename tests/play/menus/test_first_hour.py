@@ -118,7 +118,7 @@ def test_text_of_the_start_hides_neither_a_thing_nor_gold_nor_the_way(driver: Me
         hud = Hud(app.theme)
         box = hud.box(*shown)
         card = hud.said(app.surface, box)
-        bands += abs(box[2] - 28) < 1 or abs(box[2] + 20 * len(box[0]) + 19 - 573) < 1
+        bands += abs(box[2] - 28) < 1 or abs(box[2] + box[4] * len(box[0]) + 19 - 573) < 1
         texts += 1
         way, places = Simulation(each.named.level), [(o.x, o.y) for o in play.attempt.simulation.world.objects[1:]]
         for keys in run.inputs:
@@ -242,15 +242,15 @@ def test_levels_of_a_locked_episode_are_locked_everywhere(driver: MenuDriver) ->
     browser.list._select(place)
     assert not browser.play_it.enabled
     assert not browser.practice.enabled
-    assert browser.practice.hint == "Finish 5 more levels of episode 1 first"
+    assert browser.practice.hint == "Finish 5 more levels of episode 1.1 first"
     browser.play(place)
-    assert browser.message == "Finish 5 more levels of episode 1 first"
+    assert browser.message == "Finish 5 more levels of episode 1.1 first"
     assert driver.top() is browser
     for level in range(5):
         driver.player.progress.level_passed((0, level), legitimate=True)
         assert driver.player.lock_of(browser.shown[place]) == [
-            *(f"Finish {left} more levels of episode 1 first" for left in (4, 3, 2)),
-            "Finish 1 more level of episode 1 first", "",
+            *(f"Finish {left} more levels of episode 1.1 first" for left in (4, 3, 2)),
+            "Finish 1 more level of episode 1.1 first", "",
         ][level]  # fmt: skip
     browser.play(place)
     assert isinstance(driver.top(), LevelScreen)
@@ -280,7 +280,7 @@ def test_episode_left_half_way_goes_on_or_begins_again(driver: MenuDriver, rows:
     driver.press("q")
     driver.open("Episodes")
     driver.press("return", *["down"] * rows, "return")
-    assert driver.shown(LevelScreen).context.title == f"Episode 1, {title}"
+    assert driver.shown(LevelScreen).context.title == f"Episode 1.1, {title}"
 
 
 @pytest.mark.parametrize("wanted, medal", [("silver", "silver"), ("author", "author"), ("next", "silver")])
@@ -382,7 +382,7 @@ def test_help_with_a_level_can_always_be_asked_for_and_says_what_is_not_possible
         menu = driver.shown(Menu)
         hints = {each.text: each.hint for each in menu.widgets if isinstance(each, Button)}
         assert f"Watch how (after {STUCK_AFTER} failed tries)" in hints
-        assert hints["Skip this level"] == "You can come back to it any time"
+        assert hints["Skip this level"] == "The next one opens. This one counts only once you pass it"
         tick = level.attempt.simulation.tick
         driver.frames(5)
         assert level.attempt.simulation.tick == tick
@@ -420,7 +420,7 @@ def test_a_win_in_levels_leads_to_the_next_one_that_is_open(driver: MenuDriver) 
         driver.press("return")
     assert titles == ["First Steps", "Mind the Gap"]
     driver.press("q")
-    last = next(k for k, each in enumerate(browser.shown) if each.place == "Episode 1, level 5")
+    last = next(k for k, each in enumerate(browser.shown) if each.place == "Episode 1.1, level 5")
     browser.play(last)
     context = driver.shown(LevelScreen).context
     assert context.leads_on == any(not driver.player.lock_of(each) for each in browser.shown[last + 1 :])
@@ -436,14 +436,18 @@ def test_text_in_play_lies_over_rock_near_the_ninja_or_else_in_the_border(driver
     level.play.eye = (40, 500)
     level.play.sayings.text = "Another one"
     assert hud_view(level.play).said == ("Another one", tiles, things, (40, 500), False)
-    for eye in ((40.0, 500.0), (750.0, 500.0)):
+    for eye in ((40.0, 440.0), (750.0, 440.0)):
         lines, left, y, w, high, *_ = hud.box(text, tiles, things, eye, covers=False)
         assert y < IN_BORDER
         cells = {(int(a // 24) - 1, int(b // 24) - 1) for a in (left, left + w) for b in (y, y + high * len(lines))}
         assert all(tiles[column * ROWS + row] == 1 for column, row in cells), "over rock only"
         far.append(left)
     assert far[0] < far[1]
-    assert hud.box(text, (0,) * 713, (), None, covers=False)[2] == IN_BORDER
+    shown = hud.said(driver.app.surface, hud.box("One" + 9 * " word", (0,) * 713, (), (396.0, 60.0), covers=False))
+    assert shown.top < driver.app.canvas.px(120), "near the upper border, in the open too"
+    assert not shown.collidepoint(driver.app.canvas.point(396, 60)), "but never over the ninja"
+    everywhere = tuple((12.0 + 24 * x, 12.0 + 24 * y, MUST) for x in range(33) for y in range(25))
+    assert hud.box(text, (0,) * 713, everywhere, None, covers=False)[2] == IN_BORDER
 
 
 WELL = room_level(["#...#"] * 10 + ["#@..#"], ())

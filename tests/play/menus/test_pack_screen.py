@@ -16,6 +16,7 @@ import pytest
 from ninja_game.editor.packing import ReadyPack
 from ninja_game.formats.links.fragment import write_link
 from ninja_game.formats.pack.pack import Pack
+from ninja_game.levels.findings import in_pack
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.menu_screen import BACK, MenuScreen
@@ -183,22 +184,27 @@ def test_a_pack_is_made_ready_in_the_background(
     driver: MenuDriver, path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     pack = Pack(path)
-    ready = ReadyPack(pack, [], pack.files.zipped(), pack.files.link(), [])
-    said = []
+    left = [in_pack("no-author", "pack.toml")]
+    ready = ReadyPack(pack, left, pack.files.zipped(), pack.files.link(), ["00-1.txt: no run with all gold"])
+    begun = []
 
     def made(folder: Path, *, seconds: float, jobs: int, say: object) -> ReadyPack:
-        said.append(folder)
+        begun.append(folder)
         say("Certifying")  # type: ignore[operator]
         return replace(ready)
 
     monkeypatch.setattr("ninja_game.play.menus.packs.make_ready", made)
     screen = opened(driver)
     driver.choose("Make ready")
-    driver.wait(lambda: screen.status == "8 levels, 0 problems", "the pack is ready")
+    driver.wait(lambda: screen.status == "8 levels, 1 open problem (no author)", "the pack is ready")
     zipped = driver.player.folder / "exports" / "laundry-1.zip"
-    assert said == [path]
+    assert begun == [path]
     assert ZipFile(zipped).namelist()[0] == "laundry/pack.toml"
-    assert "laundry-1.zip; the link is in the clipboard" in driver.app.notice
+    said = (
+        "laundry-1.zip, with 1 open problem (no author); the link is in the clipboard; 00-1.txt: no run with all gold"
+    )
+    assert driver.app.notice.endswith(said)
+    assert screen.problems()[-1].text == "00-1.txt: no run with all gold"
     assert driver.button("Make ready")
 
 
@@ -324,3 +330,7 @@ def test_mine_first_counts_packs_and_a_name_is_found_before_a_comment(driver: Me
     browser._search("rolling")
     assert [entry.title for entry in browser.shown][-1] == "Zz"
     assert len(browser.shown) > 1
+    browser._sort("name")
+    assert [entry.title for entry in browser.shown][-1] == "Zz"
+    browser._sort("author")
+    assert browser.shown[0].title == "Rolling Hills"

@@ -146,10 +146,10 @@ def test_card_says_time_and_gold_and_the_next_par(driver: MenuDriver) -> None:
     assert entry.pars is not None
     assert driver.player.reached(entry, None) == "Not passed yet"
     assert reached(entry, Mark(197, 3)) == f"Time 4.925 s, gold 3 of {entry.all_gold}"
-    assert next_par(entry.pars, Mark(200, 0)) == f"Gold medal: {seconds_text(196)} s, 0.100 s faster"
+    assert next_par(entry.pars, Mark(200, 0)) == f"Gold medal: {seconds_text(196)} s, 0.100 s to go"
     author = entry.pars.par("author")
     following = next_par(entry.pars, Mark(author + 4, 0))
-    assert following == f"Author medal: {seconds_text(author)} s, 0.100 s faster"
+    assert following == f"Author medal: {seconds_text(author)} s, 0.100 s to go"
     assert next_par(entry.pars, Mark(156, 0)) == ""
 
 

@@ -66,12 +66,12 @@ def test_ones_own_runs_are_shown_alone(driver: MenuDriver) -> None:
     driver.press("q")
     screen = driver.open("Replays")
     assert isinstance(screen, ReplaysScreen)
-    assert [row.when == "Bundled" for row in screen.rows] == [False, True]
+    assert [row.when == "Included" for row in screen.rows] == [False, True]
     screen.focus = screen.filter
     driver.press("right")
     assert [row.who for row in screen.rows] == ["you"]
     driver.press("right")
-    assert [row.when for row in screen.rows] == ["Bundled"]
+    assert [row.when for row in screen.rows] == ["Included"]
 
 
 def test_authors_runs_are_there_where_a_gold_medal_has_opened_them(driver: MenuDriver) -> None:

@@ -11,13 +11,15 @@ from ninja_game.formats.run_time import rounded_text, seconds_text
 from ninja_game.play.level.hud import PRIZE, Hud, HudView, hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, MUST, STAMP_TICKS, TRIES_FROM, TRIES_TICKS, Phase
 from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.menus.passed import FEAST_TICKS, EpisodePassed
 from ninja_game.play.rooms import room_level
 from ninja_game.play.wipe import WIPE_MS
-from ninja_game.player.playthrough import LevelRun
+from ninja_game.player.playthrough import EpisodeRun, LevelRun
 from ninja_game.sim.events import LANDED, MINE_EXPLODED
 from ninja_game.sim.kinds import EXIT
 from ninja_game.simulation import Simulation
 from ninja_game.view.level_view import DANCE_TICKS, DOOR_STEP, ENTER_TICKS, LevelView
+from tests.support.draw_log import DrawLog
 from tests.support.menu_driver import FRAME_MS, MenuDriver
 from tests.support.players import deadly_level, entry
 
@@ -85,7 +87,7 @@ def test_card_says_one_thing_large_one_next_and_the_rest_short(driver: MenuDrive
     level.attempt.ended_tick = par + 1
     title, (medal, following, rest, clock, _), *_ = hud_view(level.play).message or ("", [""], (), ())
     assert title == f"Time {seconds_text(level.attempt.ended_tick)} s"
-    assert (medal, following) == ("Silver medal", f"Gold medal: {seconds_text(par)} s, 0.025 s faster")
+    assert (medal, following) == ("Silver medal", f"Gold medal: {seconds_text(par)} s, 0.025 s to go")
     assert rest == "1 of 5 gold"
     assert clock == f"{rounded_text(level.attempt.lifetime)} s left on the clock, for the next level"
     level.play.notices = ["New medal", "All gold"]
@@ -105,6 +107,60 @@ def test_panel_of_an_end_has_one_place_unless_it_would_hide_that_end_or_an_exit(
     _, _, _, things = hud_view(level.play).message or ("", [], (), ())
     exits = [(o.x, o.y, 9 * MUST) for o in level.attempt.simulation.world.objects[1:] if o.kind == EXIT]
     assert set(exits) <= set(things)
+
+
+def test_an_episode_passed_is_a_feast_unless_motion_is_reduced(driver: MenuDriver, heard: list[str]) -> None:
+    episode = driver.player.catalogue.episodes[0]
+    for each in episode.levels:
+        assert each.pars
+        driver.player.marks.passed(each.digest, each.pars.par("silver"), 0)
+    run = EpisodeRun(driver.player, episode)
+    screen = EpisodePassed(driver.app, run, lambda _: None)
+    driver.app.push(screen)
+    driver.frames(FEAST_TICKS + 2)
+    assert screen.medal == "silver"
+    assert heard == [*(f"gold-{place}" for place in range(1, 6)), "medal"]
+    assert len(screen.particles.front) > 30
+    seen = picture(driver)
+    driver.frames(3)
+    assert picture(driver) == seen, "it comes to rest"
+    heard.clear()
+    driver.app.pop()
+    driver.app.change_settings(reduced_motion=True)
+    screen = EpisodePassed(driver.app, run, lambda _: None)
+    driver.app.push(screen)
+    driver.frames(3)
+    assert (heard, len(screen.particles.front)) == (["medal"], 0)
+
+
+def test_a_text_in_the_border_leaves_room_for_the_name_of_the_level(driver: MenuDriver) -> None:
+    said = (
+        "Some words that say a lot about a level in which there is no rock at all",
+        (0,) * 713,
+        (),
+        (396.0, 300.0),
+        False,
+    )
+    view = HudView(3600, "", ("Episode 1.1, level 1: Long Name", "gold 0 / 5"), name="Long Name", said=said)
+    log = DrawLog()
+    with log.installed(), log.recording(driver.app.theme.palette) as lines:
+        Hud(driver.app.theme).draw(pygame.Surface((792, 600)), view)
+    drawn = "\n".join(lines)
+    assert "text 'Long Name' at 24" in drawn
+    assert "Episode 1.1" not in drawn
+
+
+@pytest.mark.parametrize("cells, warned", [(5, False), (17, True)])
+def test_lines_trail_behind_who_falls_too_fast_for_flat_ground(driver: MenuDriver, cells: int, warned: bool) -> None:
+    simulation = Simulation(room_level([".@" + "." * 18, "###" + "." * 17, *["###" + "." * 17] * cells, "#" * 20], []))
+    view = LevelView(driver.app, simulation)
+    lines = 0
+    for _ in range(120):
+        simulation.step_keys(2)
+        view.on_tick()
+        lines += any(each.kind == "bullet" for each in view.particles.rear)
+    assert (lines > 0) == warned
+    assert (simulation.outcome == "dead") == warned
 
 
 def test_papers_fly_in_open_space_only(driver: MenuDriver) -> None:

@@ -108,3 +108,22 @@ def test_a_jump_that_no_keyboard_makes_is_in_our_notation() -> None:
     starts = starts_of(odd).tolist()
     lines = [text_of(odd, first, last, celeste=True) for first, last in pairwise(starts)]
     assert lines == [".!*1", "J-*1", "J!*1", "RJ!*1", "1,R,J", "1,R"]
+
+
+def test_lines_between_markers_are_folded_but_those_about_the_cursor(at: TasDriver, tab: TextTab) -> None:
+    at.editor.go(6)
+    at.frames()
+    at.choose("Fold")
+    at.frames()
+    assert texts(tab) == ["the start: 2 ticks", "#hop R*3", "RJ*3", "#land: 4 ticks", ""]
+    assert tab.field.text == "RJ*3"
+    x, y, _, h = tab.list.row_area(3)
+    at.mouse(x + 60, y + h / 2)
+    at.frames()
+    assert at.editor.cursor == 8
+    assert texts(tab) == ["the start: 2 ticks", "#hop: 6 ticks", "#land .*4", ""]
+    typed(at, tab, "#land .*4 L*2")
+    assert texts(tab)[-3:] == ["#land .*4", "L*2", ""]
+    at.choose("Unfold")
+    at.frames()
+    assert texts(tab) == ["R*2", "#hop R*3", "RJ*3", "#land .*4", "L*2", ""]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ninja_game.formats.ascii.object_forms import MOVEMENTS
+from ninja_game.formats.ascii.object_lines import MOVEMENTS
 from ninja_game.play.lab.figure import ELSEWHERE, Control, Figure, FigureSetting, Sheet, Stage
 from ninja_game.play.lab.figures.edges import DIRECTIONS, STATES
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, NEIGHBOUR_OFFSET, UNIT_X, UNIT_Y

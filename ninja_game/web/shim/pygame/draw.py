@@ -9,7 +9,7 @@ from typing import Any
 
 from .color import packed
 from .rect import Rect, make
-from .surface import DISC, FILL, FRAME, LINE, POLYGON, RING, Surface
+from .surface import DISC, FILL, FRAME, LINE, POLYGON, RING, STROKE, Surface
 
 
 def _clipped(surface: Surface, x: int, y: int, right: int, bottom: int) -> Rect:
@@ -29,6 +29,14 @@ def polygon(surface: Surface, color: Any, points: Sequence[Any]) -> Rect:
     entries.extend((POLYGON, packed(color), len(xs)))
     entries.extend(flat)
     return _clipped(surface, min(xs), min(ys), max(xs) + 1, max(ys) + 1)
+
+
+def round_line(surface: Surface, color: Any, points: Sequence[Any], radius: float) -> None:
+    """A line with round ends and bends, which pygame-ce does not have."""
+    xs, ys = zip(*points, strict=True)
+    surface.entries().extend((STROKE, packed(color), len(xs), 2 * radius, *chain.from_iterable(points)))
+    box = [min(xs) - radius, min(ys) - radius, max(xs) + radius + 1, max(ys) + radius + 1]
+    _clipped(surface, *map(floor, box))
 
 
 def circle(surface: Surface, color: Any, center: Any, radius: float, width: int = 0, smooth: int = 0) -> Rect:
@@ -84,11 +92,9 @@ def line(surface: Surface, color: Any, start: Any, end: Any, width: int = 1) -> 
 
 def lines(surface: Surface, color: Any, closed: bool, points: Sequence[Any], width: int = 1) -> Rect:
     ends = [*points[1:], points[0]] if closed else points[1:]
-    area: Rect | None = None
-    for start, end in zip(points, ends, strict=False):
-        drawn = line(surface, color, start, end, width)
-        area = drawn if area is None or not area.w else area.union(drawn) if drawn.w else area
-    return area or make(int(points[0][0]), int(points[0][1]), 0, 0)
+    drawn = [line(surface, color, start, end, width) for start, end in zip(points, ends, strict=False)]
+    seen = [each for each in drawn if each.w]
+    return seen[0].unionall(seen) if seen else make(int(points[0][0]), int(points[0][1]), 0, 0)
 
 
 def aaline(surface: Surface, color: Any, start: Any, end: Any, width: int = 1) -> Rect:

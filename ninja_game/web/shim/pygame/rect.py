@@ -37,9 +37,6 @@ class Rect:
     def __bool__(self) -> bool:
         return self.w != 0 and self.h != 0
 
-    def __repr__(self) -> str:
-        return f"Rect{tuple(self)}"
-
     left = property(lambda self: self.x, lambda self, value: setattr(self, "x", int(value)))
     top = property(lambda self: self.y, lambda self, value: setattr(self, "y", int(value)))
     width = property(lambda self: self.w, lambda self, value: setattr(self, "w", int(value)))
@@ -47,14 +44,7 @@ class Rect:
     right = property(lambda self: self.x + self.w, lambda self, value: setattr(self, "x", int(value) - self.w))
     bottom = property(lambda self: self.y + self.h, lambda self, value: setattr(self, "y", int(value) - self.h))
     size = property(lambda self: (self.w, self.h))
-
-    @property
-    def topleft(self) -> tuple[int, int]:
-        return self.x, self.y
-
-    @topleft.setter
-    def topleft(self, corner: tuple[float, float]) -> None:
-        self.x, self.y = int(corner[0]), int(corner[1])
+    topleft = property(lambda self: (self.x, self.y), lambda self, corner: Rect.__init__(self, corner, self.size))
 
     def copy(self) -> Rect:
         return make(self.x, self.y, self.w, self.h)

@@ -16,11 +16,12 @@ from .rect import Rect, _new, make
 SRCALPHA = 0x10000
 BLEND_RGBA_SUB, BLEND_RGBA_MULT, BLEND_PREMULTIPLIED = 7, 8, 17
 
-LONGEST_COPY, LARGEST_COPY, ONE_SHAPE = 3000, 65536, 8
-"""Fresh surfaces of at most this many numbers and px, or of one simple shape, are copied to where they are blitted."""
+LONGEST_COPY, LARGEST_COPY, ONE_SHAPE, A_PART = 3000, 65536, 8, 160
+"""Fresh surfaces of at most this many numbers and px, or of one simple shape, are copied to where they are blitted. Of
+a fresh one they are parts, letters of a text say, as often as they are blitted there if their numbers are that few."""
 
-(TARGET, CANVAS, FREE, CLIP, IMAGE, STRETCH, FILL, SHIFT, UNSHIFT, POLYGON, DISC, RING, LINE, FRAME, TEXT) = range(
-    1, 16
+(TARGET, CANVAS, FREE, CLIP, IMAGE, STRETCH, FILL, SHIFT, UNSHIFT, POLYGON, DISC, RING, LINE, FRAME, TEXT, STROKE) = (
+    range(1, 17)
 )
 """Kinds of entries, each followed by its numbers (painter.js says which)."""
 
@@ -172,6 +173,9 @@ class Surface:
                 self.entries().extend((FILL, number, area.x, area.y, area.w, area.h))
         return shown if shown.w else make(0, 0, 0, 0)
 
+    def set_at(self, place: tuple[int, int], colour: Any) -> None:
+        self.entries().extend((FILL, packed(colour), *place, 1, 1))
+
     def blit(self, source: Surface, dest: Any, area: Any = None, special_flags: int = 0) -> Rect:
         """Draw a picture, or an ``area`` of it, with its upper left corner at ``dest``; what was covered."""
         # The most frequent call of all, some 200 times a picture: hence attributes instead of smaller functions.
@@ -211,7 +215,8 @@ class Surface:
         assert own is not None  # noqa: S101 - it is fresh
         source._blits += 1
         small = len(own) <= ONE_SHAPE or (len(own) <= LONGEST_COPY and source.w * source.h <= LARGEST_COPY)
-        if not (whole and small and source._blits == 1 and source.opacity == 1.0) or source.overdrawn:
+        once = source._blits == 1 or (self._own is not None and len(own) <= A_PART)
+        if not (whole and small and once and source.opacity == 1.0) or source.overdrawn:
             source.settle()
             return False
         entries = self.entries()
