@@ -17,6 +17,7 @@ from ninja_game.formats.ascii.places import read_cell, read_number, read_place, 
 from ninja_game.formats.lines import read_quoted
 from ninja_game.sim.kinds import DOOR, DRONE, EXIT, FLOOR_GUARD, KINDS, LAUNCH_PAD, ONE_WAY, THWUMP
 from ninja_game.sim.level import ObjectSpec
+from ninja_game.sim.rules import CELL, HALF
 
 T = TypeVar("T")
 
@@ -91,11 +92,10 @@ def natural_offset(keyword: str, direction: str = "") -> tuple[float, float]:
     return (symbol.dx, symbol.dy) if symbol is not None else (0.0, 0.0)
 
 
-def door_middle(column: int, row: int, side: str) -> tuple[float, float]:
-    """The middle of a cell's side, px: where an automatic door senses the ninja."""
-    vertical, i, j = SIDES[side]
-    x, y = 24.0 * (column + i) + 12.0, 24.0 * (row + j) + 12.0
-    return (x, y + 12.0) if vertical else (x + 12.0, y)
+def door_middle(values: Sequence[float]) -> tuple[float, float]:
+    """The middle of a door's bar, px, by the values of its record: where an automatic door senses the ninja."""
+    x, y = CELL * (values[4] + values[7]) + HALF, CELL * (values[5] + values[8]) + HALF
+    return (x, y + HALF) if values[2] else (x + HALF, y)
 
 
 def record_values(keyword: str, place: Token, given: Mapping[str, Token]) -> tuple[float, ...]:
@@ -124,11 +124,11 @@ def record_values(keyword: str, place: Token, given: Mapping[str, Token]) -> tup
 
 def _door_values(keyword: str, place: Token, given: Mapping[str, Token]) -> tuple[float, ...]:
     column, row = at_token(place, read_cell)
-    side = given["side"].text
-    x, y = at_token(given["switch"], read_place) if "switch" in given else door_middle(column, row, side)
     trap, locked = DOORS[keyword]
-    vertical, i, j = SIDES[side]
-    return x, y, vertical, trap, float(column), float(row), locked, i, j
+    vertical, i, j = SIDES[given["side"].text]
+    values = (0.0, 0.0, vertical, trap, float(column), float(row), locked, i, j)
+    middle = at_token(given["switch"], read_place) if "switch" in given else door_middle(values)
+    return (*middle, *values[2:])
 
 
 def _read_pair(text: str) -> tuple[float, float]:

@@ -225,11 +225,11 @@ def _door_form(values: tuple[float, ...]) -> tuple[str, str, str]:
     side = next((word for word, numbers in SIDES.items() if numbers == (vertical, i, j)), "")
     place = f"{number_text(column)},{number_text(row)}"
     try:
-        cell = read_cell(place)
+        read_cell(place)
     except LevelError:
         return "", "", ""
     if not side:
         return "", "", ""
     if keyword == "automatic door":
-        return keyword if door_middle(*cell, side) == (x, y) else "", place, side
+        return keyword if door_middle(values) == (x, y) else "", place, side
     return keyword, place, f"{side} switch {place_text(x, y)}"
