@@ -15,10 +15,12 @@ from pathlib import Path
 from typing import Any, ClassVar
 from zipfile import BadZipFile
 
+import click
 import numpy as np
 from numpy.typing import NDArray
 
 from examples.search import SearchAgent
+from ninja_game.backend.kernel_cache import before_compiling
 from ninja_game.errors import ArgumentError, FileError
 from ninja_game.files.writing import write_atomically
 from ninja_game.learn.actions import ACTION_NAMES
@@ -115,6 +117,12 @@ def load_agent(name: str | Path) -> RandomAgent | SearchAgent | PolicyAgent:
     if not path.suffix and not path.exists():
         raise ArgumentError(f"there is no agent {str(name)!r:.100}; expected random, search, learned or a file (.npz)")
     return load_policy(path)
+
+
+def tell_compiling() -> None:
+    """Say so before the first kernel that has to be compiled."""
+    said = "compiling the worlds for this machine, the first time only; it takes a minute or two"
+    before_compiling.append(lambda: click.echo(said, err=True))
 
 
 def load_policy(path: Path) -> PolicyAgent:

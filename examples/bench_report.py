@@ -4,10 +4,11 @@
     python3 -m examples.bench_report benchmarks/results/ninjabench --curves docs/pictures/learning
 
 FOLDER has files that examples/measure.py wrote, one a run; runs of one name are runs of one agent. Scores begin at
-what "random" reaches. The curves need matplotlib (the extra `plots`).
+what "random" reaches. The curves need matplotlib (the extra `plots`). Runs in other levels than those of the protocol
+are refused, by their digests; of other levels of `transfer`, that column alone is left out.
 
 Agarwal and others, "Deep reinforcement learning at the edge of the statistical precipice",
-2021: interquartile means, with intervals by a stratified bootstrap over runs.
+2021: interquartile means, with intervals by a stratified bootstrap over runs; here over levels too.
 """
 
 from __future__ import annotations
@@ -22,13 +23,15 @@ import click
 import numpy as np
 from numpy.typing import NDArray
 
-from examples.measure import FORMAT, TASKS
+from examples.measure import DIGESTS, FORMAT, TASKS
 from ninja_game.errors import FileError, NinjaGameError
 from ninja_game.files.reading import read_bytes
 from ninja_game.learn.levels.bench import GRADES
 
 TEST, TRAIN, SET = TASKS
-RESAMPLES = 10_000
+RESAMPLES = 2_000
+SHARE = 0.95
+"""Of the resamples that an interval holds."""
 MOST_BYTES = 2**20
 RANDOM = "random"
 
@@ -41,12 +44,10 @@ def iqm(values: Any) -> NDArray[np.float64]:
     return middle
 
 
-def interval(scores: NDArray[np.float64], share: float = 0.95) -> tuple[float, float]:
-    """Where the interquartile mean of scores (runs, tasks) lies: runs are drawn again, in each task by itself."""
-    runs, tasks = scores.shape
-    drawn = np.random.default_rng(0).integers(runs, size=(RESAMPLES, runs, tasks))
-    means = iqm(scores[drawn, np.arange(tasks)].reshape(RESAMPLES, -1))
-    low, high = np.quantile(means, [(1 - share) / 2, (1 + share) / 2])
+def interval(scores: NDArray[np.float64]) -> tuple[float, float]:
+    """Where the interquartile mean of scores (RESAMPLES, runs) lies, levels drawn again: here runs are, too."""
+    runs = np.random.default_rng(0).integers(scores.shape[1], size=scores.shape)
+    low, high = np.quantile(iqm(np.take_along_axis(scores, runs, 1)), [(1 - SHARE) / 2, (1 + SHARE) / 2])
     return float(low), float(high)
 
 
@@ -59,11 +60,17 @@ def load_results(folder: Path) -> dict[tuple[str, str], list[dict[str, Any]]]:
             for levels, name in product(TASKS, ("passed", "par")):
                 rates([run], levels, name)
             of_format = run["format"] == FORMAT
+            others = [levels for levels in (TEST, TRAIN) if run["digests"][levels] != DIGESTS[levels]]
+            str(run["digests"][SET])
             found[str(run["track"]), str(run["agent"])].append(run)
         except (KeyError, TypeError, ValueError) as error:
             raise FileError("not results of examples/measure.py", file=str(path), found=str(error)[:80]) from error
         if not of_format:
-            raise FileError("results of another format", file=str(path), found=str(run["format"])[:9], expected="1")
+            raise FileError("results of another format", file=str(path), found=str(run["format"])[:9], expected="2")
+        if others:
+            (levels, *_), digests = others, run["digests"]
+            found_there, expected = str(digests[levels])[:12], DIGESTS[levels]
+            raise FileError(f"measured in other levels: {levels}", str(path), found=found_there, expected=expected)
     if not found:
         raise FileError("there are no results", file=str(folder), expected="files *.json of examples/measure.py")
     return dict(found)
@@ -75,9 +82,37 @@ def rates(runs: list[dict[str, Any]], levels: str, name: str) -> NDArray[np.floa
     return np.array([[run["scores"][levels][grade][name] for grade in grades] for run in runs], np.float64)
 
 
+def redrawn(runs: list[dict[str, Any]], levels: str, name: str) -> NDArray[np.float64]:
+    """As ``rates``, with the levels of each grade drawn again, the same for all runs: (RESAMPLES, runs, grades).
+
+    Runs whose file does not tell of each level have the same score each time.
+    """
+    once = rates(runs, levels, name)
+    if not all("levels" in run for run in runs):
+        return np.broadcast_to(once, (RESAMPLES, *once.shape))
+    rows = np.array([np.fromstring(run["levels"][levels][name], sep=" ") for run in runs])
+    rows /= TASKS[levels] if name == "passed" else 100.0
+    rng, grades = np.random.default_rng(1 + list(TASKS).index(levels)), once.shape[1]
+    found = []
+    for grade in range(grades):
+        part = rows[:, grade::grades]
+        weights = rng.multinomial(part.shape[1], np.full(part.shape[1], 1 / part.shape[1]), RESAMPLES)
+        found.append(weights @ part.T / part.shape[1])
+    return np.stack(found, -1)
+
+
 def normalised(passed: NDArray[np.float64], chance: NDArray[np.float64]) -> NDArray[np.float64]:
-    """0: as often as by chance; 1: always, as the known runs do."""
-    return (passed - chance) / (1.0 - chance)
+    """Scores (…, grades) as means over grades: 0 is as often as by chance, 1 is always."""
+    mean: NDArray[np.float64] = ((passed - chance) / (1.0 - chance)).mean(axis=-1)
+    return mean
+
+
+def learned_in(run: dict[str, Any]) -> list[int]:
+    """The grades of `bench:train` that a run learned in; none where it learned nothing, or elsewhere."""
+    words = str(run["training"].get("level", "")).split(":")
+    if words[:2] != ["bench", "train"]:
+        return []
+    return [k for k, grade in enumerate(GRADES) if grade in words] or [*range(len(GRADES))]
 
 
 def table(results: dict[tuple[str, str], list[dict[str, Any]]]) -> str:
@@ -86,26 +121,31 @@ def table(results: dict[tuple[str, str], list[dict[str, Any]]]) -> str:
     if not random:
         raise FileError("there are no runs of the agent 'random', which scores begin at", file="", expected=RANDOM)
     chance = rates(random, TEST, "passed").mean(axis=0)
-    heads = ["track", "agent", "runs", "steps", *GRADES, "normalised", "par time", "gap", "set"]
+    heads = ["track", "agent", "runs", "steps", *GRADES, "normalised", "par time", "gap", "transfer"]
     lines = [heads, ["---"] * len(heads)]
     for (track, name), runs in sorted(results.items()):
-        passed = rates(runs, TEST, "passed")
         curve = runs[0]["training"].get("curve")
-        gap = rates(runs, TRAIN, "passed") - passed
-        cells = [shown(passed[:, [grade]]) for grade in range(len(GRADES))]
-        cells += [shown(normalised(passed, chance)), shown(rates(runs, TEST, "par"))]
-        cells += [f"{100 * gap.mean():+.1f}", shown(rates(runs, SET, "passed"))]
-        lines.append([track, name, str(len(runs)), f"{curve[-1][0] / 1e6:.1f}M" if curve else "-", *cells])
+        count = f"{len(runs)}{'' if all('levels' in run for run in runs) else '*'}"
+        passed, par = (rates(runs, TEST, name) for name in ("passed", "par"))
+        passed_again, par_again = (redrawn(runs, TEST, name) for name in ("passed", "par"))
+        cells = [shown(passed[:, grade], passed_again[..., grade]) for grade in range(len(GRADES))]
+        cells += [shown(normalised(passed, chance), normalised(passed_again, chance))]
+        cells += [shown(par.mean(-1), par_again.mean(-1))]
+        grades = learned_in(runs[0])
+        gap, gap_again = (rates(runs, TRAIN, "passed") - passed, redrawn(runs, TRAIN, "passed") - passed_again)
+        cells += [shown(gap[:, grades].mean(-1), gap_again[..., grades].mean(-1), "+.1f") if grades else "-"]
+        same = [run for run in runs if run["digests"][SET] == DIGESTS[SET]]
+        few = f" ({len(same)} of {len(runs)} runs)" * (len(same) < len(runs))
+        cells += [shown(rates(same, SET, "passed")[:, 0], redrawn(same, SET, "passed")[..., 0]) + few if same else "-"]
+        lines.append([track, name, count, f"{curve[-1][0] / 1e6:.1f}M" if curve else "-", *cells])
     return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
 
 
-def shown(scores: NDArray[np.float64]) -> str:
-    """The interquartile mean in percent, and its interval where there are several runs."""
-    middle = f"{100 * float(iqm(scores.ravel())):.1f}"
-    if len(scores) < 2:
-        return middle
-    low, high = interval(scores)
-    return f"{middle} [{100 * low:.1f}, {100 * high:.1f}]"
+def shown(scores: NDArray[np.float64], again: NDArray[np.float64], form: str = ".1f") -> str:
+    """The interquartile mean of scores (runs) in percent, and its interval by ``again`` (RESAMPLES, runs), if any."""
+    middle = f"{100 * float(iqm(scores)):{form}}"
+    low, high = interval(again)
+    return middle if low == high and len(scores) < 2 else f"{middle} [{100 * low:{form}}, {100 * high:{form}}]"
 
 
 def draw_curves(results: dict[tuple[str, str], list[dict[str, Any]]], folder: Path) -> list[Path]:

@@ -20,7 +20,7 @@ from pathlib import Path
 
 import click
 
-from examples.agents import load_agent
+from examples.agents import load_agent, tell_compiling
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.writing import write_atomically
@@ -68,7 +68,7 @@ FORMS = {"text": as_text, "json": as_json, "csv": as_csv}
 @click.argument("agent_name", metavar="AGENT")
 @click.option(
     "--levels", metavar="LEVELS", multiple=True, default=("test",), show_default=True,
-    help="test, train, set, a level of the game, a file or folder, generated:3:1-8. May be given several times.",
+    help="test, set, bench:val:easy, a level of the game, a file, generated:3:1-8. May be given several times.",
 )  # fmt: skip
 @click.option("--episodes", type=click.IntRange(1, 100_000), default=20, show_default=True, help="Tries in each level.")
 @click.option(
@@ -107,6 +107,7 @@ def main(
     output: Path | None,
     memory: str,
 ) -> None:
+    tell_compiling()
     try:
         table = evaluate(
             load_agent(agent_name), list(levels), name=agent_name, episodes=episodes, seed=seed, repeat=repeat,

@@ -1,13 +1,14 @@
 """Proximal policy optimisation on levels without end, in one file: what an agent sees of a level, and nothing more.
 
     python3 -m examples.ppo --steps 10000000 --seed 0 -o agent.npz
-    python3 -m examples.ppo --level 00-0-first-steps --steps 1000000 -o first.npz
+    python3 -m examples.ppo --level 00-0-first-steps --watch "" --steps 1000000 -o first.npz
     python3 -m examples.ppo --pixels --steps 1000000 -o pixels.npz
 
-It learns in the environment that it is measured in, with no demonstrations and without the solver's field. To the
-reward it adds a share of the straight way to the switch and then to the exit, which the observation tells. The same
-seed makes the same agent. What it has learned so far is always in the output file, so that it may be stopped at any
-time (Ctrl-C). It needs the extra `train`; the agent in the file needs NumPy alone.
+It learns in the environment that it is measured in, but for the time limit of an episode, 800 ticks instead of 2,000;
+with no demonstrations and without the solver's field. To the reward it adds a share of the straight way to the switch
+and then to the exit, which the observation tells. The same seed makes the same agent. What it has learned so far is
+always in the output file, so that it may be stopped at any time (Ctrl-C). It needs the extra `train`; the agent in the
+file needs NumPy alone.
 
 Schulman, Wolski, Dhariwal, Radford, Klimov, "Proximal policy optimization algorithms", 2017; advantages by Schulman and
 others, "High-dimensional continuous control using generalized advantage estimation", 2016.
@@ -27,9 +28,8 @@ import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
-from examples.agents import Floats, PolicyAgent, forward, normalised
+from examples.agents import Floats, PolicyAgent, forward, normalised, tell_compiling
 from examples.measure import BENCH, measure
-from ninja_game.backend.kernel_cache import before_compiling
 from ninja_game.errors import MissingExtraError, NinjaGameError
 from ninja_game.learn.actions import ACTION_NAMES
 from ninja_game.learn.observations.objects import OBSERVED_KINDS, NearObjects
@@ -50,6 +50,8 @@ SQUARES = ((6, 1, 16), (2, 16, 32))
 """Of a network that sees a picture: pixels across a square, channels, features of each of the first layers."""
 SMALLEST_DEVIATION = 0.02
 """Of an observation; what hardly ever changes would be blown up otherwise."""
+LEARNED_IN = "bench:train:easy:0-98999"
+"""All easy levels to learn in but those of `bench:val`."""
 POINTS = 20
 """Of the curve."""
 OPEN, EXIT_X, EXIT_Y, SWITCH_X, SWITCH_Y = map(
@@ -325,8 +327,11 @@ def train(
 
 
 @click.command(help=__doc__.replace("\n    python3", "\n\b\n    python3", 1))
-@click.option("--level", default="bench:train:easy", show_default=True, help="As of an environment: where it learns.")
-@click.option("--watch", default="", metavar="LEVELS", help="Levels that the curve tells too, such as bench:test:easy.")
+@click.option("--level", default=LEARNED_IN, show_default=True, help="As of an environment: where it learns.")
+@click.option(
+    "--watch", default="bench:val:easy:0-299", show_default=True, metavar="LEVELS",
+    help="Levels that the curve tells too; '': none.",
+)  # fmt: skip
 @click.option("--steps", type=click.IntRange(1), default=10_000_000, show_default=True, help="Of all worlds together.")
 @click.option("--seed", type=click.IntRange(0, 999), default=0, show_default=True)
 @click.option("--pixels", is_flag=True, help="See a picture, 84 x 84, and nothing else; some twenty times as slow.")
@@ -339,10 +344,9 @@ def main(level: str, watch: str, steps: int, seed: int, pixels: bool, output: Pa
         agent.save(output)
         done, seconds, _, passed, seen = agent.training["curve"][-1]
         others = f", {seen:.1%} of {watch}" if watch else ""
-        click.echo(f"{done / 1e6:.1f}M steps, {seconds:.0f} s: {passed:.1%} of the episodes passed{others}", err=True)
+        click.echo(f"{done:,} steps, {seconds:.0f} s: {passed:.1%} of the episodes passed{others}", err=True)
 
-    said = "compiling the worlds for this machine, the first time only; it takes a minute or two"
-    before_compiling.append(lambda: click.echo(said, err=True))
+    tell_compiling()
     try:
         train(level, steps, seed, watch=watch, settings=PIXELS if pixels else Settings(), report=report)
     except KeyboardInterrupt:
@@ -350,7 +354,7 @@ def main(level: str, watch: str, steps: int, seed: int, pixels: bool, output: Pa
         sys.exit(130)
     except (NinjaGameError, OSError) as error:
         raise click.ClickException(str(error)) from error
-    click.echo(f"{output}: an agent, after {steps / 1e6:.1f}M steps")
+    click.echo(f"{output}: an agent, after {steps:,} steps")
 
 
 if __name__ == "__main__":

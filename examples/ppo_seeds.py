@@ -31,7 +31,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from examples.agents import LARGEST, PolicyAgent
-from examples.ppo import POINTS, Networks, Player, Settings, advantages, compiled, new_networks, random_play
+from examples.ppo import (
+    LEARNED_IN,
+    POINTS,
+    Networks,
+    Player,
+    Settings,
+    advantages,
+    compiled,
+    new_networks,
+    random_play,
+)  # fmt: skip
 from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.learn.levels import level_source
 from ninja_game.learn.levels.source import LevelSource
@@ -245,11 +255,11 @@ def train(level: Any, steps: int, seeds: list[int], each: int, folder: Path, set
         for agent, seed in zip(agents, seeds, strict=True):
             agent.save(folder / f"ppo-{seed}-{point:02}.npz")
         shares = " ".join(f"{about['curve'][-1][3]:.1%}" for about in told)
-        click.echo(f"{trainer.steps / 1e6:.1f}M steps, {clock:.0f} s: {shares} of the episodes passed", err=True)
+        click.echo(f"{trainer.steps:,} steps, {clock:.0f} s: {shares} of the episodes passed", err=True)
 
 
 @click.command(help=__doc__.replace("\n    python3", "\n\b\n    python3", 1))
-@click.option("--level", default="bench:train:easy", show_default=True, help="As of an environment: where they learn.")
+@click.option("--level", default=LEARNED_IN, show_default=True, help="As of an environment: where they learn.")
 @click.option("--steps", type=click.IntRange(1), default=100_000_000, show_default=True, help="Of each seed.")
 @click.option("--first", type=click.IntRange(0, 999), default=0, show_default=True, help="Seed.")
 @click.option("--count", type=click.IntRange(1, 100), default=10, show_default=True, help="Seeds.")

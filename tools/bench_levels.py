@@ -3,15 +3,18 @@
     dev.py tool bench_levels
 
 The run that is known is played in the varied level by the world itself; where it does not pass, the next variation of
-the same number is tried. It takes some minutes.
+the same number is tried. It takes some minutes. `--check 2000` plays a sample of the table's levels instead.
 """
 
 from __future__ import annotations
 
 import argparse
+import sys
 from collections import Counter
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
+
+import numpy as np
 
 from ninja_game.backend.memories import open_worlds
 from ninja_game.files.user_folder import data_folder
@@ -41,8 +44,18 @@ def chosen(split: str, number: int) -> tuple[int, str]:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", type=int, metavar="N", help="play N levels, drawn at random, and write nothing")
     parser.add_argument("--jobs", type=int, default=2)
     options = parser.parse_args()
+    if options.check:
+        rng = np.random.default_rng(0)
+        passed = Counter[str]()
+        for _ in range(options.check):
+            split = "test" if rng.random() < 0.1 else "train"
+            found = bench_level(split, int(rng.integers(COUNTS[split])))
+            passed[f"{split}:{found.grade} {'passed' if passes(found) else 'FAILED'}"] += 1
+        print(*sorted(passed.items()), sep="\n")
+        sys.exit(any("FAILED" in key for key in passed))
     table, digests = bytearray(), dict[str, list[str]]()
     with ProcessPoolExecutor(options.jobs) as pool:
         for split, count in COUNTS.items():

@@ -61,7 +61,7 @@ class Actions:
             found = f"{given.dtype} of shape {given.shape}"
             raise InvalidAction(f"actions are {found}; expected whole numbers of shape {(count, *self._shape)}")
         if not 0 <= given.min() <= given.max() < self._choices:
-            raise InvalidAction(f"actions are {given.min()} to {given.max()}; expected 0 to {self._choices - 1}")
+            raise InvalidAction(f"found the actions {given.tolist()!s:.60}; expected 0 to {self._choices - 1}")
         if self.kind == "discrete":
             keys: Keys = DISCRETE_KEYS[given]
         else:

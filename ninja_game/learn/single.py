@@ -19,12 +19,19 @@ import gymnasium
 import numpy as np
 from gymnasium.error import ClosedEnvironmentError, ResetNeeded, UnsupportedMode
 
-from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import Actions
 from ninja_game.learn.levels import DEFAULT_LEVEL, Origin
 from ninja_game.learn.levels.source import checked_seed
 from ninja_game.learn.rendering import EpisodePicture, checked_size, episode_text
-from ninja_game.learn.worlds import TERMINATED, TRUNCATED, EnvSettings, EnvState, EnvWorlds, refuse_unknown
+from ninja_game.learn.worlds import (
+    TERMINATED,
+    TRUNCATED,
+    EnvSettings,
+    EnvState,
+    EnvWorlds,
+    checked_options,
+    refuse_unknown,
+)
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import JUMP_HELD, pressed
 from ninja_game.sim.level import Level
@@ -97,14 +104,11 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
         """
         self._check_open()
         seed = None if seed is None else checked_seed(seed)
-        options = options or {}
-        if options.keys() - {"level"}:
-            raise ArgumentError(f"options are {sorted(options)}; expected 'level' or none")
+        level = checked_options(options, "level").get("level")
         super().reset(seed=seed)
         new_seed = seed is not None or not self._started
         if new_seed:
             self._seed = int(self.np_random.integers(2**63)) if seed is None else seed
-        level = options.get("level")
         if level is not None and not isinstance(level, int | np.integer) and level not in self.worlds.source.names:
             self.worlds = EnvWorlds(level, 1, threads=1, **self._settings)
             level, new_seed = None, True
@@ -174,7 +178,7 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
     def restore(self, saved: SavedEpisode) -> tuple[Any, dict[str, Any]]:
         """Go back to a saved moment; its observation and info, without events.
 
-        Raises ArgumentError for a moment of other levels or settings.
+        Chance does not go back: with ``repeat`` what follows differs. Raises ArgumentError for one of other settings.
         """
         self._check_started("restore")
         self.worlds.restore(saved.state)

@@ -26,7 +26,7 @@ from ninja_game.learn.levels import DEFAULT_LEVEL, Origin
 from ninja_game.learn.levels.source import checked_seed
 from ninja_game.learn.observations.observation import Observed
 from ninja_game.learn.rendering import EpisodePicture, checked_size
-from ninja_game.learn.worlds import EnvSettings, EnvWorlds, refuse_unknown
+from ninja_game.learn.worlds import EnvSettings, EnvWorlds, checked_options, refuse_unknown
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 Infos = dict[str, Any]
@@ -88,9 +88,7 @@ class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
     ) -> tuple[Observed, Infos]:
         """Begin new episodes. Raises ArgumentError for seeds, a mask, levels or other options that do not fit."""
         self._refuse_closed()
-        options = options or {}
-        if options.keys() - {"level", "reset_mask"}:
-            raise ArgumentError(f"options are {sorted(options)}; expected 'level', 'reset_mask' or none")
+        options = checked_options(options, "level", "reset_mask")
         mask = options.get("reset_mask")
         chosen = np.arange(self.num_envs) if mask is None else np.flatnonzero(self._checked_mask(mask))
         if seed is None or isinstance(seed, int | np.integer):

@@ -28,7 +28,7 @@ from ninja_game.learn.actions import Keys
 from ninja_game.learn.goal_distance import GoalDistance
 from ninja_game.learn.levels import LevelChoice, Origin, level_source
 from ninja_game.learn.levels.places import new_levels, put_levels
-from ninja_game.learn.levels.source import LevelSequences, nearest
+from ninja_game.learn.levels.source import LevelSequences
 from ninja_game.learn.observations.observation import Observation, PartLike
 from ninja_game.learn.observations.part import Setting
 from ninja_game.learn.protocol import CHANCES, beginnings, next_random
@@ -152,10 +152,16 @@ class EnvSettings(Shown, total=False):
 
 def refuse_unknown(settings: Mapping[str, object], *own: str) -> None:
     """Raise ArgumentError for a name that no argument of an environment has; ``own``: further ones that it has."""
-    known = [*own, *sorted(EnvSettings.__optional_keys__)]
-    for name in settings:
-        if name not in EnvSettings.__optional_keys__:
-            raise ArgumentError(f"an environment has no argument {name!r}; expected such as {nearest(name, known)}")
+    for name in settings.keys() - EnvSettings.__optional_keys__:
+        known = ", ".join(sorted({*own, *EnvSettings.__optional_keys__}))
+        raise ArgumentError(f"an environment has no argument {name!r}; expected one of {known}")
+
+
+def checked_options(options: object, *known: str) -> dict[str, Any]:
+    """The options of a reset. Raises ArgumentError for others."""
+    if options is not None and (not isinstance(options, dict) or options.keys() - {*known}):
+        raise ArgumentError(f"options are {options!r:.60}; expected a dict of {', '.join(known)}, or none")
+    return dict(options or {})
 
 
 class EnvWorlds:
@@ -373,8 +379,7 @@ class EnvWorlds:
     def restore(self, state: EnvState, worlds: WorldChoice = None) -> None:
         """Put saved states into worlds, the same or others, as many. Raises ArgumentError if they do not fit.
 
-        They show the observation of that moment, and no reward and no events. Chance does not go back: which keys are
-        repeated from here on is drawn again.
+        They show that moment's observation, no reward and no events. Which keys are repeated from here on differs.
         """
         numbers = numbers_of(worlds, self.count, "worlds")
         if state.owner != self._owner() or len(state.levels) != len(numbers):

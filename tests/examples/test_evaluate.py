@@ -11,6 +11,7 @@ import pytest
 from click.testing import CliRunner
 
 from examples.evaluate import as_csv, as_json, as_text, main
+from ninja_game.backend.kernel_cache import before_compiling
 from ninja_game.learn.evaluation import Evaluation, LevelResult
 
 
@@ -20,6 +21,7 @@ def test_the_command_writes_the_table(tmp_path: Path) -> None:
     words += ["--episodes", "2", "--time-limit", "40", "--memory", "plain"]
     shown = CliRunner().invoke(main, words)
     assert shown.exit_code == 0, shown.output
+    assert before_compiling  # says so before anything is compiled
     assert [line.split()[0] for line in shown.stdout.splitlines()] == ["level", "00-0-first-steps", "near", "random:"]
     out = tmp_path / "random.json"
     assert CliRunner().invoke(main, [*words, "--json", "-o", str(out)]).exit_code == 0

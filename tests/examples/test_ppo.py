@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from examples import ppo
+from examples import agents, ppo
 from examples.agents import PolicyAgent, forward, load_policy
 from examples.imitate import imitate, known_steps
 from examples.measure import measure
@@ -135,7 +135,7 @@ def test_a_training_that_is_stopped_leaves_what_it_has_learned(tmp_path: Path) -
 
 def test_compiling_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     told: list[Callable[[], None]] = []
-    monkeypatch.setattr(ppo, "before_compiling", told)
+    monkeypatch.setattr(agents, "before_compiling", told)
     monkeypatch.setattr(ppo, "train", lambda *_, **__: [tell() for tell in told])
     result = CliRunner().invoke(main, ["-o", str(tmp_path / "agent.npz")])
     assert "it takes a minute or two" in result.stderr, result.output

@@ -53,6 +53,14 @@ def test_the_levels_never_change() -> None:
     assert len(_table()) == sum(COUNTS.values())
 
 
+def test_other_levels_have_another_digest() -> None:
+    """Those of the test, and as many to learn in, have the same numbers."""
+    names = ("bench:test", "bench:train:0-999", "bench:train:0-998", "bench:val")
+    assert len({level_source(name).digest for name in names}) == len(names)
+    trained, watched = (set(level_source(name).names) for name in ("bench:train:easy:0-98999", "bench:val:easy"))
+    assert (len(trained), len(watched), trained & watched) == (33_000, 334, set())
+
+
 def test_a_variation_takes_away_gold_and_killers_and_adds_nothing() -> None:
     slots = [record_table(_base(k, mirrored=False).level).slots for k in range(0, BASES, 5)]
     most = record_table(_base(LARGEST, mirrored=False).level).slots
@@ -73,6 +81,9 @@ def test_a_variation_takes_away_gold_and_killers_and_adds_nothing() -> None:
         ("bench:test:medium", 333, "bench-test-1"),
         ("bench:train:17", 1, "bench-train-17"),
         ("bench:train:10-19", 10, "bench-train-10"),
+        ("bench:train:hard:10-19", 3, "bench-train-11"),
+        ("bench:val", 1000, "bench-train-99000"),
+        ("bench:val:medium:0-5", 2, "bench-train-99001"),
     ],
 )
 def test_sources_by_name(words: str, count: int, first: str) -> None:
@@ -85,11 +96,26 @@ def test_sources_by_name(words: str, count: int, first: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "wrong", ["", "set", "train:5000000", "test:harder", "train:9-3", "train:-3", f"train:{'9' * 5000}"]
+    "wrong",
+    [
+        "",
+        "set",
+        "train:5000000",
+        "test:harder",
+        "train:9-3",
+        "train:-3",
+        f"train:{'9' * 5000}",
+        "test:",
+        "test:easy:",
+        "test:0-1000",
+        "test:easy:2",
+    ],
 )
 def test_other_names_are_told(wrong: str) -> None:
     with pytest.raises(ArgumentError, match="expected 'bench:train'"):
         level_source(f"bench:{wrong}")
+    with pytest.raises(ArgumentError, match="numbers 0 to 999, "):
+        level_source("bench:test:1000")
     with pytest.raises(ArgumentError, match="counted from 0"):
         bench_level("train", 100_000)
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import hashlib
 import pickle
+import re
 from typing import Any
 
 import gymnasium
 import numpy as np
 import pytest
+from gymnasium.error import InvalidAction
 from gymnasium.vector import AutoresetMode
 from gymnasium.wrappers import (
     FlattenObservation,
@@ -19,6 +21,7 @@ from gymnasium.wrappers import (
     vector as vector_wrappers,
 )
 
+from ninja_game.errors import ArgumentError
 from ninja_game.learn import ENVIRONMENTS
 from ninja_game.learn.single import NinjaEnv
 from ninja_game.learn.vector import NinjaVectorEnv
@@ -125,3 +128,25 @@ def test_versions_are_what_they_were() -> None:
         several.reset(seed=seed)
         chosen.append(several.worlds.levels_now.item())
     assert chosen == [5, 1, 14, 7, 5]
+
+
+def wrong_words() -> dict[str, Any]:
+    """As a user's program that no tool has checked."""
+    return {"typo": 1}
+
+
+@pytest.mark.parametrize(
+    "wrong,told",
+    [
+        (lambda env: env.reset(options=3), "options are 3; expected a dict of level"),
+        (lambda env: env.reset(options={"lvl": 1}), "options are {'lvl': 1}; expected a dict of level"),
+        (lambda env: env.step(6), "found the actions [6]; expected 0 to 5"),
+        (lambda _: NinjaEnv([]), "level is []; expected a name"),
+        (lambda _: NinjaEnv(**wrong_words()), "no argument 'typo'; expected one of actions, body, flat"),
+    ],
+)
+def test_what_is_wrong_with_an_argument_is_told(wrong: Any, told: str) -> None:
+    env = NinjaEnv(memory="plain")
+    env.reset(seed=0)
+    with pytest.raises((ArgumentError, InvalidAction), match=re.escape(told)):
+        wrong(env)

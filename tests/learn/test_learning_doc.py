@@ -19,6 +19,7 @@ from ninja_game.learn.observations.observation import PARTS
 from ninja_game.learn.rewards import REWARD_TERMS
 
 DOC = (Path(__file__).resolve().parents[2] / "docs" / "learning.md").read_text("utf-8")
+UNWRAPPED = " ".join(DOC.split())
 COMMANDS = [
     line
     for block in re.findall(r"^```sh\n(.*?)^```$", DOC, re.MULTILINE | re.DOTALL)
@@ -30,7 +31,7 @@ SHORTER = {
     "test": "00-2-the-chimney",
     "50": "3",
     "100": "3",
-    "500000": "1",
+    "1000000": "1",
     "agent.npz": str(LEARNED),
 }
 """What a command of the page is run with instead, so that a test takes seconds."""
@@ -44,11 +45,29 @@ def test_a_command_of_the_page_does_what_it_says(line: str, tmp_path: Path, monk
     monkeypatch.setenv("MINARI_DATASETS_PATH", str(tmp_path))
     monkeypatch.chdir(tmp_path)
     (tmp_path / "levels").symlink_to(data_folder("levels"))
+    monkeypatch.setattr(measure, "TASKS", {"bench:test:0-2": 1})
     program, *words = [SHORTER.get(word, word) for word in shlex.split(line.removeprefix("python3 -m "))]
-    command = {"ninja-game": cli, "examples.ppo": ppo.main, "examples.evaluate": evaluate.main}[program]
-    result = CliRunner().invoke(command, words)
+    command = {"ninja-game": cli, "examples.ppo": ppo.main, "examples.evaluate": evaluate.main}
+    command["examples.measure"] = measure.main
+    result = CliRunner().invoke(command[program], words)
     assert result.exit_code == 0, result.output
     assert result.stdout
+
+
+def test_the_first_agent_is_one_that_was_measured() -> None:
+    """What ten minutes bring is told of all seeds that were tried, as their results have it."""
+    runs = bench_report.load_results(Path(__file__).resolve().parents[2] / "benchmarks" / "results" / "ninjabench")
+    first, random = runs["sight", "ppo-1M"], runs["sight", "random"]
+    learned = {run["training"]["level"] for run in first}
+    assert learned == {option.default for option in ppo.main.params if option.name == "level"}
+    passed = [100 * run["scores"]["bench:test"]["easy"]["passed"] for run in first]
+    chance = bench_report.rates(random, "bench:test", "passed")[:, 0].mean() * 100
+    seeds = ", ".join(f"{share:.1f}" for share in passed)
+    assert (
+        f"seeds 0 to {len(first) - 1} passed {seeds} % of the easy levels of the test, chance {chance:.1f} %"
+        in UNWRAPPED
+    )
+    assert min(passed) > 1.5 * chance
 
 
 def test_the_commands_of_the_protocol_are_ones_that_can_be_given(

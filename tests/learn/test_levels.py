@@ -67,7 +67,7 @@ def test_a_level_that_there_is_not_is_an_error_that_names_levels(wrong: str) -> 
 def test_a_level_that_cannot_be_read_is_a_level_error() -> None:
     with pytest.raises(LevelError):
         level_source("no|level")
-    with pytest.raises(ArgumentError, match="at least one level"):
+    with pytest.raises(ArgumentError, match="expected a name, a path, a Level"):
         level_source([])
 
 

@@ -12,6 +12,7 @@ the run that is known. That run, cut alike, passes every one of them: the world 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from functools import cache, lru_cache
 from hashlib import sha256
@@ -34,6 +35,8 @@ from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 from ninja_game.sim.states import SKIDDING
 
 COUNTS = {"train": 100_000, "test": 1_000}
+VAL = range(99_000, 100_000)
+"""Numbers of `train`, to choose settings by: who watches them learns in the others (docs/ninjabench.md)."""
 GRADES = {"easy": (30, 88), "medium": (89, 208), "hard": None}
 """Least and most ticks that are taken of the known run; the hard ones have the whole task."""
 DELAY = 16
@@ -189,24 +192,23 @@ class BenchSource(LevelSource):
     def digest(self) -> str:
         """Sha256 (hex) of what makes them."""
         assets = [read_bytes(data_folder("assets") / name, MOST_BYTES) for name in (FROZEN, TABLE)]
-        return sha256(repr(self.levels.numbers).encode() + b"".join(assets)).hexdigest()
+        return sha256(f"{self.levels.split} {self.levels.numbers}".encode() + b"".join(assets)).hexdigest()
 
 
 def bench_source(text: str) -> BenchSource:
-    """What follows "bench:" in the name of a source: "train", "test:easy", "train:17", "train:0-999".
+    """What follows "bench:" in the name of a source: "train", "test:easy", "train:17", "train:easy:0-98999", "val".
 
     Raises ArgumentError for anything else, FileError where the files of the game are not there.
     """
-    split, _, which = text.partition(":")
-    first, _, last = which.partition("-")
-    numbers = range(COUNTS.get(split, 0))
-    if which in GRADES:
-        numbers = numbers[list(GRADES).index(which) :: len(GRADES)]
-    elif len(which) < 20 and first.isdecimal() and (last or first).isdecimal():
-        numbers = numbers[int(first) : int(last or first) + 1]
-    elif which:
-        numbers = range(0)
-    if not numbers:
-        expected = "'bench:train' or 'bench:test', and ':easy', ':medium', ':hard' or numbers, as ':0-999'"
-        raise ArgumentError(f"found 'bench:{text:.60}'; expected {expected}")
-    return BenchSource(split, numbers)
+    found = re.fullmatch(rf"(\w+)(?::({'|'.join(GRADES)}))?(?::([0-9]{{1,6}})(?:-([0-9]{{1,6}}))?)?", text)
+    split, grade, first, last = found.groups() if found else (text.partition(":")[0], None, None, None)
+    all_of = numbers = VAL if split == "val" else range(COUNTS.get(split, 0))
+    numbers = numbers[int(first) : int(last or first) + 1] if first else numbers
+    if grade:
+        numbers = numbers[(list(GRADES).index(grade) - numbers.start) % len(GRADES) :: len(GRADES)]
+    if not found or not numbers or int(last or first or 0) >= len(all_of):
+        expected = f"with grade {', '.join(GRADES)}, or numbers 0 to {len(all_of or VAL) - 1}, or both"
+        raise ArgumentError(
+            f"found 'bench:{text:.60}'; expected 'bench:train', 'bench:val' or 'bench:test', {expected}"
+        )
+    return BenchSource("train" if split == "val" else split, numbers)

@@ -44,7 +44,7 @@ def level_source(origin: Origin) -> LevelSource:
                               seconds each (docs/generator.md)
     "packed", "packed:3"      the generated levels that come with the game, all thousand or those of difficulty 3
     "bench:train:easy"        variations of those, made from their numbers (``ninja_game.learn.levels.bench``):
-                              "bench:train" 100,000, "bench:test" 1,000; ":easy", ":medium", ":hard", ":0-999": of these
+                              "bench:train" 100,000, "bench:val", "bench:test" 1,000; ":easy", ":0-9": of these
     a path                    all levels of a file, folder or pack
     a text                    the levels of a text in any format
     a Level, a NamedLevel     itself
@@ -61,7 +61,7 @@ def level_source(origin: Origin) -> LevelSource:
         return _named([origin])
     if isinstance(origin, Path):
         return _named(load_levels(origin))
-    if not isinstance(origin, str | Sequence):
+    if not isinstance(origin, str | Sequence) or not (origin or isinstance(origin, str)):
         raise ArgumentError(f"level is {origin!r:.60}; expected a name, a path, a Level, or several of these")
     if not isinstance(origin, str):
         parts = [level_source(each) for each in origin]
