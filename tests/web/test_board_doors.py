@@ -26,7 +26,7 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.made import Made
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.runs.run import record_replay, run_level
-from ninja_game.web.board.copies import ALIGNED, SHIFTED, Course, Courses, course_of, edit_distance, near_ones
+from ninja_game.web.board.copies import ALIGNED, SHIFTED, Course, Courses, course_of, edit_distance
 from ninja_game.web.board.pages import check_site
 from ninja_game.web.board.players import Players, folded
 from ninja_game.web.board.runs import _near_to_another, judge
@@ -417,7 +417,7 @@ def test_a_table_of_edits_and_honest_pairs_is_as_the_page_says() -> None:
     require_reference()
     pairs, _ = near_copies.honest_pairs(60)
     course = near_copies.course_of_row
-    assert sum(near_ones(course(other), [course(one)]) != [] for one, other in pairs) <= 1
+    assert sum(near_copies.near_ones(course(other), [course(one)]) != [] for one, other in pairs) <= 1
     paths = near_copies.every_nth([path for path in bundled_replays() if ".exit." in path.name], 5)
     chosen = [recording for path in paths for recording in load_replays(path)]
     for recording in chosen:
@@ -450,7 +450,7 @@ def test_few_of_many_runs_are_aligned(monkeypatch: pytest.MonkeyPatch) -> None:
     aligned = Mock(return_value=10**6)
     monkeypatch.setattr("ninja_game.web.board.copies.edit_distance", aligned)
     other = replace(course, presses=frozenset(), places=frozenset())
-    assert near_ones(course, [other] * 500) == []
+    assert near_copies.near_ones(course, [other] * 500) == []
     assert aligned.call_count == ALIGNED
 
 
