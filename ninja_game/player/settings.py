@@ -46,7 +46,7 @@ InputNames = Mapping[str, tuple[str, ...]]
 """Action to the names of its inputs (``ui/input/bindings.py``)."""
 
 
-class Rule(NamedTuple):
+class SettingRule(NamedTuple):
     """Where a setting stands in the file, what it may be, and what it means."""
 
     table: str
@@ -57,7 +57,7 @@ class Rule(NamedTuple):
 
 def _setting(default: Any, table: str, fits: Callable[[Any], bool], expected: str, meaning: str) -> Any:
     """A field with its rule."""
-    return field(default=default, metadata={"rule": Rule(table, fits, expected, meaning)})
+    return field(default=default, metadata={"rule": SettingRule(table, fits, expected, meaning)})
 
 
 def _flag(default: bool, table: str, meaning: str) -> Any:
@@ -94,9 +94,10 @@ def _is_bindings(value: Any) -> bool:
     )
 
 
-def _bindings(what: str, example: str) -> dict[str, Rule]:
+def _bindings(what: str, example: str) -> dict[str, SettingRule]:
     expected = f"lists of names of {what}, such as jump = {example}"
-    return {"rule": Rule("", _is_bindings, expected, f"{what} of each action that has others than the default ones")}
+    meaning = f"{what} of each action that has others than the default ones"
+    return {"rule": SettingRule("", _is_bindings, expected, meaning)}
 
 
 @dataclass(frozen=True)
@@ -169,7 +170,7 @@ class Settings:
         return replace(self, **values)
 
 
-RULES: dict[str, Rule] = {each.name: each.metadata["rule"] for each in fields(Settings)}
+RULES: dict[str, SettingRule] = {each.name: each.metadata["rule"] for each in fields(Settings)}
 """By setting. Bindings are tables of their own: ``[keys]`` and ``[pad-buttons]``."""
 
 
