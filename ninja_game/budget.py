@@ -18,7 +18,7 @@ PAGE_BUDGET = 3_000_000
 """Work of a run that a page judges, on its one thread: 10,000 ticks of 290 objects."""
 
 PAGE_TICK_COST = 2_000
-"""Of a level that a page opens: a picture of more moving objects would hold its thread; those of N cost 280 at most."""
+"""Most that a level may cost that a page opens: more objects would hold its thread; those of N cost up to 280."""
 
 TURN_WORK = 15_000
 """Work between two pictures, where a window or a page shows a run: some 5 to 10 ms on the plain memory."""
@@ -27,7 +27,8 @@ PLAIN_WORK = 3_000_000
 """Work that the plain memory does in one to two seconds, as long as it takes to load compiled kernels."""
 
 DATASET_MIB = 100
-"""Of the observations of demonstrations: arrays that are made of them take four times as much memory."""
+"""Size of the observations of demonstrations; arrays of them take four times as much memory. Here, so that the
+command's help needs no Gymnasium."""
 
 NO_LIMIT = 2**63
 """The budget of what the player played here."""
@@ -36,7 +37,7 @@ TICK_COST = 10
 """Work of a tick without objects: the ninja's own. One is what most objects cost, some 10 ns compiled."""
 
 OBJECT_COSTS = {TURRET: 10, LAUNCHER: 10, DRONE: 2, FLOOR_GUARD: 2, THWUMP: 2}
-"""Of an object in a tick at worst, where it is more than one: those that cast rays, those that never sleep."""
+"""Most work of an object in a tick, where it is more than one: those that cast rays, those that never sleep."""
 
 
 def tick_cost(level: Level) -> int:

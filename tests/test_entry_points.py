@@ -1,4 +1,4 @@
-"""Whatever reads from outside has a row in SECURITY.md, and each row a test."""
+"""Whatever reads from outside has a section in SECURITY.md, and each section a test."""
 
 from __future__ import annotations
 
@@ -44,19 +44,27 @@ def readers(source: str) -> set[str]:
     return {name for name in map(ast.unparse, named) if READS.fullmatch(name)}
 
 
-def rows() -> list[list[str]]:
-    table = (ROOT / "SECURITY.md").read_text("utf-8").partition("## Entry points")[2].partition("\n## ")[0]
-    return [line.strip("| ").split(" | ") for line in table.splitlines() if line.startswith("| ")][1:]
+SECTION = re.compile(r"### .+\n\nFrom [^.]+\. [^#]+\n\n- Read by ([^#]+)\n- Tested by ([^#]+)\n")
+"""Who may send it and what is promised, the modules that read it, the tests."""
 
 
-def test_whatever_reads_has_a_row_in_security_md() -> None:
+def sections() -> list[str]:
+    page = (ROOT / "SECURITY.md").read_text("utf-8").partition("## Entry points")[2].partition("\n## ")[0]
+    return [f"### {text.strip()}\n" for text in page.split("\n### ")[1:]]
+
+
+def modules() -> set[str]:
+    return {name for text in sections() for name in re.findall(r"`([\w/]+)`", text.partition("\n- Read by ")[2])}
+
+
+def test_whatever_reads_has_a_section_in_security_md() -> None:
     reading = {}
     for path in sorted(PACKAGE.rglob("*.py")):
         if found := readers(path.read_text("utf-8")):
             reading[path.relative_to(PACKAGE).with_suffix("").as_posix().removesuffix("/__init__")] = found
-    named = {module for row in rows() for module in re.findall(r"`([\w/]+)`", row[4])}
+    named = modules()
     unknown = {module: found for module, found in reading.items() if module not in named | OURS.keys()}
-    assert not unknown, "name them in a row of SECURITY.md"
+    assert not unknown, "name them in a section of SECURITY.md"
     gone = [
         module
         for module in named | OURS.keys()
@@ -66,13 +74,14 @@ def test_whatever_reads_has_a_row_in_security_md() -> None:
     assert not OURS.keys() - reading.keys(), "they read nothing any more"
 
 
-def test_each_row_is_whole_and_its_tests_are_there() -> None:
-    assert len(rows()) > 20
-    for row in rows():
-        assert len(row) == 6, row
-        assert all(cell.strip() for cell in row)
-        tests = re.findall(r"`([\w/]+\.py)::(\w+)`", row[5])
-        assert tests, row
+def test_each_section_is_whole_and_its_tests_are_there() -> None:
+    assert len(sections()) > 20
+    for text in sections():
+        found = SECTION.fullmatch(text)
+        assert found, text
+        assert re.search(r"`[\w/]+`", found[1]), text
+        tests = re.findall(r"`([\w/]+\.py)::(\w+)`", found[2])
+        assert tests, text
         for file, name in tests:
             assert f"\ndef {name}(" in (ROOT / "tests" / file).read_text("utf-8"), (file, name)
 

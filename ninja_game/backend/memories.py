@@ -44,7 +44,7 @@ JUDGED = "auto-checked"
 """As "auto", but "checked" when it is compiled: the memory of a run that is judged and begins on the plain one."""
 
 _WORK = [0]
-"""Of all runs of this process that might be little; up to PLAIN_WORK they are."""
+"""Work of all runs of this process that were short enough for the plain memory: PLAIN_WORK at most."""
 
 _OF_ONE_RUN = {
     False: (load_world, run_world, step_world, observe_object, trace_world, kill_ninja),

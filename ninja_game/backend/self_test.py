@@ -18,7 +18,7 @@ from ninja_game.sim.level import TILES, Level, ObjectSpec
 from ninja_game.sim.memory.interface import Worlds
 
 DIGEST = "a9b523980fd14511af830676f2ff771f63e63377f06c53930c18638b709954e3"
-"""Of all runs, on every machine; `python3 tools/dev.py golden` writes it where a rule is meant to change."""
+"""The digest of all runs, on every machine; `python3 tools/dev.py golden` writes it where a rule is meant to change."""
 
 RUNS, TICKS = 8, 400
 """How many runs, the last one by the box, and how long at most."""

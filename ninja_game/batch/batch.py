@@ -221,7 +221,7 @@ class Batch:
         return world_digest(self.world(index))
 
     def state_digests(self, worlds: WorldChoice = None) -> list[str]:
-        """Of each world the sha256 (hex) of what decides what follows (``state_digest``), once for equal worlds."""
+        """The sha256 (hex) of what decides how each world goes on (``state_digest``), once for equal worlds."""
         known: dict[bytes, str] = {}
         found = []
         for index in numbers_of(worlds, self.count, "worlds").tolist():

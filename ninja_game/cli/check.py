@@ -90,8 +90,7 @@ def check(
       ninja-game check my-levels/ --first
       ninja-game check my-levels/ --gold both --replays my-levels/certificates --seconds 60
     """
-    from ninja_game.cli.main import complain
-    from ninja_game.cli.terminal import BAD_INPUT
+    from ninja_game.cli.terminal import BAD_INPUT, complain
     from ninja_game.formats.load import load_levels
     from ninja_game.search.certify import Wanted, certify_all
 
@@ -115,7 +114,7 @@ def check(
 
 
 class _Tally:
-    """What was found for how many levels."""
+    """Counts levels by what was found of them."""
 
     def __init__(self) -> None:
         self.levels = 0

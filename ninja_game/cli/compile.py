@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from ninja_game.sim.level import Level
 
 LEVEL = "0" * 713 + "|5^100,566!11^160,564,130,564!0^115,566"
-"""What is played meanwhile; machine code does not depend on it."""
+"""The level that is played so that kernels are compiled; machine code does not depend on it."""
 
 MOST_PROCESSES = 2
 """Each compiles the rules again for what it makes of them; more would only wait for each other."""

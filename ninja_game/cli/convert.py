@@ -30,7 +30,7 @@ FORM_OF_NAME = {
     **{suffix: form for form, suffix in RUN_FORMS.items()}, ".replay": "replay", ".demo": "file", ".nlevel": "string",
     ".episode.txt": "episode",
 }  # fmt: skip
-"""What is written where OUT ends so."""
+"""Format that is written, by the ending of OUT."""
 
 
 @click.command()

@@ -9,8 +9,8 @@ from typing import Any
 import click
 
 from ninja_game.budget import DATASET_MIB
-from ninja_game.cli.main import complain
 from ninja_game.cli.run_options import level_given, level_option, memory_option, with_progress
+from ninja_game.cli.terminal import complain
 from ninja_game.sim.rules import LIFETIME
 
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
-from contextlib import suppress
 from difflib import get_close_matches
 from importlib import import_module
 from typing import Any, NoReturn
@@ -17,10 +16,9 @@ import click
 
 from ninja_game import __version__
 from ninja_game.backend.numba_import import remove_foreign_settings
-from ninja_game.cli.terminal import BAD_INPUT, guard_terminal
+from ninja_game.cli.terminal import BAD_INPUT, complain, guard_terminal, say
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.reading import keep_inputs
-from ninja_game.files.shown_text import shown_text
 from ninja_game.signals import Terminated, announced, end_on_signals, leave_signals, raising, received
 
 GROUPS = {
@@ -87,8 +85,6 @@ INTERRUPTED, TERMINATED = 130, 143
 BROKEN_PIPE = 141
 """Exit code when whoever read our output has gone, as shells have it."""
 
-_LONGEST_MESSAGE = 2000
-
 
 class Commands(click.Group):
     """A group that imports a command when it is asked for, and turns every expected error into one line and a code."""
@@ -122,8 +118,8 @@ class Commands(click.Group):
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """The table of commands, without importing them."""
         width = max(map(len, COMMANDS))
-        for folder, group in GROUPS.items():
-            with formatter.section(folder.capitalize()):
+        for title, group in GROUPS.items():
+            with formatter.section(title.capitalize()):
                 formatter.write_dl([(name.ljust(width), text) for name, text in group.items()])
 
     def invoke(self, ctx: click.Context) -> Any:
@@ -181,11 +177,11 @@ def _failed(error: BaseException) -> int:
     """Report what a command has raised; its exit code."""
     match error:
         case click.exceptions.NoArgsIsHelpError():
-            _say(error.format_message())
+            say(error.format_message())
         case click.ClickException():
             complain(error.format_message())
             if isinstance(error, click.UsageError) and error.ctx:
-                _say(f"Try '{error.ctx.command_path} --help'.")
+                say(f"Try '{error.ctx.command_path} --help'.")
         case NinjaGameError():
             complain(str(error))
         case MemoryError():
@@ -195,23 +191,10 @@ def _failed(error: BaseException) -> int:
         case _:
             import traceback
 
-            _say("".join(traceback.format_exception(error)).rstrip())
+            say("".join(traceback.format_exception(error)).rstrip())
             complain("this is a fault of ninja-game, not of your input; please report it with the lines above")
             return INTERNAL_ERROR
     return BAD_INPUT
-
-
-def complain(message: str) -> int:
-    """Exit code 2, after the lines of the message on stderr."""
-    for line in message.split("\n"):
-        _say(f"ninja-game: {shown_text(line, _LONGEST_MESSAGE)}")
-    return BAD_INPUT
-
-
-def _say(text: str) -> None:
-    """A line on stderr; where none can be written, the exit code still tells."""
-    with suppress(OSError):
-        click.echo(text, err=True)
 
 
 @click.command(cls=Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})

@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ninja_game.cli.main import complain
 from ninja_game.cli.run_options import budget_option, choose, heartbeat, level_given, level_option, with_progress
-from ninja_game.cli.terminal import BAD_INPUT, data_output
+from ninja_game.cli.terminal import BAD_INPUT, complain, data_output
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.run_time import seconds_text
 

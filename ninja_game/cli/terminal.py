@@ -5,9 +5,12 @@ from __future__ import annotations
 import io
 import re
 import sys
+from contextlib import suppress
 from typing import TextIO
 
-from ninja_game.files.shown_text import shown_character
+import click
+
+from ninja_game.files.shown_text import shown_character, shown_text
 
 _COLOURS = r"\n|\t|\x1b\[[0-9;]*m"
 _OURS = {
@@ -15,12 +18,15 @@ _OURS = {
     # The lines that count are drawn again in their place, by rich.
     "stderr": re.compile(rf"({_COLOURS}|\r|\x1b\[(?:\?25[hl]|1A|2K))"),
 }
-"""What our own output does besides printing; a name has passed ``shown_text`` and holds none of it."""
+"""Control sequences of our own output; names have passed ``shown_text`` and hold none."""
 
 _DATA = re.compile(r"(\n|\t)")
 
 BAD_INPUT = 2
 """Exit code for input that cannot be read and for wrong usage."""
+
+_LONGEST_MESSAGE = 2000
+"""Characters of a line about what is wrong."""
 
 
 class Terminal(io.TextIOWrapper):
@@ -52,3 +58,15 @@ def guard_terminal() -> None:
         getattr(stream, "reconfigure", lambda **_: None)(errors="backslashreplace")
         if stream and stream.isatty():
             setattr(sys, name, Terminal(stream, ours))
+
+
+def complain(message: str) -> None:
+    """Write what is wrong on stderr, each line with the program's name."""
+    for line in message.split("\n"):
+        say(f"ninja-game: {shown_text(line, _LONGEST_MESSAGE)}")
+
+
+def say(text: str) -> None:
+    """Write a line on stderr; where none can be written, the exit code still tells."""
+    with suppress(OSError):
+        click.echo(text, err=True)

@@ -13,7 +13,6 @@ from typing import IO, TYPE_CHECKING, Any
 
 import click
 
-from ninja_game.cli.main import complain
 from ninja_game.cli.run_options import (
     InputPath,
     budget_option,
@@ -23,7 +22,7 @@ from ninja_game.cli.run_options import (
     memory_option,
     with_progress,
 )
-from ninja_game.cli.terminal import BAD_INPUT, data_output
+from ninja_game.cli.terminal import BAD_INPUT, complain, data_output
 from ninja_game.files.shown_text import shown_text
 
 if TYPE_CHECKING:
@@ -78,7 +77,7 @@ def trace(
 
     FILE is a replay of ours, a file of $name#author#comment#level#demo# records, or a folder of them. Each runs as
     `verify` runs it, unless --ticks or --after say otherwise. Lengths are px, velocities px/tick; numbers keep every
-    bit. Events are recorded by the plain memory only, so --memory compiled leaves them out.
+    bit.
 
     Exit code 0: all is well; 1: --against found a difference; 2: something cannot be read.
 
@@ -96,10 +95,9 @@ def trace(
         raise click.UsageError("--against-record needs --against")
     if digests + bool(against) + bool(output) > 1:
         raise click.UsageError("--digests, --against and --output cannot be used together")
-    table = not digests and not against
     options = {
         "level": level_given(level_path), "jobs": jobs, "ticks": ticks, "after": after or 0, "memory": memory,
-        "objects": objects or digests or against is not None, "events": table and memory != "compiled",
+        "objects": objects or digests or against is not None, "events": not digests and not against,
         "budget": budget,
     }  # fmt: skip
     traces = Traces(files, record=record, **options)

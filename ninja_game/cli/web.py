@@ -74,12 +74,17 @@ class _Board(click.Command):
     def make_context(
         self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
     ) -> click.Context:
-        """Of the command that is meant."""
+        """The context of the command that is meant: ``board`` or ``board ask``."""
         if args[:1] == ["ask"]:
             from ninja_game.cli.board_ask import ask
 
             return ask.make_context(f"{info_name} ask", args[1:], parent, **extra)
         return super().make_context(info_name, args, parent, **extra)
+
+    def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Tell of the command below it, as groups do."""
+        with formatter.section("Commands"):
+            formatter.write_dl([("ask", "Ask the board of a folder about a level, and about players on it.")])
 
 
 @click.command(cls=_Board)
@@ -120,7 +125,7 @@ def board(
       ninja-game board replays/ --site public/ --json board.json
       ninja-game board replays/ --check board.json
       ninja-game board replays/ --levels my-pack/ --site public/
-      ninja-game board ask --help
+      ninja-game board ask replays/ rank 00-0
     """
     from ninja_game.files.user_folder import data_folder
     from ninja_game.files.writing import check_output, write_atomically

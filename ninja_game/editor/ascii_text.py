@@ -17,7 +17,6 @@ from ninja_game.formats.ascii.problems import Problems
 from ninja_game.formats.ascii.reader import parse_ascii_level, sections
 from ninja_game.formats.ascii.writer import (
     drawn_only,
-    header_text,
     headers_of,
     picture_rows,
     same_record,
@@ -25,7 +24,7 @@ from ninja_game.formats.ascii.writer import (
     write_ascii_level,
     write_object_lines,
 )
-from ninja_game.formats.lines import UNCOMMENTED, numbered_lines
+from ninja_game.formats.lines import UNCOMMENTED, header_text, numbered_lines
 from ninja_game.sim.level import ObjectSpec
 
 _ROW = re.compile(r"(\s*+\d*+\s*+\|).*(\|.*)")

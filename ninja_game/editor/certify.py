@@ -43,7 +43,7 @@ class Try(NamedTuple):
 
 
 class TestMap(NamedTuple):
-    """Of many tests: in how many the ninja was in each cell, and where it died, px."""
+    """Many tests of a level: in how many the ninja was in each cell, and where it died, px."""
 
     visits: Mapping[Cell, int]
     deaths: Route

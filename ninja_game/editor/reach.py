@@ -15,7 +15,7 @@ from ninja_game.editor.stamp import Stamp, put
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.user_folder import how_to_install
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEY_LEFT, KEY_RIGHT
-from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER, THWUMP
+from ninja_game.sim.kinds import MOVING_ENEMIES
 from ninja_game.sim.rules import TICKS_PER_SECOND, TOP_SPEED, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.states import FALLING, JUMPING, OUTCOME_DEAD
 
@@ -25,13 +25,11 @@ TICKS = TICKS_PER_SECOND
 STARTS = {"off": None, "standing": 0.0, "running right": TOP_SPEED, "running left": -TOP_SPEED}
 """Speeds at the start to the right, px/tick; "off": nothing is shown."""
 
-CELL = 4.0
+SQUARE = 4.0
 """Px: what is reached is shown in squares of this side."""
 
 Span = tuple[float, float, float]
 """Squares side by side: left edge, top, width, px."""
-
-_DANGERS = (DRONE, FLOOR_GUARD, THWUMP, LAUNCHER)
 
 
 class Ask(NamedTuple):
@@ -108,7 +106,7 @@ def find_reach(ask: Ask) -> Reach:
     climbers, climbing = ninja[_FIRST_WALL:], wall[_FIRST_WALL:]
     places, states = np.empty((TICKS + 1, len(FAN), 2)), np.empty((TICKS + 1, len(FAN)), np.uint8)
     objects = worlds.records["objects"][0, : int(worlds.records["slots_used"][0])]
-    dangers = np.flatnonzero(np.isin(objects["kind"], _DANGERS))
+    dangers = np.flatnonzero(np.isin(objects["kind"], MOVING_ENEMIES))
     clock = np.empty((TICKS + 1, len(dangers), 2))
     until, bounces = np.zeros(len(FAN), np.int16), np.zeros(len(FAN), bool)
     for tick in range(TICKS + 1):
@@ -153,8 +151,8 @@ def _spans(places: Any) -> tuple[Span, ...]:
     """The squares in which any of these points (points, 2) in the level lie, side by side where they touch."""
     import numpy as np
 
-    columns = int(WORLD_WIDTH // CELL) + 1
+    columns = int(WORLD_WIDTH // SQUARE) + 1
     inside = places[((places >= 0) & (places < (WORLD_WIDTH, WORLD_HEIGHT))).all(axis=1)]
-    cells = np.unique((inside // CELL).astype(np.intp) @ (1, columns))
+    cells = np.unique((inside // SQUARE).astype(np.intp) @ (1, columns))
     rows = np.split(cells, np.flatnonzero(np.diff(cells) > 1) + 1) if len(cells) else []
-    return tuple((CELL * (row[0] % columns), CELL * (row[0] // columns), CELL * len(row)) for row in rows)
+    return tuple((SQUARE * (row[0] % columns), SQUARE * (row[0] // columns), SQUARE * len(row)) for row in rows)

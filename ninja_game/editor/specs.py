@@ -71,11 +71,9 @@ def with_word(spec: ObjectSpec, name: str, text: str) -> ObjectSpec:
 
 def settled(spec: ObjectSpec) -> ObjectSpec:
     """A spec whose values agree: an automatic door senses in the middle of its side."""
-    if spec.kind == DOOR and well_formed(spec) and not has_switch(spec):
-        side = word(spec, "side")
-        column, row = spec.values[4:6]
-        if side and column.is_integer() and row.is_integer():
-            return spec._replace(values=(*door_middle(int(column), int(row), side), *spec.values[2:]))
+    automatic = spec.kind == DOOR and well_formed(spec) and not has_switch(spec)
+    if automatic and word(spec, "side") and all(value.is_integer() for value in spec.values[4:6]):
+        return spec._replace(values=(*door_middle(spec.values), *spec.values[2:]))
     return spec
 
 
@@ -103,14 +101,8 @@ def points(spec: ObjectSpec) -> dict[int, Point]:
     if spec.kind == EXIT:
         found = {BODY: (x, y), SWITCH: (spec.values[2], spec.values[3])}
     else:
-        found = {BODY: _door_point(spec.values)} | ({SWITCH: (x, y)} if has_switch(spec) else {})
+        found = {BODY: door_middle(spec.values)} | ({SWITCH: (x, y)} if has_switch(spec) else {})
     return {part: point for part, point in found.items() if all(map(isfinite, point))}
-
-
-def _door_point(values: tuple[float, ...]) -> Point:
-    """The middle of a door's bar, px."""
-    x, y = 24.0 * (values[4] + values[7]) + 12.0, 24.0 * (values[5] + values[8]) + 12.0
-    return (x, y + 12.0) if values[2] else (x + 12.0, y)
 
 
 def carried(spec: ObjectSpec, motion: Motion, parts: Collection[int] = (BODY, SWITCH)) -> ObjectSpec:

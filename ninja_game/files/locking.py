@@ -13,7 +13,7 @@ from typing import TypeVar
 Found = TypeVar("Found")
 
 LOCK_SUFFIX = ".lock"
-"""Of the file that a program holds as long as it keeps another one."""
+"""Suffix of the file that a program holds as long as it keeps another one."""
 
 _OWN_FILE = os.O_CREAT | os.O_RDWR | getattr(os, "O_NOFOLLOW", 0)
 

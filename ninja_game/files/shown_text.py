@@ -10,7 +10,7 @@ MAX_SHOWN = 200
 """How many characters of a text are shown; no name of a level or player comes near."""
 
 MOST_NAME_BYTES = 200
-"""Of a file's name in UTF-8: systems take 255, and a number, a suffix or ``.lock`` may follow."""
+"""Bytes of a file's name in UTF-8: systems take 255, and a number, a suffix or ``.lock`` may follow."""
 
 _LONGEST_STEM = 50
 _NOT_IN_NAMES = re.compile(r"[^\w.]+")

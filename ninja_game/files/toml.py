@@ -7,7 +7,7 @@ import tomllib
 from typing import Any
 
 MOST_PARTS = 50
-"""Of a key with dots; the library takes the square of their number."""
+"""Parts of a key with dots; the library takes time with the square of their number."""
 
 _PART = r"""(?:(?<![\w-])[\w-]++|(?<!\\)"(?:[^"\\\n]|\\.)*+"|'[^'\n]*+')"""
 _LONG_KEY = re.compile(rf"(?:{_PART}[ \t]*+\.[ \t]*+){{{MOST_PARTS}}}")

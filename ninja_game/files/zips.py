@@ -90,7 +90,7 @@ _HEADER = re.compile(
     rb"\{'descr': (.{1,400}), 'fortran_order': (True|False), 'shape': \(([0-9, ]{0,60})\), \} *\n",
     re.DOTALL,
 )
-"""Of an array, as NumPy writes it; NumPy's own reader would evaluate an untrusted text."""
+"""The head of an array, as NumPy writes it; NumPy's own reader would evaluate an untrusted text."""
 
 _TEXT = re.compile(r"'<U\d{1,9}'")
 

@@ -1,7 +1,8 @@
-"""The lines of a text that hold something, with their numbers."""
+"""The lines of a text that hold something, with their numbers; how a header's value is written."""
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Iterator
 
@@ -30,3 +31,18 @@ def numbered_lines(text: str, wanted: re.Pattern[str] = FILLED) -> Iterator[Line
         number += text.count("\n", before, match.start())
         before = match.start()
         yield number, match[0]
+
+
+def header_text(value: str) -> str:
+    """A header's value as it is written: in double quotes as JSON where it would not come back otherwise."""
+    plain = value == value.strip() and not value.startswith('"') and value.isprintable()
+    return value if plain else json.dumps(value)
+
+
+def read_quoted(text: str) -> str | None:
+    """What stands in double quotes, with JSON's escapes; None if that is not in order."""
+    try:
+        value = json.loads(text)
+    except ValueError:
+        return None
+    return value if isinstance(value, str) else None

@@ -24,7 +24,7 @@ from ninja_game.sim.memory.interface import Body
 from ninja_game.sim.rules import LIFETIME
 
 MOST_LEGACY_TICKS = 20_000_000
-"""Of one file: a demo of an older version is packed so that each character can be 400 ticks."""
+"""Ticks of one file of demos of an older version, in which each character can be 400 ticks."""
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from random import Random
 from ninja_game.generator.gold import lay_gold
 from ninja_game.generator.layouts import LAYOUTS
 from ninja_game.generator.obstacles import MOST_OBJECTS, fill_voids, place_enemies, place_fixtures, place_mines
-from ninja_game.generator.scene import Board, Cell, Scene, flood, mirrored, spec, steps_from
+from ninja_game.generator.scene import Cell, RockBoard, Scene, flood, mirrored, spec, steps_from
 from ninja_game.generator.shaping import shaped
 from ninja_game.levels.warnings import level_findings
 from ninja_game.runs.run import run_level
@@ -26,7 +26,7 @@ BESIDE = 5.0, 11.0
 """Cells between start and exit that are best: near, but not beside each other."""
 
 
-def place_route(board: Board, tiles: dict[Cell, str], rng: Random, *, far: float) -> Scene | None:
+def place_route(board: RockBoard, tiles: dict[Cell, str], rng: Random, *, far: float) -> Scene | None:
     """A scene with ninja, exit and doors, the way over all switches about ``far`` cells long; None if it cannot be.
 
     The exit is in the vault behind one or two locked doors, or the vault has the switch and the exit is near the start.
@@ -91,7 +91,7 @@ OBJECTS = 50, MOST_OBJECTS
 
 def compose(layout: str, rng: Random, difficulty: int) -> Scene | None:
     """A level of a ground plan that keeps to all marks and has nothing odd; None if this attempt does not."""
-    board = Board(rng.choice((1, 2, 2, 3)))
+    board = RockBoard(rng.choice((1, 2, 2, 3)))
     LAYOUTS[layout](board, rng)
     if rng.random() < 0.5:
         board.unroof(rng)

@@ -25,7 +25,7 @@ from ninja_game.generator.naming import AUTHOR
 from ninja_game.generator.packed import PACKED, generated_levels
 
 FOLDER = "daily-levels"
-"""Of the pack, in the player's folder of levels."""
+"""The pack's folder, in the player's folder of levels."""
 
 FIRST = date(2026, 11, 23)
 """The Monday from which on the packed levels are taken in turn, each week's seven of seven difficulties."""

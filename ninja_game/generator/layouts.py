@@ -8,10 +8,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from random import Random
 
-from ninja_game.generator.scene import Board, box, disc, dish, path, poly
+from ninja_game.generator.scene import RockBoard, box, disc, dish, path, poly
 from ninja_game.generator.shaping import Ink
 
-Layout = Callable[[Board, Random], None]
+Layout = Callable[[RockBoard, Random], None]
 
 MID = 16.5
 
@@ -21,7 +21,7 @@ def dome(x: float, y: float, wide: float, high: float) -> Ink:
     return disc(x, round(y), wide, high) & box(1, 1, 32, round(y))
 
 
-def heart(board: Board, rng: Random) -> None:
+def heart(board: RockBoard, rng: Random) -> None:
     """A heart in a heart."""
     board.air(disc(9.6, 8.3, 7.9, 7.1), poly((2.6, 11), (MID, 24.2), (30.4, 11), (MID, 6)))
     board.rock(box(1, 22, 32, 24), disc(12.7, 10.5, 4.5, 3.8), poly((8.5, 12), (MID, 19.3), (24.5, 12), (MID, 9.5)))
@@ -31,7 +31,7 @@ def heart(board: Board, rng: Random) -> None:
     board.spots = [(10, 4.4)]
 
 
-def mask(board: Board, rng: Random) -> None:
+def mask(board: RockBoard, rng: Random) -> None:
     """A face: eyes with something in them, a mouth full of gold."""
     brow = rng.choice((-1.0, 0.0, 1.0))
     board.air(disc(MID, 11.5, 15, 9.6), poly((4.5, 15), (10, 23.5), (23, 23.5), (28.5, 15)))
@@ -44,7 +44,7 @@ def mask(board: Board, rng: Random) -> None:
     board.spots = [(9.5, 11.0)]
 
 
-def web(board: Board, rng: Random) -> None:
+def web(board: RockBoard, rng: Random) -> None:
     """A ring in a ring, their gates turned against each other."""
     board.air(disc(MID, 12.5, 15.2, 11.2) & box(1, 1, 32, 23))
     wide, high = rng.choice(((10.6, 7.7), (11.2, 7.4)))
@@ -60,7 +60,7 @@ def web(board: Board, rng: Random) -> None:
         board.rock(path(1.4, (6.4, 12.5), (11, 12.5)) if first else path(1.4, (MID, 5), (MID, 9)))
 
 
-def islands(board: Board, rng: Random) -> None:
+def islands(board: RockBoard, rng: Random) -> None:
     """Islands about a crescent, over a mined ground."""
     board.air(box(2, 2, 31, 22))
     for x in (1.5, 6.5, 11.5, 16.5):
@@ -74,7 +74,7 @@ def islands(board: Board, rng: Random) -> None:
         board.rock(dish(x, y, wide, 1.9), dome(x, y + 0.1, wide, rng.choice((0.1, 0.1, 1.0))))
 
 
-def cathedral(board: Board, rng: Random) -> None:
+def cathedral(board: RockBoard, rng: Random) -> None:
     """A nave with pillars under a steep roof, the treasure under its altar."""
     top = rng.choice((1.5, 2.5))
     board.air(poly((2, 24), (2, 8.5), (6, 5.5), (10, 5.5), (MID, top), (23, 5.5), (27, 5.5), (31, 8.5), (31, 24)))
@@ -91,7 +91,7 @@ def cathedral(board: Board, rng: Random) -> None:
                poly((MID, 5), (14.6, 7.5), (MID, 10), (18.4, 7.5)))  # fmt: skip
 
 
-def pyramid(board: Board, rng: Random) -> None:
+def pyramid(board: RockBoard, rng: Random) -> None:
     """A hollow pyramid, its chamber under a shaft, stars over it."""
     apex = rng.choice((6.0, 7.0))
     board.air(poly((2, 24), (2, 9), (6, 2), (27, 2), (31, 9), (31, 24)))
@@ -105,7 +105,7 @@ def pyramid(board: Board, rng: Random) -> None:
     board.spots = [(MID, 14.5)]
 
 
-def hive(board: Board, rng: Random) -> None:
+def hive(board: RockBoard, rng: Random) -> None:
     """Round chambers with doorways between them, about a great one with a core."""
     board.air(*(disc(x, y, 3.5, 3.3) for x, y in ((5.5, 6.2), (12.7, 5.2), (4.9, 12.5), (5.5, 18.8), (12.7, 19.8))))
     board.air(path(2.2, (5.5, 6), (12.7, 5.2), (MID, 5.2)), path(2.2, (5.5, 6), (4.8, 12), (5.5, 18.8), (12.7, 20.2)))
@@ -119,7 +119,7 @@ def hive(board: Board, rng: Random) -> None:
     board.rock(dish(5.5, 7.4, 1.6, 1.0), box(15.8, 18, 17.2, 23))
 
 
-def cascade(board: Board, rng: Random) -> None:
+def cascade(board: RockBoard, rng: Random) -> None:
     """Bowls, each lower than the one before, over the way back; not mirrored."""
     board.even = False
     board.air(poly((2, 23), (2, 2.5), (15, 2.5), (20, 5), (26, 7), (31, 11), (31, 23)))
@@ -133,7 +133,7 @@ def cascade(board: Board, rng: Random) -> None:
     board.vault(3, 9, 22, gate=10)
 
 
-def umbrellas(board: Board, rng: Random) -> None:
+def umbrellas(board: RockBoard, rng: Random) -> None:
     """Trees with round crowns, a den at the foot of the greatest."""
     board.air(box(2, 2, 31, 23), disc(MID, 4, 10, 2.6))
     board.rock(dome(MID, 10, 6.6, 4.6), box(15, 10, 18, 19))
@@ -145,7 +145,7 @@ def umbrellas(board: Board, rng: Random) -> None:
     board.vault(13, 19, 22, gate=20)
 
 
-def skull(board: Board, rng: Random) -> None:
+def skull(board: RockBoard, rng: Random) -> None:
     """A skull: great eyes, teeth, and what it thinks of behind its forehead."""
     board.air(disc(MID, 10.5, 15, 8.8), poly((7, 16), (9, 23.4), (24, 23.4), (26, 16)))
     size = rng.choice((2.4, 2.8))
@@ -158,7 +158,7 @@ def skull(board: Board, rng: Random) -> None:
     board.rock(path(1.3, (6.4, 17.2), (10.4, 17.4)))
 
 
-def hourglass(board: Board, rng: Random) -> None:
+def hourglass(board: RockBoard, rng: Random) -> None:
     """Two wide chambers and the neck between them; the sand covers a vault."""
     waist = rng.choice((10.5, 11.5))
     board.air(box(2, 2, 31, 23))
@@ -171,7 +171,7 @@ def hourglass(board: Board, rng: Random) -> None:
     board.rock(dish(5.5, 20, 1.8, 1.2))
 
 
-def wheel(board: Board, rng: Random) -> None:
+def wheel(board: RockBoard, rng: Random) -> None:
     """Spokes about a hub, in a round hall."""
     board.air(disc(MID, 12.5, 15, 11) & box(1, 1, 32, 22))
     board.rock(disc(MID, 12.5, 5.2, 4.4))
@@ -189,7 +189,7 @@ def wheel(board: Board, rng: Random) -> None:
     board.spots = [(MID, 19.5), (12, 5) if wide else (8.5, 6.5)]
 
 
-def volcano(board: Board, rng: Random) -> None:
+def volcano(board: RockBoard, rng: Random) -> None:
     """A mountain with a shaft in it, clouds of rock on both sides."""
     board.air(box(2, 2, 31, 23))
     board.rock(poly((7, 24), (10, 18), (12, 11), (13, 8), (20, 8), (21, 11), (23, 18), (26, 24)))
@@ -203,7 +203,7 @@ def volcano(board: Board, rng: Random) -> None:
     board.spots = [(MID, 15.5)]
 
 
-def eye(board: Board, rng: Random) -> None:
+def eye(board: RockBoard, rng: Random) -> None:
     """An eye: the iris a ring of rock, the vault in the pupil, lashes over it."""
     board.air(disc(MID, 19, 17.5, 16) & disc(MID, 5.5, 17.5, 16.5))
     board.rock(disc(MID, 12.2, 7.8, 6.6) & ~disc(MID, 12.2, 6.5, 5.4))
@@ -215,7 +215,7 @@ def eye(board: Board, rng: Random) -> None:
     board.rock(poly((4.4, 12.3), (7, 11.3), (7, 13.3)), dish(10, 19, 1.7, 1.1))
 
 
-def waves(board: Board, rng: Random) -> None:
+def waves(board: RockBoard, rng: Random) -> None:
     """Three long waves over each other, holes between them."""
     board.even = False
     for number, y in enumerate((5.2, 12.4, 19.6)):

@@ -10,8 +10,9 @@ from random import Random
 import numpy as np
 
 from ninja_game.generator.gold import along, lay_about
-from ninja_game.generator.scene import ENEMIES, MIDDLE, Cell, Point, Scene, middle, mirrored, places, spec
+from ninja_game.generator.scene import MIDDLE, Cell, Point, Scene, middle, mirrored, places, spec
 from ninja_game.sim import kinds
+from ninja_game.sim.kinds import ENEMIES
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import CELL, PAD_RADIUS
 

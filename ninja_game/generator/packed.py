@@ -26,9 +26,9 @@ PACKED = "generated.tsv.xz"
 FROZEN = "bench.tsv.xz"
 """Likewise, of an earlier generator: what the levels of the benchmark are made of. They never change."""
 MOST_BYTES = 8 * 2**20
-"""Of the file, and of its text when unpacked."""
+"""The largest size of the file, and of its text when unpacked."""
 MOST_MEMORY = 64 * 2**20
-"""Of unpacking."""
+"""Bytes that unpacking may take."""
 
 
 class PackedLevel(NamedTuple):

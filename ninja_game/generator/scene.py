@@ -86,7 +86,7 @@ STONES: tuple[Callable[[float, float, float], Ink], ...] = (
 """Small stones about a point, by half their width: islands, slabs, diamonds, pillars, ramps."""
 
 
-class Board:
+class RockBoard:
     """Painted rock, all solid at first. While it is ``even``, all is painted at the mirrored place too.
 
     ``heart``: the floor of the vault. ``gate``: the only way into it, cells for two locks, each of ``doors`` doors.
@@ -186,10 +186,7 @@ def neighbours(cell: Cell) -> tuple[Cell, ...]:
     return (column + 1, row), (column, row + 1), (column - 1, row), (column, row - 1)
 
 
-ENEMIES = (kinds.TURRET, kinds.FLOOR_GUARD, kinds.DRONE, kinds.THWUMP, kinds.LAUNCHER)
-
-
-class Run(NamedTuple):
+class FloorRun(NamedTuple):
     """Cells in a row that one can stand in: ``length`` of them from ``column`` on."""
 
     column: int
@@ -252,7 +249,7 @@ class Scene:
     that belong together: an enemy, or a line of mines.
     """
 
-    def __init__(self, board: Board, tiles: dict[Cell, str], start: Cell) -> None:
+    def __init__(self, board: RockBoard, tiles: dict[Cell, str], start: Cell) -> None:
         self.board = board
         self.tiles = tiles
         self.start = start
@@ -296,9 +293,9 @@ class Scene:
         column, row = cell
         return cell in self.steps and (column, row - 1) in self.empty and self.full((column, row + 1))
 
-    def runs(self) -> list[Run]:
+    def runs(self) -> list[FloorRun]:
         """Where one can stand, in reading order."""
-        found: list[Run] = []
+        found: list[FloorRun] = []
         for row in range(1, ROWS + 1):
             for column in range(1, COLUMNS + 1):
                 if not self.stands((column, row)):
@@ -306,7 +303,7 @@ class Scene:
                 if found and found[-1].row == row and found[-1].column + found[-1].length == column:
                     found[-1] = found[-1]._replace(length=found[-1].length + 1)
                 else:
-                    found.append(Run(column, row, 1))
+                    found.append(FloorRun(column, row, 1))
         return found
 
     @cached_property

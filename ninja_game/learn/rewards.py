@@ -96,7 +96,7 @@ def weights_of(terms: Sequence[RewardTerm]) -> list[float]:
 
 
 LOWEST = -1.0
-"""Of Φ: twice as far as at the start, or farther."""
+"""The lowest Φ: twice as far as at the start, or farther."""
 
 
 class Shaping:

@@ -87,7 +87,7 @@ LEVEL_RULES = {
     "unreached-exit": Rule("open, it was reached in no try of the solver", _EASIER),
     "gold-left": Rule("{most} at most were collected at once, {never}", _EASIER),
 }
-"""Of levels, by code."""
+"""What may be odd about a level, by code."""
 
 _MAKE_PARS = "Make it with `ninja-game levels pars`."
 PACK_RULES = {
@@ -116,7 +116,7 @@ PACK_RULES = {
     "no-pars": Rule("no table of par times", _MAKE_PARS),
     "old-pars": Rule("made from other levels or certificates", _MAKE_PARS),
 }
-"""Of packs; what is odd about their levels has the codes of levels."""
+"""What may be odd about a pack, by code; what is odd about its levels has the codes of levels."""
 
 DESIGN_RULES = {
     "safe-gold": Rule(
@@ -143,7 +143,7 @@ DESIGN_RULES = {
         "Move the exit nearer to the start, or what opens it farther away.",
     ),
 }
-"""Of levels that lack what good ones have (docs/good-levels.md), by code: only where they are asked for."""
+"""What good levels have and a level lacks (docs/good-levels.md), by code: reported only where it is asked for."""
 
 _RECORD = "Run its inputs again with `ninja-game record`."
 RUN_RULES = {
@@ -168,7 +168,7 @@ RUN_RULES = {
         "{field} is {found}, --strict expects {expected}", "Play it again as a board wants it (docs/verification.md)."
     ),
 }
-"""Of runs, by code: what `verify` finds."""
+"""What `verify` finds wrong with a run, by code."""
 
 
 class Finding(NamedTuple):

@@ -43,10 +43,10 @@ from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.memory.interface import BODIES
 
 MOST_FILES, MOST_BYTES = 4096, 256 * 2**20
-"""Of a backup: files, and bytes when they are unpacked."""
+"""Files of a backup, and their bytes when unpacked."""
 
 MOST_REPLAYS, MOST_ROWS = 5_000, 100_000
-"""Of its records: replays, and rows of any other table."""
+"""Replays in its records, and rows of any other table."""
 
 BRANCHES = ".branches.json"
 """Suffix of a file beside a run: its branches in the TAS editor."""
@@ -67,7 +67,7 @@ MOST_OF_DRAFT, MOST_OF_LEVEL = 2**20, 2**20
 """Bytes of a level under edit, and of the level of a replay."""
 
 MOST_TICKS, FEW_TICKS = 10_000_000, 200_000
-"""Of all replays, which are run again; and how many are run before kernels would be ready."""
+"""Ticks of all its replays, which are run again; so many are run before kernels would be ready."""
 
 _SCHEMA = "SELECT type, name, tbl_name, sql FROM sqlite_master WHERE sql IS NOT NULL"
 
@@ -220,7 +220,7 @@ def _opened(path: Path) -> Store:
 
 @cache
 def _our_schema() -> set[tuple[str, ...]]:
-    """What records hold when the game has made them."""
+    """The tables and indices that the game itself makes."""
     with closing(sqlite3.connect(":memory:")) as db:
         for statement in SCHEMA:
             db.execute(statement)

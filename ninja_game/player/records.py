@@ -23,7 +23,7 @@ NEWEST_SHOWN = 500
 class SavedReplay(NamedTuple):
     """A replay in the records, without its inputs: ``score`` in ticks (0 unless passed), ``made_at`` in UTC.
 
-    ``kept``: 1 if the player asked for it, else 0; ``practice``: 1 if it was made in practice or with its tools.
+    ``kept``: 1 if the player asked for it, else 0.
     """
 
     id: int
@@ -37,11 +37,10 @@ class SavedReplay(NamedTuple):
     score: int
     made_at: str
     kept: int
-    practice: int
 
 
 _SAVED = ", ".join(f"replay.{name}" for name in SavedReplay._fields)
-_SAVED_KINDS = (int, str, str, str, str, str, int, int, int, str, int, int)
+_SAVED_KINDS = (int, str, str, str, str, str, int, int, int, str, int)
 
 _level = lru_cache(16)(parse_level_string)
 """A level by its text: replays of one level often stand near each other."""
@@ -192,7 +191,6 @@ class Records:
             "gold": replay.gold,
             "score": level_score(replay.gold, replay.final_tick) if replay.outcome == "exit" else 0,
             "inputs": replay.inputs,
-            "practice": int(replay.practice),
             "made": str(replay.made),
             "co_authors": ", ".join(replay.co_authors),
         }

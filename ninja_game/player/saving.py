@@ -20,7 +20,7 @@ NOT_SAVED = "Not saved yet: {}"
 
 
 def keep_replay(data: PlayerData, replay: Replay) -> str:
-    """Put a replay among the player's, whatever it is worth; a notice about it."""
+    """Put a replay among the player's, even one that is not the best; a notice about it."""
 
     def work() -> list[str]:
         data.records.keep_replay(replay)

@@ -46,7 +46,7 @@ InputNames = Mapping[str, tuple[str, ...]]
 """Action to the names of its inputs (``ui/input/bindings.py``)."""
 
 
-class Rule(NamedTuple):
+class SettingRule(NamedTuple):
     """Where a setting stands in the file, what it may be, and what it means."""
 
     table: str
@@ -57,7 +57,7 @@ class Rule(NamedTuple):
 
 def _setting(default: Any, table: str, fits: Callable[[Any], bool], expected: str, meaning: str) -> Any:
     """A field with its rule."""
-    return field(default=default, metadata={"rule": Rule(table, fits, expected, meaning)})
+    return field(default=default, metadata={"rule": SettingRule(table, fits, expected, meaning)})
 
 
 def _flag(default: bool, table: str, meaning: str) -> Any:
@@ -94,9 +94,10 @@ def _is_bindings(value: Any) -> bool:
     )
 
 
-def _bindings(what: str, example: str) -> dict[str, Rule]:
+def _bindings(what: str, example: str) -> dict[str, SettingRule]:
     expected = f"lists of names of {what}, such as jump = {example}"
-    return {"rule": Rule("", _is_bindings, expected, f"{what} of each action that has others than the default ones")}
+    meaning = f"{what} of each action that has others than the default ones"
+    return {"rule": SettingRule("", _is_bindings, expected, meaning)}
 
 
 @dataclass(frozen=True)
@@ -169,7 +170,7 @@ class Settings:
         return replace(self, **values)
 
 
-RULES: dict[str, Rule] = {each.name: each.metadata["rule"] for each in fields(Settings)}
+RULES: dict[str, SettingRule] = {each.name: each.metadata["rule"] for each in fields(Settings)}
 """By setting. Bindings are tables of their own: ``[keys]`` and ``[pad-buttons]``."""
 
 
@@ -179,8 +180,8 @@ RULES: dict[str, Rule] = {each.name: each.metadata["rule"] for each in fields(Se
 def read_settings(path: Path) -> tuple[Settings, list[str]]:
     """The settings in a file, and messages about what in it could not be used.
 
-    A missing file gives the defaults. A file that is not TOML, or from a newer game, is moved aside; a wrong value only
-    falls back to its default.
+    A missing file gives the defaults. A file that is not TOML, or from another version of the game, is moved aside; a
+    wrong value only falls back to its default.
     """
     try:
         with _long_numbers():
@@ -192,7 +193,7 @@ def read_settings(path: Path) -> tuple[Settings, list[str]]:
     except (FileError, ValueError) as error:
         return Settings(), [f"The settings file is damaged ({shown_text(str(error))}). {_put_aside(path, 'damaged')}"]
     if data.get("version", VERSION) != VERSION:
-        return Settings(), [f"The settings file is from another version of the game. {_put_aside(path, 'newer')}"]
+        return Settings(), [f"The settings file is from another version of the game. {_put_aside(path, 'other')}"]
     return _settings_of(data)
 
 
@@ -294,7 +295,7 @@ def _changed_text(path: Path, before: Settings, after: Settings) -> str:
                 text = document.as_string()
                 parse_toml(text, any_number=True)
                 return text
-            why = "newer"
+            why = "other"
     except FileNotFoundError:
         return ""
     except (FileError, TOMLKitError, ValueError, TypeError, KeyError, RecursionError):

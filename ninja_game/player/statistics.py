@@ -18,7 +18,7 @@ KILLERS = (*_DRONES.values(), *(kind.killer for kind in KINDS if kind.killer and
 
 
 def cause_of(world: World) -> int:
-    """Of what the ninja died in the world's last tick, as in ``sim.states``; NO_CAUSE where it did not."""
+    """The cause of the ninja's death in the world's last tick, as in ``sim.states``; NO_CAUSE where it did not die."""
     return next((event.cause for event in world.events[: world.event_count] if event.kind == DIED), NO_CAUSE)
 
 

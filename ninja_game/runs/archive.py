@@ -293,7 +293,7 @@ def trace_all(
         yield from map(trace, chain(first, rest))
         return
     # Compiled code leaves the interpreter's lock, plain code needs processes.
-    processes = choose_memory(memory) == "plain" or bool(options.get("events"))
+    processes = choose_memory(memory) == "plain"
     with workers(jobs or cores(), processes=processes) as pool:
         for job, results in in_order(pool, partial(_trace_job, trace), chain([first], _batches(rest))):
             if isinstance(results, WorkerLostError):

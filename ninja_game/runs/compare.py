@@ -238,7 +238,7 @@ def compare_runs(ours: Recording, theirs: Recording, budget: int = RUN_BUDGET) -
 
 
 def each_second(places: tuple[Lead, ...]) -> list[Lead]:
-    """Of the leads tick by tick, those in the ticks of every full second of the first run: 40 at 1.000 s, 80 ..."""
+    """Leads in the ticks of every full second of the first run, of those tick by tick: 40 at 1.000 s, 80 ..."""
     return [lead for lead in places if lead.tick and lead.tick % TICKS_PER_SECOND == 0]
 
 

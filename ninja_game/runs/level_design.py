@@ -35,7 +35,7 @@ BAY = 6, 5
 """Columns and rows of a bay that may repeat."""
 
 RADII = {"mine": MINE_RADIUS, "floor guard": GUARD_RADIUS, "drone": DRONE_RADIUS, "thwump": 9.0}
-"""Of hazards that kill by touch, px."""
+"""Radius of hazards that kill by touch, px."""
 GUNS = {"gauss turret": 2, "homing launcher": 2}
 """Hazards that aim or fly, and their status number while that kills."""
 DIRECTIONS = (1, 0), (0, 1), (-1, 0), (0, -1)
@@ -192,7 +192,7 @@ def most_bays(level: Level) -> int:
 
 
 def _apart(found: Sequence[tuple[int, int]]) -> list[tuple[int, int]]:
-    """Of blocks at these cells, as many as do not overlap, from the left."""
+    """As many of the blocks at these cells as do not overlap, from the left."""
     kept: list[tuple[int, int]] = []
     for i, j in found:
         if all(abs(i - a) >= BAY[0] or abs(j - b) >= BAY[1] for a, b in kept):

@@ -28,10 +28,10 @@ COLUMNS = (
     "file", "record", "name", "tick", "keys", "id", "kind", "x", "y", "s", "prev_x", "prev_y", "vx", "vy", "gold",
     "events",
 )  # fmt: skip
-"""Of the CSV. The ninja has no id; objects have neither keys, previous position, velocity, gold nor events."""
+"""Columns of the CSV. The ninja has no id; objects have neither keys, previous position, velocity, gold nor events."""
 
 MOST_BYTES = 2**28
-"""Of a CSV, or of all arrays in a .npz: a million ticks of the ninja are a seventh of it."""
+"""The largest CSV, or all arrays of a .npz: a million ticks of the ninja are a seventh of it."""
 
 _KEYS = (("L", Input.LEFT), ("R", Input.RIGHT), ("J", Input.JUMP_HELD), ("!", Input.JUMP_PRESSED))
 

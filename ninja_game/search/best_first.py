@@ -50,7 +50,7 @@ from ninja_game.sim.states import JUMPING, OUTCOME_DEAD, OUTCOME_EXIT, OUTCOME_R
 CHOICES = 10
 """Macros to choose from: three directions by three modes of the jump key, and waiting."""
 FOLLOW_CHOICES = 3
-"""Of a known run: from the row most like the present state, from the one before, from the next one."""
+"""Rows of a known run from which it is followed: the one most like the present state, the one before, the next one."""
 BOUND_SHARE = 0.4
 """What share of the estimate counts when a node is compared with the best run: fields may be too high. Not tuned."""
 LEAST_GAIN = 0.5

@@ -17,7 +17,7 @@ from ninja_game.sim import kinds
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.memory.declare import entry_point, fast
 from ninja_game.sim.memory.layout import Records
-from ninja_game.sim.rules import STRIDE
+from ninja_game.sim.rules import CELL, STRIDE, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.states import AUTOMATIC, LOCKED
 
 SPACING = 6.0
@@ -54,7 +54,8 @@ def free_points(levels: Any, costs: Costs) -> None:
     for point in range(POINTS):
         x = SPACING * (point % ACROSS)
         y = SPACING * (point // ACROSS)
-        free = 24.0 < x < 768.0 and 24.0 < y < 576.0 and not solid_at(level, x, y)
+        inside = CELL < x < WORLD_WIDTH - CELL and CELL < y < WORLD_HEIGHT - CELL
+        free = inside and not solid_at(level, x, y)
         if free:
             for k in range(12):
                 if solid_at(level, x + CLEARANCE * RING_X[k], y + CLEARANCE * RING_Y[k]):
@@ -155,9 +156,6 @@ SWITCH_COST = 3.0
 """How many times longer a step beside a switch counts that is better touched later."""
 
 
-MOVING = (kinds.DRONE, kinds.FLOOR_GUARD, kinds.THWUMP, kinds.LAUNCHER)
-"""Kinds of enemies that the search looks at, where they are; of a launcher that is where its rocket is."""
-
 Source = tuple[float, float, float]
 """Where a field begins (px), and its value there (ticks)."""
 
@@ -210,7 +208,7 @@ class Heuristics:
         self.switches = (exits + doors)[:MAX_BITS]
         self.switch_ids = [int(objects[switch.slot]["id"]) for switch in self.switches]
         self.slots = np.array([switch.slot for switch in self.switches], np.int64)
-        self.enemies = np.array([slot for slot in range(1, used) if int(objects[slot]["kind"]) in MOVING], np.int64)
+        self.enemies = np.flatnonzero(np.isin(objects["kind"], kinds.MOVING_ENEMIES))
         self.gold_slots = np.array([slot for slot, _, _ in gold], np.int64)
         self.gold_ids = [int(objects[slot]["id"]) for slot, _, _ in gold]
         self.gold_places = [(x, y) for _, x, y in gold]

@@ -27,7 +27,7 @@ Int32s = NDArray[np.int32]
 CHUNK = 32
 """Words in a chunk."""
 BUCKETS = 1 << 14
-"""Of the open list, by priority: one for each tick, two where a search goes along a run."""
+"""How many the open list has, by priority: one for each tick, two where a search goes along a run."""
 LARGE_STATE = 10_000
 """Words; the states of all levels of N are smaller."""
 MAX_ENDS = 96
@@ -70,7 +70,7 @@ class Node:
 
 @struct
 class TableEntry:
-    """What the table knows of the moments that count as the same."""
+    """A row of the table: moments that count as the same."""
 
     key: i8  #: 0: empty
     first: i4  #: earliest tick at which it was reached

@@ -22,7 +22,7 @@ MAX_SWITCH_STATES = 512
 JUMP_PART = 11
 """Ticks of a jump that count as the same moment."""
 NOT_MADE, WANTED = -1.0, -2.0
-"""What a field has at point 0, outside the world, as long as it is not there."""
+"""Value of a field at point 0, outside the world, until the field is made."""
 
 
 class Goal(NamedTuple):

@@ -89,3 +89,8 @@ KIND_OF = {kind.number: kind for kind in KINDS}
 KIND_NAMES = tuple(kind.name for kind in KINDS if kind.number >= 0)
 VALUE_COUNTS = tuple(kind.value_count for kind in KINDS if kind.number >= 0)
 """By number, of the kinds of the level string."""
+
+ENEMIES = tuple(kind.number for kind in KINDS if kind.killer and kind.moves)
+"""What looks for the ninja or goes its way, and kills."""
+MOVING_ENEMIES = tuple(kind.number for kind in KINDS if kind.by_touch and kind.moves)
+"""Those of them that kill where they are, not by shots alone; of a launcher that is where its rocket is."""

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
 from ninja_game.runs.compare import run_splits
-from ninja_game.search.formula.task import LONGEST
+from ninja_game.search.formula.task import LONGEST_SPAN
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.tas.session import Session
@@ -109,7 +109,7 @@ def reach_exit(span: SearchedSpan) -> SpanGoal:
     tick, outcome = span.session.timeline.end
     known = tick if outcome == "exit" else max(len(span.session.track), span.first + EXIT_TICKS)
     why = "up to the run's exit" if outcome == "exit" else "to the end, 5 s at least"
-    return SpanGoal("won", last=min(max(known, span.first + 1), span.first + LONGEST), why=why)
+    return SpanGoal("won", last=min(max(known, span.first + 1), span.first + LONGEST_SPAN), why=why)
 
 
 def whole_run(span: SearchedSpan) -> SpanGoal:
@@ -134,7 +134,7 @@ def collect_too(span: SearchedSpan) -> SpanGoal:
     rest = _is_passed(span)
     goal = f"taken({_piece_left(span, span.first)}) and {be_there(span).goal}"
     return SpanGoal(
-        goal, rest=rest, last=min(span.last + TICKS_PER_SECOND, span.first + LONGEST), why="and a second more"
+        goal, rest=rest, last=min(span.last + TICKS_PER_SECOND, span.first + LONGEST_SPAN), why="and a second more"
     )
 
 

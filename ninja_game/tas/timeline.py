@@ -62,7 +62,7 @@ class Trajectory:
 
 
 EMPTY_TRAJECTORY = Trajectory({name: np.zeros(0) for name in NINJA_FIELDS})
-"""Of a run without ticks."""
+"""The trajectory of a run without ticks."""
 
 
 class Timeline:

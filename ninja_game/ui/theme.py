@@ -366,7 +366,7 @@ NINJA_COLOURS = ("", "#d9127f", "#7d7700", "#1a6488", "#765484", "#6a2424", "#f7
 """The ninja's colours: the palette's own, then one per completed column (game.md §8)."""
 
 RUN_COLOURS = tuple(map(pygame.Color, ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")))
-"""Of several runs in turn; people who see few colours can tell them apart."""
+"""Colours of several runs in turn; people who see few colours can tell them apart."""
 
 
 def mixed(a: pygame.Color, b: pygame.Color, share: float) -> pygame.Color:

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 
 SHAKE, SHAKE_KEPT, SHAKE_REACH = 9.0, 0.78, 200.0
-"""Of an explosion at the ninja: px, the share that is left a tick later, px from which on it is not felt."""
+"""How far an explosion at the ninja shakes, px; the share left a tick later; px from which on it is not felt."""
 
 DANCE_TICKS, ENTER_TICKS, DOOR_STEP = 36, 10, 2.0
 """How long the ninja dances before its exit, and steps to it and through it; px that it stands below the middle."""

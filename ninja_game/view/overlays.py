@@ -221,7 +221,7 @@ _SMALLEST = 1.0
 
 
 def hit_shapes(world: World) -> Iterator[HitShape]:
-    """Of every object in the grid, which is what can be touched; the ninja's last."""
+    """The shapes of every object in the grid, which is what can be touched; the ninja's last."""
     for slot in range(1, world.slots_used):
         o = world.objects[slot]
         if o.in_grid or (o.kind == SWITCH and not world.objects[o.partner].is_open):

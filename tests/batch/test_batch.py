@@ -18,6 +18,7 @@ from ninja_game.sim.kinds import DRONE, EXIT, MINE
 from ninja_game.sim.memory.kernels import run_worlds
 from ninja_game.sim.memory.layout import OBJECT
 from ninja_game.sim.states import OUTCOME_NAMES
+from tests.support.memories import BOTH
 
 FLOOR = "0" * 713
 LEVELS = [
@@ -25,7 +26,6 @@ LEVELS = [
     parse_level(FLOOR + "|5^100,566!12^150,566!1^60,500!8^400,100,1!3^500,300!10^600,200!6^300,300,0,0,2,0"),
     parse_level(FLOOR + "|5^700,300!2^700,560,0,-1!4^200,564,0!" + "!".join(f"0^{x},566" for x in range(30, 760, 12))),
 ]
-MEMORIES = ["plain", *(["compiled"] if compiled_available() else [])]
 needs_numba = pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
 
 
@@ -46,7 +46,7 @@ def single_digests(inputs: np.ndarray[tuple[int, int], np.dtype[np.uint8]]) -> l
     return digests
 
 
-@pytest.mark.parametrize("memory", MEMORIES)
+@pytest.mark.parametrize("memory", BOTH)
 def test_a_batch_is_single_stepping_to_the_last_bit(memory: str) -> None:
     inputs = keys(120, 7)
     batch = Batch(LEVELS, 7, memory=memory)
@@ -56,8 +56,7 @@ def test_a_batch_is_single_stepping_to_the_last_bit(memory: str) -> None:
     assert [batch.digest(index) for index in range(7)] == single_digests(inputs)
 
 
-@needs_numba
-@pytest.mark.parametrize("memory", MEMORIES)
+@pytest.mark.parametrize("memory", BOTH)
 def test_a_malformed_exit_is_an_object_like_any_other(memory: str) -> None:
     """It has no switch, for which an exit has room."""
     batch = Batch(parse_level(FLOOR + "|5^100,566!11^1,2"), 3, memory=memory)
@@ -66,6 +65,7 @@ def test_a_malformed_exit_is_an_object_like_any_other(memory: str) -> None:
     assert batch.ticks.tolist() == [10] * 3
 
 
+@needs_numba
 def test_the_number_of_threads_changes_nothing() -> None:
     inputs = keys(60, 900)
     batches = [Batch(LEVELS, 900, memory="compiled", threads=threads) for threads in (1, 2, 4)]
@@ -90,7 +90,7 @@ def test_batches_of_all_sizes_share_one_compiled_function() -> None:
 
 @needs_numba
 def test_both_memories_show_the_same_bytes() -> None:
-    batches = [Batch(LEVELS, 6, memory=memory) for memory in MEMORIES]
+    batches = [Batch(LEVELS, 6, memory=memory) for memory in ("plain", "compiled")]
     for batch in batches:
         batch.run(keys(90, 6))
     plain, compiled = batches
@@ -102,7 +102,7 @@ def test_both_memories_show_the_same_bytes() -> None:
         assert plain.objects[index, 1:used].tobytes() == compiled.objects[index, 1:used].tobytes()
 
 
-@pytest.mark.parametrize("memory", MEMORIES)
+@pytest.mark.parametrize("memory", BOTH)
 def test_observations_are_views_that_stay_current(memory: str) -> None:
     batch = Batch(LEVELS, 5, memory=memory)
     positions, states, objects = batch.positions, batch.states, batch.objects
@@ -123,7 +123,7 @@ def test_observations_are_views_that_stay_current(memory: str) -> None:
     assert objects.dtype == OBJECT
 
 
-@pytest.mark.parametrize("memory", MEMORIES)
+@pytest.mark.parametrize("memory", BOTH)
 def test_stop_leaves_ended_worlds_alone(memory: str) -> None:
     batch = Batch(parse_level(FLOOR + "|5^100,566!11^160,564,130,564"), 3, memory=memory)
     inputs = np.zeros((60, 3), np.uint8)
@@ -136,7 +136,7 @@ def test_stop_leaves_ended_worlds_alone(memory: str) -> None:
     assert batch.ticks.tolist() == [65, 29, 65]
 
 
-@pytest.mark.parametrize("memory", MEMORIES)
+@pytest.mark.parametrize("memory", BOTH)
 def test_a_world_of_a_smaller_level_shows_nothing_of_the_larger_one(memory: str) -> None:
     small = "0" * 713 + "|5^100,566"
     large = small + "".join(f"!0^{x},300" for x in range(100, 700, 20))
@@ -146,7 +146,7 @@ def test_a_world_of_a_smaller_level_shows_nothing_of_the_larger_one(memory: str)
     assert not batch.objects["x"][0, int(batch.used[0]) :].any()
 
 
-@pytest.mark.parametrize("memory", MEMORIES)
+@pytest.mark.parametrize("memory", BOTH)
 def test_single_worlds_are_reset_saved_copied_and_restored(memory: str) -> None:
     batch = Batch(LEVELS, 6, memory=memory)
     fresh = [batch.digest(index) for index in range(6)]
@@ -173,7 +173,7 @@ def test_single_worlds_are_reset_saved_copied_and_restored(memory: str) -> None:
     assert [batch.digest(index) for index in range(6)] == again
 
 
-@pytest.mark.parametrize("memory", MEMORIES)
+@pytest.mark.parametrize("memory", BOTH)
 def test_a_world_goes_on_alike_in_every_slot(memory: str) -> None:
     batch = Batch(LEVELS, 6, memory=memory)
     batch.run(keys(50, 6))
@@ -182,7 +182,7 @@ def test_a_world_goes_on_alike_in_every_slot(memory: str) -> None:
     assert len({batch.digest(index) for index in range(6)}) == 1
 
 
-@pytest.mark.parametrize("memory", MEMORIES)
+@pytest.mark.parametrize("memory", BOTH)
 def test_wrong_use_is_refused(memory: str) -> None:
     batch = Batch(LEVELS[0], 2, memory=memory)
     with pytest.raises(ValueError, match=r"of shape \(1,\); expected \(2,\)"):
@@ -259,7 +259,7 @@ def test_an_empty_choice_of_levels_is_refused() -> None:
         Batch(none, 1)
 
 
-@pytest.mark.parametrize("memory", MEMORIES)
+@pytest.mark.parametrize("memory", BOTH)
 def test_worlds_are_chosen_by_truth_values_and_slices_too(memory: str) -> None:
     batch = Batch(LEVELS[0], 8, memory=memory)
     batch.run(keys(10, 8))
@@ -272,7 +272,7 @@ def test_worlds_are_chosen_by_truth_values_and_slices_too(memory: str) -> None:
     assert batch.ticks.tolist() == [10, 10, 0, 0, 10, 0, 10, 10]
 
 
-@pytest.mark.parametrize("memory", MEMORIES)
+@pytest.mark.parametrize("memory", BOTH)
 def test_press_jumps_as_a_keyboard_does(memory: str) -> None:
     held = [2, 6, 6, 2, 4, 4, 4, 0, 6, 5]
     pressed = with_press_bits(held)
@@ -288,7 +288,7 @@ def test_press_jumps_as_a_keyboard_does(memory: str) -> None:
     assert single.inputs == pressed
 
 
-@pytest.mark.parametrize("memory", MEMORIES)
+@pytest.mark.parametrize("memory", BOTH)
 def test_observations_cannot_be_written_and_are_not_printed(memory: str) -> None:
     batch = Batch(LEVELS[0], 3, memory=memory)
     for view in (batch.positions, batch.states, batch.levels_now, batch.places, batch.records, batch.objects):

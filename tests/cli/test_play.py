@@ -11,8 +11,10 @@ import pygame
 import pytest
 from click.testing import CliRunner, Result
 
+from ninja_game.cli import windows
 from ninja_game.cli.main import cli
 from ninja_game.files.user_folder import bundled_levels
+from ninja_game.play.lab.screen import FIGURES
 from ninja_game.tas_editor.opening import open_tas_editor
 
 
@@ -83,3 +85,8 @@ def test_no_display_is_an_error_in_words(monkeypatch: pytest.MonkeyPatch) -> Non
     result = play()
     assert result.exit_code == 2
     assert result.stderr == "ninja-game: the window cannot be opened: no available video device\n"
+
+
+def test_the_lab_is_offered_with_all_its_figures() -> None:
+    """The command names them itself, since its help imports no lab."""
+    assert tuple(FIGURES) == windows.FIGURES

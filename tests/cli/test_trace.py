@@ -16,6 +16,7 @@ from ninja_game.cli.main import cli
 from ninja_game.formats.n14.demo import write_demo
 from ninja_game.runs.trace import trace_digests
 from ninja_game.sim.inputs import Demo
+from tests.support.memories import BOTH
 from tests.support.samples import SPIKED, WALK, WALK_END, replay_of_walk, running, write_records
 
 
@@ -30,8 +31,9 @@ def two(tmp_path: Path) -> Path:
     return write_records(tmp_path / "two.txt", ("Walk", WALK, running(WALK_END)), ("Mine", SPIKED, running(60)))
 
 
-def test_table_has_every_tick_with_velocity_state_and_events(two: Path) -> None:
-    rows = list(csv.DictReader(trace(two, "--record", "0").stdout.splitlines()))
+@pytest.mark.parametrize("memory", BOTH)
+def test_table_has_every_tick_with_velocity_state_and_events(memory: str, two: Path) -> None:
+    rows = list(csv.DictReader(trace(two, "--record", "0", "--memory", memory).stdout.splitlines()))
     assert [int(row["tick"]) for row in rows] == list(range(WALK_END + 1))
     assert {row["kind"] for row in rows} == {"ninja"}
     assert float(rows[5]["vx"]) == float(rows[5]["x"]) - float(rows[5]["prev_x"]) > 0

@@ -69,16 +69,6 @@ def test_too_many_co_authors_are_told() -> None:
         parse_replay(text)
 
 
-def test_older_texts_say_practice() -> None:
-    old = replay().replace("outcome:", "practice: yes\noutcome:")
-    assert parse_replay(old).made == Made(played=True, assists=("practice",))
-    assert parse_replay(old).practice
-    assert parse_replay(old.replace("practice: yes", "practice: no")).made == UNKNOWN
-    assert parse_replay(old.replace("practice: yes", "practice: yes\nmade: edited 3")).made == Made(
-        played=True, assists=("practice",), edits=3
-    )
-
-
 @given(MADE, st.lists(NAMES.filter(bool), max_size=3, unique=True).map(tuple), st.text(max_size=20))
 def test_comments_of_n_hold_it(made: Made, names: tuple[str, ...], comment: str) -> None:
     held = with_made(comment.strip(), made, names)

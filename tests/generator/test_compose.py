@@ -14,7 +14,7 @@ from ninja_game.generator.compose import compose
 from ninja_game.generator.generate import plan_of
 from ninja_game.generator.layouts import LAYOUTS
 from ninja_game.generator.naming import PLACES
-from ninja_game.generator.scene import Board, Scene, box, disc, flood, path, places, poly
+from ninja_game.generator.scene import RockBoard, Scene, box, disc, flood, path, places, poly
 from ninja_game.generator.shaping import shaped
 from ninja_game.levels.warnings import level_warnings
 from ninja_game.runs.run import run_level
@@ -99,7 +99,7 @@ def test_no_ground_plan_comes_twice_in_eight_seeds() -> None:
 def test_a_plan_has_a_vault_with_one_way_in(plan: str, flip: bool) -> None:
     closed = 0
     for seed in range(8):
-        board = Board()
+        board = RockBoard()
         LAYOUTS[plan](board, Random(seed))
         if flip:
             board.flip()
@@ -125,7 +125,7 @@ def test_every_plan_has_names() -> None:
 
 def test_what_is_painted_alike_on_both_sides_has_mirrored_tiles() -> None:
     turned = str.maketrans("aswqdfreDFREghytGHYTjkiuJKIU][", "saqwfderFDERhgtyHGTYkjuiKJUI[]")
-    board = Board()
+    board = RockBoard()
     board.air(disc(9, 9, 6.3, 5.7), path(2.2, (5, 6), (14.3, 20.1)), poly((12, 20), (16.5, 3.3), (21, 20)))
     board.rock(disc(11, 8.5, 2.3, 1.6), box(8, 15.4, 10.3, 18))
     tiles = shaped(board.ink, even=True)
@@ -136,6 +136,6 @@ def test_what_is_painted_alike_on_both_sides_has_mirrored_tiles() -> None:
 
 
 def test_straight_sides_on_the_grid_become_full_tiles() -> None:
-    board = Board()
+    board = RockBoard()
     board.air(box(4, 5, 20, 12))
     assert set(shaped(board.ink, even=True).values()) == {"#"}

@@ -272,7 +272,7 @@ def with_records(backup: Path, *statements: str) -> bytes:
     return out.getvalue()
 
 
-NOTHING = "NULL, '', '', '', '', '', '', 0, 0, 0, '', '', '', 1, 0, '', ''"
+NOTHING = "NULL, '', '', '', '', '', '', 0, 0, 0, '', '', '', 1, '', ''"
 NOTHING_OF_A_MEGABYTE = NOTHING.replace("''", "hex(zeroblob(500000))", 2).replace("hex(zeroblob(500000))", "''", 1)
 COUNTING = "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < {}) "
 

@@ -15,7 +15,6 @@ from ninja_game.player.playthrough import EpisodeRun, LevelRun
 from ninja_game.player.progress import LOCKED, UNLOCKED
 from ninja_game.player.records import Records
 from ninja_game.player.saving import keep_replay
-from ninja_game.player.statistics import KILLERS
 from ninja_game.player.store import Store
 from ninja_game.player.store.schema import open_database
 from tests.support.players import deadly_level, entry, episode, played, player_data, short_level
@@ -94,7 +93,7 @@ EDITS = [
     f"UPDATE {table} SET {column} = {value}"
     for table, columns in (
         ("replay", ("name", "player", "body", "outcome", "final_tick", "gold", "score", "made_at", "kept", "inputs",
-                    "level_text", "level", "digest", "practice")),
+                    "level_text", "level", "digest", "made")),
         ("level_best", ("level", "body")), ("level_mark", ("level", "fastest", "most_gold")),
         ("episode_best", ("score", "made_at", "episode")),
         ("episode_replay", ("episode", "place")), ("progress", ("beaten_episode", "reached_level")),
@@ -124,10 +123,10 @@ def test_damaged_rows_are_left_out_and_play_goes_on(edit: str, tmp_path: Path) -
     again.records.level_bests()
     best = again.records.episode_best(episode().key)
     assert best is None or all(isinstance(number, int) for number in best.replays)
-    assert set(again.statistics.deaths()) == set(KILLERS)
+    assert again.statistics.deaths()["mine"] == 1 or edit.startswith("UPDATE death")
     seconds_text(again.statistics.played().ticks)
-    assert again.progress.state(99) in {UNLOCKED, LOCKED}
-    assert again.columns_complete in {0, 1}
+    assert again.progress.state(99) == LOCKED
+    assert again.columns_complete == (not edit.startswith("UPDATE progress"))
     run = EpisodeRun(again, episode())
     for _ in range(5):
         attempt = played(run.entry.named.level, lifetime=run.lifetime)

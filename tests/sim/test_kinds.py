@@ -12,10 +12,14 @@ from typing import Any
 
 import pytest
 
+from ninja_game.budget import OBJECT_COSTS
+from ninja_game.editor.brush import OBJECT_TYPES
 from ninja_game.formats.ascii.legend import SYMBOLS
 from ninja_game.formats.ascii.object_lines import FORMS
+from ninja_game.learn.observations.pixels import SHADES
 from ninja_game.levels.picture import COLOURS
-from ninja_game.player.statistics import KILLERS
+from ninja_game.play.level.sayings import WHY
+from ninja_game.player.statistics import KILLERS, SELF
 from ninja_game.sim import events, kinds
 from ninja_game.sim.death import idle_event
 from ninja_game.sim.digest import replay_digest
@@ -25,6 +29,7 @@ from ninja_game.sim.memory.plain import PlainWorlds
 from ninja_game.sim.objects import dispatch
 from ninja_game.sim.traces import is_traced, status_of
 from ninja_game.ui.audio.table import BY_DEATH, BY_EVENT, OTHER_DEATH
+from ninja_game.view.ninja.ragdoll import KICKS
 from ninja_game.view.sprites.moving_sprites import PAINTERS
 from ninja_game.view.sprites.static_sprites import static_sprites_of
 from tests.support.crowded import crowded_inputs, crowded_level
@@ -106,8 +111,25 @@ def test_a_kind_is_drawn(kind: Kind) -> None:
     assert hidden != (kind.moves or kind.number in chained(static_sprites_of))
 
 
-def test_who_kills_is_counted() -> None:
+def test_who_kills_is_counted_and_what_helps_against_it_is_said() -> None:
     assert {kind.killer for kind in KINDS if kind.killer} <= set(KILLERS)
+    assert set(WHY) == set(KILLERS) - {SELF}
+
+
+def test_who_never_sleeps_costs_more_work_than_others() -> None:
+    assert set(OBJECT_COSTS) == set(kinds.ENEMIES)
+
+
+def test_a_corpse_is_kicked_by_what_is_solid_and_by_what_kills_where_it_goes() -> None:
+    solid = {kind.number for kind in KINDS if kind.box or kind.number == kinds.LAUNCH_PAD}
+    # A rocket's tip is a point.
+    assert set(KICKS) == solid | {*kinds.MOVING_ENEMIES} - {kinds.LAUNCHER}
+
+
+@pytest.mark.parametrize("kind", [kind for kind in OF_LEVELS if kind.number != NINJA], ids=lambda kind: str(kind.name))
+def test_a_kind_can_be_placed_and_agents_see_it(kind: Kind) -> None:
+    assert kind.number in {each.spec.kind for each in OBJECT_TYPES}, "the editor's palette has no brush for it"
+    assert kind.number in SHADES, "pictures for agents have no shade for it"
 
 
 def test_every_event_has_a_name_and_a_sound_or_deliberately_none() -> None:

@@ -26,13 +26,14 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.made import Made
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.runs.run import record_replay, run_level
-from ninja_game.web.board.copies import ALIGNED, SHIFTED, Course, Courses, course_of, edit_distance, near_ones
+from ninja_game.web.board.copies import ALIGNED, SHIFTED, Course, Courses, course_of, edit_distance
 from ninja_game.web.board.pages import check_site
 from ninja_game.web.board.players import Players, folded
 from ninja_game.web.board.runs import _near_to_another, judge
 from ninja_game.web.pages.published import published_levels
 from tests.support.forgeries import WALKING, record, replay
 from tests.support.reference import require_reference
+from tests.test_entry_points import PACKAGE, readers
 from tests.web.test_board import DIGEST, levels, put, runs, slow_walk  # noqa: F401
 from tools.measure import near_copies
 
@@ -103,8 +104,9 @@ def test_no_name_outside_the_folder_is_told(tmp_path: Path, levels: Path, runs: 
 
 
 def test_the_board_asks_no_other_program() -> None:
-    for path in Path("ninja_game/web/board").glob("*.py"):
-        assert "subprocess" not in path.read_text("utf-8")
+    found = set().union(*(readers(path.read_text("utf-8")) for path in (PACKAGE / "web" / "board").glob("*.py")))
+    assert "read_utf8" in found
+    assert not [name for name in found if re.match(r"subprocess|os\.(popen|system|exec|spawn)", name)]
 
 
 # --- the ledger ---
@@ -415,7 +417,7 @@ def test_a_table_of_edits_and_honest_pairs_is_as_the_page_says() -> None:
     require_reference()
     pairs, _ = near_copies.honest_pairs(60)
     course = near_copies.course_of_row
-    assert sum(near_ones(course(other), [course(one)]) != [] for one, other in pairs) <= 1
+    assert sum(near_copies.near_ones(course(other), [course(one)]) != [] for one, other in pairs) <= 1
     paths = near_copies.every_nth([path for path in bundled_replays() if ".exit." in path.name], 5)
     chosen = [recording for path in paths for recording in load_replays(path)]
     for recording in chosen:
@@ -448,7 +450,7 @@ def test_few_of_many_runs_are_aligned(monkeypatch: pytest.MonkeyPatch) -> None:
     aligned = Mock(return_value=10**6)
     monkeypatch.setattr("ninja_game.web.board.copies.edit_distance", aligned)
     other = replace(course, presses=frozenset(), places=frozenset())
-    assert near_ones(course, [other] * 500) == []
+    assert near_copies.near_ones(course, [other] * 500) == []
     assert aligned.call_count == ALIGNED
 
 

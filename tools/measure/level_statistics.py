@@ -29,7 +29,6 @@ from ninja_game.sim.level import COLUMNS, ROWS, TILES, Level, ObjectSpec, well_f
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from tools import ROOT
 
-ENEMIES = (kinds.DRONE, kinds.FLOOR_GUARD, kinds.THWUMP, kinds.TURRET, kinds.LAUNCHER)
 SHAPES = range(2, 34)
 """Ids of the tiles that are neither empty nor full."""
 
@@ -123,7 +122,7 @@ def figures(level: Level) -> dict[str, float]:
     return {
         "objects": len(level.objects),
         "gold": count[kinds.GOLD],
-        "enemies": sum(count[kind] for kind in ENEMIES),
+        "enemies": sum(count[kind] for kind in kinds.ENEMIES),
         "mines": count[kinds.MINE],
         "kinds": len(count.keys() - {kinds.NINJA, kinds.EXIT}),
         "solid": len(solid_cells(level)) / TILES,

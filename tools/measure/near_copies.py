@@ -10,7 +10,9 @@ from __future__ import annotations
 
 import random
 from collections import defaultdict
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from functools import partial
 from itertools import combinations, islice
 
 import numpy as np
@@ -21,13 +23,21 @@ from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.run import RunResult, run_level
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
-from ninja_game.web.board.copies import Course, course_of, near_ones
+from ninja_game.web.board.copies import Course, Courses, course_of
 from tests.support.reference import RunRow, positions, recordings
 
 COUNTS = (1, 2, 5, 10, 20, 50, 100, 200)
 PAIRS, CERTIFICATES = 300, 100
 MOST_TRIES = 1500
 LONGEST_BLOCK = 60
+
+
+def near_ones(course: Course, earlier: Sequence[Course]) -> list[int]:
+    """Which earlier courses share enough of this one; the nearest first."""
+    courses = Courses(len(earlier))
+    for number, other in enumerate(earlier):
+        courses.add(number, 0, partial(replace, other))
+    return courses.near(course)(courses.numbers >= 0)[0]
 
 
 def every_nth(found: list, count: int) -> list:  # type: ignore[type-arg]

@@ -10,9 +10,7 @@ from typing import NamedTuple
 
 from ninja_game.sim import kinds
 from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec, well_formed
-
-CELL = 24.0
-"""Side of a cell, px."""
+from ninja_game.sim.rules import CELL, HALF
 
 TILE_CHARS = ".#" + "aswq" + "jkiu" + "JKIU" + "dfre" + "DFRE" + "ghyt" + "GHYT" + '_]"['
 """Character of tile id 0…33 (world.md §2.1).
@@ -160,7 +158,7 @@ def visible_parts(record: ObjectSpec) -> list[Part]:
     parts = []
     for char, x, y in symbol_chars(record):
         symbol = SYMBOL_OF_CHAR[char]
-        column, row = (x - symbol.dx - 12.0) / CELL, (y - symbol.dy - 12.0) / CELL
+        column, row = (x - symbol.dx - HALF) / CELL, (y - symbol.dy - HALF) / CELL
         if column.is_integer() and row.is_integer() and 1 <= column <= COLUMNS and 1 <= row <= ROWS:
             parts.append(Part(char, int(column), int(row)))
     return parts

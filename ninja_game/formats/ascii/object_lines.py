@@ -6,7 +6,6 @@ One table, ``FORMS``, says what each kind of line needs; the writer writes by it
 from __future__ import annotations
 
 import difflib
-import json
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -15,8 +14,10 @@ from typing import NamedTuple, TypeVar
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.legend import DIRECTION_WORDS, PAD_NORMALS, SYMBOL_OF_NAME
 from ninja_game.formats.ascii.places import read_cell, read_number, read_place, shown
+from ninja_game.formats.lines import read_quoted
 from ninja_game.sim.kinds import DOOR, DRONE, EXIT, FLOOR_GUARD, KINDS, LAUNCH_PAD, ONE_WAY, THWUMP
 from ninja_game.sim.level import ObjectSpec
+from ninja_game.sim.rules import CELL, HALF
 
 T = TypeVar("T")
 
@@ -91,11 +92,10 @@ def natural_offset(keyword: str, direction: str = "") -> tuple[float, float]:
     return (symbol.dx, symbol.dy) if symbol is not None else (0.0, 0.0)
 
 
-def door_middle(column: int, row: int, side: str) -> tuple[float, float]:
-    """The middle of a cell's side, px: where an automatic door senses the ninja."""
-    vertical, i, j = SIDES[side]
-    x, y = 24.0 * (column + i) + 12.0, 24.0 * (row + j) + 12.0
-    return (x, y + 12.0) if vertical else (x + 12.0, y)
+def door_middle(values: Sequence[float]) -> tuple[float, float]:
+    """The middle of a door's bar, px, by the values of its record: where an automatic door senses the ninja."""
+    x, y = CELL * (values[4] + values[7]) + HALF, CELL * (values[5] + values[8]) + HALF
+    return (x, y + HALF) if values[2] else (x + HALF, y)
 
 
 def record_values(keyword: str, place: Token, given: Mapping[str, Token]) -> tuple[float, ...]:
@@ -124,11 +124,11 @@ def record_values(keyword: str, place: Token, given: Mapping[str, Token]) -> tup
 
 def _door_values(keyword: str, place: Token, given: Mapping[str, Token]) -> tuple[float, ...]:
     column, row = at_token(place, read_cell)
-    side = given["side"].text
-    x, y = at_token(given["switch"], read_place) if "switch" in given else door_middle(column, row, side)
     trap, locked = DOORS[keyword]
-    vertical, i, j = SIDES[side]
-    return x, y, vertical, trap, float(column), float(row), locked, i, j
+    vertical, i, j = SIDES[given["side"].text]
+    values = (0.0, 0.0, vertical, trap, float(column), float(row), locked, i, j)
+    middle = at_token(given["switch"], read_place) if "switch" in given else door_middle(values)
+    return (*middle, *values[2:])
 
 
 def _read_pair(text: str) -> tuple[float, float]:
@@ -316,15 +316,6 @@ def _read_raw(tokens: Sequence[Token]) -> Listed:
         column = rest[0].column if rest else tokens[0].column
         raise LevelError("not a raw record", column=column, expected=shape)
     return Listed(ObjectSpec(kind, values, text), tokens[0].column)
-
-
-def read_quoted(text: str) -> str | None:
-    """What stands in double quotes, with JSON's escapes; None if that is not in order."""
-    try:
-        value = json.loads(text)
-    except ValueError:
-        return None
-    return value if isinstance(value, str) else None
 
 
 def _read_string(text: str) -> str:

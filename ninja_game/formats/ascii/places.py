@@ -7,8 +7,8 @@ import re
 import struct
 
 from ninja_game.errors import LevelError
-from ninja_game.formats.ascii.legend import CELL
 from ninja_game.sim.level import COLUMNS, ROWS
+from ninja_game.sim.rules import CELL
 
 _NUMBER = re.compile(r"[+-]?(\d++(\.\d*+)?|\.\d++)(e[+-]?\d++)?|nan|[+-]?inf", re.ASCII)
 _LONGEST_SHOWN = 40

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ninja_game.errors import LevelError
-from ninja_game.formats.ascii.object_lines import OddTile, read_object_line, read_quoted, suggestion
+from ninja_game.formats.ascii.object_lines import OddTile, read_object_line, suggestion
 from ninja_game.formats.ascii.picture import (
     ROW_END,
     ROW_START,
@@ -18,7 +18,7 @@ from ninja_game.formats.ascii.picture import (
 from ninja_game.formats.ascii.places import shown
 from ninja_game.formats.ascii.problems import Problems
 from ninja_game.formats.ascii.writer import HEADER_KEYS, MAGIC, VERSION, write_ascii_level
-from ninja_game.formats.lines import MOST_NAME, UNCOMMENTED, Line, numbered_lines
+from ninja_game.formats.lines import MOST_NAME, UNCOMMENTED, Line, numbered_lines, read_quoted
 from ninja_game.formats.sayings import read_sayings
 from ninja_game.sim.level import Level
 
@@ -115,7 +115,9 @@ def _read_header(lines: Sequence[Line], problems: Problems) -> dict[str, str]:
         elif key in fields:
             problems.add("a header given twice", number, 1, found=shown(key), hint="keep one")
         else:
-            fields[key] = _header_value(value.strip())
+            value = value.strip()
+            quoted = read_quoted(value) if value.startswith('"') else None
+            fields[key] = value if quoted is None else quoted
             if len(fields[key]) > MOST_NAME and key != "comment":
                 what = f"a text of {len(fields[key]):,} characters"
                 problems.add(what, number, found=shown(fields[key]), expected=f"at most {MOST_NAME:,}")
@@ -125,12 +127,6 @@ def _read_header(lines: Sequence[Line], problems: Problems) -> dict[str, str]:
                 except LevelError as error:
                     problems.add_error(error, number)
     return fields
-
-
-def _header_value(text: str) -> str:
-    """A header's value; in double quotes as JSON when it has blanks at its ends, line breaks or the like."""
-    value = read_quoted(text) if text.startswith('"') else None
-    return text if value is None else value
 
 
 def _read_list(lines: Sequence[Line], problems: Problems) -> tuple[list[Placed], list[PlacedTile]]:

@@ -31,6 +31,7 @@ from ninja_game.formats.ascii.object_lines import (
 )
 from ninja_game.formats.ascii.picture import FRAME, Cell, point_of
 from ninja_game.formats.ascii.places import number_text, place_text, read_cell, same_bits
+from ninja_game.formats.lines import header_text
 from ninja_game.sim import kinds
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec, well_formed
@@ -79,12 +80,6 @@ def write_ascii_level(
 def headers_of(named: object) -> dict[str, Any]:
     """All that a level's file says about it, by header: of a NamedLevel, a Draft."""
     return {key: getattr(named, key) for key in HEADER_KEYS}
-
-
-def header_text(value: str) -> str:
-    """A header's value as it is written: in double quotes as JSON where it would not come back otherwise."""
-    plain = value == value.strip() and not value.startswith('"') and value.isprintable()
-    return value if plain else json.dumps(value)
 
 
 def _tile_char(number: int) -> str:
@@ -230,11 +225,11 @@ def _door_form(values: tuple[float, ...]) -> tuple[str, str, str]:
     side = next((word for word, numbers in SIDES.items() if numbers == (vertical, i, j)), "")
     place = f"{number_text(column)},{number_text(row)}"
     try:
-        cell = read_cell(place)
+        read_cell(place)
     except LevelError:
         return "", "", ""
     if not side:
         return "", "", ""
     if keyword == "automatic door":
-        return keyword if door_middle(*cell, side) == (x, y) else "", place, side
+        return keyword if door_middle(values) == (x, y) else "", place, side
     return keyword, place, f"{side} switch {place_text(x, y)}"

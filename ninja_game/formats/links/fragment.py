@@ -22,10 +22,10 @@ VERSION = 1
 """Raw deflate (RFC 1951) of the text in UTF-8 behind four bytes of CRC-32, in base64url without padding."""
 
 MOST_CHARACTERS = 2 * 2**20
-"""Of a link: what browsers take."""
+"""Length of a link: what browsers take."""
 
 MOST_BYTES = 4 * 2**20
-"""Of its text, unpacked."""
+"""Size of its text when unpacked."""
 
 MOST_TEXTS = 9
 """In a link of replays: the one that is watched, and as many ghosts as the viewer shows."""
@@ -34,7 +34,7 @@ _PART = re.compile(r"(level|pack|replay)=([0-9]{1,4})\.([A-Za-z0-9_-]*)")
 _STEM = re.compile(r"[0-9a-f]{16}")
 _ADDRESS = re.compile(r"[a-z]{2}:/", re.IGNORECASE)
 _AROUND = "\0 \t\r\n.,;:!?)>]}\"'"
-"""What people and programs write behind a link."""
+"""Characters that people and programs write behind a link."""
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,7 @@ MOST_FILES = 4096
 """In a zip; all of them together may hold MAX_BYTES."""
 
 MOST_BYTES = 4 * 2**20
-"""Of one file."""
+"""The largest size of one file."""
 
 LEVEL_FILES = re.compile(r"[^/\\:]+\.txt", re.IGNORECASE)
 

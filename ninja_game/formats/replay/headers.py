@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import re
 from collections.abc import Sequence
@@ -12,7 +11,7 @@ from typing import NamedTuple, TypeVar
 
 from ninja_game.errors import LevelError, ReplayError
 from ninja_game.formats.ascii.reader import parse_ascii_level
-from ninja_game.formats.lines import MOST_NAME, Line
+from ninja_game.formats.lines import MOST_NAME, Line, read_quoted
 from ninja_game.formats.numbers import NAN, parse_number
 from ninja_game.formats.replay.made import Made, names_of_text, parse_made
 from ninja_game.sim.level import Level
@@ -33,7 +32,6 @@ KEYS = (
     "level-record",
     "level-digest",
     "digest",
-    "practice",
     "demo-length",
     "level-data",
     "waypoints",
@@ -102,13 +100,10 @@ class Headers:
         """A header's text; one in double quotes is JSON."""
         value = self.raw(key)
         if value.startswith('"'):
-            try:
-                decoded = json.loads(value)
-            except ValueError:
-                decoded = None
-            if not isinstance(decoded, str):
+            quoted = read_quoted(value)
+            if quoted is None:
                 raise self.error(key, f"a broken text in '{key}'", "text, or a JSON string", "close the double quotes")
-            value = decoded
+            value = quoted
         if len(value) > MOST_NAME:
             raise self.error(key, f"a text of {len(value):,} characters in '{key}'", f"at most {MOST_NAME:,}")
         return value
@@ -138,16 +133,13 @@ class Headers:
         raise self.error(key, f"an unknown {key}", " or ".join(choices))
 
     def made(self) -> Made:
-        """How the run was made; ``practice``, which older texts have, is an assist."""
+        """How the run was made."""
         try:
-            made = parse_made(self.text("made"))
+            return parse_made(self.text("made"))
         except ValueError:
             expected = "such as played (practice), edited 34, searched (improve, search)"
             hint = "leave the line out if you do not know"
             raise self.error("made", "not how a run is made", expected, hint) from None
-        if "practice" in self.lines and self.choice("practice", ("yes", "no")) == "yes" and not made.assists:
-            return made._replace(played=True, assists=("practice",))
-        return made
 
     def co_authors(self) -> tuple[str, ...]:
         """The names of who took part."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,7 +10,7 @@ from typing import Any, Self
 
 from ninja_game.errors import ReplayError
 from ninja_game.formats.ascii.reader import write_ascii_level
-from ninja_game.formats.lines import Line, numbered_lines
+from ninja_game.formats.lines import Line, header_text, numbered_lines
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.numbers import format_number
 from ninja_game.formats.replay.headers import COUNT_LIMIT, LEVELS_KEPT, Headers, Waypoint, read_level, read_waypoints
@@ -26,7 +25,7 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
 MAGIC = "ninja-game replay"
 VERSION = 3
 LAST_LINE = "end"
-"""Of a replay with claims, so that a cut one is noticed."""
+"""The end of a replay with claims, so that one that was cut off is noticed."""
 RULES_VERSION = 1
 """The rules that replays are recorded under; a change of the world that changes any replay raises it."""
 
@@ -231,11 +230,11 @@ def write_replay(replay: Replay) -> str:
     if problem:
         raise problem[1]
     headers = {
-        "name": _text(replay.name),
-        "author": _text(replay.author),
-        "co-authors": _text(", ".join(replay.co_authors)),
-        "made": _text(str(replay.made)),
-        "level": _text(replay.level_path),
+        "name": header_text(replay.name),
+        "author": header_text(replay.author),
+        "co-authors": header_text(", ".join(replay.co_authors)),
+        "made": header_text(str(replay.made)),
+        "level": header_text(replay.level_path),
         "level-record": str(replay.level_record or ""),
         "level-digest": replay.level_digest,
         "rules": "" if replay.unclaimed else str(replay.rules),
@@ -280,9 +279,3 @@ def _claims(replay: Replay) -> dict[str, str]:
     if replay.demo_length is not None:
         return {"demo-length": format_number(replay.demo_length)}
     return final_tick if replay.final_tick != max(0, len(replay.inputs) - 1) else {}
-
-
-def _text(value: str) -> str:
-    """A header's text; as JSON where it would not read back as it is."""
-    plain = value == value.strip() and value.isprintable() and not value.startswith('"')
-    return value if plain else json.dumps(value)

@@ -44,7 +44,7 @@ DELAY = 16
 AWAY = 36.0
 """Px, at least, between a new start and the old one."""
 KEPT = {"easy": 0.0, "medium": 0.3, "hard": 0.6}
-"""Of what kills at least this share stays."""
+"""Share of what kills that stays at least, by grade."""
 BASES, LARGEST = 1000, 306
 """How many levels are varied; one with as many objects as any of them."""
 TRIES = 32

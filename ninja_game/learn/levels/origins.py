@@ -25,7 +25,7 @@ from ninja_game.sim.level import Level
 DEFAULT_LEVEL = "00-0-first-steps"
 
 LEVELS_PER_EPISODE = 5
-"""Of each episode of the set one level is for testing: level 2 of the first episode, 3 of the next, and so on."""
+"""One level of each episode of the set is for testing: level 2 of the first episode, 3 of the next, and so on."""
 
 Origin: TypeAlias = "str | Path | Level | NamedLevel | LevelSource | Sequence[Origin]"
 """What ``level_source`` takes."""

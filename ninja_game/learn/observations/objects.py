@@ -107,7 +107,7 @@ def activity_of(o: Object) -> float:
 OBSERVED = tuple(kind for kind in KINDS if kind.number not in {NINJA, INERT})
 OBSERVED_KINDS = tuple(kind.name for kind in OBSERVED)
 OBJECT_COLUMNS = (*OBSERVED_KINDS, "dx", "dy", "vx", "vy", "face_x", "face_y", "moment")
-"""Of each object: its kind, a flag each; the way from the ninja, px; its velocity, px/tick."""
+"""Columns of an object: its kind, a flag each; the way from the ninja, px; its velocity, px/tick."""
 DX = len(OBSERVED_KINDS)
 MOST_OBJECTS = 64
 

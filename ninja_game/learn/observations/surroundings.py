@@ -78,7 +78,7 @@ def of_tiles(make: Callable[..., NDArray[Any]], setting: Setting, number: int, *
 
 
 def surface_distances(setting: Setting, number: int, reach: float) -> NDArray[np.float64]:
-    """Of every cell (25, 33) how far its centre is from the nearest surface, px, at most ``reach``; within below 0.
+    """How far the centre of every cell (25, 33) is from the nearest surface, px, at most ``reach``; within below 0.
 
     What is outside the world counts as solid. Of each row of points near a cell the nearest one, and of these the
     nearest.
@@ -136,7 +136,7 @@ class LocalTiles(Part):
         return Box(-reach, reach, (self.size, self.size), np.float32)
 
     def tables(self, setting: Setting) -> tuple[Any, ...]:
-        """Of each level a padded picture: distances, or tile ids; the width and height of a picture, and the size."""
+        """A padded picture of each level: distances, or tile ids; the width and height of a picture, and the size."""
         margin = self.size // 2
         height, width = GRID_ROWS + 2 * margin, GRID_COLUMNS + 2 * margin
         unit = REACH if self.normalised else 1.0
@@ -238,7 +238,7 @@ class Rays(Part):
 
 
 OUTSIDE, DOORWAY = 3, 4
-"""Of edges, beside the world's own states: of a cell that is not there; where a door may be, which the world knows."""
+"""More states of edges than the world has: those of a cell that is not there; where a door may be (the world knows)."""
 
 
 @entry_point

@@ -11,7 +11,7 @@ from ninja_game.editor.brush import placed
 from ninja_game.editor.certify import NO_TESTS
 from ninja_game.editor.draft import Cell, is_inside
 from ninja_game.editor.motion import SYMMETRIES, Motion
-from ninja_game.editor.reach import CELL, Reach
+from ninja_game.editor.reach import SQUARE, Reach
 from ninja_game.editor.specs import BODY, SWITCH, carried, points
 from ninja_game.editor.stamp import CellArea, area_between, nearest
 from ninja_game.editor.tools import PICK_REACH, EditorTools
@@ -107,7 +107,7 @@ class Overlay:
         if self._reach is not reach:
             self._reach = reach
             found = [(reach.spans, palette.good, 70), (reach.deaths, palette.bad, 255)]
-            squares = [((*c[:3], a), canvas.rect(x, y, w, CELL)) for spans, c, a in found for x, y, w in spans]
+            squares = [((*c[:3], a), canvas.rect(x, y, w, SQUARE)) for spans, c, a in found for x, y, w in spans]
             rects = [rect for _, rect in squares] or [pygame.Rect(canvas.origin, (1, 1))]
             self._seen = rects[0].unionall(rects)
             self._reached = pygame.Surface(self._seen.size, pygame.SRCALPHA)

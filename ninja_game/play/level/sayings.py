@@ -22,14 +22,14 @@ STILL = 0.05
 
 AGAIN = "Stuck? {retry} starts the level over"
 STILL_TICKS, AWAY = 240, 2 * CELL
-"""It is said to who stands or lies still for so many ticks, so many px from the start."""
+"""AGAIN is said to players who stand or lie still for so many ticks, so many px from the start."""
 
 CLIMB = (
     "Hold %s, and press {jump} each time you touch the wall\n"
     "{jump} alone: you fly to the other side\n%s before you jump: you let go of the wall and fall"
 )
 SLIPS, CLIMBED = 2, 4 * CELL
-"""It is said to who has come down so often from a wall to where the jump began, until so many px higher."""
+"""CLIMB is said after so many slips from a wall back to where the jump began, until the ninja is so many px higher."""
 
 _WHEN = {EXIT_OPENED: "switch", GOLD_TAKEN: "gold"}
 

@@ -238,7 +238,7 @@ class LevelScreen(Screen):
         return self.attempt.replay(self.context.title, self.app.settings.name)
 
     def keep_replay(self) -> None:
-        """Put this run among the player's replays, whatever it is worth."""
+        """Put this run among the player's replays, even one that is not the best."""
         if self._is_spared():
             return
         self.app.notify(keep_replay(self.app.player, self._replay()))

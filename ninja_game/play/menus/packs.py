@@ -39,7 +39,7 @@ from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Choice, Widget, draw_all_gold
 
 WIDE, HIGH = 93, 106
-"""Of a cell, px."""
+"""Size of a cell, px."""
 
 SECONDS = 20.0
 """For each search of a run."""

@@ -38,7 +38,7 @@ _TAIL = TICKS_PER_SECOND
 """Ticks after the end that a film shows."""
 
 MOST_PICTURES = 20_000
-"""Of a film whose last tick nobody named: more than eight minutes."""
+"""Pictures of a film whose last tick nobody named: more than eight minutes."""
 
 
 class _StoppedError(Exception):

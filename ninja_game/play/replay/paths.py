@@ -18,7 +18,7 @@ Path = tuple[str, NDArray[np.float64]]
 """A run's name and its positions, float64 (ticks, 2), px."""
 
 PLOT_HEIGHT = 150
-"""Of the speeds, logical px."""
+"""Height of the plot of speeds, logical px."""
 
 _LEFT, _TOP, _BOTTOM = 40.0, 26.0, 22.0
 """Margins of the plot, logical px."""

@@ -16,7 +16,7 @@ OPENING_SECONDS = 1.0
 """How long a start waits for another program that has locked the file."""
 
 MOST_CELL_BYTES = 2**26
-"""Of a value, and of a row; SQLite itself makes values of a gigabyte where a file asks for it."""
+"""The largest value, and row; SQLite itself makes values of a gigabyte where a file asks for it."""
 
 MOST_STEPS = 30
 """Millions of instructions of SQLite to look through a file: some four seconds; the records of years take one."""
@@ -25,16 +25,8 @@ _WRITE_VERSION = 18
 """Place of the byte in a file's header that is 1 or 2 where SQLite may write it."""
 
 
-VERSION = 6
-"""Of the tables, in a file's header; raise it with every change of them."""
-
-_FROM_5 = (
-    "ALTER TABLE replay ADD COLUMN made TEXT NOT NULL DEFAULT ''",
-    "ALTER TABLE replay ADD COLUMN co_authors TEXT NOT NULL DEFAULT ''",
-    "UPDATE replay SET made = 'played (practice)' WHERE practice",
-    f"PRAGMA user_version = {VERSION}",
-)
-"""What makes tables of version 5 those of today."""
+VERSION = 7
+"""The version of the tables, in a file's header; raise it with every change of them."""
 
 SCHEMA = (
     """CREATE TABLE replay (
@@ -51,8 +43,10 @@ SCHEMA = (
         digest TEXT NOT NULL,         -- of the world after the final tick
         inputs BLOB NOT NULL,         -- one byte a tick
         made_at TEXT NOT NULL,        -- UTC, ISO 8601
-        kept INTEGER NOT NULL         -- the player asked for it
-    , practice INTEGER NOT NULL DEFAULT 0, made TEXT NOT NULL DEFAULT '', co_authors TEXT NOT NULL DEFAULT '')""",
+        kept INTEGER NOT NULL,        -- the player asked for it
+        made TEXT NOT NULL,           -- how, as in a replay text
+        co_authors TEXT NOT NULL
+    )""",
     """CREATE TABLE level_best (
         level TEXT NOT NULL, body TEXT NOT NULL,
         replay INTEGER NOT NULL REFERENCES replay (id),
@@ -71,7 +65,7 @@ SCHEMA = (
         replay INTEGER NOT NULL REFERENCES replay (id),
         PRIMARY KEY (episode, body, place)
     ) WITHOUT ROWID""",
-    """CREATE TABLE "episode_best" (
+    """CREATE TABLE episode_best (
         episode TEXT NOT NULL,        -- digest of its levels
         body TEXT NOT NULL,
         score INTEGER NOT NULL,
@@ -84,7 +78,7 @@ SCHEMA = (
         most_gold INTEGER NOT NULL,   -- pieces in the passed run that took the most
         PRIMARY KEY (level, body)
     ) WITHOUT ROWID""",
-    """CREATE TABLE "progress" (
+    """CREATE TABLE progress (
         pack TEXT NOT NULL,           -- its name; '' for the game's own
         grid_column INTEGER NOT NULL,
         reached_episode INTEGER NOT NULL, reached_level INTEGER NOT NULL,
@@ -98,7 +92,7 @@ TABLES = {"replay", "level_best", "level_mark", "episode_best", "episode_replay"
 
 
 class OtherVersionError(Exception):
-    """The file was written by a newer game, or by an older one whose files are not read any more.
+    """The file was written by a newer game, or by one from before the first release.
 
     ``age``: "newer" or "older".
     """
@@ -202,24 +196,10 @@ def _check_file(connection: sqlite3.Connection, name: str) -> None:
         raise
     if not empty and application != APPLICATION_ID:
         raise sqlite3.DatabaseError("not a file of this game")
-    if version not in {0, 5, VERSION}:
+    if version not in {0, VERSION}:
         raise OtherVersionError(version)
     if connection.execute("PRAGMA quick_check(1)").fetchone()[0] != "ok":
         raise sqlite3.DatabaseError("its pages contradict each other")
-    if version == 5:
-        _renew(connection)
-
-
-def _renew(connection: sqlite3.Connection) -> None:
-    """Bring tables of version 5 up to date. Raises sqlite3.DatabaseError where they are not what they should be."""
-    connection.execute("BEGIN IMMEDIATE")
-    try:
-        for statement in _FROM_5:
-            connection.execute(statement)
-    except sqlite3.Error as error:
-        connection.execute("ROLLBACK")
-        raise sqlite3.DatabaseError(f"its tables cannot be brought up to date: {error}") from None
-    connection.execute("COMMIT")
 
 
 def _forbids_writing(name: str) -> bool:

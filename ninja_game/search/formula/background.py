@@ -100,9 +100,9 @@ class SpanSearch:
 
 
 LONGEST_SECONDS = 1e6
-"""Of a search that goes on until it is cancelled."""
+"""Seconds of a search that goes on until it is cancelled."""
 MOST_JOBS = 4
-"""Of a search of a whole run, each of which may take a gigabyte."""
+"""Jobs of a search of a whole run, each of which may take a gigabyte."""
 WAY_SECONDS = 120.0
 """How long a way to the exit is looked for at most, from a run that ends before it."""
 NO_WAY = "No way to the exit was found from the end of this run: select ticks before, and take Reach the exit sooner."

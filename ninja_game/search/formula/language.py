@@ -32,7 +32,7 @@ FAR = " far"
 """Behind the name of a fact: what a view may have as its margin where it is not so, less than 0."""
 
 LONGEST, DEEPEST = 1000, 40
-"""Of a formula: characters, and parts in parts."""
+"""Characters of a formula, and how deep its parts lie in one another."""
 
 _FOREIGN = re.compile(r"[^\w\s.+\-*/<>=!(),]", re.ASCII)
 
@@ -127,7 +127,7 @@ class _Reader:
         return FormulaError(what, "", 0, column, repr(found[:30]), expected, hint)
 
     def formula(self, node: ast.expr) -> Formula:
-        """Of any part of the tree."""
+        """The formula of any part of the tree."""
         self.depth += 1
         if self.depth > DEEPEST:
             raise self.error(node, "too many brackets in brackets", f"at most {DEEPEST}")
@@ -157,7 +157,7 @@ class _Reader:
         raise self.error(node, "not a part of a formula", "names, numbers, + - * /, comparisons, and, or, not")
 
     def truth(self, node: ast.expr) -> Formula:
-        """Of a part that must be true or false."""
+        """The formula of a part that must be true or false."""
         found = self.formula(node)
         if not found.truth:
             raise self.error(node, "a number beside 'and', 'or' or 'not'", "a comparison, such as x > 400")

@@ -20,7 +20,7 @@ from ninja_game.simulation import Body
 Keys = NDArray[np.uint8]
 """Keys that are down, a sum of left, right and jump."""
 
-LONGEST = 4000
+LONGEST_SPAN = 4000
 """Ticks of a span."""
 
 
@@ -49,8 +49,8 @@ class SpanTask:
     behind: int = 0
 
     def __post_init__(self) -> None:
-        if not 0 <= self.first < self.last <= self.first + LONGEST:
-            expected = f"expected a later tick, at most {LONGEST} later"
+        if not 0 <= self.first < self.last <= self.first + LONGEST_SPAN:
+            expected = f"expected a later tick, at most {LONGEST_SPAN} later"
             raise ArgumentError(f"a span from tick {self.first} to {self.last}; {expected}")
         if self.first > len(self.inputs):
             raise ArgumentError(f"the span begins in tick {self.first}, the run ends in tick {len(self.inputs) - 1}")
@@ -98,7 +98,7 @@ class Found:
 
 
 def score_in_words(task: SpanTask, found: Found) -> str:
-    """What keys bring."""
+    """What a search has found, in words."""
     last = task.first + found.ticks - 1
     if task.rest:
         return f"exit in tick {found.score - 1:.0f}"
@@ -150,7 +150,7 @@ class SpanWorlds:
         )
 
     def measured(self) -> tuple[NDArray[np.bool_], Values, Values]:
-        """Of all worlds now: whether they are at the goal, their margin, their score."""
+        """For all worlds, as they are now: whether they are at the goal, their margin, their score."""
         with np.errstate(all="ignore"):
             at_goal = np.broadcast_to(self.goal.value(self.view) > 0, (self.batch.count,))
             margin = np.nan_to_num(np.broadcast_to(self.goal.margin(self.view), at_goal.shape), nan=-np.inf)
@@ -177,7 +177,7 @@ class SpanWorlds:
         return trials
 
     def _try(self, keys: Keys) -> Trials:
-        """What comes of keys in the span itself."""
+        """The moments that keys lead to in the span itself."""
         batch, count = self.batch, self.batch.count
         batch.restore(self.start)
         trials = Trials(

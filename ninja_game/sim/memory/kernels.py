@@ -20,7 +20,7 @@ from ninja_game.sim.traces import is_switched, place_of, status_of
 from ninja_game.sim.world import step
 
 PLACES, NUMBERS = len(TRACED_PLACES), len(TRACED_NUMBERS)
-"""Of a tick in a trace."""
+"""How many places and numbers a trace has of a tick."""
 
 
 @entry_point

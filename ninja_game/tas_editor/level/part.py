@@ -18,9 +18,9 @@ from ninja_game.tas_editor.controls import TABLE
 from ninja_game.tas_editor.editor import TasEditor, TasPart
 from ninja_game.tas_editor.level.other_runs import OtherRuns
 from ninja_game.tas_editor.level.paths import (
+    BRIGHT_TICKS,
     FAINT,
     LETTERS,
-    NEAR,
     LevelPaths,
     Positions,
     RunPath,
@@ -246,7 +246,7 @@ class LevelPart(TasPart):
         # Not at each tick of a run that is taken over is the other one shorter.
         first, last = shown_span(editor.cursor)
         beside = [RunPath(run.trajectory, colour, first, last) for run, colour in runs]
-        return [RunPath(before, palette.ghost, max(first, at - at % NEAR - 1), last, FAINT), *beside]
+        return [RunPath(before, palette.ghost, max(first, at - at % BRIGHT_TICKS - 1), last, FAINT), *beside]
 
     def _write(self, surface: pygame.Surface, theme: Theme) -> None:
         """What goes on, below the level."""

@@ -19,12 +19,12 @@ from ninja_game.ui.theme import Theme
 
 Positions = NDArray[np.float64]
 
-NEAR = 40
+BRIGHT_TICKS = 40
 """Ticks before and after the cursor whose path is bright."""
 _DOT_EVERY, _CLOSE = 10, 0.5
 """Ticks between two dots on the bright path; where a px of the window is less of the level: each tick."""
 FAINT, CLEAR = 110, 190
-"""Of 255: how solid paths are."""
+"""How solid paths are, of 255."""
 _BLOCK = 1000
 """Ticks by which the part of a long run moves whose path is shown."""
 LETTERS = 9
@@ -123,10 +123,10 @@ class LevelPaths:
         first, last = selected
         if last - first > 1:
             draw_path(surface, canvas, positions[max(0, first - 1) : last], palette.good, self._px(_THICK))
-        low = max(0, cursor - NEAR)
-        draw_path(surface, canvas, positions[low : cursor + NEAR + 1], palette.accent, self._px(_THIN))
+        low = max(0, cursor - BRIGHT_TICKS)
+        draw_path(surface, canvas, positions[low : cursor + BRIGHT_TICKS + 1], palette.accent, self._px(_THIN))
         every = 1 if self._px(1.0) < _CLOSE else _DOT_EVERY
-        for tick in range(low + -low % every, min(len(positions), cursor + NEAR + 1), every):
+        for tick in range(low + -low % every, min(len(positions), cursor + BRIGHT_TICKS + 1), every):
             radius = 1.0 if tick % _DOT_EVERY else 1.6
             canvas.circle(surface, palette.accent, _point(positions, tick), self._px(radius))
 

@@ -80,11 +80,7 @@ _WHILE_PLAYING = {
     "play", "take_over", "step", "step_back", "faster", "slower", "ghosts", "whole_level", *OVERLAY_ACTIONS
 }  # fmt: skip
 _BY_KEY = {"escape": "take_over"} | {
-    key: command.name
-    for command in COMMANDS
-    if command.name
-    in ("play", "take_over", "step", "step_back", "faster", "slower", "ghosts", "whole_level", *OVERLAY_ACTIONS)
-    for key in command.keys
+    key: command.name for command in COMMANDS if command.name in _WHILE_PLAYING for key in command.keys
 }
 """The commands of a run that is taken over."""
 _BY_PAD = {button: name for button, name in BY_PAD.items() if name in ("step", "step_back")}

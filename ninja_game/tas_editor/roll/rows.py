@@ -176,7 +176,7 @@ class Digits:
 
 
 SIZE = 8.0
-"""Of the letters, logical px."""
+"""Size of the letters, logical px."""
 SHORTEST = 20.0
 """Room in which a name is worth beginning, logical px."""
 LONGEST = 6

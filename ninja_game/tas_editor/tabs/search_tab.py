@@ -55,7 +55,7 @@ _ORDERS = (("the earliest", EARLIEST), ("the greatest", GREATEST), ("the smalles
 _RESTS = (("end at the goal", False), ("then the rest", True))
 _NAMES = "x y vx vy speed tick gold state dead won in_air distance(x, y) taken(id) opened(id) and or not < > abs(a)"
 _LEFT, _COLUMNS, _WIDTHS = 14, (228, 180, 120), (44, 58, 36)
-"""Of the cells of a result, px: the first from the left of a row, the others from its right; widths of the others."""
+"""Where the cells of a result begin, px: the first from the left of a row, others from its right; their widths."""
 _HEADS = ("Result", "Other from", "Ends at x, y", "Speed")
 _EXPLAINED = (
     "Say what for: a goal that is true after one of these ticks, as early as possible, or a value that is to be "

@@ -21,7 +21,7 @@ SMALL = 9.0
 ROW = 16
 """Height of a row of a list, px."""
 UNPLACED: Area = (0, 0, 0, 0)
-"""Of widgets that their tab has not arranged yet."""
+"""The area of widgets that their tab has not arranged yet."""
 _SHORT = 60
 """Longer lists of what is expected are left out of a line."""
 

@@ -11,7 +11,7 @@ from ninja_game.sim.collision import tiles
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import TileMap, World
-from ninja_game.sim.rules import BLOCK_HALF, DOWN, LEFT, OFF, RIGHT, SOLID, STRIDE, THWUMP_HALF, UP
+from ninja_game.sim.rules import DOWN, LEFT, OFF, ONE_WAY_HALF, PAD_RADIUS, RIGHT, SOLID, STRIDE, UP
 from ninja_game.sim.states import EXPLOSIVE, FALL, WEAPON_ZAP
 from ninja_game.ui.canvas import Point
 from ninja_game.view.ninja.figure import Pose
@@ -210,24 +210,21 @@ class Ragdoll:
         return sx + dx / length * 3.4, sy + dy / length * 3.4
 
 
-_PAD_KICK, _ZAP_KICK, _GUARD_KICK, _THWUMP_KICK = 6.0, 5.0, 6.0, 4.0
-
-
 def thing_pushes(world: World, box: Box) -> Iterator[tuple[float, float, float]]:
     """Normals of the objects that a box touches, and how hard (px/tick) they kick it; it is pushed out as they come."""
     for slot in range(1, world.id_count + 1):
         o = world.objects[slot]
-        if o.kind in CONTACTS and abs(o.x - box.x) < 26 and abs(o.y - box.y) < 26:
-            half, kick = CONTACTS[o.kind]
+        if o.kind in KICKS and abs(o.x - box.x) < 26 and abs(o.y - box.y) < 26:
             if o.kind == kinds.LAUNCH_PAD:
                 yield from _pad(o, box)
             elif o.kind == kinds.ONE_WAY:
                 yield from _one_way(o, box)
             elif o.kind != kinds.DRONE or o.weapon == WEAPON_ZAP:
-                yield from _square(o, box, half, kick)
+                yield from _square(o, box)
 
 
-def _square(o: Object, box: Box, half: float, kick: float) -> Iterator[tuple[float, float, float]]:
+def _square(o: Object, box: Box) -> Iterator[tuple[float, float, float]]:
+    half = kinds.KIND_OF[o.kind].box or kinds.KIND_OF[o.kind].disc or 0.0
     dx, dy = box.x - o.x, box.y - o.y
     ox, oy = half + box.half - abs(dx), half + box.half - abs(dy)
     if ox <= 0 or oy <= 0:
@@ -239,36 +236,32 @@ def _square(o: Object, box: Box, half: float, kick: float) -> Iterator[tuple[flo
         nx, ny = -1.0 if dx < 0 else 1.0, 0.0
         box.x += nx * ox
     # Of a thwump only the side on which it falls is live.
-    yield nx, ny, kick if o.kind != kinds.THWUMP or (nx, ny) == (o.face_x, o.face_y) else 0.0
+    yield nx, ny, KICKS[o.kind] if o.kind != kinds.THWUMP or (nx, ny) == (o.face_x, o.face_y) else 0.0
 
 
 def _pad(o: Object, box: Box) -> Iterator[tuple[float, float, float]]:
     dx, dy = o.x - box.x, o.y - box.y
-    if dx * dx + dy * dy < (6 + box.half) ** 2:
+    if dx * dx + dy * dy < (PAD_RADIUS + box.half) ** 2:
         length = (o.face_x * o.face_x + o.face_y * o.face_y) ** 0.5 or 1.0
-        yield o.face_x / length, o.face_y / length, _PAD_KICK
+        yield o.face_x / length, o.face_y / length, KICKS[o.kind]
 
 
 def _one_way(o: Object, box: Box) -> Iterator[tuple[float, float, float]]:
     """Only from its face, and only near it."""
     dx, dy = box.x - o.x, box.y - o.y
     across = abs(dy) if o.face_x else abs(dx)
-    depth = 12 + box.half - (dx * o.face_x + dy * o.face_y)
-    if across < 12 + box.half and 0 < depth < 6:
+    depth = ONE_WAY_HALF + box.half - (dx * o.face_x + dy * o.face_y)
+    if across < ONE_WAY_HALF + box.half and 0 < depth < 6:
         box.x += depth * o.face_x
         box.y += depth * o.face_y
         yield o.face_x, o.face_y, 0.0
 
 
-CONTACTS = {
-    kinds.BOUNCE_BLOCK: (BLOCK_HALF, 0.0),
-    kinds.THWUMP: (THWUMP_HALF, _THWUMP_KICK),
-    kinds.LAUNCH_PAD: (6.0, _PAD_KICK),
-    kinds.ONE_WAY: (12.0, 0.0),
-    kinds.FLOOR_GUARD: (6.0, _GUARD_KICK),
-    kinds.DRONE: (9.0, _ZAP_KICK),
-}
-"""Half size (px) and kick of each kind that the corpse can touch."""
+KICKS = {
+    kinds.BOUNCE_BLOCK: 0.0, kinds.THWUMP: 4.0, kinds.LAUNCH_PAD: 6.0, kinds.ONE_WAY: 0.0, kinds.FLOOR_GUARD: 6.0,
+    kinds.DRONE: 5.0,
+}  # fmt: skip
+"""How hard (px/tick) each kind that the corpse can touch kicks it."""
 
 
 Push = tuple[float, float, float, float]

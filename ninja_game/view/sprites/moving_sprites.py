@@ -9,6 +9,7 @@ from typing import NamedTuple
 from ninja_game.sim import kinds, states
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import World
+from ninja_game.sim.rules import AIM_FAR, AIM_NEAR, CHAINGUN_PREPARE, LASER_BEAM, LASER_PREPARE
 from ninja_game.ui.theme import Palette, mixed
 from ninja_game.view.sprites.drawing import DrawTarget, drawing
 from ninja_game.view.sprites.object_animation import ObjectAnimation
@@ -156,7 +157,6 @@ _EYE_OUT = 4.5
 """How far a drone's eye is off the centre, px."""
 _TURN_STEP = 15
 """Barrels and eyes turn in steps of so many degrees."""
-_HEAT_FRAMES = {states.WEAPON_LASER: 90, states.WEAPON_CHAINGUN: 105}
 _COOL_FRAMES = 60
 
 
@@ -226,8 +226,7 @@ def _crosshair(target: DrawTarget, m: Moving) -> None:
     if o.routine != states.TURRET_TARGET:
         look = 3
     else:
-        distance = o.aim_factor
-        look = 0 if distance <= 0.03 else 1 if distance < 0.05 else 2
+        look = 0 if o.aim_factor <= AIM_FAR else 1 if o.aim_factor < AIM_NEAR else 2
     target.sprite(crosshair(look), m.x, m.y)
 
 
@@ -258,7 +257,7 @@ def _drone(target: DrawTarget, m: Moving) -> None:
 def _heat(m: Moving) -> int:
     o = m.o
     if o.routine == states.DRONE_PRE_FIRE:
-        return m.step(_HEAT_FRAMES.get(o.weapon, 90))
+        return m.step(3 * (CHAINGUN_PREPARE if o.weapon == states.WEAPON_CHAINGUN else LASER_PREPARE))
     if o.routine == states.DRONE_FIRING:
         return 8
     return 8 - m.step(_COOL_FRAMES) if o.routine == states.DRONE_POST_FIRE else 0
@@ -271,7 +270,7 @@ def _beam(target: DrawTarget, m: Moving) -> None:
     elif o.routine == states.DRONE_FIRING:
         target.line(palette.laser, o.x, o.y, o.end_x, o.end_y, (3.0, 2.4, 3.4, 2.7)[tick % 4])
         target.line(palette.flame, o.x, o.y, o.end_x, o.end_y, 0.8)
-        step = min(8, int(o.timer / 80 * 9))
+        step = min(8, int(o.timer / LASER_BEAM * 9))
         target.sprite(impact_burst(step).turned(tick % 5 * 15), o.end_x, o.end_y)
 
 

@@ -14,10 +14,10 @@ from ninja_game.web.pages.gallery import PICTURE_HEIGHT
 from ninja_game.web.pages.published import PICTURE_WIDTH
 
 WIDTH, HEIGHT, MARGIN = 480, 150, 14
-"""Of the chart, px, before it is fitted to the page."""
+"""Size of the chart and its margin, px, before it is fitted to the page."""
 
 MOST_POINTS, NEAREST = 400, 4.0
-"""Of a path that is drawn, and how far apart they are at least, px."""
+"""Points of a path that is drawn, and how far apart they are at least, px."""
 
 
 def steps(points: Sequence[tuple[float, float]], top: str, bottom: str, said: str) -> Markup:

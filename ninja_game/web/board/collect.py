@@ -23,13 +23,13 @@ from ninja_game.sim.inputs import MAX_TICKS
 from ninja_game.sim.level import Level
 
 MOST_BYTES = 2**20
-"""Of a file: a hundred times a long run."""
+"""Size of a file: a hundred times a long run."""
 
 SETTLED = 2 * 10**9
 """Nanoseconds after which a change shows in the time of a file."""
 
 MOST_RECORDS = 200
-"""Of one file with records of N."""
+"""Recordings of one file with records of N."""
 
 
 @dataclass(frozen=True)

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
-from functools import partial
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from heapq import heappop, heappush, nlargest
 from itertools import groupby, pairwise
 
@@ -166,14 +165,6 @@ class Courses:
             return [number for _, number in aligned], said
 
         return found
-
-
-def near_ones(course: Course, earlier: Sequence[Course]) -> list[int]:
-    """Which earlier courses share enough of this one; the nearest first."""
-    courses = Courses(len(earlier))
-    for number, other in enumerate(earlier):
-        courses.add(number, 0, partial(replace, other))
-    return courses.near(course)(courses.numbers >= 0)[0]
 
 
 def edit_distance(ours: bytes, theirs: bytes) -> int:

@@ -24,7 +24,7 @@ NAMES: dict[str, Callable[[Run], float]] = {
 """What formulas may say of a run: ticks to the exit, gold, score (ticks), gold of the level, jumps, keys pressed."""
 
 MOST_BYTES, MOST_CATEGORIES, MOST_RANKS, LONGEST_NAME = 2**20, 12, 4, 40
-"""Of ``board.toml``; of a category: formulas that rank it, characters of its name."""
+"""Bytes of a ``board.toml``, and its categories; formulas that rank a category, and characters of its name."""
 
 _KEYS: Mapping[str, type] = {"name": str, "rank": list, "when": str, "episodes": bool}
 _ARGUMENTS = dict.fromkeys(NAMES, 0)

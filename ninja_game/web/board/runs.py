@@ -316,10 +316,8 @@ def _remembered(files: deque[Waiting]) -> Iterator[tuple[str, str, list[Judged]]
 
 
 def _run(name: str, digest: str, row: Judged, entry: Entry, folder: RunFolder, added: str = "") -> Run:
-    return Run(
-        name, row.record, row.author, entry, row.tick, row.gold, row.score, added, row.way, row.presses, row.jumps,
-        *row[11:], digest, folder,
-    )  # fmt: skip
+    same = {key: value for key, value in row._asdict().items() if key not in ("kind", "why", "author", "level")}
+    return Run(name, player=row.author, entry=entry, added=added, digest=digest, folder=folder, **same)
 
 
 def _first(run: Run) -> tuple[str, bool, Key]:

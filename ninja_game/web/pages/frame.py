@@ -80,7 +80,7 @@ POLICY = "default-src 'none'; img-src 'self'; style-src 'self'; script-src 'self
 """The content security policy of every page: nothing from elsewhere, no script or style within the page."""
 
 POLICY_OF_FIGURES = POLICY.replace("script-src 'self'", "connect-src 'self'; script-src 'self' 'wasm-unsafe-eval'")
-"""Of pages with figures, which run Python."""
+"""The policy of pages with figures, which run Python."""
 
 HOME, GAME, SEARCH = "index.html", "play.html", "search.html"
 NAVIGATION = (

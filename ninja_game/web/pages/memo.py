@@ -13,7 +13,7 @@ from ninja_game.files.reading import read_bytes
 from ninja_game.files.writing import write_atomically
 
 MOST_BYTES, MOST_MEMOS = 2**30, 100
-"""Of a file: that of a million runs has half of it. How many files stay in their folder: the newest."""
+"""Size of a file: that of a million runs has half of it. So many files stay in their folder: the newest."""
 
 
 def digest_of(data: object) -> str:
