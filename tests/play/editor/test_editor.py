@@ -326,7 +326,7 @@ def test_a_certificate_is_shown_and_gets_stale(room: Maker) -> None:
     assert certifier.is_stale(room.draft.level)
     room.chord("z", pygame.KMOD_LCTRL)
     assert not certifier.is_stale(room.draft.level)
-    room.choose_in_menu("Keep the solver's run")
+    room.choose_in_menu("Keep the run that was found")
     assert room.player.records.replays()
 
 
