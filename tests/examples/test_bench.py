@@ -60,7 +60,7 @@ def test_the_command_writes_the_scores_of_every_grade(tmp_path: Path, monkeypatc
     found = json.loads(out.read_text())
     assert (found["agent"], found["track"], set(found["scores"])) == ("random", "sight", set(few))
     assert found["digests"] == {name: measure.levels_of(name).digest for name in few}
-    assert (found["package"], found["command"][:28]) == (__version__, "python3 -m examples.measure ")
+    assert (found["package"], found["command"][:27]) == (__version__, "python3 -m examples.measure")
     assert "cores" in found["machine"]
     for task, rows in found["levels"].items():
         passed = np.array(rows["passed"].split(), int)
