@@ -159,6 +159,14 @@ def test_splits_say_by_how_much_others_are_later(tmp_path: Path) -> None:
     assert [text for _, text in film.told_splits(first, [second])][-1] == "exit, two.txt 1 +4", "both by one name"
 
 
+def test_runs_with_one_title_have_their_files_above_them(tmp_path: Path) -> None:
+    file = write_records(tmp_path / "two.txt", *[("Walk", WALK, running(24))] * 2, ("Other", WALK, running(24)))
+    first, *others = load_replays(file)
+    shown = film.Film(first, beside=tuple(others))
+    titles = [film._Panel(shown, each, []).title for each in (first, *others)]
+    assert titles == ["Walk - me, two.txt", "Walk - me, two.txt 1", "Other - me"]
+
+
 def test_films_that_are_too_much_are_refused(replay: Path, tmp_path: Path) -> None:
     many = write_records(tmp_path / "four.txt", *[("Late", WALK, running(24))] * 4)
     assert "4 runs; at most 3" in film_of(replay, "--beside", many, "-o", tmp_path / "a").output
