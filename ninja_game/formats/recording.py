@@ -57,6 +57,19 @@ class Recording:
         return self.replay.author
 
     @property
+    def player(self) -> str:
+        """Who made the run, "" where that is unknown; the name in a record of N is its level's maker's.
+
+        One that says how its run was made was written by this program, which puts the player's name there.
+        """
+        return self.author if self.form != "file" or self.replay.made.assisted is not None else ""
+
+    @property
+    def place(self) -> str:
+        """The name of its file, and which record of it that is where it holds others before."""
+        return Path(self.file).name.removesuffix(".replay.txt") + f" {self.record}" * (self.record > 0)
+
+    @property
     def title(self) -> str:
         """What is written above its picture: also who made it where it comes from a file."""
         return (self.name or "Replay") + f" - {self.replay.credit}" * bool(self.replay.credit and self.file)
@@ -99,7 +112,7 @@ def record_of(recording: Recording) -> LevelRecord:
         demo = short if short.playback(len(inputs)) == inputs else Demo(inputs, float(len(inputs)))
     level = write_level_string(recording.level, exact=True)
     told = with_made(recording.comment, replay.made, replay.co_authors)
-    return LevelRecord(recording.name, recording.author, told, level, write_demo(demo))
+    return LevelRecord(recording.name, recording.author or replay.level_author, told, level, write_demo(demo))
 
 
 def holds_recordings(text: str) -> bool:

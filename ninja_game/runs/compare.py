@@ -19,8 +19,23 @@ from ninja_game.runs.recording_reader import named_errors
 from ninja_game.sim.rules import CELL, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 
-SPLIT_EVENTS = ("gold-taken", "exit-opened", "lock-opened", "trap-closed", "door-opened", "won", "died")
+_NAMES = {
+    "gold-taken": "gold", "exit-opened": "switch of exit", "lock-opened": "locked door", "trap-closed": "trap door",
+    "door-opened": "door", "won": "exit", "died": "death",
+}  # fmt: skip
+SPLIT_EVENTS = tuple(_NAMES)
 """The events that are splits (`ninja_game/sim/events.py`)."""
+
+
+def split_name(split: str) -> str:
+    """A split in plain words.
+
+    >>> split_name("gold-taken 12"), split_name("door-opened 3, time 2"), split_name("won")
+    ('gold 12', 'door 3, time 2', 'exit')
+    """
+    event, _, rest = split.partition(" ")
+    return f"{_NAMES.get(event, event)} {rest}".strip()
+
 
 Key = tuple[str, int | None, int]
 """What makes splits of two runs the same: event, id of the object, and which occurrence of it, from 0."""

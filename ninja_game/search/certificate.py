@@ -61,9 +61,9 @@ def better_run(run: Replay, recording: Recording, command: str) -> Replay:
     """A run that a command made of a recording: names and authors stay, and it says what was done and to whose run."""
     old = recording.replay
     return replace(
-        run, name=recording.name, author=recording.author, co_authors=old.co_authors,
+        run, name=recording.name, author=recording.player, co_authors=old.co_authors,
         level_name=old.level_name or recording.name, level_author=old.level_author or recording.author,
-        made=old.made.searched(command, begun_by=recording.author),
+        made=old.made.searched(command, begun_by=recording.player),
         markers=moved_markers(recording, run.inputs),
     )  # fmt: skip
 

@@ -11,6 +11,12 @@ from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.made import names_of_text
 
 
+def _player_of(recording: Recording) -> str:
+    """Who made a run; one who is not known is called by the file."""
+    file = Path(recording.file).name or recording.name
+    return recording.player or f"unknown ({file_stem(file, 'no file')})"
+
+
 @dataclass(frozen=True)
 class Contributions:
     """``edits``: of keys; ``commands``: those that searched keys which were taken; ``names``: who else took part."""
@@ -22,21 +28,20 @@ class Contributions:
     @classmethod
     def of(cls, recording: Recording) -> Self:
         """Those of a run whose keys are taken; an author who is not known is called by the file."""
-        replay, file = recording.replay, Path(recording.file).name or recording.name
-        author = replay.author or f"unknown ({file_stem(file, 'no file')})"
-        return cls(0, replay.made.searches, names_of_text(", ".join((author, *replay.co_authors))))
+        replay = recording.replay
+        return cls(0, replay.made.searches, names_of_text(", ".join((_player_of(recording), *replay.co_authors))))
 
     def __add__(self, other: Contributions) -> Contributions:
         return Contributions(self.edits + other.edits, self.commands + other.commands, self.names + other.names)
 
     def credited(self, about: Recording, player: str) -> Recording:
         """A recording as it was opened, with what was done to it since then by a player."""
-        old = about.replay
+        old, author = about.replay, about.author or player
         names = names_of_text(", ".join((*old.co_authors, player, *self.names)))
-        begun_by = about.author if about.author != player else ""
+        begun_by = _player_of(about) if about.author != player else ""
         made = old.made.edited(self.edits).searched(*self.commands, begun_by=begun_by)
-        others = tuple(name for name in names if name != about.author)
-        return replace(about, replay=replace(old, made=made, co_authors=others))
+        others = tuple(name for name in names if name != author)
+        return replace(about, replay=replace(old, author=author, made=made, co_authors=others))
 
     def as_json(self) -> dict[str, Any]:
         return {"edits": self.edits, "commands": list(self.commands), "names": list(self.names)}

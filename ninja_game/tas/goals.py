@@ -21,7 +21,7 @@ from ninja_game.tas.timeline import Timeline
 
 EXIT_TICKS = 5 * TICKS_PER_SECOND
 """In which the exit is looked for at least, from a run that does not reach it."""
-IMPROVE, IMPROVE_GOLD = "improve", "improve with the gold"
+IMPROVES = IMPROVE, IMPROVE_GOLD = "improve", "improve with the gold"
 """Methods for a whole run: with whatever gold, or with as much as it has."""
 NEAR = 6.0
 """How near to a place counts as there, px."""
@@ -173,15 +173,15 @@ def _is_passed(span: SearchedSpan) -> bool:
 
 
 PRESETS: tuple[tuple[str, str, Callable[[SearchedSpan], SpanGoal]], ...] = (
-    ("Reach the exit sooner", "Any way to it from the first selected tick on, also from a run that dies", reach_exit),
-    ("Whole run", "Shorten all of it, also by the routes of the runs beside it: improve", whole_run),
+    ("Reach the exit sooner", "From the first selected tick on, in any way", reach_exit),
+    ("Whole run", "Shorten all of it; by routes of runs beside, too", whole_run),
     ("Same end, sooner", "The same place, speed and state; the rest follows", same_end),
     ("Same end exactly, sooner", "By the digest of all that decides what follows", same_state),
     ("Be there sooner", "Where the run is at the end of the span", be_there),
     ("Go beyond sooner", "Past the upright line at the end of the span", go_beyond),
     ("Greatest speed", "At the end of the span", be_fast),
     ("Collect a piece", "The nearest gold that is left at the end of the span", collect),
-    ("This piece too", "The nearest gold that is left on the way; then the same place, and the rest", collect_too),
+    ("This piece too", "The nearest left on the way; then the same place", collect_too),
     ("Stay alive", "Through the whole span", stay_alive),
 )
 """Name, explanation, and what makes goal and measure of a run and its span."""

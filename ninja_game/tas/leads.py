@@ -8,13 +8,8 @@ from typing import NamedTuple
 
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.input_runs import Marker
-from ninja_game.runs.compare import Comparison, compare_runs, each_second
+from ninja_game.runs.compare import Comparison, compare_runs, each_second, split_name
 from ninja_game.sim.rules import TICKS_PER_SECOND
-
-_NAMES = {
-    "gold-taken": "gold", "exit-opened": "switch of exit", "lock-opened": "locked door", "trap-closed": "trap door",
-    "door-opened": "door", "won": "exit", "died": "death",
-}  # fmt: skip
 
 
 class LeadRow(NamedTuple):
@@ -50,13 +45,3 @@ def lead_table(ours: Recording, theirs: Recording, markers: Sequence[Marker]) ->
         for lead in each_second(found.places)
     ]
     return LeadTable(tuple(sorted(rows, key=lambda row: row.tick)), found)
-
-
-def split_name(split: str) -> str:
-    """A split in plain words.
-
-    >>> split_name("gold-taken 12"), split_name("door-opened 3, time 2"), split_name("won")
-    ('gold 12', 'door 3, time 2', 'exit')
-    """
-    event, _, rest = split.partition(" ")
-    return f"{_NAMES.get(event, event)} {rest}".strip()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +31,11 @@ class Session:
     """
 
     def __init__(self, opened: OpenedRun, folder: Path, *, player: str = "", memory: str = "auto") -> None:
-        self.about: Recording = opened.recording
+        about = opened.recording
+        if about.author and not about.player:
+            about = replace(about, replay=replace(about.replay, author="", level_author=about.author))
+            opened = replace(opened, recording=about)
+        self.about: Recording = about
         self._first, self._player, self._done = opened, player, Contributions()
         self.file: RunFile = opened.file
         self.branches: Branches = opened.branches

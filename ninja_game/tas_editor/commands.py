@@ -105,7 +105,9 @@ class RunCommands(DocumentCommands):
         """Where it is, and what else was saved."""
         tail = ", with what is behind its end (Ctrl+E takes that out)" if self.session.has_tail else ""
         branches = " and its branches beside it" * branches_path(path).exists()
-        return f"Saved{tail}: {path}{branches}"
+        replay = self.session.about.replay
+        nobody = "; its player is unknown: your name can be set in the settings"
+        return f"Saved{tail}: {path}{branches}{nobody * (not (replay.author or replay.co_authors))}"
 
     def keep(self) -> None:
         """Put the run among the player's replays."""

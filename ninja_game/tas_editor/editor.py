@@ -67,6 +67,7 @@ class TasEditor:
         self.tab = "Values"
         self.against: InputTrack | None = None
         self.hint = ""
+        self._refusal = ""
         self.places: WeakKeyDictionary[InputTrack, tuple[int, int | None]] = WeakKeyDictionary()
 
     @property
@@ -99,13 +100,25 @@ class TasEditor:
         """Select the ticks ``first`` … ``last`` - 1."""
         self.cursor, self.anchor = first, max(first, last - 1)
 
+    def refuse(self, why: str) -> None:
+        """Say why something is not done."""
+        self._refusal = why
+        self.app.notify(why)
+
+    def accept(self) -> None:
+        """Something was done: the refusal before is not shown any longer."""
+        if self._refusal and self.app.notice == self._refusal:
+            self.app.notify("")
+        self._refusal = ""
+
     def attempt(self, edit: Callable[[], object]) -> bool:
         """Do something that may be refused; a notice says why. Whether it was done."""
         try:
             edit()
         except (NinjaGameError, OSError) as error:
-            self.app.notify(reason(error))
+            self.refuse(reason(error))
             return False
+        self.accept()
         self.cursor = min(self.cursor, self.last_tick)
         if self.anchor is not None:
             self.anchor = min(self.anchor, self.last_tick)

@@ -153,8 +153,18 @@ def test_splits_say_by_how_much_others_are_later(tmp_path: Path) -> None:
     file = write_records(tmp_path / "two.txt", ("First", WALK, running(24)), ("Late", WALK, late))
     first, second = (run_splits(replace(each, replay=replace(each.replay, author=""))) for each in load_replays(file))
     texts = [text for _, text in film.told_splits(first, [second])]
-    assert texts[-1] == "won, Late +4"
-    assert [text for _, text in film.told_splits(second, [first])][-1] == "won, First -4"
+    assert texts[-1] == "exit, Late +4"
+    assert [text for _, text in film.told_splits(second, [first])][-1] == "exit, First -4"
+    first, second = map(run_splits, load_replays(file))
+    assert [text for _, text in film.told_splits(first, [second])][-1] == "exit, two.txt 1 +4", "both by one name"
+
+
+def test_runs_with_one_title_have_their_files_above_them(tmp_path: Path) -> None:
+    file = write_records(tmp_path / "two.txt", *[("Walk", WALK, running(24))] * 2, ("Other", WALK, running(24)))
+    first, *others = load_replays(file)
+    shown = film.Film(first, beside=tuple(others))
+    titles = [film._Panel(shown, each, []).title for each in (first, *others)]
+    assert titles == ["Walk - me, two.txt", "Walk - me, two.txt 1", "Other - me"]
 
 
 def test_films_that_are_too_much_are_refused(replay: Path, tmp_path: Path) -> None:

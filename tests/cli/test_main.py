@@ -53,7 +53,7 @@ def test_help_lists_every_command() -> None:
         ("play --frames 1", 530, "numpy numba rich"),
         ("edit --frames 1", 520, "numpy numba rich"),
         ("lab --frames 1", 490, "numpy numba rich"),
-        (f"tas {RUN} --frames 1", 1151, "rich PIL"),
+        (f"tas {RUN} --frames 1", 1140, "rich PIL"),
     ],
 )
 def test_a_start_imports_only_what_it_needs(words: str, most: int, without: str) -> None:

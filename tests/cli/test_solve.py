@@ -319,7 +319,8 @@ def test_improving_keeps_name_and_author_and_says_when_nothing_was_found(tmp_pat
     assert result.exit_code == 0, result.stderr
     assert "no shorter run was found" in result.stdout
     replay = parse_replay(out.read_text())
-    assert (replay.name, replay.author, replay.final_tick) == ("Walk", "me", WALK_END)
+    about = replay.name, replay.author, replay.level_author, replay.final_tick
+    assert about == ("Walk", "", "me", WALK_END), "a record of N names who made the level"
 
 
 def test_the_line_of_progress_fits_eighty_columns() -> None:

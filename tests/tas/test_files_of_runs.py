@@ -337,19 +337,18 @@ def test_keys_that_are_taken_bring_their_authors_and_searches_along(tmp_path: Pa
     again.close()
 
 
-@pytest.mark.parametrize("author, named", [("Cy", "Cy"), ("", "unknown (demos.txt)"), ("me", "")])
-def test_keys_that_are_taken_from_a_record_of_n_bring_its_author_or_its_file(
-    tmp_path: Path, author: str, named: str
-) -> None:
-    """A record of N has one name, for its level and its run: titles, files and co-authors say the same."""
+def test_the_name_in_a_record_of_n_is_no_players(tmp_path: Path) -> None:
+    """It is that of who made the level; a record that says how its run was made is ours, and names the player."""
     source = write_records(tmp_path / "demos.txt", ("a", WALK, running(WALK_END)), ("b", WALK, running(9)))
     opened, other = open_run(source, record=0), load_replays(source)[1]
-    assert (opened.recording.author, other.form) == ("me", "file")
+    assert (opened.recording.author, opened.recording.player) == ("me", "")
     session = Session(opened, tmp_path, player="Bob", memory="plain")
-    taken = Contributions.of(replace(other, replay=replace(other.replay, author=author)))
-    session.change(session.track.replaced(5, 6, [0]), taken=taken)
+    assert session.about.replay.credit == ""
+    session.change(session.track.replaced(5, 6, [0]), taken=Contributions.of(other))
     session.save(tmp_path / "new.replay.txt")
     saved = parse_replay((tmp_path / "new.replay.txt").read_text("utf-8"))
-    assert (saved.author, saved.co_authors) == ("me", tuple(filter(None, ("Bob", named))))
-    assert saved.made.begun_by == "me"
+    assert (saved.author, saved.co_authors, saved.level_author) == ("Bob", ("unknown (demos.txt)",), "me")
+    assert saved.made.begun_by == "unknown (demos.txt)"
     session.close()
+    ours = replace(other, replay=replace(other.replay, made=Made(edits=1)))
+    assert Contributions.of(ours).names == ("me",)

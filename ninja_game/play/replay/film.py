@@ -124,6 +124,8 @@ class _Panel:
     def __init__(self, film: Film, run: Recording, told: Sequence[tuple[int, str]]) -> None:
         context = OffscreenContext(film.size, film.settings)
         self.film, self.run, self.told, self.time = film, run, told, 0
+        alike = [each.title for each in (film.run, *film.beside)].count(run.title) > 1
+        self.title = run.title + f", {run.place}" * (alike and bool(run.place))
         self.playback = Playback(Simulation(run.level, body=run.body), run.inputs, spacing=0)
         self.view = LevelView(context, self.playback.simulation)
         self.hud = Hud(context.theme)
@@ -131,9 +133,9 @@ class _Panel:
 
     def follow(self, runs: Sequence[Recording]) -> None:
         """Let runs go along, each in a colour of its own with a name above it."""
-        for number, run in enumerate(runs):
+        for number, (run, name) in enumerate(zip(runs, _called(runs), strict=True)):
             shade = RUN_COLOURS[number % len(RUN_COLOURS)]
-            self.ghosts.append((_called(run), Ghost(run.inputs, run.level, run.body, shade=shade)))
+            self.ghosts.append((name, Ghost(run.inputs, run.level, run.body, shade=shade)))
         self.view.ghosts = [ghost for _, ghost in self.ghosts]
 
     def step(self) -> None:
@@ -149,8 +151,8 @@ class _Panel:
         if run.episode:
             covered = [hud.time_bar(surface, run.lifetime + GOLD_BONUS * world.gold - self.time)]
         else:
-            covered = [hud.label(surface, run.title)]
-        words = [run.title] * bool(run.episode)
+            covered = [hud.label(surface, self.title)]
+        words = [self.title] * bool(run.episode)
         if self.film.splits:
             words += [f"{seconds_text(self.time)} s", *[text for tick, text in self.told if tick < world.tick][-1:]]
         for name, ghost in self.ghosts if self.view.context.settings.show_ghost else ():
@@ -164,18 +166,23 @@ class _Panel:
             self.view.also_covered(each)
 
 
-def _called(run: Recording) -> str:
-    """Whose run it is, in a word."""
-    return (run.author or run.name)[:20]
+def _called(runs: Sequence[Recording]) -> list[str]:
+    """Whose run each is, in a word; of those by one name the file."""
+    names = [run.author or run.name for run in runs]
+    return [
+        (run.place if names.count(name) > 1 and run.place else name)[:20] for run, name in zip(runs, names, strict=True)
+    ]
 
 
 def told_splits(own: RunSplits, others: Sequence[RunSplits]) -> list[tuple[int, str]]:
     """Tick and text of each split of a run: how many ticks later (+) or earlier (-) the others have it."""
-    found = []
+    from ninja_game.runs.compare import split_name
+
+    found, names = [], _called([each.recording for each in (own, *others)])[1:]
     for split in own.splits:
-        words = [str(split)]
-        for each in others:
-            there, name = each.by_key.get(split.key), _called(each.recording)
+        words = [split_name(str(split))]
+        for each, name in zip(others, names, strict=True):
+            there = each.by_key.get(split.key)
             words.append(f"{name} {there.tick - split.tick:+d}" if there else f"{name} never")
         found.append((split.tick, ", ".join(words)))
     return found

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import pygame
 
@@ -16,7 +17,6 @@ from ninja_game.play.app import App, Screen
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.clock import RunClock
 from ninja_game.play.level.hud import Hud
-from ninja_game.play.replay.film import FilmJob
 from ninja_game.play.replay.playback import Ghost, Playback
 from ninja_game.sim.rules import TICK_MS, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
@@ -25,6 +25,9 @@ from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.theme import Theme, mixed
 from ninja_game.view.level_view import LevelView
 from ninja_game.view.overlays import Overlays
+
+if TYPE_CHECKING:
+    from ninja_game.play.replay.film import FilmJob
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
 NORMAL_SPEED = SPEEDS.index(1.0)
@@ -254,6 +257,8 @@ class ReplayScreen(Screen):
     def start_export(self) -> None:
         """Make a film of this run among the player's exports."""
         if self.export is None:
+            from ninja_game.play.replay.film import FilmJob  # few replays are filmed
+
             self.export = FilmJob(
                 self.run, self.app.settings.changed(palette=self.theme.palette.base.name), self.app.player.folder
             )

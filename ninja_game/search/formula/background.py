@@ -7,6 +7,7 @@ from dataclasses import replace
 from functools import partial
 from threading import Event, Lock, Thread
 from time import monotonic
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,8 +19,10 @@ from ninja_game.runtime import require_desktop, run_in_background
 from ninja_game.search.certificate import UnverifiedRunError, with_plain_triggers
 from ninja_game.search.formula.methods import METHODS, search_span, to_exit
 from ninja_game.search.formula.task import Found, SpanTask
-from ninja_game.search.solve import Task, solve
 from ninja_game.sim.inputs import KEYS_DOWN, fitted_inputs
+
+if TYPE_CHECKING:
+    from ninja_game.search.task import Task
 
 
 class SpanSearch:
@@ -41,7 +44,7 @@ class SpanSearch:
         require_desktop()
         if method not in ("auto", *METHODS):
             raise ArgumentError(f"method is {method!r}; expected 'auto', {', '.join(map(repr, METHODS))}")
-        task.formulas()
+        task.check()
         self.task = task
         self.found: tuple[Found, ...] = ()
         self.own: Found | None = None
@@ -119,6 +122,8 @@ class RunSearch(SpanSearch):
     def __init__(
         self, task: SpanTask, jobs: int | None = None, *, gold: int = 0, others: tuple[bytes, ...] = ()
     ) -> None:
+        from ninja_game.search.solve import Task  # few searches are of a whole run
+
         super().__init__(task)
         self._wanted = Task(
             task.level, task.body, gold, LONGEST_SECONDS, jobs=min(jobs or cores(), MOST_JOBS),
@@ -170,6 +175,8 @@ class RunSearch(SpanSearch):
         return not self._cancelled.is_set()
 
     def _shorten(self, task: Task, *, own_route: bool) -> None:
+        from ninja_game.search.solve import solve
+
         solve(
             task, report=lambda progress: self._note_ticks(progress.ticks, own_route=own_route),
             on_better=partial(self._note_run, own_route=own_route), stop=self._cancelled,

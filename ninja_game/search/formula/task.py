@@ -66,6 +66,13 @@ class SpanTask:
         given = np.frombuffer(self.inputs[self.first : self.last], np.uint8) & KEYS_DOWN
         return np.pad(given, (0, self.length - len(given)))
 
+    def check(self) -> None:
+        """Raises FormulaError for a broken formula, ArgumentError for an object that is not there or does not fit."""
+        view = view_of(Batch(self.level, 1, body=self.body, memory="plain")) | {"difference": lambda _: np.zeros(1)}
+        with np.errstate(all="ignore"):
+            for formula in filter(None, self.formulas()):
+                formula.value(view)
+
     def formulas(self) -> tuple[Formula, Formula | None]:
         """Goal and measure. Raises FormulaError, which says in which of them."""
         what = "goal"

@@ -109,14 +109,9 @@ def other_run(editor: TasEditor, recording: Recording) -> OtherRun:
 def _free_name(recording: Recording, about: Recording, taken: set[str]) -> str:
     """What tells a run from the others: its author, or its file and number, or its name."""
     # Records of N are often many by one author: their files and numbers tell them apart.
-    author = recording.author if recording.form != "file" and recording.author != about.author else ""
-    name = author or _place_of(recording) or recording.name or "another run"
+    author = recording.player if recording.player != about.author else ""
+    name = author or recording.place or recording.name or "another run"
     return next(each for each in (name, *(f"{name} {n}" for n in range(2, len(taken) + 3))) if each not in taken)
-
-
-def _place_of(recording: Recording) -> str:
-    """The name of the file, and which record of it that is where it holds others before."""
-    return Path(recording.file).name.removesuffix(".replay.txt") + f" {recording.record}" * (recording.record > 0)
 
 
 class OtherRunScreen(ReplaysScreen):
@@ -192,7 +187,7 @@ def _named(row: ReplayRow) -> ReplayRow:
     """A row that tells a run from others of its level."""
     if not isinstance(row.source, Recording):
         return row
-    text = f"{_place_of(row.source)}   {row.source.comment}".rstrip()
+    text = f"{row.source.place}   {row.source.comment}".rstrip()
     return row._replace(text=text, who="" if row.source.form == "file" else row.who)
 
 

@@ -17,13 +17,12 @@ from ninja_game.play.menus.panels import Menu
 from ninja_game.play.workspace.part import Commands
 from ninja_game.search.certificate import moved_markers
 from ninja_game.search.formula.background import RunSearch, SpanSearch
-from ninja_game.search.formula.language import FormulaError
 from ninja_game.search.formula.methods import KEPT, fewest_ticks
 from ninja_game.search.formula.task import Found, SpanTask, score_in_words
 from ninja_game.sim.inputs import fitted_inputs, with_press_bits
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.tas.contributions import Contributions
-from ninja_game.tas.goals import IMPROVE, IMPROVE_GOLD, PRESETS, SearchedSpan, SpanGoal, whole_run
+from ninja_game.tas.goals import IMPROVE, IMPROVE_GOLD, IMPROVES, PRESETS, SearchedSpan, SpanGoal, whole_run
 from ninja_game.tas.input_track import InputTrack, first_difference
 from ninja_game.tas.timeline import Timeline
 from ninja_game.tas_editor.editor import OtherRun, Span, TasEditor
@@ -236,16 +235,20 @@ class SearchTab(Tab):
         self.span: Span = (0, 0)
         self._behind = 0
         self._why = ""
+        self._taken: Span = (0, 0)
         self.order = EARLIEST
         self.rest = False
         self.method = "auto"
         self.results: SpanResults | None = None
         self._preset: tuple[Callable[[SearchedSpan], SpanGoal], SpanGoal] | None = None
         self.found: tuple[Found, ...] = ()
-        self.goal = EntryField(
-            "x > 400, taken(12), distance(300, 200) < 6 ...", self.start, longest=LONGEST, hint=_NAMES
+        fields = ("x > 400, taken(12), distance(300, 200) < 6 ...", "speed; vx, y, gold ...")
+        self.goal, self.measure = (
+            EntryField(
+                prompt, self.start, longest=LONGEST, hint=_NAMES, put=lambda _: self._put_method("auto", IMPROVES)
+            )
+            for prompt in fields
         )
-        self.measure = EntryField("speed; vx, y, gold ...", self.start, longest=LONGEST, hint=_NAMES)
         self._button = Button(UNPLACED, "Start", self._start_or_stop, size=SMALL)
         self.list = Rows(self._draw_row, self._put, keeps=False,
                          hint="Under the mouse: its path in the level; a click puts it into the run")  # fmt: skip
@@ -258,7 +261,7 @@ class SearchTab(Tab):
             self.measure,
             Choice(UNPLACED, "", _RESTS, lambda: self.rest, self._put_rest,
                    hint="What follows the goal in the run is played, too, and must still reach the exit"),
-            Choice(UNPLACED, "", _METHODS, lambda: self.method, partial(setattr, self, "method"),
+            Choice(UNPLACED, "", _METHODS, lambda: self.method, self._put_method,
                    hint="Beam: many states at once; small changes: of the keys there; all keys: short spans only"),
             self._button,
             self.list,
@@ -280,23 +283,28 @@ class SearchTab(Tab):
     # --- what is wanted ---
 
     def ask(self) -> None:
-        """Show this tab for the selected ticks, with the focus on the goal."""
-        self.use_selection()
+        """Show this tab for the selected ticks, with the focus on the goal; without new ones it stays as it is."""
+        if self.editor.anchor is not None or self.editor.selection != self._taken:
+            self.use_selection()
         self.editor.show_tab(self.name)
         self.wants = self.goal
 
     def use_selection(self) -> None:
-        """Search the selected ticks; where only one is, a second from there on. A goal from the menu is made again."""
-        first, last = self.editor.selection
+        """Search the selected ticks; where only one is, a second from there on.
+
+        A goal from the menu is made again for them; one that has ticks of its own, up to the exit, is left.
+        """
+        first, last = self._taken = self.editor.selection
         second = min(first + TICKS_PER_SECOND, max(len(self.editor.track), last))
-        before, self.span = self.span, (first, last if last > first + 1 else second)
+        before, self.span = (self.span, self._why), (first, last if last > first + 1 else second)
         self._behind, self._why = 0, ""
-        if self.span == before:
+        self.method = "auto" if self.method in IMPROVES else self.method
+        if before == (self.span, ""):
             return
         if self.results is not None and not self.results.running:
             self.close()
         if self._preset is not None and (self.goal.text, self.measure.text) == self._preset[1][:2]:
-            self._fill(self._preset[0])
+            self._fill(self._preset[0] if self.goal.text != "won" else lambda _: SpanGoal())
 
     def propose(self) -> None:
         """A menu of what people want; it fills the fields."""
@@ -314,10 +322,18 @@ class SearchTab(Tab):
         self.measure.show(wanted.measure)
         self.order = EARLIEST if not wanted.measure else SMALLEST if wanted.least else GREATEST
         self.rest = wanted.rest
-        self.method = wanted.method or ("auto" if self.method in (IMPROVE, IMPROVE_GOLD) else self.method)
+        self.method = wanted.method or ("auto" if self.method in IMPROVES else self.method)
         first, self._behind = self.span
         self.span, self._why = (0 if wanted.method else first, wanted.last or self._behind), wanted.why
         self.wants = self.goal
+
+    def _put_method(self, method: str, instead_of: tuple[str, ...] = ()) -> None:
+        """Take a method, instead of some only; what is not the whole run any more is the selection."""
+        if instead_of and self.method not in instead_of:
+            return
+        left, self.method = self.method, method
+        if left in IMPROVES and method not in IMPROVES:
+            self.use_selection()
 
     def _put_order(self, order: str) -> None:
         self.order = order
@@ -353,16 +369,16 @@ class SearchTab(Tab):
         self.close()
         self.list.over = -1
         try:
-            whole = self.method in (IMPROVE, IMPROVE_GOLD)
+            whole = self.method in IMPROVES
             task = self._whole_task if whole else self.task
             if not (task.goal or task.measure or task.rest):
                 raise ArgumentError("Say what for: a goal, or a value that is to be the greatest or smallest")
             every = 0 if whole else fewest_ticks(task.length) if self.method == "exhaustive" else 1
             self.results = SpanResults(self.editor, task, self.method, every)
-        except FormulaError as error:
-            self.editor.app.notify(what_is_wrong(error))
         except NinjaGameError as error:
-            self.editor.app.notify(str(error))
+            self.editor.refuse(what_is_wrong(error))
+        else:
+            self.editor.accept()
 
     def _start_or_stop(self) -> None:
         if not self.stop():
@@ -378,6 +394,7 @@ class SearchTab(Tab):
         if self.results is not None:
             self.results.close()
         self.results, self.found, self.editor.preview = None, (), None
+        self.list.fill(())
 
     def update(self, real_ms: int) -> None:
         """Take what was found; where the run has changed, the search ends."""

@@ -153,8 +153,11 @@ class Rows(ListView):
 class EntryField(TextEntry):
     """A text field in which Enter does something."""
 
-    def __init__(self, prompt: str, enter: Callable[[], object], *, longest: int, hint: str = "") -> None:
-        super().__init__(UNPLACED, prompt, "", lambda _: None, longest=longest, hint=hint)
+    def __init__(
+        self, prompt: str, enter: Callable[[], object], *, longest: int, hint: str = "",
+        put: Callable[[str], object] = lambda _: None,
+    ) -> None:  # fmt: skip
+        super().__init__(UNPLACED, prompt, "", put, longest=longest, hint=hint)
         self._enter = enter
 
     def confirm(self) -> bool:

@@ -123,7 +123,7 @@ class TextTab(Tab):
         except FormatError as error:
             place = f"word {error.line}: " * bool(error.line)
             error.line = error.column = 0
-            self.editor.app.notify(f"Not changed: {place}{error}")
+            self.editor.refuse(f"Not changed: {place}{error}")
             return
 
         def changed(track: InputTrack) -> InputTrack:

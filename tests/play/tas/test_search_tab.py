@@ -12,12 +12,12 @@ import numpy as np
 import pygame
 import pytest
 
-from ninja_game.play.menus.panels import Menu
+from ninja_game.play.menus.panels import PANEL_WIDTH, Menu
 from ninja_game.search.formula import background
 from ninja_game.search.formula.methods import fewest_ticks
 from ninja_game.search.formula.task import Found
 from ninja_game.sim.inputs import Input
-from ninja_game.tas.goals import IMPROVE
+from ninja_game.tas.goals import IMPROVE, PRESETS
 from ninja_game.tas_editor.tabs import search_tab as module
 from ninja_game.tas_editor.tabs.search_tab import COMPILING, NOT_BEGUN, NOTHING, NOTHING_YET, SearchTab, SpanResults
 from ninja_game.tas_editor.tabs.tab import SMALL
@@ -279,11 +279,14 @@ def test_what_is_wrong_is_told(at: TasDriver, tab: SearchTab) -> None:
     assert tab.results is None
     tab.goal.show("taken(9999)")
     at.press("return")
-    at.wait(lambda: not results_of(tab).running, "the end")
-    assert "no object 9999" in results_of(tab).note
+    assert at.app.notice.startswith("there is no object 9999")
+    assert tab.results is None, "nothing is searched"
+    tab.goal.show("x > 1")
+    at.press("return")
+    assert at.app.notice == "", "the search runs: no refusal is left"
     at.editor.select(len(at.editor.track) + 20, len(at.editor.track) + 30)
     at.choose("Use the selection")
-    at.choose("Start")
+    tab.start()
     assert "the run ends" in at.app.notice
 
 
@@ -455,3 +458,48 @@ def test_ticks_that_are_not_the_selected_ones_say_why(at: TasDriver, tab: Search
 
 def test_a_speed_of_two_digits_has_room(at: TasDriver) -> None:
     assert at.editor.theme.width("10.345", SMALL) <= module._WIDTHS[-1]
+
+
+def selected(at: TasDriver, first: int, ticks: int) -> None:
+    """By keys: go to a tick, select so many, ask for a search of them."""
+    at.press("escape")
+    at.editor.go(first)
+    for _ in range(ticks - 1):
+        at.chord("down", pygame.KMOD_LSHIFT)
+    at.press("f")
+
+
+@pytest.mark.parametrize("name", ["Whole run", "Reach the exit sooner"])
+def test_a_selection_is_searched_whatever_ticks_a_goal_of_the_menu_had(
+    at: TasDriver, tab: SearchTab, name: str
+) -> None:
+    for first in (60, 100):
+        wish(at, name)
+        assert tab._why
+        selected(at, first, 20)
+        assert (tab.span, tab._why, tab.method, tab.goal.text) == ((first, first + 20), "", "auto", "")
+    at.write("x > 1")
+    assert (tab.task.first, tab.task.last, tab.task.goal) == (100, 120, "x > 1")
+
+
+def test_a_goal_that_is_typed_leaves_the_whole_run(at: TasDriver, tab: SearchTab) -> None:
+    wish(at, "Whole run")
+    assert (tab.span[0], tab.method) == (0, IMPROVE)
+    at.press("f")
+    at.write(" and x > 1")
+    assert (tab.span, tab.method, tab._why) == ((100, 130), "auto", "")
+    assert tab.goal.text == "won and x > 1"
+
+
+def test_a_list_that_is_cleared_has_no_scroll_bar(at: TasDriver, tab: SearchTab) -> None:
+    tab.list.fill(range(99))
+    tab.close()
+    assert tab.list.count == 0
+
+
+def test_hints_of_goals_have_room_in_their_menu(at: TasDriver) -> None:
+    at.press("f")
+    at.press("escape")
+    theme = at.app.menu_theme
+    for _, hint, _ in PRESETS:
+        assert theme.width(hint, 9.5) <= PANEL_WIDTH - 16, hint

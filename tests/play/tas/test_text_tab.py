@@ -87,6 +87,8 @@ def test_the_roll_follows_what_is_typed(text: str, inputs: str, at: TasDriver, t
 def test_what_is_wrong_is_told_by_its_word(at: TasDriver, tab: TextTab) -> None:
     typed(at, tab, "R*3 L jr*2")
     assert at.app.notice.startswith("Not changed: word 3: not an input run; found 'jr*2'")
+    typed(at, tab, "R*3 L")
+    assert at.app.notice == "", "it is done now"
 
 
 def test_lines_are_added_at_the_end(at: TasDriver, tab: TextTab) -> None:
