@@ -128,7 +128,7 @@ def board(
     from ninja_game.web.board.ranking import Ranking
     from ninja_game.web.board.report import board_text, changes, dates_of, plain, read_board, summary
     from ninja_game.web.board.rules import USUAL, read_categories
-    from ninja_game.web.board.runs import judge
+    from ninja_game.web.board.runs import NO_LEDGER, judge
     from ninja_game.web.pages.frame import GAME
     from ninja_game.web.pages.published import published_levels
 
@@ -139,11 +139,12 @@ def board(
         check_ledger(data, folder)
     now = datetime.now(UTC)
     ledger = check or data
-    before = read_board(ledger, now) if ledger and ledger.exists() else ({}, {})
+    before = read_board(ledger, now) if ledger and ledger.exists() else NO_LEDGER
     categories = read_categories(rules) if rules else USUAL
     shown = published_levels(levels or data_folder("levels"))
     memo = memo_of("runs", folder, folder, again=again)
-    judged = judge(folder, shown, dates=dates_of(before, now) if ledger else None, jobs=jobs, memo=memo)
+    dates = dates_of(before, now) if ledger else None
+    judged = judge(folder, shown, dates=dates, jobs=jobs, memo=memo, ledger=before)
     memo.save()
     ranking = Ranking(judged, shown, categories)
     if site:

@@ -27,7 +27,7 @@ from ninja_game.runs.run import record_replay
 from ninja_game.web.board.collect import MOST_RECORDS
 from ninja_game.web.board.pages import BoardPages
 from ninja_game.web.board.ranking import Ranking
-from ninja_game.web.board.report import DATE
+from ninja_game.web.board.report import DATE, read_board
 from ninja_game.web.board.rules import FASTEST, HIGHEST
 from ninja_game.web.board.runs import ASSISTED, PLAYED, Key, ValidatedRuns, judge
 from ninja_game.web.pages.frame import POLICY, tag
@@ -246,6 +246,40 @@ def test_a_run_that_goes_most_of_somebody_elses_way_says_so(runs: Path, levels: 
     assert remarks == ["", "64 of its 65 ticks have the inputs of the run by Ann in ann.txt"]
 
 
+def test_a_near_copy_is_not_first_until_somebody_confirms_it(runs: Path, levels: Path, tmp_path: Path) -> None:
+    data, shown = tmp_path / "board.json", published_levels(levels)
+    put(runs, "ann.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Ann"))
+    put(runs, "bob.txt", slow_walk(40, author="Bob"))
+    put(runs, "cid.txt", slow_walk(60, author="Cid"))
+    found = []
+    bob, confirmed = '"file": "bob.txt"', '"confirmed": true'
+    for old, new in ((bob, bob), (bob, f"{bob}, {confirmed}"), (confirmed, '"confirmed": false')):
+        if data.exists():
+            data.write_text(data.read_text("utf-8").replace(old, new, 1), "utf-8")
+        assert check(runs, levels, "--json", str(data), "--site", str(tmp_path / "site"))[0] == 0
+        assert check(runs, levels, "--check", str(data))[1].startswith("nothing has changed")
+        ranking = Ranking(judge(runs, shown, jobs=1, ledger=read_board(data, datetime.now(UTC))), shown)
+        places = [(each.place, each.run.player) for each in ranking.tables[DIGEST][PLAYED, FASTEST]]
+        records = [run.player for run in ranking.history[DIGEST, (PLAYED, FASTEST)]]
+        found.append((places, records))
+        assert [each.player for each in ranking.standings[PLAYED] if each.records[FASTEST]] == [places[0][1]]
+    doubted = [(1, "Ann"), (2, "Bob"), (3, "Cid")], ["Ann"]
+    assert found == [doubted, ([(1, "Bob"), (2, "Ann"), (3, "Cid")], ["Ann", "Bob"]), doubted]
+
+
+def test_a_near_copy_shares_no_place(runs: Path, levels: Path) -> None:
+    put(runs, "ann.txt", replay(author="Ann"))
+    judged, shown = with_demands(runs, levels), published_levels(levels)
+    (ann,) = judged.runs
+    bob, cid = (
+        replace(ann, player=player, near=near, file=f"{player.lower()}.txt")
+        for player, near in (("Bob", True), ("Cid", False))
+    )
+    for given, places in (((ann, bob, cid), [(1, "Ann"), (1, "Cid"), (3, "Bob")]), ((bob,), [(2, "Bob")])):
+        table = Ranking(replace(judged, runs=given), shown).tables[DIGEST][PLAYED, FASTEST]
+        assert [(each.place, each.run.player) for each in table] == places
+
+
 def test_a_time_that_the_run_does_not_have_is_refused_under_its_players_name(runs: Path, levels: Path) -> None:
     put(runs, "dee.txt", re.sub(r"final-tick: \d+", "final-tick: 9", replay(author="Dee")))
     put(runs, "eve.txt", re.sub(r"(inputs:\n  )\S+", r"\1R*40", replay(author="Eve")))
@@ -258,7 +292,10 @@ def test_a_time_that_the_run_does_not_have_is_refused_under_its_players_name(run
     ]
 
 
-def test_medals_stand_where_the_time_ranks_and_every_record_that_fell_is_told(runs: Path, tmp_path: Path) -> None:
+def test_medals_stand_where_the_time_ranks_and_every_record_that_fell_is_told(
+    runs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("ninja_game.web.board.runs._near_to_another", lambda *_: None)
     (recording,) = load_replays(PACK / "certificates" / "00-2-the-chimney.exit.replay.txt")
     for number, inputs in enumerate((b"\0" + recording.inputs, recording.inputs)):
         put(runs, f"{number}.txt", write_replay(record_replay(recording.level, inputs, author=f"Ann {number}")))

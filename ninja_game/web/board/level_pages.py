@@ -32,7 +32,7 @@ class LevelPages(Parts):
     def level(self, entry: Entry) -> None:
         """A level's page, and the list of all its runs."""
         digest, named, runs = entry.digest, entry.named, self.ranking.by_level.get(entry.digest, [])
-        told: list[list[Any]] = [[self.stems[run.key], run.day, run.remark, run.tick] for run in runs]
+        told: list[list[Any]] = [[self.stems[run.key], run.day, run.remark, run.near, run.tick] for run in runs]
         rules = [[each.name, each.rank, each.when] for each in self.ranking.categories]
         about = [named.name, named.author, named.comment, entry.episode, repr(entry.pars), digest, self.ranking.ladders]
 
@@ -62,7 +62,7 @@ class LevelPages(Parts):
         part, ranked = next(iter(tables.items()))
         runs = [each.run for each in ranked[:TOGETHER]]
         beside = self._side_by_side(runs, self.part_name(part)) if len(runs) > 1 else None
-        fell = [each for each in tables if each == part or len(self.ranking.history[entry.digest, each]) > 1]
+        fell = [each for each in tables if len(self.ranking.history[entry.digest, each]) > (each != part)]
         records = [self._progression(entry, each) for each in fell]
         return joined(*map(self._table, tables, tables.values()), link, *records, beside)
 

@@ -32,7 +32,7 @@ from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.web.board.charts import path_data
 from ninja_game.web.board.collect import RunFolder, Sent, SentFile
 from ninja_game.web.board.copies import Course, Courses, course_of
-from ninja_game.web.board.players import Players
+from ninja_game.web.board.players import Players, folded
 from ninja_game.web.pages.memo import Memo, digest_of, program
 from ninja_game.web.pages.published import PublishedLevels, shared_text
 
@@ -41,6 +41,8 @@ Key = tuple[str, int]
 
 Dates = Callable[[Key, str], str]
 """When the board first took in a run, by its key and way: UTC as in 2026-01-31T12:00:00Z, "" where nobody knows."""
+
+Rows = dict[tuple[str, Any], dict[str, Any]]
 
 PLAYED, ASSISTED = "played", "assisted"
 """The two ladders; a run of which nobody says how it was made is on the first one."""
@@ -87,12 +89,37 @@ Waiting = tuple[str, str, list[int], list[Sent], list[Judged]]
 _TYPES = tuple(get_type_hints(Judged).values())
 
 
+class Ledger(NamedTuple):
+    """What a board knew before: ``runs`` and what was ``rejected`` by file and record.
+
+    ``withdrawn``: by level and way the runs that counted once, and are not there now or do not count.
+    """
+
+    runs: Rows
+    rejected: Rows
+    withdrawn: Rows
+
+    @property
+    def owners(self) -> Rows:
+        """By level and way the row of who did it first."""
+        return self.withdrawn | {(row["level"], row["way"]): row for row in self.runs.values()}
+
+    def confirms(self, run: Run) -> bool:
+        """Whether somebody has written into a run's row that it is the player's own."""
+        row = self.runs.get(run.key, {})
+        return row.get("confirmed") is True and row["way"] == run.way
+
+
+NO_LEDGER = Ledger({}, {}, {})
+
+
 @dataclass(frozen=True)
 class Run:
     """A run that counts, as the simulation says: ``tick`` of the exit contact, ``gold``, ``score`` (ticks).
 
     ``file``: path in the folder, ``record`` in it; ``added``: as Dates say; ``remark``: what a reader should know;
-    ``digest``: of its file; the rest as in Judged.
+    ``near``: whether that is of a near copy that nobody has ``confirmed``, which leads no table; ``digest``: of its
+    file; the rest as in Judged.
     """
 
     file: str
@@ -113,6 +140,8 @@ class Run:
     digest: str = field(repr=False)
     folder: RunFolder = field(repr=False, compare=False)
     remark: str = ""
+    near: bool = False
+    confirmed: bool = False
 
     @property
     def key(self) -> Key:
@@ -190,18 +219,18 @@ class ValidatedRuns:
 
 def judge(
     folder: Path, shown: PublishedLevels, *, dates: Dates | None = None, jobs: int | None = None,
-    memo: Memo | None = None,
+    memo: Memo | None = None, ledger: Ledger = NO_LEDGER,
 ) -> ValidatedRuns:  # fmt: skip
     """Simulate every run below a folder again, on the levels that are shown. Raises OSError.
 
-    ``dates``: those of the board's ledger; without it runs go by the names of their files. ``memo``: what was found
+    ``dates``: those of the board's ``ledger``; without it runs go by the names of their files. ``memo``: what was found
     out before, of the same files, levels and rules; it is not simulated again.
     """
     memo = memo or Memo()
     sent = RunFolder(folder, {digest: entry.named.level for digest, entry in shown.entries.items()})
     runs: list[Run] = []
     rejected: list[Rejected] = []
-    players = Players()
+    players, owners = Players(), ledger.owners
     for name, digest, rows in _judged(sent, shown, jobs, memo):
         for found in rows:
             entry = shown.entries.get(found.level)
@@ -211,8 +240,15 @@ def judge(
                 continue
             added = dates((name, found.record), found.way) if dates else ""
             runs.append(_run(name, digest, found, entry, sent, added))
+    known = {(run.entry.digest, run.way, run.added) for run in runs}
+    for number, run in enumerate(runs):
+        # A run that was withdrawn, or comes in another file, is still its player's.
+        owner = owners.get(way := (run.entry.digest, run.way))
+        if owner and (*way, owner["added"]) not in known and folded(owner["player"]) == folded(run.player):
+            runs[number] = replace(run, added=owner["added"])
     told = _of_players(sorted(runs, key=_first), players)
-    counted, copies = _without_copies(told, memo)
+    counted, copies = _without_copies(told, memo, owners)
+    counted = [replace(run, near=False, confirmed=True) if ledger.confirms(run) else run for run in counted]
     named = [
         each if each.kind == "unreadable" else replace(each, player=players.meet(each.player)[0]) for each in rejected
     ]
@@ -371,13 +407,22 @@ def _without_name(message: str, name: str) -> str:
     return _LINE.sub("line ", message.strip())
 
 
-def _without_copies(runs: list[Run], memo: Memo) -> tuple[list[Run], list[Rejected]]:
-    """The runs without those that do what an earlier one does, and those; near copies of an earlier one are marked."""
+def _without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run], list[Rejected]]:
+    """The runs without those that do what an earlier one does, and those; near copies of an earlier one are marked.
+
+    ``owners``: as of Ledger.
+    """
     on_level: dict[str, list[Run]] = defaultdict(list)
     copies: list[Rejected] = []
     ways: dict[tuple[str, str], Run] = {}
     for run in runs:
-        first = ways.setdefault((run.entry.digest, run.way), run)
+        way = run.entry.digest, run.way
+        owner = owners.get(way, {"added": run.added})
+        if way not in ways and owner["added"] < run.added:
+            why = f"a copy of an earlier run by {owner['player']}, which was withdrawn or does not count any more"
+            copies.append(Rejected(*run.key, "copy", why, run.player, run.entry.title, run.way, run.added))
+            continue
+        first = ways.setdefault(way, run)
         if first is run:
             on_level[run.entry.digest].append(run)
         else:
@@ -409,7 +454,7 @@ def _remarked(runs: list[Run], memo: Memo) -> list[Run]:
             courses.add(number, run.tick, partial(replace, course))
             said = f"{near[1]} the run by {runs[near[0]].player} in {runs[near[0]].file}" if near else ""
             memo.note(key, said)
-        found.append(replace(run, remark="; ".join(filter(None, (said, run.remark)))) if said else run)
+        found.append(replace(run, remark="; ".join(filter(None, (said, run.remark))), near=True) if said else run)
     return found
 
 
