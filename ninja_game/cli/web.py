@@ -126,7 +126,7 @@ def board(
     from ninja_game.files.writing import check_output, write_atomically
     from ninja_game.web.board.pages import BoardPages, check_ledger, check_site
     from ninja_game.web.board.ranking import Ranking
-    from ninja_game.web.board.report import board_text, changes, dates_of, plain, read_board, summary
+    from ninja_game.web.board.report import board_text, changes, dates_of, gone, plain, read_board, summary
     from ninja_game.web.board.rules import USUAL, read_categories
     from ninja_game.web.board.runs import NO_LEDGER, judge
     from ninja_game.web.pages.frame import GAME
@@ -156,6 +156,8 @@ def board(
     if not check:
         for each in judged.rejected:
             click.echo(f"{each.kind}: {plain(each.file)}: {plain(each.why)}")
+        for line in gone(judged, before):
+            click.echo(line)
         click.echo(summary(judged))
         return
     found = list(changes(ranking, before))

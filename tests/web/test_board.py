@@ -22,6 +22,7 @@ from ninja_game.files.user_folder import bundled_replays, data_folder
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
+from ninja_game.formats.replay.made import Made
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.runs.run import record_replay
 from ninja_game.web.board.collect import MOST_RECORDS
@@ -127,9 +128,36 @@ def test_a_record_says_by_how_much_it_is_better(runs: Path, levels: Path, tmp_pa
     BoardPages(tmp_path / "site", Ranking(with_demands(runs, levels), published_levels(levels))).write()
     page = (tmp_path / "site" / "board" / "index.html").read_text("utf-8")
     newest = page.partition("Newest records")[2].partition("</table>")[0]
-    gains = [gain for gain in re.findall(r"<td[^>]*>([^<]*)</td>", newest) if re.match("first|-?0.125", gain)]
-    assert gains == ["0.125, 0.125", "first, first"]
+    assert re.findall("<div>([^<]+)</div>", newest) == [
+        "Fastest: 0.575 s, better by 0.125", "Highest score: 91.425 points, better by 0.125",
+        "Fastest: 0.700 s, first", "Highest score: 91.300 points, first",
+    ]  # fmt: skip
     assert newest.count("<tr>") == 3, "a new record fills one row"
+
+
+def test_a_better_time_goes_down_and_a_better_score_up(runs: Path, levels: Path, tmp_path: Path) -> None:
+    put(runs, "a.txt", slow_walk(author="Ann"))
+    put(runs, "b.txt", replay(author="Ann"))
+    page = (board_of(runs, levels, tmp_path / "site") / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
+    for title, better in (("fell: Fastest", 1), ("rose: Highest score", -1)):
+        chart = page.partition(f"How the record {title}")[2].partition("</svg>")[0]
+        first, last = map(float, re.findall('cy="([0-9.]+)"', chart))
+        assert (last - first) * better > 100, title
+
+
+def test_tables_of_a_level_have_no_empty_column_and_say_a_remark_once(runs: Path, levels: Path, tmp_path: Path) -> None:
+    put(runs, "ann.txt", slow_walk(40, author="Ann"))
+    put(runs, "bob.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Bob"))
+    page = (board_of(runs, levels, tmp_path / "site") / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
+    tables = page.split("<caption>Best run of each player</caption>")[1:]
+    heads = [re.findall("<th [^>]*>([^<]+)", each.partition("</thead>")[0]) for each in tables]
+    assert heads == [
+        ["Place", "Player", unit, "Watch", "Share", "Gold", "Made", "Remark"] for unit in ("Time", "Score")
+    ]
+    said = "64 of its 65 ticks have the inputs of"
+    assert [(each.count(said), each.count("as above")) for each in tables] == [(1, 0), (0, 1)]
+    assert "Sum of the fastest segments, each from the row above: 1.575 s." in page
+    assert "is never first, until" in page
 
 
 def test_medals_follow_from_the_par_times(runs: Path) -> None:
@@ -286,7 +314,7 @@ def test_a_time_that_the_run_does_not_have_is_refused_under_its_players_name(run
     put(runs, "notes.txt", "notes")
     found = with_demands(runs, levels)
     assert [(each.kind, each.player, each.why.partition(";")[0]) for each in found.rejected] == [
-        ("refused", "Dee", f"tick {WALK_END}: the run ends here (exit), the replay in tick 9"),
+        ("refused", "Dee", f"tick {WALK_END}: the run ends here (exit)"),
         ("refused", "Eve", "inputs after the final tick"),
         ("unreadable", "", "line 1: no recording"),
     ]
@@ -302,11 +330,10 @@ def test_medals_stand_where_the_time_ranks_and_every_record_that_fell_is_told(
     pages = [path.read_text("utf-8") for path in board_of(runs, PACK, tmp_path / "site").glob("levels/*.html")]
     (page,) = (each for each in pages if "The first 2 runs" in each)
     fastest, highest = (
-        page.partition(f"<caption>{name}: best run")[2].partition("</table>")[0]
-        for name in ("Fastest", "Highest score")
+        page.partition(f"<h2>{name}</h2>")[2].partition("</table>")[0] for name in ("Fastest", "Highest score")
     )
     assert ("medal" in fastest, "medal" in highest) == (True, False)
-    assert re.findall("How the record fell: ([^<]+)", page) == ["Fastest", "Highest score"]
+    assert re.findall("How the record (f?r?[eo][ls][le]: [^<]+)", page) == ["fell: Fastest", "rose: Highest score"]
     assert "The first 2 runs: Fastest" in page
 
 
@@ -362,9 +389,13 @@ def test_no_number_and_no_date_is_broken(width: int, chromium: Any, runs: Path, 
     page.close()
 
 
-def test_practice_runs_are_kept_out(runs: Path, levels: Path) -> None:
-    put(runs, "run.txt", replay(made=PRACTISED))
-    assert [each.kind for each in with_demands(runs, levels).rejected] == ["practice"]
+def test_what_does_not_count_is_said_in_plain_words(runs: Path, levels: Path) -> None:
+    put(runs, "other.txt", replay(level=f"{WALK}!0^400,100", level_name="My <b>cave</b>"))
+    put(runs, "slow.txt", replay(made=Made(played=True, assists=("slow motion",))))
+    found = with_demands(runs, levels).rejected
+    assert [each.kind for each in found] == ["refused", "practice"]
+    assert found[0].why.startswith("'My <b>cave</b>' is not one of the levels that count; its level_digest is ")
+    assert found[1].why == "it was played (slow motion): runs with such help do not count"
 
 
 class Tags(HTMLParser):
@@ -479,6 +510,8 @@ def test_check_tells_what_a_change_does(runs: Path, levels: Path, tmp_path: Path
     assert code == 1
     assert "refused: cid.txt: outcome is running" in text
     assert "gone: bea.txt: Bea on Walk" in text
+    for lines in (1, 0):
+        assert check(runs, levels, "--json", str(data))[1].count("gone: bea.txt: Bea on Walk\n") == lines
 
 
 def test_check_refuses_a_changed_run(runs: Path, levels: Path, tmp_path: Path) -> None:

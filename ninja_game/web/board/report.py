@@ -150,7 +150,6 @@ def changes(ranking: Ranking, before: Ledger) -> Iterator[tuple[bool, str]]:
             yield True, f"new: {_place(run.key)}: {_achieved(ranking, run)}"
         elif now[run.key] != runs[run.key]:
             yield False, f"changed: {_place(run.key)}: {_achieved(ranking, run)}"
-    here = set(now) | {(each.file, each.record) for each in (*ranking.judged.rejected, *ranking.judged.again)}
     new = [each for each in ranking.judged.again if (each.file, each.record) not in rejected]
     for (file, player), levels in Counter((each.file, each.player) for each in new).items():
         what = counted(levels, "level")
@@ -159,9 +158,15 @@ def changes(ranking: Ranking, before: Ledger) -> Iterator[tuple[bool, str]]:
         key = each.file, each.record
         if key not in rejected or rejected[key].get("why") != each.why:
             yield each.kind == "practice", f"{each.kind}: {_place(key)}: {plain(each.why)}"
-    for key, row in sorted(runs.items()):
+    yield from ((False, line) for line in gone(ranking.judged, before))
+
+
+def gone(judged: ValidatedRuns, before: Ledger) -> Iterator[str]:
+    """A line for each run of a ledger whose file is not there any more."""
+    here = {run.key for run in judged.runs} | {(each.file, each.record) for each in judged.rejected + judged.again}
+    for key, row in sorted(before.runs.items()):
         if key not in here:
-            yield False, f"gone: {_place(key)}: {plain(str(row.get('player')))} on {plain(str(row.get('level_name')))}"
+            yield f"gone: {_place(key)}: {plain(row['player'])} on {plain(row['level_name'])}"
 
 
 def _achieved(ranking: Ranking, run: Run) -> str:

@@ -20,13 +20,13 @@ from ninja_game.budget import RUN_BUDGET, tick_cost
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.replay.made import names_of_text, parse_made
 from ninja_game.formats.replay.text import INPUTS_AFTER, Replay
-from ninja_game.levels.findings import in_run
+from ninja_game.levels.findings import RunProblem, in_run
 from ninja_game.player.catalogue import Entry
 from ninja_game.runs.archive import Lost, verify_all
 from ninja_game.runs.chunks import Chunk, Result
 from ninja_game.runs.recording_reader import Unreadable
 from ninja_game.runs.run import run_level
-from ninja_game.runs.verify import NOT_RUN
+from ninja_game.runs.verify import NOT_RUN, Verdict
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.web.board.charts import path_data
@@ -188,7 +188,7 @@ class Run:
 class Rejected:
     """A run, or a file, that does not count. ``kind``: one of KINDS.
 
-    ``way``, ``added``: of a copy, as a run has them.
+    ``way``, ``added``: of a copy, as a run has them; ``first``: the run that it copies.
     """
 
     file: str
@@ -199,6 +199,7 @@ class Rejected:
     level: str = ""
     way: str = ""
     added: str = ""
+    first: Key | None = None
 
 
 @dataclass(frozen=True)
@@ -368,7 +369,7 @@ def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
     if isinstance(result, Unreadable):
         why = _without_name(result.message, sent.chunk.file).partition("; --budget")[0]  # which a board has not
         return Judged(sent.chunk.first, "unreadable", why)
-    problems = [*map(str, result.problems)]
+    problems = [_worded(each, result, sent) for each in result.problems]
     if sent.claimed >= 0 and result.outcome != NOT_RUN:
         other = in_run("other-end", tick=result.ticks - 1, outcome=result.outcome, claimed=sent.claimed)
         problems = [str(other) if result.end_tick != sent.claimed else INPUTS_AFTER]
@@ -384,6 +385,16 @@ def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
         result.score_ticks or 0, result.xy_sha256, sum(map(int.bit_count, pressed)), jumps,
         result.made, result.assisted, result.co_authors, result.episode,
     )  # fmt: skip
+
+
+def _worded(problem: RunProblem, result: Verdict, sent: Sent) -> str:
+    """A problem in the words of people who send runs."""
+    if problem.code == "not-strict" and result.practice and str(problem).startswith("practice"):
+        return f"it was {result.made}: runs with such help do not count"
+    if problem.code == "other-level" and sent.replay and sent.replay.level_name:
+        name, digest = sent.replay.level_name, result.level_digest
+        return f"{name!r} is not one of the levels that count; its level_digest is {digest}"
+    return str(problem)
 
 
 def _of_players(runs: list[Run], players: Players) -> list[Run]:
@@ -429,7 +440,7 @@ def _without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run
             stolen = first.player != run.player and first.added < run.added
             what = f"a copy of the run by {first.player} in" if stolen else "the same run as"
             why, kind = f"{what} {first.file}", OWN if run.episode and first.player == run.player else "copy"
-            copies.append(Rejected(*run.key, kind, why, run.player, run.entry.title, run.way, run.added))
+            copies.append(Rejected(*run.key, kind, why, run.player, run.entry.title, run.way, run.added, first.key))
     kept = [run for level in on_level.values() for run in _remarked(level, memo)]
     return sorted(kept, key=_first), copies
 
