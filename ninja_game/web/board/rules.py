@@ -81,11 +81,12 @@ class Category:
     def measured(self, value: float) -> str:
         """The same with what it counts.
 
-        >>> HIGHEST.measured(-3657), Category("Fewest keys", ("presses",)).measured(37)
-        ('91.425 points', '37 presses')
+        >>> HIGHEST.measured(-3657), Category("Fewest keys", ("presses",)).measured(1)
+        ('91.425 points', '1 press')
         """
         counts = {"Time": "s", "Score": "points"}.get(self.unit, self._shown if self._shown in NAMES else "")
-        return f"{self.text(value)} {counts}".rstrip()
+        said = f"{self.text(value)} {counts}".rstrip()
+        return {"1 presses": "1 press", "1 jumps": "1 jump"}.get(said, said)
 
     def difference(self, amount: float) -> str:
         """By how much a first number is better, as people read it."""

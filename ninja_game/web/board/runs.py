@@ -392,8 +392,8 @@ def _worded(problem: RunProblem, result: Verdict, sent: Sent) -> str:
     if problem.code == "not-strict" and result.practice and str(problem).startswith("practice"):
         return f"it was {result.made}: runs with such help do not count"
     if problem.code == "other-level" and sent.replay and sent.replay.level_name:
-        name, digest = sent.replay.level_name, result.level_digest
-        return f"{name!r} is not one of the levels that count; its level_digest is {digest}"
+        name, digest = sent.replay.level_name, result.level_digest[:16]
+        return f"{name!r} is not one of the levels that count; its level_digest begins with {digest}"
     return str(problem)
 
 
