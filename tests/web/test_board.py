@@ -394,7 +394,7 @@ def test_what_does_not_count_is_said_in_plain_words(runs: Path, levels: Path) ->
     put(runs, "slow.txt", replay(made=Made(played=True, assists=("slow motion",))))
     found = with_demands(runs, levels).rejected
     assert [each.kind for each in found] == ["refused", "practice"]
-    assert found[0].why.startswith("'My <b>cave</b>' is not one of the levels that count; its level_digest begins with ")
+    assert found[0].why.startswith("'My <b>cave</b>' is not one of the levels that count; its level_digest begins")
     assert found[1].why == "it was played (slow motion): runs with such help do not count"
 
 
