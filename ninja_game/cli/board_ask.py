@@ -73,7 +73,7 @@ def ask(
     from ninja_game.web.board.ranking import Ranking
     from ninja_game.web.board.report import dates_of, read_board
     from ninja_game.web.board.rules import USUAL, read_categories
-    from ninja_game.web.board.runs import ASSISTED, PLAYED, judge
+    from ninja_game.web.board.runs import ASSISTED, NO_LEDGER, PLAYED, judge
     from ninja_game.web.pages.published import published_levels
 
     if what in ("trace", "film") and not output:
@@ -81,9 +81,12 @@ def ask(
     shown, now = published_levels(levels or data_folder("levels")), datetime.now(UTC)
     entry = _level(level, list(shown.entries.values()))
     memo = memo_of("runs", folder, folder, again=False)
-    dates = dates_of(read_board(ledger, now), now) if ledger else None
+    before = read_board(ledger, now) if ledger else NO_LEDGER
+    dates = dates_of(before, now) if ledger else None
     ranking = Ranking(
-        judge(folder, shown, dates=dates, jobs=jobs, memo=memo), shown, read_categories(rules) if rules else USUAL
+        judge(folder, shown, dates=dates, jobs=jobs, memo=memo, ledger=before),
+        shown,
+        read_categories(rules) if rules else USUAL,
     )
     memo.save()
     chosen = _category(ranking, category)

@@ -131,9 +131,9 @@ def board(
     from ninja_game.files.writing import check_output, write_atomically
     from ninja_game.web.board.pages import BoardPages, check_ledger, check_site
     from ninja_game.web.board.ranking import Ranking
-    from ninja_game.web.board.report import board_text, changes, dates_of, plain, read_board, summary
+    from ninja_game.web.board.report import board_text, changes, dates_of, gone, plain, read_board, summary
     from ninja_game.web.board.rules import USUAL, read_categories
-    from ninja_game.web.board.runs import judge
+    from ninja_game.web.board.runs import NO_LEDGER, judge
     from ninja_game.web.pages.frame import GAME
     from ninja_game.web.pages.published import published_levels
 
@@ -144,11 +144,12 @@ def board(
         check_ledger(data, folder)
     now = datetime.now(UTC)
     ledger = check or data
-    before = read_board(ledger, now) if ledger and ledger.exists() else ({}, {})
+    before = read_board(ledger, now) if ledger and ledger.exists() else NO_LEDGER
     categories = read_categories(rules) if rules else USUAL
     shown = published_levels(levels or data_folder("levels"))
     memo = memo_of("runs", folder, folder, again=again)
-    judged = judge(folder, shown, dates=dates_of(before, now) if ledger else None, jobs=jobs, memo=memo)
+    dates = dates_of(before, now) if ledger else None
+    judged = judge(folder, shown, dates=dates, jobs=jobs, memo=memo, ledger=before)
     memo.save()
     ranking = Ranking(judged, shown, categories)
     if site:
@@ -160,6 +161,8 @@ def board(
     if not check:
         for each in judged.rejected:
             click.echo(f"{each.kind}: {plain(each.file)}: {plain(each.why)}")
+        for line in gone(judged, before):
+            click.echo(line)
         click.echo(summary(judged))
         return
     found = list(changes(ranking, before))

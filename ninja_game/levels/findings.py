@@ -151,7 +151,7 @@ RUN_RULES = {
     "missed-waypoint": Rule(
         "tick {tick}: ninja: {field} is {found}, the replay says {claimed} (agrees {agrees})", _RECORD
     ),
-    "other-end": Rule("tick {tick}: the run ends here ({outcome}), the replay in tick {claimed}", _RECORD),
+    "other-end": Rule("tick {tick}: the run ends here ({outcome}); the replay says it ends in tick {claimed}", _RECORD),
     "wrong-claim": Rule("tick {tick}: {field} is {found}, the replay says {claimed}", _RECORD),
     "not-passed": Rule("does not reach the exit: {ending}", "Look at its end with `ninja-game tas`."),
     "memories-differ": Rule("{what}", "Report it: it is a fault of the program."),

@@ -22,12 +22,13 @@ from ninja_game.files.user_folder import bundled_replays, data_folder
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
+from ninja_game.formats.replay.made import Made
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.runs.run import record_replay
 from ninja_game.web.board.collect import MOST_RECORDS
 from ninja_game.web.board.pages import BoardPages
 from ninja_game.web.board.ranking import Ranking
-from ninja_game.web.board.report import DATE
+from ninja_game.web.board.report import DATE, read_board
 from ninja_game.web.board.rules import FASTEST, HIGHEST
 from ninja_game.web.board.runs import ASSISTED, PLAYED, Key, ValidatedRuns, judge
 from ninja_game.web.pages.frame import POLICY, tag
@@ -127,9 +128,36 @@ def test_a_record_says_by_how_much_it_is_better(runs: Path, levels: Path, tmp_pa
     BoardPages(tmp_path / "site", Ranking(with_demands(runs, levels), published_levels(levels))).write()
     page = (tmp_path / "site" / "board" / "index.html").read_text("utf-8")
     newest = page.partition("Newest records")[2].partition("</table>")[0]
-    gains = [gain for gain in re.findall(r"<td[^>]*>([^<]*)</td>", newest) if re.match("first|-?0.125", gain)]
-    assert gains == ["0.125, 0.125", "first, first"]
+    assert re.findall("<div>([^<]+)</div>", newest) == [
+        "Fastest: 0.575 s, better by 0.125", "Highest score: 91.425 points, better by 0.125",
+        "Fastest: 0.700 s, first", "Highest score: 91.300 points, first",
+    ]  # fmt: skip
     assert newest.count("<tr>") == 3, "a new record fills one row"
+
+
+def test_a_better_time_goes_down_and_a_better_score_up(runs: Path, levels: Path, tmp_path: Path) -> None:
+    put(runs, "a.txt", slow_walk(author="Ann"))
+    put(runs, "b.txt", replay(author="Ann"))
+    page = (board_of(runs, levels, tmp_path / "site") / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
+    for title, better in (("fell: Fastest", 1), ("rose: Highest score", -1)):
+        chart = page.partition(f"How the record {title}")[2].partition("</svg>")[0]
+        first, last = map(float, re.findall('cy="([0-9.]+)"', chart))
+        assert (last - first) * better > 100, title
+
+
+def test_tables_of_a_level_have_no_empty_column_and_say_a_remark_once(runs: Path, levels: Path, tmp_path: Path) -> None:
+    put(runs, "ann.txt", slow_walk(40, author="Ann"))
+    put(runs, "bob.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Bob"))
+    page = (board_of(runs, levels, tmp_path / "site") / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
+    tables = page.split("<caption>Best run of each player</caption>")[1:]
+    heads = [re.findall("<th [^>]*>([^<]+)", each.partition("</thead>")[0]) for each in tables]
+    assert heads == [
+        ["Place", "Player", unit, "Watch", "Share", "Gold", "Made", "Remark"] for unit in ("Time", "Score")
+    ]
+    said = "64 of its 65 ticks have the inputs of"
+    assert [(each.count(said), each.count("as above")) for each in tables] == [(1, 0), (0, 1)]
+    assert "Sum of the fastest segments, each from the row above: 1.575 s." in page
+    assert "is never first, until" in page
 
 
 def test_medals_follow_from_the_par_times(runs: Path) -> None:
@@ -246,30 +274,66 @@ def test_a_run_that_goes_most_of_somebody_elses_way_says_so(runs: Path, levels: 
     assert remarks == ["", "64 of its 65 ticks have the inputs of the run by Ann in ann.txt"]
 
 
+def test_a_near_copy_is_not_first_until_somebody_confirms_it(runs: Path, levels: Path, tmp_path: Path) -> None:
+    data, shown = tmp_path / "board.json", published_levels(levels)
+    put(runs, "ann.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Ann"))
+    put(runs, "bob.txt", slow_walk(40, author="Bob"))
+    put(runs, "cid.txt", slow_walk(60, author="Cid"))
+    found = []
+    bob, confirmed = '"file": "bob.txt"', '"confirmed": true'
+    for old, new in ((bob, bob), (bob, f"{bob}, {confirmed}"), (confirmed, '"confirmed": false')):
+        if data.exists():
+            data.write_text(data.read_text("utf-8").replace(old, new, 1), "utf-8")
+        assert check(runs, levels, "--json", str(data), "--site", str(tmp_path / "site"))[0] == 0
+        assert check(runs, levels, "--check", str(data))[1].startswith("nothing has changed")
+        ranking = Ranking(judge(runs, shown, jobs=1, ledger=read_board(data, datetime.now(UTC))), shown)
+        places = [(each.place, each.run.player) for each in ranking.tables[DIGEST][PLAYED, FASTEST]]
+        records = [run.player for run in ranking.history[DIGEST, (PLAYED, FASTEST)]]
+        found.append((places, records))
+        assert [each.player for each in ranking.standings[PLAYED] if each.records[FASTEST]] == [places[0][1]]
+    doubted = [(1, "Ann"), (2, "Bob"), (3, "Cid")], ["Ann"]
+    assert found == [doubted, ([(1, "Bob"), (2, "Ann"), (3, "Cid")], ["Ann", "Bob"]), doubted]
+
+
+def test_a_near_copy_shares_no_place(runs: Path, levels: Path) -> None:
+    put(runs, "ann.txt", replay(author="Ann"))
+    judged, shown = with_demands(runs, levels), published_levels(levels)
+    (ann,) = judged.runs
+    bob, cid = (
+        replace(ann, player=player, near=near, file=f"{player.lower()}.txt")
+        for player, near in (("Bob", True), ("Cid", False))
+    )
+    for given, places in (((ann, bob, cid), [(1, "Ann"), (1, "Cid"), (3, "Bob")]), ((bob,), [(2, "Bob")])):
+        table = Ranking(replace(judged, runs=given), shown).tables[DIGEST][PLAYED, FASTEST]
+        assert [(each.place, each.run.player) for each in table] == places
+
+
 def test_a_time_that_the_run_does_not_have_is_refused_under_its_players_name(runs: Path, levels: Path) -> None:
     put(runs, "dee.txt", re.sub(r"final-tick: \d+", "final-tick: 9", replay(author="Dee")))
     put(runs, "eve.txt", re.sub(r"(inputs:\n  )\S+", r"\1R*40", replay(author="Eve")))
     put(runs, "notes.txt", "notes")
     found = with_demands(runs, levels)
     assert [(each.kind, each.player, each.why.partition(";")[0]) for each in found.rejected] == [
-        ("refused", "Dee", f"tick {WALK_END}: the run ends here (exit), the replay in tick 9"),
+        ("refused", "Dee", f"tick {WALK_END}: the run ends here (exit)"),
         ("refused", "Eve", "inputs after the final tick"),
         ("unreadable", "", "line 1: no recording"),
     ]
 
 
-def test_medals_stand_where_the_time_ranks_and_every_record_that_fell_is_told(runs: Path, tmp_path: Path) -> None:
+def test_medals_stand_where_the_time_ranks_and_every_record_that_fell_is_told(
+    runs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("ninja_game.web.board.runs._near_to_another", lambda *_: None)
     (recording,) = load_replays(PACK / "certificates" / "00-2-the-chimney.exit.replay.txt")
     for number, inputs in enumerate((b"\0" + recording.inputs, recording.inputs)):
         put(runs, f"{number}.txt", write_replay(record_replay(recording.level, inputs, author=f"Ann {number}")))
     pages = [path.read_text("utf-8") for path in board_of(runs, PACK, tmp_path / "site").glob("levels/*.html")]
     (page,) = (each for each in pages if "The first 2 runs" in each)
     fastest, highest = (
-        page.partition(f"<caption>{name}: best run")[2].partition("</table>")[0]
-        for name in ("Fastest", "Highest score")
+        page.partition(f"<h2>{name}</h2>")[2].partition("</table>")[0] for name in ("Fastest", "Highest score")
     )
     assert ("medal" in fastest, "medal" in highest) == (True, False)
-    assert re.findall("How the record fell: ([^<]+)", page) == ["Fastest", "Highest score"]
+    assert re.findall("How the record (f?r?[eo][ls][le]: [^<]+)", page) == ["fell: Fastest", "rose: Highest score"]
     assert "The first 2 runs: Fastest" in page
 
 
@@ -325,9 +389,13 @@ def test_no_number_and_no_date_is_broken(width: int, chromium: Any, runs: Path, 
     page.close()
 
 
-def test_practice_runs_are_kept_out(runs: Path, levels: Path) -> None:
-    put(runs, "run.txt", replay(made=PRACTISED))
-    assert [each.kind for each in with_demands(runs, levels).rejected] == ["practice"]
+def test_what_does_not_count_is_said_in_plain_words(runs: Path, levels: Path) -> None:
+    put(runs, "other.txt", replay(level=f"{WALK}!0^400,100", level_name="My <b>cave</b>"))
+    put(runs, "slow.txt", replay(made=Made(played=True, assists=("slow motion",))))
+    found = with_demands(runs, levels).rejected
+    assert [each.kind for each in found] == ["refused", "practice"]
+    assert found[0].why.startswith("'My <b>cave</b>' is not one of the levels that count; its level_digest begins")
+    assert found[1].why == "it was played (slow motion): runs with such help do not count"
 
 
 class Tags(HTMLParser):
@@ -442,6 +510,8 @@ def test_check_tells_what_a_change_does(runs: Path, levels: Path, tmp_path: Path
     assert code == 1
     assert "refused: cid.txt: outcome is running" in text
     assert "gone: bea.txt: Bea on Walk" in text
+    for lines in (1, 0):
+        assert check(runs, levels, "--json", str(data))[1].count("gone: bea.txt: Bea on Walk\n") == lines
 
 
 def test_check_refuses_a_changed_run(runs: Path, levels: Path, tmp_path: Path) -> None:

@@ -5,12 +5,16 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
+from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.play.replay.paths import paths_picture
+from ninja_game.ui.theme import PALETTES, RUN_COLOURS
 from tests.support.forgeries import WALKING, replay
-from tests.support.samples import WALK_END
+from tests.support.samples import WALK, WALK_END
 from tests.web.test_board import HOSTILE, levels, put, runs, slow_walk  # noqa: F401
 
 
@@ -83,6 +87,12 @@ def test_splits_pictures_and_films(folder: Path, levels: Path, tmp_path: Path) -
         assert code == 0, text
         assert (tmp_path / name).read_bytes().startswith(mark)
     assert ask(folder, levels, "trace", "Walk")[0] == 2
+
+
+def test_the_first_path_is_on_top() -> None:
+    path = np.array([[100.0, 300.0], [700.0, 300.0]])
+    picture = paths_picture(parse_level_string(WALK), [("Ann", path), ("Bea", path)], PALETTES["classic"], 792)
+    assert picture.get_at((400, 300)) == RUN_COLOURS[0]
 
 
 @pytest.mark.parametrize(

@@ -160,6 +160,31 @@ def test_the_first_one_in_the_ledger_owns_the_run(tmp_path: Path, levels: Path, 
     assert board(runs, levels, "--check", str(data))[1].startswith("nothing has changed")
 
 
+@pytest.mark.parametrize("steps", [("-ann.txt", "zoe.txt"), ("-ann.txt zoe.txt",), ("zoe.txt", "-ann.txt")])
+def test_a_withdrawn_run_stays_its_players(
+    steps: tuple[str, ...], tmp_path: Path, levels: Path, runs: Path  # noqa: F811
+) -> None:  # fmt: skip
+    data = tmp_path / JSON
+    put(runs, "ann.txt", slow_walk(author="Ann"))
+    board(runs, levels, "--json", str(data))
+    backdated(data, date := "2026-01-31T12:00:00Z", "ann.txt")
+    for step in steps:
+        for name in step.split():
+            (runs / name[1:]).unlink() if name[0] == "-" else put(runs, name, slow_walk(author="Zoe"))
+        _, text = board(runs, levels, "--json", str(data))
+        assert rows(data).keys() <= {"ann.txt"}
+    assert "copy: zoe.txt: a copy of an earlier run by Ann, which was withdrawn or does not count any more" in text
+    again = data.read_text("utf-8")
+    board(runs, levels, "--json", str(data))
+    assert data.read_text("utf-8") == again
+    assert board(runs, levels, "--check", str(data))[1].startswith("nothing has changed")
+    put(runs, "ann/again.txt", slow_walk(author="ANN"))
+    board(runs, levels, "--json", str(data))
+    assert [(row["player"], row["added"]) for row in rows(data).values()] == [("ANN", date)], "hers, as of then"
+    assert board(runs, levels, "--check", str(data))[1].startswith("nothing has changed")
+    assert json.loads(data.read_text("utf-8"))["withdrawn"] == []
+
+
 def test_without_a_ledger_nobody_is_called_a_copier(levels: Path, runs: Path) -> None:  # noqa: F811
     put(runs, "zoe.txt", slow_walk(author="Zoe"), day=1)
     put(runs, "ann.txt", slow_walk(author="Ann"), day=9)
@@ -207,6 +232,7 @@ def test_a_broken_ledger_is_named_and_stays(broken: str, option: str, tmp_path: 
         "[1]",
         '{"version": 2, "runs": "", "rejected": []}',
         '{"version": 2, "runs": [], "rejected": {}}',
+        '{"version": 2, "runs": [], "rejected": [], "withdrawn": [{"level": 3}]}',
     ],
 )
 def test_another_file_is_not_taken_for_a_ledger(text: str, tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811

@@ -65,6 +65,7 @@ def test_a_whole_episode_is_ranked_and_its_levels_count_too(folder: Path, tmp_pa
     board(folder, PACK, "--site", str(tmp_path / "site"))
     page = (tmp_path / "site" / "board" / "episodes.html").read_text("utf-8")
     assert "in one recording" in page
+    assert "Score: 90 s, and 2 s for each piece of gold" in page
     assert f"{(runs[4].lifetime + 80 * runs[4].replay.gold - runs[4].replay.final_tick) / 40:.3f}" in page
 
 

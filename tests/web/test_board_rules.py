@@ -14,7 +14,7 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.formats.replay.made import Made
 from ninja_game.web.board.charts import path_data
 from ninja_game.web.board.ranking import Ranking
-from ninja_game.web.board.rules import FASTEST, MOST_CATEGORIES, NAMES, USUAL, read_categories
+from ninja_game.web.board.rules import FASTEST, MOST_CATEGORIES, NAMES, USUAL, Category, read_categories
 from ninja_game.web.board.runs import ASSISTED, PLAYED, judge
 from ninja_game.web.pages.published import published_levels
 from tests.support.forgeries import GOLD_LATER, WALKING, replay
@@ -72,6 +72,11 @@ def test_the_rules_of_the_template_rank_as_they_say(runs: Path, levels: Path) ->
     assert categories[3].text(0) == "0"
     assert categories[0].text(WALK_END) == f"{WALK_END / 40:.3f}"
     assert categories[1].text(-3657) == "91.425"
+    gold_rate = Category("Gold a tick", ("-gold/ticks",))
+    (fastest, *_) = gold_rate.values(ranking.judged.runs)
+    assert fastest
+    assert gold_rate.text(fastest[0]) == f"{1 / WALK_END:g}"
+    assert not Category("Spent", ("-gold + ticks",)).rising
 
 
 def test_a_run_is_in_a_category_only_where_its_formula_holds(runs: Path, levels: Path, tmp_path: Path) -> None:  # noqa: F811
@@ -151,6 +156,20 @@ def test_the_feed_is_atom_and_leads_to_levels(runs: Path, levels: Path, tmp_path
     board(runs, levels, "--site", str(tmp_path / "site"), "--json", str(tmp_path / "board.json"))
     again = ET.fromstring((tmp_path / "site" / "board" / "feed.xml").read_text("utf-8"))
     assert again.findtext(f"{atom}entry/{atom}id") == entry.findtext(f"{atom}id")
+
+
+def test_the_feed_says_who_a_name_is_not(runs: Path, levels: Path, tmp_path: Path) -> None:  # noqa: F811
+    put(runs, "a.txt", slow_walk(author="Ann"))
+    put(runs, "b.txt", replay(bytes(2) + WALKING + b"\2", author="\u0410nn"))
+    board(runs, levels, "--site", str(tmp_path / "site"), "--json", str(tmp_path / "board.json"))
+    feed = ET.fromstring((tmp_path / "site" / "board" / "feed.xml").read_text("utf-8"))
+    atom = "{http://www.w3.org/2005/Atom}"
+    newest = feed.find(f"{atom}entry")
+    assert newest is not None
+    name = newest.findtext(f"{atom}author/{atom}name")
+    assert name == "\u0410nn (not Ann)"
+    result = "Fastest: 0.625 s, better by 0.075; Highest score: 91.375 points, better by 0.075"
+    assert newest.findtext(f"{atom}title") == f"{name}, Walk, {result}"
 
 
 def test_long_lists_go_on_on_other_pages(

@@ -140,5 +140,7 @@ def test_a_board_lives_in_a_repository(clones: tuple[Clone, Clone]) -> None:
 
     after = keeper.publishes(("rm", "-q", "replays/bob/one.txt"), ("commit", "-q", "-m", "Bob withdraws a run"))
     assert after == {"ann/one.txt": ledger["ann/one.txt"]}, "the others keep their dates"
+    passed, report = player.submits("replays/eve/three.txt", certificate("exit", "Eve"))
+    assert (passed, "a copy of an earlier run by Bob" in report) == (False, True), report
     assert ">Bob</a>" not in keeper.page("index.html") + keeper.page(f"levels/{level}")
     assert len(list((keeper.folder / "public" / "replays").glob("*.txt"))) == 1, "the run itself is gone from the pages"

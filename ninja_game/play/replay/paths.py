@@ -28,7 +28,7 @@ def paths_picture(level: Level, paths: Sequence[Path], palette: Palette, width: 
     """The level with the paths, and the speeds (px/tick over seconds) below; ``width``: px of the picture."""
     above = thumbnail(level, palette, width)
     theme = Theme(palette, Canvas((width, round(width * HEIGHT / WIDTH))))
-    for number, (_, positions) in enumerate(paths):
+    for number, (_, positions) in reversed([*enumerate(paths)]):  # the first on top
         draw_path(above, theme.canvas, positions, RUN_COLOURS[number % len(RUN_COLOURS)])
     picture = pygame.Surface((width, above.get_height() + theme.canvas.px(PLOT_HEIGHT)))
     picture.fill(palette.background)

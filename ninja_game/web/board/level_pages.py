@@ -3,15 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from datetime import datetime
-from itertools import pairwise
+from itertools import compress, pairwise
+from operator import attrgetter
 from typing import Any
 
 from ninja_game.files.shown_text import counted
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.player.catalogue import Entry
-from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, run_splits, split_name, split_table
+from ninja_game.runs.compare import (
+    SPLIT_EVENTS,
+    RunSplits,
+    SplitRow,
+    run_splits,
+    split_name,
+    split_table,
+    sum_of_best,
+)
 from ninja_game.web.board.charts import path_data, paths, steps, swatch
 from ninja_game.web.board.parts import RUN_HEADS, UP, Parts, signed
 from ninja_game.web.board.ranking import Part, Ranked
@@ -25,13 +35,16 @@ FIRST, TOGETHER, MOST_SPLITS = 10, 5, 60
 """Rows of a table; runs side by side; rows of splits, and where there were more, gold is left out."""
 
 
+NEAR = "A run that is nearly somebody else's is never first, until the keeper of the board confirms it."
+
+
 class LevelPages(Parts):
     """Adds the pages of levels."""
 
     def level(self, entry: Entry) -> None:
         """A level's page, and the list of all its runs."""
         digest, named, runs = entry.digest, entry.named, self.ranking.by_level.get(entry.digest, [])
-        told: list[list[Any]] = [[self.stems[run.key], run.day, run.remark, run.tick] for run in runs]
+        told: list[list[Any]] = [[self.stems[run.key], run.day, run.remark, run.near, run.tick] for run in runs]
         rules = [[each.name, each.rank, each.when] for each in self.ranking.categories]
         about = [named.name, named.author, named.comment, entry.episode, repr(entry.pars), digest, self.ranking.ladders]
 
@@ -61,20 +74,29 @@ class LevelPages(Parts):
         part, ranked = next(iter(tables.items()))
         runs = [each.run for each in ranked[:TOGETHER]]
         beside = self._side_by_side(runs, self.part_name(part)) if len(runs) > 1 else None
-        fell = [each for each in tables if each == part or len(self.ranking.history[entry.digest, each]) > 1]
+        fell = [each for each in tables if len(self.ranking.history[entry.digest, each]) > (each != part)]
         records = [self._progression(entry, each) for each in fell]
-        return joined(*map(self._table, tables, tables.values()), link, *records, beside)
+        told: set[str] = set()
+        shown = [self._table(part, ranked, told) for part, ranked in tables.items()]
+        near = any(each.run.near for ranked in tables.values() for each in ranked[:FIRST])
+        return joined(*shown, tag("p", NEAR) if near else None, link, *records, beside)
 
-    def _table(self, part: Part, ranked: Sequence[Ranked]) -> Markup:
-        timed = part[1].unit == FASTEST.unit
-        rows = [(each.place, *self.run(each.run, part[1].text(each.values[0]), timed=timed)) for each in ranked[:FIRST]]
+    def _table(self, part: Part, ranked: Sequence[Ranked], told: set[str]) -> Markup:
+        """A table without columns that are empty. ``told``: remarks that a table above has."""
+        rows = []
+        for place, run, values in map(attrgetter("place", "run", "values"), ranked[:FIRST]):
+            shown = replace(run, remark="as above") if run.remark in told else run
+            rows.append((place, *self.run(shown, part[1].text(values[0]), timed=part[1].unit == FASTEST.unit)))
+            told |= {run.remark} - {""}
         heads = ("Place", "Player", part[1].unit, *RUN_HEADS)
-        name = self.part_name(part)
-        return section(name, table(f"{name}: best run of each player", heads, rows))
+        filled = [any(cell != "" for cell in column) for column in zip(*rows, strict=True)]
+        lines = [compress(row, filled) for row in rows]
+        return section(self.part_name(part), table("Best run of each player", compress(heads, filled), lines))
 
     def _progression(self, entry: Entry, part: Part) -> Content:
         """How the record fell."""
         category, runs = part[1], self.ranking.history[entry.digest, part]
+        moved = "rose" if category.rising else "fell"
         numbers = [(self.ranking.values(category, run) or (0.0,))[0] for run in runs]
         better = ["", *(category.difference(before - now) for before, now in pairwise(numbers))]
         rows = [
@@ -87,10 +109,11 @@ class LevelPages(Parts):
             if moments[0] == moments[-1]:
                 moments = [*map(float, range(len(runs)))]
             start, end = (f"{category.text(numbers[at])} {runs[at].day}" for at in (0, -1))
-            said = f"The record fell from {start} to {end} in {counted(len(runs) - 1, 'step')}"
-            chart = steps(list(zip(moments, numbers, strict=True)), start, end, said)
+            said = f"The record {moved} from {start} to {end} in {counted(len(runs) - 1, 'step')}"
+            heights = [-number if category.rising else number for number in numbers]
+            chart = steps(list(zip(moments, heights, strict=True)), start, end, said)
         heads = ("Date", "Player", category.unit, "Better by", "Watch")
-        title = f"How the record fell: {self.part_name(part)}"
+        title = f"How the record {moved}: {self.part_name(part)}"
         return section(title, chart, table("Newest first", heads, rows[: -FIRST - 1 : -1]))
 
     def _side_by_side(self, runs: Sequence[Run], name: str) -> Markup:
@@ -105,25 +128,29 @@ class LevelPages(Parts):
             for number, run in enumerate(runs)
         ]
         races = table("Seconds by which the left one is later; a link watches both", ("Run", *names), pairs)
-        splits = table("Seconds; later than the first: +", ("Split", *names), _splits(found))
+        rows = _split_rows(found)
+        lines = [(split_name(str(row.split)), *_cells(row)) for row in rows]
+        splits = table("Seconds; later than the first: +", ("Split", names[0], "Fastest segment", *names[1:]), lines)
+        best = tag("p", f"Sum of the fastest segments, each from the row above: {seconds_text(sum_of_best(rows))} s.")
         first = section(f"The first {len(runs)} runs: {name}", together, drawn)
-        return joined(first, section("Any two of them", races), section("Splits", splits))
+        return joined(first, section("Any two of them", races), section("Splits", splits, best))
 
     def _pair(self, run: Run, other: Run) -> Content:
         return "" if run is other else self.watch([run, other], UP, signed(run.tick - other.tick))
 
 
-def _splits(found: Sequence[RunSplits]) -> Iterator[tuple[Content, ...]]:
-    """Rows of splits against the first run; gold that only others take is left out."""
-    gold = SPLIT_EVENTS[0]
-    rows = [row for row in split_table(found, found[0]) if row.ticks[0] is not None or row.split.event != gold]
+def _split_rows(found: Sequence[RunSplits]) -> list[SplitRow]:
+    """Rows of splits against the first run; gold that only others take is left out, all of it where it is too much."""
+    gold, rows = SPLIT_EVENTS[0], split_table(found, found[0])
     if len(rows) > MOST_SPLITS:
-        rows = [row for row in rows if row.split.event != gold][:MOST_SPLITS]
-    for row in rows:
-        first, *others = row.ticks
-        cells = ["" if tick is None else _later(tick, first) for tick in others]
-        yield split_name(str(row.split)), "" if first is None else seconds_text(first), *cells
+        found = [replace(run, splits=tuple(each for each in run.splits if each.event != gold)) for run in found]
+        rows = split_table(found, found[0])
+    return [row for row in rows if row.ticks[0] is not None or row.split.event != gold][:MOST_SPLITS]
 
 
-def _later(tick: int, first: int | None) -> str:
-    return seconds_text(tick) if first is None else signed(tick - first)
+def _cells(row: SplitRow) -> Iterator[str]:
+    """The first run's time, the fastest segment, and how much later the others are."""
+    first, *others = row.ticks
+    yield from ("" if ticks is None else seconds_text(ticks) for ticks in (first, row.best_segment))
+    for tick in others:
+        yield "" if tick is None else seconds_text(tick) if first is None else signed(tick - first)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import partial
 from itertools import product
 from pathlib import Path
@@ -22,7 +22,7 @@ from ninja_game.web.board.level_pages import FIRST, LevelPages
 from ninja_game.web.board.parts import UP, level_link, player_page
 from ninja_game.web.board.ranking import Record, Standing
 from ninja_game.web.board.report import summary
-from ninja_game.web.board.runs import PLAYED, Run
+from ninja_game.web.board.runs import PLAYED, Key, Run
 from ninja_game.web.pages.frame import REPLAYS, Content, page, section, table, tag
 from ninja_game.web.pages.gallery import BOARD, medal_mark
 from ninja_game.web.pages.published import page_name, shared_text
@@ -60,6 +60,10 @@ def is_in(path: Path, folder: Path) -> bool:
     return folder.exists() and any(each.exists() and each.samefile(folder) for each in (place, *place.parents))
 
 
+EPISODE_NUMBERS = (
+    "Sum: what ranks the runs, such as their times, added up over the levels. Score: 90 s, and 2 s for each piece of "
+    "gold, less the times of all levels, since the clock of an episode runs on from level to level."
+)
 EPISODE_HEADS = ("Place", "Player", "Sum", "Score", "Levels", "Watch")
 
 
@@ -93,11 +97,11 @@ class BoardPages(LevelPages):
         rows = [
             (
                 level_link(record.run.entry), self.watch([record.run], ""), self.player_link(record.run.player),
-                *self._achieved(record), _gains(record), record.run.day,
+                tag("div", *(tag("div", each) for each in self._achieved(record)), class_="text"), record.run.day,
             )
             for record in self.ranking.records[:NEWEST]
         ]  # fmt: skip
-        heads = ("Level", "Watch", "Player", "Record", "Result", "Better by", "Date")
+        heads = ("Level", "Watch", "Player", "Record", "Date")
         feed = tag("p", tag("a", "Feed of new records (Atom)", href=FEED))
         newest = section("Newest records", table("Newest first", heads, rows), feed) if rows else None
         leaders = table(BY_LEVELS, self._heads(), map(self._standing, self.ranking.standings[PLAYED][:LEADING]))
@@ -106,10 +110,12 @@ class BoardPages(LevelPages):
         contents = self._week(), newest, section("Players", leaders), self._contested()
         return page("Board", lead, said, *contents, links=self.links)
 
-    def _achieved(self, record: Record) -> tuple[str, str]:
-        """The categories of a record, and its results in them."""
-        names = [self.part_name((record.run.ladder, each)) for each in record.before]
-        return ", ".join(names), ", ".join(self.value(each, record.run) for each in record.before)
+    def _achieved(self, record: Record) -> Iterator[str]:
+        """The categories of a record, its results in them, and by how much it is better."""
+        for category, amount in record.before.items():
+            result = category.measured((self.ranking.values(category, record.run) or (0.0,))[0])
+            gain = "first" if amount is None else f"better by {category.difference(amount)}"
+            yield f"{self.part_name((record.run.ladder, category))}: {result}, {gain}"
 
     def _week(self) -> Content:
         if not (found := self.ranking.level_of_the_week):
@@ -139,10 +145,9 @@ class BoardPages(LevelPages):
         ET.SubElement(feed, "link", rel="self", href=FEED)
         for record in dated:
             run, entry = record.run, ET.SubElement(feed, "entry")
-            _about(
-                entry, ", ".join((run.player, run.entry.title, *self._achieved(record))), self.stems[run.key], run.added
-            )
-            ET.SubElement(ET.SubElement(entry, "author"), "name").text = shown_text(run.player)
+            title = f"{self.name(run.player)}, {run.entry.title}, {'; '.join(self._achieved(record))}"
+            _about(entry, title, self.stems[run.key], run.added)
+            ET.SubElement(ET.SubElement(entry, "author"), "name").text = self.name(run.player)
             ET.SubElement(entry, "link", href=page_name(run.entry.digest))
         return '<?xml version="1.0" encoding="utf-8"?>\n' + ET.tostring(feed, "unicode") + "\n"
 
@@ -261,7 +266,7 @@ class BoardPages(LevelPages):
             nobody = tag("p", "No player yet.")
             listed = tag("ul", *levels, class_="facts")
             found.append(section(f"Episode {number:02d}: {episode.name}", listed, *tables or [nobody]))
-        return found or [tag("p", "These levels have no episodes.")]
+        return [tag("p", EPISODE_NUMBERS), *found] if found else [tag("p", "These levels have no episodes.")]
 
     def _rejected(self) -> None:
         rejected, order = self.ranking.judged.rejected, list(WHY_REJECTED)
@@ -269,21 +274,21 @@ class BoardPages(LevelPages):
         said = ", ".join(f"{title.lower()}: {counts[kind]}" for kind, title in WHY_REJECTED.items() if counts[kind])
         rows = [
             (WHY_REJECTED[each.kind], each.file + f", record {each.record}" * (each.record > 0),
-             self.name(each.player), each.level, each.why)
+             self.name(each.player), each.level, each.why, self._first_run(each.first), each.added.partition("T")[0])
             for each in sorted(rejected, key=lambda each: order.index(each.kind))
         ]  # fmt: skip
         lead = f"None of them is ranked; {said}." if said else "Every file of the folder is a run that counts."
-        heads = ("What", "File", "Player", "Level", "Why")
+        heads = ("What", "File", "Player", "Level", "Why", "The first run", "Date")
         self.list("rejected", "Rejected", "What does not count", heads, rows, tag("p", lead))
+
+    def _first_run(self, key: Key | None) -> Content:
+        """A link to the page of a run that others have copied."""
+        said = f"The run in {key[0]}" if key else ""
+        return tag("a", "Look", href=f"../{REPLAYS}/{self.stems[key]}.html", aria_label=said) if key else ""
 
 
 def _text(run: Run) -> str:
     return shared_text(run.replay, run.entry.named.level)
-
-
-def _gains(record: Record) -> str:
-    gains = record.before.items()
-    return ", ".join("first" if amount is None else category.difference(amount) for category, amount in gains)
 
 
 def _sums(ladder: str, each: Standing) -> str:

@@ -23,7 +23,7 @@ WEEK = timedelta(days=7)
 
 @dataclass(frozen=True)
 class Ranked:
-    """A run with its place, equal runs share one, and what it is ranked by."""
+    """A run with its place, and what it is ranked by. Equal runs share one; no near copy does, or is first."""
 
     place: int
     run: Run
@@ -84,10 +84,13 @@ class Ranking:
             if values is not None and (run.player not in best or values < best[run.player][0]):
                 best[run.player] = values, run
         found: list[Ranked] = []
-        for number, (values, run) in enumerate(
-            sorted(best.values(), key=lambda each: (each[0], each[1].added, each[1].key)), 1
-        ):
-            place = found[-1].place if found and found[-1].values == values else number
+        order = sorted(best.values(), key=lambda each: (each[0], each[1].near, each[1].added, each[1].key))
+        # A near copy that nobody has confirmed is never first.
+        first = next((number for number, (_, run) in enumerate(order) if not run.near), 0)
+        order[: first + 1] = [*order[first : first + 1], *order[:first]]
+        for number, (values, run) in enumerate(order, 1 + (bool(order) and order[0][1].near)):
+            shared = found and found[-1].values == values and not run.near
+            place = found[-1].place if shared else number
             found.append(Ranked(place, run, values))
         return found
 
@@ -121,7 +124,7 @@ class Ranking:
                 values = self.values(category, run)
                 records = found[run.entry.digest, (run.ladder, category)] if values else []
                 best = self.values(category, records[-1]) if records else None
-                if values and (best is None or values[0] < best[0]):
+                if values and not run.near and (best is None or values[0] < best[0]):
                     records.append(run)
         return found
 

@@ -16,19 +16,30 @@ from ninja_game.files.reading import read_utf8
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.web.board.ranking import Ranking
-from ninja_game.web.board.runs import KINDS, OWN, PLAYED, Dates, Key, Rejected, Run, ValidatedRuns
+from ninja_game.web.board.runs import (
+    KINDS,
+    NO_LEDGER,
+    OWN,
+    PLAYED,
+    Dates,
+    Key,
+    Ledger,
+    Rejected,
+    Rows,
+    Run,
+    ValidatedRuns,
+)
 
 VERSION = 2
 DATE = "%Y-%m-%dT%H:%M:%SZ"
 
-Rows = dict[Key, dict[str, Any]]
-
-_FIELDS = {
+_FIELDS: dict[str, dict[str, type]] = {
     "runs": {
         "file": str, "record": int, "player": str, "level": str, "level_name": str,
         "tick": int, "gold": int, "score": int, "way": str, "added": str,
     },
     "rejected": {"file": str, "record": int, "kind": str, "why": str, "way": str, "added": str},
+    "withdrawn": {"level": str, "way": str, "player": str, "added": str},
 }  # fmt: skip
 
 
@@ -44,7 +55,7 @@ def _run_data(run: Run) -> dict[str, Any]:
         "file": run.file, "record": run.record, "player": run.player, "level": run.entry.digest,
         "level_name": run.entry.title, "tick": run.tick, "gold": run.gold, "score": run.score,
         "way": run.way, "added": run.added,
-        **({"made": run.made} if run.made else {}),
+        **({"made": run.made} if run.made else {}), **({"confirmed": True} if run.confirmed else {}),
     }  # fmt: skip
 
 
@@ -52,40 +63,45 @@ def _rejected_data(rejected: Rejected) -> dict[str, Any]:
     return {key: getattr(rejected, key) for key in _FIELDS["rejected"]}
 
 
-def board_text(judged: ValidatedRuns, before: tuple[Rows, Rows] = ({}, {})) -> str:
+def board_text(judged: ValidatedRuns, before: Ledger = NO_LEDGER) -> str:
     """A board as JSON, a run a line, so that a difference of two reads well.
 
-    ``before``: its ledger; a run there whose file does not count or cannot be read now keeps its way and date.
+    ``before``: its ledger; a run there whose file does not count or cannot be read now keeps its way and date, and one
+    that counted once stays its player's.
     """
     data = board_data(judged)
     counted = {run.key for run in judged.runs}
     rejected = {(row["file"], row["record"]): row for row in data["rejected"]}
-    for key, old in (before[1] | before[0]).items():
+    for key, old in (before.rejected | before.runs).items():
         whole = rejected.get((key[0], 0), {})
         row = rejected.get(key) or (whole if whole.get("kind") == "unreadable" else {})
         if old["way"] and key not in counted and row and row["kind"] not in ("copy", OWN):
             rejected[key] = row | {"record": key[1], "way": old["way"], "added": old["added"]}
     data["rejected"] = [rejected[key] for key in sorted(rejected)]
-    lines = {key: ",\n".join("  " + json.dumps(row) for row in data[key]) for key in ("runs", "rejected")}
-    return f'{{"version": {VERSION}, "runs": [\n{lines["runs"]}\n], "rejected": [\n{lines["rejected"]}\n]}}\n'
+    here = {(run.entry.digest, run.way) for run in judged.runs}
+    gone = sorted((way, row) for way, row in before.owners.items() if way not in here)
+    data["withdrawn"] = [{key: row[key] for key in _FIELDS["withdrawn"]} for _, row in gone]
+    parts = (f'"{key}": [\n' + ",\n".join("  " + json.dumps(row) for row in data[key]) + "\n]" for key in _FIELDS)
+    return f'{{"version": {VERSION}, {", ".join(parts)}}}\n'
 
 
-def read_board(path: Path, now: datetime) -> tuple[Rows, Rows]:
-    """The runs and what is rejected in a file of ``board_text``, by file and record. Raises FormatError, OSError."""
+def read_board(path: Path, now: datetime) -> Ledger:
+    """The ledger in a file of ``board_text``. Raises FormatError, OSError."""
     try:
         data = json.loads(read_utf8(path))
         if data["version"] != VERSION:
             found = f"version {str(data['version'])[:20]}"
             hint = "to start again, remove it: all runs get one date then, and go by the names of their files"
             raise FormatError("a board of another version", str(path), found=found, expected=str(VERSION), hint=hint)
-        runs, rejected = (_rows(path, key, data[key], now) for key in _FIELDS)
+        data.setdefault("withdrawn", [])  # which ledgers did not have at first
+        return Ledger(*(_rows(path, key, data[key], now) for key in _FIELDS))
     except (ValueError, TypeError, KeyError, RecursionError):
         raise FormatError("not a board", str(path), expected="a file that `ninja-game board --json` wrote") from None
-    return runs, rejected
 
 
 def _rows(path: Path, part: str, rows: list[dict[str, Any]], now: datetime) -> Rows:
-    """The rows of a part of a board by file and record. Raises FormatError for one that is not as they are written."""
+    """The rows of a part of a board by their first two fields. Raises FormatError for one that is not as written."""
+    first, second, *_ = _FIELDS[part]
     if not isinstance(rows, list):
         raise FormatError(f"{part!r} is of the wrong type", str(path), expected="a list of rows")
     found: Rows = {}
@@ -97,9 +113,9 @@ def _rows(path: Path, part: str, rows: list[dict[str, Any]], now: datetime) -> R
         if row["added"] and not _is_date(row["added"], now):
             expected = "a date in the past as in 2026-01-31T12:00:00Z"
             raise FormatError(f"{place}: not a date", str(path), found=repr(row["added"][:40]), expected=expected)
-        key = row["file"], row["record"]
+        key = row[first], row[second]
         if key in found:
-            raise FormatError(f"{place}: given twice", str(path), found=plain(row["file"]))
+            raise FormatError(f"{place}: given twice", str(path), found=plain(key[0]))
         found[key] = row
     return found
 
@@ -114,9 +130,9 @@ def _is_date(text: str, now: datetime) -> bool:
     return date.strftime(DATE) == text and date < now + timedelta(days=1)
 
 
-def dates_of(before: tuple[Rows, Rows], now: datetime) -> Dates:
+def dates_of(before: Ledger, now: datetime) -> Dates:
     """The dates of a ledger. A run that it does not have, or not with this path, is added now."""
-    rows, today = before[1] | before[0], now.strftime(DATE)
+    rows, today = before.rejected | before.runs, now.strftime(DATE)
 
     def date(key: Key, way: str) -> str:
         row = rows.get(key)
@@ -125,16 +141,15 @@ def dates_of(before: tuple[Rows, Rows], now: datetime) -> Dates:
     return date
 
 
-def changes(ranking: Ranking, before: tuple[Rows, Rows]) -> Iterator[tuple[bool, str]]:
+def changes(ranking: Ranking, before: Ledger) -> Iterator[tuple[bool, str]]:
     """What is different from the board before: whether it may be, and a line about it."""
-    runs, rejected = before
+    runs, rejected, _ = before
     now = {run.key: _run_data(run) for run in ranking.judged.runs}
     for run in sorted(ranking.judged.runs, key=lambda run: run.key):
         if run.key not in runs:
             yield True, f"new: {_place(run.key)}: {_achieved(ranking, run)}"
         elif now[run.key] != runs[run.key]:
             yield False, f"changed: {_place(run.key)}: {_achieved(ranking, run)}"
-    here = set(now) | {(each.file, each.record) for each in (*ranking.judged.rejected, *ranking.judged.again)}
     new = [each for each in ranking.judged.again if (each.file, each.record) not in rejected]
     for (file, player), levels in Counter((each.file, each.player) for each in new).items():
         what = counted(levels, "level")
@@ -143,9 +158,15 @@ def changes(ranking: Ranking, before: tuple[Rows, Rows]) -> Iterator[tuple[bool,
         key = each.file, each.record
         if key not in rejected or rejected[key].get("why") != each.why:
             yield each.kind == "practice", f"{each.kind}: {_place(key)}: {plain(each.why)}"
-    for key, row in sorted(runs.items()):
+    yield from ((False, line) for line in gone(ranking.judged, before))
+
+
+def gone(judged: ValidatedRuns, before: Ledger) -> Iterator[str]:
+    """A line for each run of a ledger whose file is not there any more."""
+    here = {run.key for run in judged.runs} | {(each.file, each.record) for each in judged.rejected + judged.again}
+    for key, row in sorted(before.runs.items()):
         if key not in here:
-            yield False, f"gone: {_place(key)}: {plain(str(row.get('player')))} on {plain(str(row.get('level_name')))}"
+            yield f"gone: {_place(key)}: {plain(row['player'])} on {plain(row['level_name'])}"
 
 
 def _achieved(ranking: Ranking, run: Run) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -59,10 +60,14 @@ class Category:
         return [tuple(row[1:]) if good else None for row, good in zip(table.tolist(), counts.tolist(), strict=True)]
 
     @cached_property
+    def rising(self) -> bool:
+        """Whether the greatest is first: a minus stands before all of its first formula."""
+        return bool(re.fullmatch("-[^-+]+", self.rank[0].strip()))
+
+    @property
     def _shown(self) -> str:
         """What its first number is of, without the sign by which the greatest is first."""
-        words = self.rank[0].strip()
-        return words[1:] if words[1:] in NAMES else words
+        return self.rank[0].strip()[self.rising :].strip()
 
     @property
     def unit(self) -> str:
@@ -71,7 +76,17 @@ class Category:
 
     def text(self, value: float) -> str:
         """Its first number as people read it."""
-        return self.difference(-value if self.rank[0].strip() == f"-{self._shown}" else value)
+        return self.difference(-value if self.rising else value)
+
+    def measured(self, value: float) -> str:
+        """The same with what it counts.
+
+        >>> HIGHEST.measured(-3657), Category("Fewest keys", ("presses",)).measured(1)
+        ('91.425 points', '1 press')
+        """
+        counts = {"Time": "s", "Score": "points"}.get(self.unit, self._shown if self._shown in NAMES else "")
+        said = f"{self.text(value)} {counts}".rstrip()
+        return {"1 presses": "1 press", "1 jumps": "1 jump"}.get(said, said)
 
     def difference(self, amount: float) -> str:
         """By how much a first number is better, as people read it."""

@@ -20,19 +20,19 @@ from ninja_game.budget import RUN_BUDGET, tick_cost
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.replay.made import names_of_text, parse_made
 from ninja_game.formats.replay.text import INPUTS_AFTER, Replay
-from ninja_game.levels.findings import in_run
+from ninja_game.levels.findings import RunProblem, in_run
 from ninja_game.player.catalogue import Entry
 from ninja_game.runs.archive import Lost, verify_all
 from ninja_game.runs.chunks import Chunk, Result
 from ninja_game.runs.recording_reader import Unreadable
 from ninja_game.runs.run import run_level
-from ninja_game.runs.verify import NOT_RUN
+from ninja_game.runs.verify import NOT_RUN, Verdict
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.web.board.charts import path_data
 from ninja_game.web.board.collect import RunFolder, Sent, SentFile
 from ninja_game.web.board.copies import Course, Courses, course_of
-from ninja_game.web.board.players import Players
+from ninja_game.web.board.players import Players, folded
 from ninja_game.web.pages.memo import Memo, digest_of, program
 from ninja_game.web.pages.published import PublishedLevels, shared_text
 
@@ -41,6 +41,8 @@ Key = tuple[str, int]
 
 Dates = Callable[[Key, str], str]
 """When the board first took in a run, by its key and way: UTC as in 2026-01-31T12:00:00Z, "" where nobody knows."""
+
+Rows = dict[tuple[str, Any], dict[str, Any]]
 
 PLAYED, ASSISTED = "played", "assisted"
 """The two ladders; a run of which nobody says how it was made is on the first one."""
@@ -87,12 +89,37 @@ Waiting = tuple[str, str, list[int], list[Sent], list[Judged]]
 _TYPES = tuple(get_type_hints(Judged).values())
 
 
+class Ledger(NamedTuple):
+    """What a board knew before: ``runs`` and what was ``rejected`` by file and record.
+
+    ``withdrawn``: by level and way the runs that counted once, and are not there now or do not count.
+    """
+
+    runs: Rows
+    rejected: Rows
+    withdrawn: Rows
+
+    @property
+    def owners(self) -> Rows:
+        """By level and way the row of who did it first."""
+        return self.withdrawn | {(row["level"], row["way"]): row for row in self.runs.values()}
+
+    def confirms(self, run: Run) -> bool:
+        """Whether somebody has written into a run's row that it is the player's own."""
+        row = self.runs.get(run.key, {})
+        return row.get("confirmed") is True and row["way"] == run.way
+
+
+NO_LEDGER = Ledger({}, {}, {})
+
+
 @dataclass(frozen=True)
 class Run:
     """A run that counts, as the simulation says: ``tick`` of the exit contact, ``gold``, ``score`` (ticks).
 
     ``file``: path in the folder, ``record`` in it; ``added``: as Dates say; ``remark``: what a reader should know;
-    ``digest``: of its file; the rest as in Judged.
+    ``near``: whether that is of a near copy that nobody has ``confirmed``, which leads no table; ``digest``: of its
+    file; the rest as in Judged.
     """
 
     file: str
@@ -113,6 +140,8 @@ class Run:
     digest: str = field(repr=False)
     folder: RunFolder = field(repr=False, compare=False)
     remark: str = ""
+    near: bool = False
+    confirmed: bool = False
 
     @property
     def key(self) -> Key:
@@ -159,7 +188,7 @@ class Run:
 class Rejected:
     """A run, or a file, that does not count. ``kind``: one of KINDS.
 
-    ``way``, ``added``: of a copy, as a run has them.
+    ``way``, ``added``: of a copy, as a run has them; ``first``: the run that it copies.
     """
 
     file: str
@@ -170,6 +199,7 @@ class Rejected:
     level: str = ""
     way: str = ""
     added: str = ""
+    first: Key | None = None
 
 
 @dataclass(frozen=True)
@@ -190,18 +220,18 @@ class ValidatedRuns:
 
 def judge(
     folder: Path, shown: PublishedLevels, *, dates: Dates | None = None, jobs: int | None = None,
-    memo: Memo | None = None,
+    memo: Memo | None = None, ledger: Ledger = NO_LEDGER,
 ) -> ValidatedRuns:  # fmt: skip
     """Simulate every run below a folder again, on the levels that are shown. Raises OSError.
 
-    ``dates``: those of the board's ledger; without it runs go by the names of their files. ``memo``: what was found
+    ``dates``: those of the board's ``ledger``; without it runs go by the names of their files. ``memo``: what was found
     out before, of the same files, levels and rules; it is not simulated again.
     """
     memo = memo or Memo()
     sent = RunFolder(folder, {digest: entry.named.level for digest, entry in shown.entries.items()})
     runs: list[Run] = []
     rejected: list[Rejected] = []
-    players = Players()
+    players, owners = Players(), ledger.owners
     for name, digest, rows in _judged(sent, shown, jobs, memo):
         for found in rows:
             entry = shown.entries.get(found.level)
@@ -211,8 +241,15 @@ def judge(
                 continue
             added = dates((name, found.record), found.way) if dates else ""
             runs.append(_run(name, digest, found, entry, sent, added))
+    known = {(run.entry.digest, run.way, run.added) for run in runs}
+    for number, run in enumerate(runs):
+        # A run that was withdrawn, or comes in another file, is still its player's.
+        owner = owners.get(way := (run.entry.digest, run.way))
+        if owner and (*way, owner["added"]) not in known and folded(owner["player"]) == folded(run.player):
+            runs[number] = replace(run, added=owner["added"])
     told = _of_players(sorted(runs, key=_first), players)
-    counted, copies = _without_copies(told, memo)
+    counted, copies = _without_copies(told, memo, owners)
+    counted = [replace(run, near=False, confirmed=True) if ledger.confirms(run) else run for run in counted]
     named = [
         each if each.kind == "unreadable" else replace(each, player=players.meet(each.player)[0]) for each in rejected
     ]
@@ -330,7 +367,7 @@ def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
     if isinstance(result, Unreadable):
         why = _without_name(result.message, sent.chunk.file).partition("; --budget")[0]  # which a board has not
         return Judged(sent.chunk.first, "unreadable", why)
-    problems = [*map(str, result.problems)]
+    problems = [_worded(each, result, sent) for each in result.problems]
     if sent.claimed >= 0 and result.outcome != NOT_RUN:
         other = in_run("other-end", tick=result.ticks - 1, outcome=result.outcome, claimed=sent.claimed)
         problems = [str(other) if result.end_tick != sent.claimed else INPUTS_AFTER]
@@ -346,6 +383,16 @@ def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
         result.score_ticks or 0, result.xy_sha256, sum(map(int.bit_count, pressed)), jumps,
         result.made, result.assisted, result.co_authors, result.episode,
     )  # fmt: skip
+
+
+def _worded(problem: RunProblem, result: Verdict, sent: Sent) -> str:
+    """A problem in the words of people who send runs."""
+    if problem.code == "not-strict" and result.practice and str(problem).startswith("practice"):
+        return f"it was {result.made}: runs with such help do not count"
+    if problem.code == "other-level" and sent.replay and sent.replay.level_name:
+        name, digest = sent.replay.level_name, result.level_digest[:16]
+        return f"{name!r} is not one of the levels that count; its level_digest begins with {digest}"
+    return str(problem)
 
 
 def _of_players(runs: list[Run], players: Players) -> list[Run]:
@@ -369,20 +416,29 @@ def _without_name(message: str, name: str) -> str:
     return _LINE.sub("line ", message.strip())
 
 
-def _without_copies(runs: list[Run], memo: Memo) -> tuple[list[Run], list[Rejected]]:
-    """The runs without those that do what an earlier one does, and those; near copies of an earlier one are marked."""
+def _without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run], list[Rejected]]:
+    """The runs without those that do what an earlier one does, and those; near copies of an earlier one are marked.
+
+    ``owners``: as of Ledger.
+    """
     on_level: dict[str, list[Run]] = defaultdict(list)
     copies: list[Rejected] = []
     ways: dict[tuple[str, str], Run] = {}
     for run in runs:
-        first = ways.setdefault((run.entry.digest, run.way), run)
+        way = run.entry.digest, run.way
+        owner = owners.get(way, {"added": run.added})
+        if way not in ways and owner["added"] < run.added:
+            why = f"a copy of an earlier run by {owner['player']}, which was withdrawn or does not count any more"
+            copies.append(Rejected(*run.key, "copy", why, run.player, run.entry.title, run.way, run.added))
+            continue
+        first = ways.setdefault(way, run)
         if first is run:
             on_level[run.entry.digest].append(run)
         else:
             stolen = first.player != run.player and first.added < run.added
             what = f"a copy of the run by {first.player} in" if stolen else "the same run as"
             why, kind = f"{what} {first.file}", OWN if run.episode and first.player == run.player else "copy"
-            copies.append(Rejected(*run.key, kind, why, run.player, run.entry.title, run.way, run.added))
+            copies.append(Rejected(*run.key, kind, why, run.player, run.entry.title, run.way, run.added, first.key))
     kept = [run for level in on_level.values() for run in _remarked(level, memo)]
     return sorted(kept, key=_first), copies
 
@@ -407,7 +463,7 @@ def _remarked(runs: list[Run], memo: Memo) -> list[Run]:
             courses.add(number, run.tick, partial(replace, course))
             said = f"{near[1]} the run by {runs[near[0]].player} in {runs[near[0]].file}" if near else ""
             memo.note(key, said)
-        found.append(replace(run, remark="; ".join(filter(None, (said, run.remark)))) if said else run)
+        found.append(replace(run, remark="; ".join(filter(None, (said, run.remark))), near=True) if said else run)
     return found
 
 
