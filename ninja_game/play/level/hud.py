@@ -476,7 +476,11 @@ def _covering(play: LevelPlay) -> tuple[tuple[int, ...], Things]:
 def _reached(play: LevelPlay) -> list[str]:
     """The medal; what the next one needs; the gold of a passed run, what that has brought, and what it leaves."""
     attempt, pars = play.attempt, play.context.pars
-    following = [next_par(pars, Mark(attempt.ended_tick, 0)) or "The best medal there is. Well run!"] if pars and play.medal else []
+    following = (
+        [next_par(pars, Mark(attempt.ended_tick, 0)) or "The best medal there is. Well run!"]
+        if pars and play.medal
+        else []
+    )
     gold = f"{attempt.gold} of {play.all_gold} gold" if attempt.gold < play.all_gold else f"All {play.all_gold} gold"
     medal = [f"{play.medal.capitalize()} medal"] if play.medal else []
     clock = [f"{rounded_text(attempt.lifetime)} s left on the clock, for the next level"] * play.context.carries_clock
