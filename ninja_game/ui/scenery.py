@@ -96,6 +96,14 @@ def _strata(sheet: pygame.Surface, numbers: Numbers, slant: float = 0.1, wave: f
     while top < _HIGH:
         _ridge(sheet, pygame.Color(_white(numbers)), height)
         top += 9 + 26 * next(numbers)
+    for _ in range(70):
+        # Stones lie in it, and cracks run down from some of them.
+        x, y, wide = _WIDE * next(numbers), _HIGH * next(numbers), 3 + 5 * next(numbers)
+        rim = [(x + wide * cos(turn), y + 0.6 * wide * sin(turn)) for turn in range(6)]
+        pygame.draw.polygon(sheet, _white(numbers), rim)
+        if next(numbers) < 0.3:
+            line = [(x + 14 * (next(numbers) - 0.5), y + 9 * down) for down in range(5)]
+            pygame.draw.lines(sheet, (0, 0, 0, 0), False, line, 2)
 
 
 def _stones(sheet: pygame.Surface, numbers: Numbers) -> None:

@@ -336,11 +336,12 @@ MOODS = (MORNING, NOON, AFTERNOON, DUSK, NIGHT)
 GROUND_ROLES = "sky", "background", "far", "near"
 """From the upper edge of the sky to the lower one, then from the farthest layer to the nearest one."""
 
-TONES = 5
-"""So many a mood has; the levels of an episode go through them, each episode from another one on."""
-
-TONE = (-13, -16, 9, 15, -16)
-"""By mood: degrees in YIQ by which rock and scenery turn from a level of an episode to the next one."""
+TONES = (
+    ((0, 1.0, 0), (-62, 1.7, -42), (34, 1.5, 52), (-150, 1.3, -96), (62, 1.2, 100)),
+    *(tuple((turn * tone, 1.0, turn * tone) for tone in range(5)) for turn in (-16, 9, 15, -16)),
+)
+"""By mood and tone: degrees in YIQ by which the scenery turns, how much more colourful it is, and degrees by which rock
+turns. The levels of an episode go through them, each episode from another one on."""
 
 PALETTES: dict[str, Palette] = {palette.name: palette for palette in (CLASSIC, DARK, CONTRAST, SAFE, SAFE_DARK, *MOODS)}
 
@@ -355,10 +356,13 @@ def _tone(column: int, level: int) -> Palette:
     """The mood of a column as it is in its ``level``th level: other hues, as light; its name is the seed of shapes."""
     mood = MOODS[column]
     colours: dict[str, Any] = {}
+    tones = TONES[column]
+    scenery, colourful, rock = tones[(level + 2 * (level // len(tones))) % len(tones)]
     for role in (*GROUND_ROLES, "tile") if level else ():
         y, i, q = rgb_to_yiq(*(channel / 255 for channel in getattr(mood, role)[:3]))
-        turned = complex(i, q) * rect(1, radians(TONE[column] * ((level + 2 * (level // TONES)) % TONES)))
-        colours[role] = pygame.Color(*(round(255 * channel) for channel in yiq_to_rgb(y, turned.real, turned.imag)))
+        turned = complex(i, q) * (rect(1, radians(rock)) if role == "tile" else rect(colourful, radians(scenery)))
+        channels = yiq_to_rgb(y, turned.real, turned.imag)
+        colours[role] = pygame.Color(*(round(255 * min(1.0, max(0.0, channel))) for channel in channels))
     return replace(mood, name=f"{mood.name} {level}", **colours) if level else mood
 
 

@@ -79,6 +79,7 @@ class HudView:
     ``named``: what it names, and where that is, px. ``message``: title and lines of a panel, and the level's tiles
     and the things of which it covers as little as can be; ``medal``: that of the pass, or "", ``stamp``: how far it has
     grown, 0…1, ``shine``: how far light has swept over it. ``seen``: how solid the panel is, 0…1.
+    ``ninja``: where it is in play, px: what is said over it fades, ``softly`` or at once.
     """
 
     lifetime: float
@@ -97,6 +98,8 @@ class HudView:
     stamp: float = 1.0
     shine: float = 1.0
     seen: float = 1.0
+    ninja: Point | None = None
+    softly: bool = True
 
 
 class Hud:
@@ -123,7 +126,11 @@ class Hud:
             written.append(self.keys(surface, view.keys))
         written += [self.pointer(surface, *named) for named in view.named]
         if said is not None:
+            seen = 1.0 if in_border else _clear_of(view.ninja, said, softly=view.softly)
+            place = self.theme.canvas.rect(*_area(said))
+            behind = _behind(surface, place, seen)
             written.append(self.said(surface, said, () if in_border else view.moves, view.letters))
+            _fade(surface, place, behind, seen)
         if view.message and view.seen > 0:
             written.append(self.message(surface, view, *view.message))
         return written
@@ -195,11 +202,9 @@ class Hud:
         h = 48.0 + 18 * len(lines) + below
         x, y = (WIDTH - w) / 2, UPPER
         if any(worth > MUST and -NEAR < a - x < w + NEAR and -NEAR < b - y < h + NEAR for a, b, worth in things):
-            x, y, *_ = solid_place(tiles, w, h, things, rows=3)
+            x, y, *_ = solid_place(tiles, w, h, things, rows=2)
         place = theme.canvas.rect(x, y, w, h)
-        behind = pygame.Surface(place.size, pygame.SRCALPHA) if view.seen < 1 else None
-        if behind:
-            behind.blit(surface, (0, 0), place)
+        behind = _behind(surface, place, view.seen)
         rect = theme.panel(surface, x, y, w, h, 4)
         middle = x + w / 2
         if medal:
@@ -212,9 +217,7 @@ class Hud:
         theme.text(surface, named, across, y + 43, size=NAMED, colour=accent, align="centre", bold=True)
         for k, line in enumerate(lines):
             theme.text(surface, line, middle, y + 41 + below + 18 * k, size=LINE, align="centre")
-        if behind:
-            behind.fill((round(255 * (1 - view.seen)),) * 4, special_flags=pygame.BLEND_RGBA_MULT)
-            surface.blit(behind, place, special_flags=pygame.BLEND_PREMULTIPLIED)
+        _fade(surface, place, behind, view.seen)
         return rect
 
     def pointer(self, surface: pygame.Surface, name: str, x: float, y: float) -> pygame.Rect:
@@ -258,7 +261,7 @@ class Hud:
     ) -> pygame.Rect:
         """A text of the level in its panel, its lines behind the keys that they are about."""
         lines, left, y, w, high, margin, size = box
-        rect = self.theme.panel(surface, left, y, w, high * len(lines) + 2 * margin - 1, 4)
+        rect = self.theme.panel(surface, *_area(box), 4)
         for k, line in enumerate(lines):
             top = y + margin + high * k
             if moves:
@@ -288,6 +291,38 @@ class Hud:
                 canvas.polygon(surface, ink, [(x + dx + 9 + px, y + 8 + py) for px, py in arrow])
             rect = box if not rect.width else rect.union(box)
         return rect
+
+
+def _area(box: Box) -> tuple[float, float, float, float]:
+    """Left, top, width and height of a text's panel, px."""
+    lines, left, y, w, high, margin, _ = box
+    return left, y, w, high * len(lines) + 2 * margin - 1
+
+
+def _clear_of(ninja: Point | None, box: Box, *, softly: bool) -> float:
+    """How solid a text's panel is, FAINT…1: the less, the nearer the ninja is to being hidden by it."""
+    if ninja is None:
+        return 1.0
+    x, y, w, h = _area(box)
+    away = hypot(max(x - ninja[0], 0.0, ninja[0] - x - w), max(y - ninja[1], 0.0, ninja[1] - y - h))
+    share = (away - COVERED) / (CLEAR - COVERED) if softly else float(away >= CLEAR)
+    return FAINT + (1 - FAINT) * min(1.0, max(0.0, share))
+
+
+def _behind(surface: pygame.Surface, place: pygame.Rect, seen: float) -> pygame.Surface | None:
+    """What a panel that is not solid is about to cover."""
+    if seen >= 1:
+        return None
+    behind = pygame.Surface(place.size, pygame.SRCALPHA)
+    behind.blit(surface, (0, 0), place)
+    return behind
+
+
+def _fade(surface: pygame.Surface, place: pygame.Rect, behind: pygame.Surface | None, seen: float) -> None:
+    """Let what it covers be seen through a panel, as far as that is not solid."""
+    if behind:
+        behind.fill((round(255 * (1 - seen)),) * 4, special_flags=pygame.BLEND_RGBA_MULT)
+        surface.blit(behind, place, special_flags=pygame.BLEND_PREMULTIPLIED)
 
 
 @lru_cache(maxsize=4)
@@ -333,7 +368,10 @@ FADE_TICKS, SHINE_TICKS, END_ROOM = 8, 20, 36.0
 """In how many ticks the panel of an ended run fades in, and light sweeps over its medal; px to all sides of where the
 run ended that it leaves free."""
 
-UPPER = 72.0
+FAINT, COVERED, CLEAR = 0.2, 10.0, 34.0
+"""How solid the panel of a text is over the ninja; px from the ninja to it at which it is so, and solid."""
+
+UPPER = 36.0
 """Where the panel of an ended run begins, in the middle, unless it would hide that end or an exit."""
 
 LOWEST = 573.0
@@ -412,6 +450,8 @@ def hud_view(play: LevelPlay) -> HudView:
         stamp=play.stamp,
         shine=1.0 if settings.reduced_motion else (play.after_end + play.fraction - STAMP_TICKS) / SHINE_TICKS,
         seen=1.0 if settings.reduced_motion else min(1.0, (play.after_end + play.fraction) / FADE_TICKS),
+        ninja=(attempt.simulation.world.ninja.x, attempt.simulation.world.ninja.y),
+        softly=not settings.reduced_motion,
     )
 
 
@@ -436,7 +476,11 @@ def _covering(play: LevelPlay) -> tuple[tuple[int, ...], Things]:
 def _reached(play: LevelPlay) -> list[str]:
     """The medal; what the next one needs; the gold of a passed run, what that has brought, and what it leaves."""
     attempt, pars = play.attempt, play.context.pars
-    following = [next_par(pars, Mark(attempt.ended_tick, 0)) or "There is none better"] if pars and play.medal else []
+    following = (
+        [next_par(pars, Mark(attempt.ended_tick, 0)) or "The best medal there is. Well run!"]
+        if pars and play.medal
+        else []
+    )
     gold = f"{attempt.gold} of {play.all_gold} gold" if attempt.gold < play.all_gold else f"All {play.all_gold} gold"
     medal = [f"{play.medal.capitalize()} medal"] if play.medal else []
     clock = [f"{rounded_text(attempt.lifetime)} s left on the clock, for the next level"] * play.context.carries_clock

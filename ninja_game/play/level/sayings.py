@@ -21,12 +21,13 @@ STILL = 0.05
 """px in a tick that are no motion."""
 
 AGAIN = "Stuck? {retry} starts the level over"
-STILL_TICKS, AWAY = 240, 2 * CELL
-"""AGAIN is said to players who stand or lie still for so many ticks, so many px from the start."""
+STILL_TICKS, QUIET_TICKS, AWAY = 400, 800, 2 * CELL
+"""AGAIN is said to players who stand or lie still for so many ticks, so many after any text, so many px from the start:
+who waits as a text told them is not stuck."""
 
 CLIMB = (
     "Hold %s, and press {jump} each time you touch the wall\n"
-    "{jump} alone: you fly to the other side\n%s before you jump: you let go of the wall and fall"
+    "{jump} alone: you fly to the other side\nDo not press %s first: you would let go of the wall"
 )
 SLIPS, CLIMBED = 2, 4 * CELL
 """CLIMB is said after so many slips from a wall back to where the jump began, until the ninja is so many px higher."""
@@ -45,10 +46,7 @@ WHY = {
 }
 """What helps against each killer, said after its first kill."""
 
-FALL_HELP = (
-    "More than ten times your height, from the top of your jump, is too far. "
-    "Slide down a wall, or land on a slope that goes down your way."
-)
+FALL_HELP = "Slide down a wall to slow a fall, or land on a downhill slope."
 
 
 class Sayings:
@@ -72,7 +70,7 @@ class Sayings:
         due = [each for each in self._sayings if each.when == "death" and each.deaths == self._deaths]
         self.text, self._then = (due[0].text, self._start()) if due else (self._start(), "")
         self._left = SHOWN_TICKS if due else START_TICKS
-        self._still = 0
+        self._still = self._quiet = 0
         self._jumped_at = self._wall = 0.0
 
     def _start(self) -> str:
@@ -88,6 +86,11 @@ class Sayings:
     def is_start(self) -> bool:
         """Whether the present text is that of the start."""
         return self.text == self._start()
+
+    def say_again(self) -> None:
+        """All of it is said again, from the start on: another has shown how, which is not to have done it."""
+        self._said.clear()
+        self.at_start()
 
     def on_death(self) -> None:
         self._deaths += 1
@@ -131,13 +134,14 @@ class Sayings:
         return wall if self._slips == SLIPS else 0.0
 
     def _is_stuck(self, world: World) -> bool:
-        """Whether the ninja has been still for long, away from its start."""
+        """Whether the ninja has been still for long, away from its start, with nothing to read."""
         ninja = world.ninja
         self._still = 0 if hypot(ninja.x - ninja.prev_x, ninja.y - ninja.prev_y) > STILL else self._still + 1
         if world.tick == 1:
             self._began = ninja.x, ninja.y
         away = hypot(ninja.x - self._began[0], ninja.y - self._began[1]) > AWAY
-        return away and self._still >= STILL_TICKS
+        self._quiet = 0 if self.text else self._quiet + 1
+        return away and self._still >= STILL_TICKS and self._quiet >= QUIET_TICKS
 
 
 def _is_near(world: World, saying: Saying) -> bool:

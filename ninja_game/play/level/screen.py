@@ -192,9 +192,11 @@ class LevelScreen(Screen):
         app.push(Menu(app, HELP, rows, back))
 
     def _watch(self, run: Replay | None) -> None:
-        """Watch a run; then the level waits at its start."""
+        """Watch a run; then the level waits at its start, and says again how it goes."""
         self.retry()
+        self.play.sayings.say_again()
         watch(self.app, [run])
+        self.app.notify(f"{self.app.controls.name('back')}: back to your own try")
 
     def _play_at(self, speed: int) -> None:
         """Begin again at a speed, %; it stays in the settings."""

@@ -139,12 +139,12 @@ class EpisodePassed(ThumbnailScreen):
                 y = 247 + 14 * line
                 theme.text(surface, words, middle, y, size=10, colour=palette.faint, align="centre", width=PICTURE)
             all_gold_and_medal(surface, theme, entry, mark, x + PICTURE - 11, 135)
-        self._draw_score(surface)
-        if following := self.next_episode:
-            self.thumbnails.draw(surface, following.levels[0], 170, 435, 58)
         target = DrawTarget(theme.canvas, palette.base, shared_book(theme.canvas.scale, palette.base))
         target.begin(surface)
         Particles.draw(self.particles.front, target, self.ticks)
+        self._draw_score(surface)
+        if following := self.next_episode:
+            self.thumbnails.draw(surface, following.levels[0], 170, 435, 58)
 
     def _draw_score(self, surface: pygame.Surface) -> None:
         """The score between its medal and what it is worth; below it what the episode has brought."""

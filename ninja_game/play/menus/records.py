@@ -146,4 +146,4 @@ class RecordsScreen(MenuScreen):
             theme.text(surface, "not passed yet", x + w - 8, top, size=10.5, colour=palette.faint, align="right")
 
 
-_NAMES = {"player": "Falls, being crushed, time up"}
+_NAMES = {"player": "Falls, crushing, time"}

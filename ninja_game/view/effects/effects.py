@@ -116,10 +116,11 @@ class Effects:
             self.add("dust", n.x - n.wall_x * 10, y, n.wall_x * 4, -vy * 3, life=32, size=0.7, rear=True)
 
     def _fall(self, world: World) -> None:
-        """Lines trail behind who falls so fast that flat ground kills."""
+        """Lines in the colour of danger trail behind who falls so fast that flat ground kills."""
         n = world.ninja
         if n.in_air and n.state != states.DEAD and n.y - n.prev_y > FATAL_IMPACT - FLOOR_ALLOWANCE:
-            self.add("bullet", n.x + self.rng.uniform(-8, 8), n.y - 12, 0, -16, life=24, rear=True)
+            for side in (-1, 1):
+                self.add("plunge", n.x + side * self.rng.uniform(2, 11), n.y + 4, 0, -34, life=24, rear=True)
 
     def _smoke(self, x: float, y: float, hx: float, hy: float) -> None:
         drift = self.rng.uniform(4, 12)

@@ -171,6 +171,7 @@ PAINTERS: dict[str, Callable[[Particle, DrawTarget, float], None]] = {
     "bolt": _streak("spark", 0.9),
     "shot": _ray("outline", 1.6),
     "bullet": _ray("dark", 1.2),
+    "plunge": _ray("mine", 2.6),
     "zap": _zap,
     "fireball": _fireball,
     "burst": _burst,

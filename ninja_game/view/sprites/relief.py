@@ -8,11 +8,11 @@ from ninja_game.ui.scenery import grain, painted
 from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.tile_sheet import TileSheet
 
-EDGES = (("bright", 2, 0, 120), ("outline", -3, 0, 80), ("bright", 9, 12, 62))
+EDGES = (("bright", 2, 0, 120), ("outline", -3, 0, 80), ("bright", 8, 30, 88))
 """What is left of the tiles in a colour when they are taken away: so much lower, or higher, and so soft, logical px;
-how strong it is."""
+how strong it is. The last lights rock near its other edges too, so that it is darker in the depth of a mass."""
 
-GRAIN = 8
+GRAIN = 13
 """By how much the rock's marks differ from it, of 255 a channel: never enough to be taken for a thing."""
 
 SHADOW, SHADOW_AT = 76, (4, 6)

@@ -13,15 +13,7 @@ from ninja_game.files.shown_text import counted
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.player.catalogue import Entry
-from ninja_game.runs.compare import (
-    SPLIT_EVENTS,
-    RunSplits,
-    SplitRow,
-    run_splits,
-    split_name,
-    split_table,
-    sum_of_best,
-)
+from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, SplitRow, run_splits, split_name, split_table, sum_of_best
 from ninja_game.web.board.charts import path_data, paths, steps, swatch
 from ninja_game.web.board.parts import RUN_HEADS, UP, Parts, signed
 from ninja_game.web.board.ranking import Part, Ranked

@@ -11,7 +11,7 @@ from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.sayings import read_sayings
 from ninja_game.play.level.hud import IN_BORDER, Hud, cause_of_death, hud_view, solid_place
 from ninja_game.play.level.play import DEATH_PAUSE, MUST, STUCK_AFTER, Phase, tag_top
-from ninja_game.play.level.sayings import CLIMB, CLIMBED, FALL_HELP, START_TICKS, STILL_TICKS, Sayings
+from ninja_game.play.level.sayings import CLIMB, CLIMBED, FALL_HELP, QUIET_TICKS, START_TICKS, Sayings
 from ninja_game.play.level.screen import LevelScreen, PausePanel, play_level
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.main_menu import MainMenu
@@ -210,7 +210,7 @@ def test_every_death_says_what_helps_until_the_level_is_passed(driver: MenuDrive
 def test_who_is_still_for_long_reads_once_how_to_try_again_and_nobody_who_moves(driver: MenuDriver) -> None:
     driver.press("return")
     level = driver.shown(LevelScreen)
-    for keys, told in (([0] * (STILL_TICKS + 480), True), ([2, 2, 1, 1] * 400, False)):
+    for keys, told in (([0] * (START_TICKS + QUIET_TICKS), True), ([2, 2, 1, 1] * 400, False)):
         heard = []
         for helps in (True, False):
             level.retry()
@@ -223,6 +223,43 @@ def test_who_is_still_for_long_reads_once_how_to_try_again_and_nobody_who_moves(
         assert ("Stuck? R starts the level over" in heard[: 50 + len(keys)]) == told
         assert "Stuck? R starts the level over" not in heard[50 + len(keys) :]
         assert heard[START_TICKS] != heard[0], "the text of the start is gone"
+        assert "Stuck? R starts the level over" not in heard[: START_TICKS + QUIET_TICKS - 8], "not soon after a text"
+
+
+@pytest.mark.parametrize("reduced", [False, True])
+def test_a_text_under_which_the_ninja_comes_fades_while_it_is_there(driver: MenuDriver, reduced: bool) -> None:
+    driver.app.change_settings(reduced_motion=reduced)
+    driver.press("return")
+    level = driver.shown(LevelScreen)
+    view = hud_view(level.play)
+    assert view.said
+    hud, surface = Hud(driver.app.theme), driver.app.surface
+    _, x, y, w, *_ = hud.box(*view.said)
+    corner = driver.app.canvas.point(x + 8, y + 6)
+
+    def shown(away: float) -> int:
+        """How light the panel is over black, the ninja so far below its upper edge."""
+        surface.fill("black")
+        hud.draw(surface, replace(view, ninja=(x + w / 2, y - away), named=()))
+        return surface.get_at(corner)[0]
+
+    solid, near, half, under = map(shown, (60, 20, 16, -5))
+    assert solid == driver.app.theme.palette.panel[0]
+    assert under == pytest.approx(solid / 5, abs=4)
+    assert (near, half) == (under, under) if reduced else under < half < near < solid
+
+
+def test_texts_of_a_level_come_back_after_its_author_was_watched(driver: MenuDriver) -> None:
+    level = stuck_level(driver)
+    first = level.play.sayings._start()
+    level.play.sayings._said.update(level.context.sayings())
+    driver.press("n")
+    driver.choose("Watch how")
+    driver.shown(ReplayScreen)
+    assert driver.app.notice == "Esc: back to your own try"
+    driver.press("escape")
+    assert first
+    assert level.play.sayings.text == first
 
 
 def test_death_by_a_fall_says_what_helps_until_the_level_is_passed(driver: MenuDriver) -> None:

@@ -158,7 +158,14 @@ def test_lines_trail_behind_who_falls_too_fast_for_flat_ground(driver: MenuDrive
     for _ in range(120):
         simulation.step_keys(2)
         view.on_tick()
-        lines += any(each.kind == "bullet" for each in view.particles.rear)
+        trails = [each for each in view.particles.rear if each.kind == "plunge"]
+        lines += bool(trails)
+        if len(trails) > 8 and simulation.outcome == "running":
+            surface = pygame.Surface(driver.app.surface.get_size())
+            view.draw(surface, 1.0, whole=True)
+            ink, (x, y) = driver.app.theme.palette.mine, driver.app.canvas.point(trails[-1].x, trails[-1].y - 20)
+            seen = [surface.get_at((x + dx, y)) for dx in range(-3, 4)]
+            assert any(max(abs(each[k] - ink[k]) for k in range(3)) < 60 for each in seen), "red, at the ninja"
     assert (lines > 0) == warned
     assert (simulation.outcome == "dead") == warned
 
