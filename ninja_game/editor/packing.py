@@ -17,7 +17,6 @@ from ninja_game.levels.findings import Finding, PackFinding
 from ninja_game.runs.packs import KINDS, file_of, is_certified, level_of, lint, make_pars
 from ninja_game.sim.level import Level
 
-
 Obstacles = dict[tuple[Level, str], Finding]
 """By level and kind of certificate ("exit", "gold"): what kept the solver from such a run."""
 

@@ -279,7 +279,8 @@ class Catalogue:
 
     def _pack_at(self, path: Path) -> Pack | None:
         """A pack, read again when its files have changed; None, and a problem, where it cannot be read."""
-        stamp = [(file, stamp_of(file)) for file in (path, path / CERTIFICATES, *(path / name for name in files_in(path)))]
+        inside = CERTIFICATES, *files_in(path)
+        stamp = [(file, stamp_of(file)) for file in (path, *(path / name for name in inside))]
         if path not in self._packs or self._packs[path][0] != stamp:
             try:
                 self._packs[path] = stamp, Pack(path), ""

@@ -122,7 +122,7 @@ def level_of(pack: Pack, file: str) -> str:
 def lint(pack: Pack, *, with_design: bool = False, with_gold: bool = False) -> Iterator[PackFinding]:
     """Every finding that the pack does not accept; none for a proper pack.
 
-    ``with_design``: what its levels lack, too (docs/good-levels.md); ``with_gold``: where no run with all gold is known.
+    ``with_design``: what its levels lack, too (docs/good-levels.md); ``with_gold``: no run with all gold, too.
     """
     unasked = {*(() if with_design else DESIGN_RULES), *(() if with_gold else ("no-gold-run",))}
     open_ones = {(each.file, each.code): each for each in pack.index.accepted}

@@ -569,8 +569,9 @@ class PackScreen(ThumbnailScreen):
             return ""
         levels, found = self.pack.levels, self.findings
         states = [self.state(each) for each in levels]
-        counts = (sum(each in NOT_CERTIFIED for each in states), "to certify"), (states.count("certified"), "to measure")
-        to_do = ", ".join(f"{count} {what}" for count, what in counts if count) or "all certified and measured"
+        counts = {"to certify": sum(map(states.count, NOT_CERTIFIED)), "to measure": states.count("certified")}
+        missing = ", ".join(f"{count} {what}" for what, count in counts.items() if count)
+        to_do = missing or "all certified and measured"
         alone = f", {len(self.pack.singles)} in none" if self.pack.singles else ""
         episodes = sum(cell.head for cell in self.cells) - 1
         where = f"{counted(len(levels), 'level')} in {counted(episodes, 'episode')}{alone}"

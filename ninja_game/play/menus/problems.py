@@ -86,8 +86,9 @@ class ProblemsScreen(MenuScreen):
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         x, y, w, h = area
         theme.row(surface, (x, y + 1, w, h - 2), chosen=index == self.list.index, focused=focused)
-        colour = theme.palette.faint if self.problems[index].accepted else theme.palette.text
-        theme.paragraph(surface, [shown_text(self.problems[index].text, LONGEST)], (x + 10, y + 4, w - 20, h - 6), 10, 13, colour=colour)
+        problem, place = self.problems[index], (x + 10, y + 4, w - 20, h - 6)
+        colour = theme.palette.faint if problem.accepted else theme.palette.text
+        theme.paragraph(surface, [shown_text(problem.text, LONGEST)], place, 10, 13, colour=colour)
 
 
 def of_files(texts: Sequence[str]) -> list[Problem]:
