@@ -185,7 +185,7 @@ class EditorCommands(DocumentCommands):
             certifier.stop()
             ask(action)
 
-        rows: list[Row] = [("Let it search on", nothing, "Stay here"), ("Stop the search", stop, "It begins anew then")]
+        rows: list[Row] = [("Let it search on", nothing, "Stay here"), ("Stop the search", stop, "F7 begins another")]
         self.app.push(Menu(self.app, "The solver is still looking for a run", rows))
 
     # --- files ---
