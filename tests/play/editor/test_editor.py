@@ -23,9 +23,10 @@ from ninja_game.formats.ascii.places import place_text
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import parse_replay
+from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.controls import COMMANDS
 from ninja_game.play.editor.object_list import ObjectList
-from ninja_game.play.editor.parts import FIRST_STEPS
+from ninja_game.play.editor.parts import FIRST_STEPS, Findings
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.menus.help import HelpPage
@@ -680,7 +681,8 @@ def test_a_search_is_left_only_if_that_is_meant_and_its_run_is_kept(room: Maker,
 
 
 def test_f7_after_a_change_looks_at_the_level_as_it_is(room: Maker) -> None:
-    certifier, asked = room.editor.session.certifier, []
+    certifier = room.editor.session.certifier
+    asked: list[Search] = []
     with (
         patch.object(type(certifier._job), "idle", False),
         patch.object(certifier._job, "ask", asked.append),
@@ -702,3 +704,15 @@ def test_the_panel_says_what_becomes_of_the_run(room: Maker, tmp_path: Path) -> 
     assert session.keeping == "Kept with the level"
     session.save(tmp_path / "elsewhere.txt")
     assert session.keeping == "To keep it: File, Keep the solver's run"
+
+
+def test_a_problem_is_shown_whole_where_there_is_room(room: Maker) -> None:
+    session = room.editor.session
+    room.wait(lambda: session.examined is room.draft.level, "findings")
+    session._checks.result = room.draft.level, [Finding("no-exit", "word " * 60), Finding("no-ninja", "none")]
+    room.frames(2)
+    part = next(each for each in room.editor.parts if isinstance(each, Findings))
+    assert [number for number, _ in part._lines] == [0, 0, 0, 1]
+    x, y, w, h = part.list.row_area(2)
+    room.mouse(x + w / 2, y + h / 2)
+    assert room.editor.view.hint.startswith("Word word")
