@@ -234,7 +234,7 @@ class EditorView(Part):
         cell = self.session.tools.cell
         if is_inside(cell) and self.take(cell):
             return
-        before, now = self._pressed, pygame.time.get_ticks()
+        before, now = None if erase or pick else self._pressed, pygame.time.get_ticks()
         self._pressed = cell, now, self.session.draft
         middle = 24.0 * cell[0] + 12.0, 24.0 * cell[1] + 12.0
         if before and before[0] == cell and now - before[1] < DOUBLE_MS and middle in said_places(before[2].says):
