@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 from ninja_game.backend.memories import compiled_available
@@ -14,34 +14,39 @@ from ninja_game.formats.pack.files import PARS, certificate_name
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.pack.pars import write_pars
 from ninja_game.levels.findings import Finding, PackFinding
-from ninja_game.runs.packs import KINDS, lint, make_pars
+from ninja_game.runs.packs import KINDS, file_of, is_certified, level_of, lint, make_pars
 from ninja_game.sim.level import Level
+
+Obstacles = dict[tuple[Level, str], Finding]
+"""By level and kind of certificate ("exit", "gold"): what kept the solver from such a run."""
+
+_MISSING = {"no-certificate": "exit", "certificate": "exit", "no-gold-run": "gold"}
+"""Findings that a run is not there, by code: of which kind."""
 
 
 @dataclass(frozen=True)
 class ReadyPack:
-    """``findings``: what is odd; ``zipped``: its bytes; ``link``: "" where it is too large; ``notes``: what is not.
-
-    ``obstacles``: by level, what kept the solver from a run to the exit.
-    """
+    """``findings``: what is odd; ``zipped``: its bytes; ``link``: "" where it is too large; ``notes``: what is not."""
 
     pack: Pack
     findings: list[PackFinding]
     zipped: bytes
     link: str
     notes: list[str]
-    obstacles: Mapping[Level, Finding] = field(default_factory=dict)
 
 
-def make_ready(path: Path, *, seconds: float, jobs: int, say: Callable[[str], object]) -> ReadyPack:
+def make_ready(
+    path: Path, *, seconds: float, jobs: int, say: Callable[[str], object], obstacles: Obstacles | None = None
+) -> ReadyPack:
     """Certify each level to the exit and with all gold, write the par times, lint; the zip and the link.
 
     ``seconds``: for each search; ``jobs``: levels at a time; ``say`` gets what is being done, and may raise to end it.
+    ``obstacles``: of earlier searches, which are not done again; those of the new ones are put there.
     Raises NinjaGameError, OSError.
     """
-    pack, notes, obstacles = Pack(path), list[str](), dict[Level, Finding]()
+    pack, notes, obstacles = Pack(path), list[str](), {} if obstacles is None else obstacles
     if compiled_available():
-        obstacles = _certify(pack, path, seconds, jobs, say, notes)
+        _certify(pack, path, seconds, jobs, say, obstacles)
     else:
         notes.append(f"Certifying needs Numba: {how_to_install('fast')}")
     pack, made = Pack(path), {}
@@ -59,43 +64,51 @@ def make_ready(path: Path, *, seconds: float, jobs: int, say: Callable[[str], ob
         link = pack.files.link()
     except LinkError as error:
         notes.append(f"No link: {error}")
-    return ReadyPack(pack, findings, pack.files.zipped(), link, notes, obstacles)
+    return ReadyPack(pack, findings, pack.files.zipped(), link, notes)
 
 
-def problems_of(pack: Pack, obstacles: Mapping[Level, Finding]) -> list[PackFinding]:
-    """What is odd about a pack, and what kept the solver from a run to the exit where that is still missing."""
-    found = list(lint(pack))
-    missing = [str(finding) for finding in found if finding.code in ("no-certificate", "certificate")]
-    left = [(file, obstacles[named.level]) for file, named in pack.levels.items() if named.level in obstacles]
-    for file, why in left:
-        if any(Path(file).stem in text for text in missing):
-            found.append(PackFinding(pack.files.place(file), why.code, f"no run to the exit found: {why.sentence}"))
-    return found
+def problems_of(pack: Pack, obstacles: Obstacles) -> list[PackFinding]:
+    """What is odd about a pack; where a run is missing, with what kept the solver from it."""
+    return [finding._replace(text=_with_obstacle(pack, finding, obstacles)) for finding in lint(pack, with_gold=True)]
+
+
+def obstacle_of(pack: Pack, finding: PackFinding, obstacles: Obstacles) -> Finding | None:
+    """What kept the solver from the run that a finding misses."""
+    level = pack.levels.get(level_of(pack, file_of(pack, finding)))
+    return obstacles.get((level.level, _MISSING.get(finding.code, ""))) if level else None
+
+
+def _with_obstacle(pack: Pack, finding: PackFinding, obstacles: Obstacles) -> str:
+    why = obstacle_of(pack, finding, obstacles)
+    return f"{finding.text}. The search found none: {why.sentence}" if why else finding.text
 
 
 def _certify(
-    pack: Pack, path: Path, seconds: float, jobs: int, say: Callable[[str], object], notes: list[str]
-) -> dict[Level, Finding]:
-    """Certify all levels; by level, what kept the solver from a run to the exit. For gold that is a note."""
+    pack: Pack, path: Path, seconds: float, jobs: int, say: Callable[[str], object], obstacles: Obstacles
+) -> None:
+    """Certify the levels of which anything is not known yet, nor accepted."""
     from ninja_game.search.certify import Wanted, certify_all
     from ninja_game.search.task import Progress, obstacle
 
+    accepted = {(each.file, _MISSING.get(each.code)) for each in pack.index.accepted}
+
+    def is_open(file: str, kind: str) -> bool:
+        known = (pack.levels[file].level, kind) in obstacles or (file, kind) in accepted
+        return not (known or is_certified(pack, file, kind))
+
+    levels = {file: named for file, named in pack.levels.items() if any(is_open(file, kind) for kind in KINDS)}
     wanted = Wanted({"exit": 0, "gold": -1}, {"seconds": seconds})
-    files = [{kind: path / certificate_name(file, kind) for kind in KINDS} for file in pack.levels]
-    done, obstacles = 0, dict[Level, Finding]()
+    files = [{kind: path / certificate_name(file, kind) for kind in KINDS} for file in levels]
+    done = 0
 
     def report(name: str, progress: Progress) -> None:
         say(f"Certifying, {done} of {len(files)} levels done. {name}: {progress.seconds:.0f} s")
 
     say("Certifying; the first time the solver is compiled, for a minute")
-    all_found = certify_all(list(pack.levels.values()), files, wanted, jobs=jobs, report=report)
-    for (file, named), found in zip(pack.levels.items(), all_found, strict=True):
-        for goal, each in found.items() if isinstance(found, dict) else ():
-            why = None if each.run or not each.progress else obstacle(named.level, each.gold, each.progress)
-            if why and goal == "exit":
-                obstacles[named.level] = why
-            elif why and named.level not in obstacles:
-                notes.append(f"{file}: no run with all gold in {seconds:.0f} s: {why.sentence}")
+    all_found = certify_all(list(levels.values()), files, wanted, jobs=jobs, report=report)
+    for named, found in zip(levels.values(), all_found, strict=True):
+        for kind, each in found.items() if isinstance(found, dict) else ():
+            if not each.run and each.progress:
+                obstacles[named.level, kind] = obstacle(named.level, each.gold, each.progress)
         done += 1
         say(f"Certifying, {done} of {len(files)} levels done")
-    return obstacles

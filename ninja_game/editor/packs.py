@@ -106,6 +106,30 @@ def accept(path: Path, file: str, code: str, reason: str) -> None:
     _change_index(path, lambda document: _add(document, "accept", entries))
 
 
+def take_back(path: Path, file: str, code: str) -> None:
+    """Accept a finding no more."""
+
+    def change(document: TOMLDocument) -> None:
+        tables: Any = document["accept"]
+        del tables[next(k for k, table in enumerate(tables) if (table["file"], table["code"]) == (file, code))]
+        if not tables:
+            del document["accept"]
+
+    _change_index(path, change)
+
+
+def bin_pack(path: Path, folder: Path) -> Path:
+    """Move a pack's folder into another folder, under a name that is free there; where it is then."""
+    folder.mkdir(parents=True, exist_ok=True)
+    return path.rename(free_path(folder, path.name, ""))
+
+
+def same_pack(pack: Pack, other: Pack) -> bool:
+    """Whether two packs have the same files."""
+    names = pack.files.own_names
+    return names == other.files.own_names and all(pack.files.text(name) == other.files.text(name) for name in names)
+
+
 # --- episodes ---
 
 

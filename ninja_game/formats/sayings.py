@@ -22,11 +22,12 @@ THINGS = ("switch", "exit")
 _KEY = re.compile(r"\{([^{}]*)\}")
 _DEATH = re.compile(r"death ([1-9][0-9]?)")
 _PLACE = re.compile(r"at ([0-9]{1,2}),([0-9]{1,2})")
-_WHEN = "start, switch, gold, 'death 3' or 'at 12,5'"
+_EVENTS = ("start", "switch", "gold", "lock", "trap")
+_WHEN = f"{', '.join(_EVENTS)}, 'death 3' or 'at 12,5'"
 
 
 class Saying(NamedTuple):
-    """``when``: "start", "switch", "gold", "death" or "at"; ``deaths``: after how many; ``cell``: column and row."""
+    """``when``: of _EVENTS, "death" or "at"; ``deaths``: after how many; ``cell``: column and row."""
 
     when: str
     text: str
@@ -56,7 +57,7 @@ def _read(part: str) -> Saying:
     for name in _KEY.findall(text):
         if name not in KEYS + THINGS:
             raise LevelError("an unknown key in 'says'", found=f"{{{name[:40]}}}", expected=", ".join(KEYS + THINGS))
-    if when in {"start", "switch", "gold"}:
+    if when in _EVENTS:
         return Saying(when, text)
     if match := _DEATH.fullmatch(when):
         return Saying("death", text, deaths=int(match[1]))

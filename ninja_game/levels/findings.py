@@ -111,6 +111,9 @@ PACK_RULES = {
     "no-certificate": Rule(
         "no certificate, so nobody knows whether it can be passed", "Find one with `ninja-game check --replays`."
     ),
+    "no-gold-run": Rule(
+        "no run with all gold is known", "Find one with `ninja-game check --replays`, or accept that there is none."
+    ),
     "certificate": Rule("{why}", "Make it again with `ninja-game check --replays`."),
     "accepted-in-vain": Rule("accepts {finding} of {file}, which is not found there", "Take it out of the index."),
     "no-pars": Rule("no table of par times", _MAKE_PARS),

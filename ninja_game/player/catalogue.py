@@ -225,13 +225,12 @@ class Catalogue:
         return list(found.values())
 
     def author_run(self, entry: Entry) -> Replay | None:
-        """The certificate to the exit that lies beside a level of a pack; None where there is none for this level."""
-        pack = self.ours if entry.source == "game" else self._known.get(entry.source)
-        if pack is None or pack.files is None:
-            return None
-        name = certificate_name(Path(entry.named.file).name, "exit")
+        """The certificate to the exit that lies beside a level; None where there is none for just this level."""
+        pack, file = self.ours if entry.source == "game" else self._known.get(entry.source), Path(entry.named.file)
+        name = certificate_name(file.name, "exit")
         try:
-            replay = parse_replay(pack.files.text(name)) if name in pack.files.names else None
+            files = PackFiles(file.parent) if entry.source == "yours" and file.is_file() else pack and pack.files
+            replay = parse_replay(files.text(name)) if files and name in files.names else None
         except (NinjaGameError, OSError):
             return None
         own = replay is not None and replay.level_digest == entry.digest
@@ -280,7 +279,8 @@ class Catalogue:
 
     def _pack_at(self, path: Path) -> Pack | None:
         """A pack, read again when its files have changed; None, and a problem, where it cannot be read."""
-        stamp = [(file, stamp_of(file)) for file in (path, *(path / name for name in files_in(path)))]
+        inside = CERTIFICATES, *files_in(path)
+        stamp = [(file, stamp_of(file)) for file in (path, *(path / name for name in inside))]
         if path not in self._packs or self._packs[path][0] != stamp:
             try:
                 self._packs[path] = stamp, Pack(path), ""

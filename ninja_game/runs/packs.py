@@ -10,7 +10,7 @@ from pathlib import PurePath
 from ninja_game.batch.difficulty import TRIES, difficulty
 from ninja_game.errors import NinjaGameError, ReplayError
 from ninja_game.formats.n14.level_string import level_digest
-from ninja_game.formats.pack.files import CERTIFICATES, INDEX, PARS
+from ninja_game.formats.pack.files import CERTIFICATES, INDEX, PARS, certificate_name
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.pack.pars import DIGITS, Pars, parse_pars
@@ -65,6 +65,15 @@ def certificate(pack: Pack, file: str, kind: str) -> Certificate | None:
     return Certificate(place, kind, pack.levels[file].level, recordings[0])
 
 
+def is_certified(pack: Pack, file: str, kind: str) -> bool:
+    """Whether a level file has a sound certificate."""
+    try:
+        found = certificate(pack, file, kind)
+        return found is not None and not found.problems
+    except NinjaGameError:
+        return False
+
+
 def make_pars(pack: Pack, *, tries: int = TRIES) -> Iterator[tuple[str, Pars]]:
     """The pars of every level file with a sound certificate to the exit, one after another.
 
@@ -95,6 +104,9 @@ def make_pars(pack: Pack, *, tries: int = TRIES) -> Iterator[tuple[str, Pars]]:
 
 KINDS = ("exit", "gold")
 
+NEVER_ACCEPTED = ("unreadable", "no-ninja", "too-many-objects")
+"""Findings of what cannot be played, by code."""
+
 
 def file_of(pack: Pack, finding: PackFinding) -> str:
     """The file that a finding is about; "" for the pack as a whole."""
@@ -102,25 +114,31 @@ def file_of(pack: Pack, finding: PackFinding) -> str:
     return next((name for name in pack.files.names if text.startswith(f"{pack.files.place(name)}:")), "")
 
 
-def lint(pack: Pack, *, with_design: bool = False) -> Iterator[PackFinding]:
+def level_of(pack: Pack, file: str) -> str:
+    """The level file that a file is, or of which it is a certificate; else the file."""
+    return next((each for each in pack.files.levels for kind in KINDS if certificate_name(each, kind) == file), file)
+
+
+def lint(pack: Pack, *, with_design: bool = False, with_gold: bool = False) -> Iterator[PackFinding]:
     """Every finding that the pack does not accept; none for a proper pack.
 
-    ``with_design``: what its levels lack, too (docs/good-levels.md).
+    ``with_design``: what its levels lack, too (docs/good-levels.md); ``with_gold``: no run with all gold, too.
     """
+    unasked = {*(() if with_design else DESIGN_RULES), *(() if with_gold else ("no-gold-run",))}
     open_ones = {(each.file, each.code): each for each in pack.index.accepted}
     accepted = set(open_ones)
-    for finding in _findings(pack, with_design=with_design):
+    for finding in _findings(pack, with_design=with_design, with_gold=with_gold):
         key = file_of(pack, finding), finding.code
         open_ones.pop(key, None)
-        if key not in accepted or finding.code == "unreadable":
+        if key not in accepted or finding.code in NEVER_ACCEPTED:
             yield finding
     for stale in open_ones.values():
-        if with_design or stale.code not in DESIGN_RULES:
+        if stale.code not in unasked:
             place = f"{pack.files.place(INDEX)}:{stale.line}"
             yield in_pack("accepted-in-vain", place, file=stale.file, finding=stale.code)
 
 
-def _findings(pack: Pack, *, with_design: bool) -> Iterator[PackFinding]:
+def _findings(pack: Pack, *, with_design: bool, with_gold: bool) -> Iterator[PackFinding]:
     in_episodes = {level.file for levels in pack.episodes.values() for level in levels}
     yield from (in_pack("unreadable", why=problem) for problem in pack.problems)
     yield from _about_index(pack)
@@ -128,6 +146,10 @@ def _findings(pack: Pack, *, with_design: bool) -> Iterator[PackFinding]:
         if named.file not in in_episodes:
             yield in_pack("single-level", pack.files.place(file))
     yield from _about_levels(pack)
+    for file, named in pack.levels.items() if with_gold else ():
+        rich = pack.certificate(file, "gold") or not named.level.gold
+        if not rich and is_certified(pack, file, "exit"):
+            yield in_pack("no-gold-run", pack.files.place(file))
     sound = True
     for finding in _about_certificates(pack):
         sound = False

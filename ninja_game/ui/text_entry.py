@@ -180,13 +180,14 @@ class TextEntry(Widget):
 class EditedText:
     """A line of text under edit. ``cursor``: before which character it is; up to ``anchor`` it is selected.
 
-    ``longest``: how many characters fit in.
+    ``longest``: how many characters fit in; ``was_full``: whether what was typed last did not.
     """
 
     def __init__(self, text: str, longest: int) -> None:
         self.text = text
         self.longest = longest
         self.cursor = self.anchor = len(text)
+        self.was_full = False
         self._past: list[tuple[str, int, int]] = []
 
     @property
@@ -231,7 +232,8 @@ class EditedText:
         first, last = self.span
         line = re.sub(r"[\r\n\t]+", " ", typed.strip("\r\n"))
         line = "".join(char for char in line if char.isprintable())
-        line = line[: max(0, self.longest - len(self.text) + last - first)]
+        room = max(0, self.longest - len(self.text) + last - first)
+        self.was_full, line = len(line) > room, line[:room]
         if line != self.selected:
             self._past.append((self.text, self.cursor, self.anchor))
         self.text = self.text[:first] + line + self.text[last:]

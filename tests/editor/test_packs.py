@@ -10,10 +10,12 @@ from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
 from ninja_game.editor import packs
-from ninja_game.editor.packing import make_ready
+from ninja_game.editor.packing import Obstacles, make_ready
 from ninja_game.errors import NinjaGameError, PackError
+from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.files import PackFiles
 from ninja_game.formats.pack.pack import Pack
+from ninja_game.levels.findings import found
 from tests.support.own_pack import PACK
 
 FIRST, LAST = "00-0-first-steps.txt", "01-2-the-works.txt"
@@ -109,8 +111,8 @@ def test_a_pack_is_made_ready_and_only_what_changed_is_done_again(pack: Path, tm
     assert other.stat().st_mtime_ns == kept
     assert "Par times: 8 of 8 levels" in said
     # Whether all gold is found in a second depends on the machine.
-    notes = [note for note in ready.notes if "no run with all gold in 1 s" not in note]
-    assert (ready.findings, notes, ready.link[:6]) == ([], [], "#pack=")
+    findings = [finding for finding in ready.findings if finding.code != "no-gold-run"]
+    assert (findings, ready.notes, ready.link[:6]) == ([], [], "#pack=")
     (tmp_path / "pack.zip").write_bytes(ready.zipped)
     assert PackFiles(tmp_path / "pack.zip").names == Pack(pack).files.names
     assert ready.zipped == Pack(pack).files.zipped()
@@ -123,12 +125,37 @@ def test_what_keeps_a_level_from_a_certificate_is_a_problem_of_the_pack(pack: Pa
             file.unlink()
     text = (pack / FIRST).read_text("utf-8")
     (pack / FIRST).write_text(text.replace("ox...", "o....").replace("22 |##", "22 |x#"), "utf-8")
-    ready = make_ready(pack, seconds=1.0, jobs=1, say=str)
-    told = "no run to the exit found: exit at 30,18 (object 6): its switch was touched in no try of the solver"
-    assert [finding.hint for finding in ready.findings if finding.text == told] == [
-        "Make the way there easier, or give the solver more time."
-    ]
-    assert list(ready.obstacles) == [Pack(pack).levels[FIRST].level]
+    obstacles: Obstacles = {}
+    ready = make_ready(pack, seconds=1.0, jobs=1, say=str, obstacles=obstacles)
+    told = "The search found none: exit at 30,18 (object 6): its switch was touched in no try of the solver"
+    assert [finding.code for finding in ready.findings if finding.text.endswith(told)] == ["certificate"]
+    level = Pack(pack).levels[FIRST].level
+    assert list(obstacles) == [(level, "exit"), (level, "gold")]
+
+
+def test_what_was_searched_in_vain_or_is_accepted_is_not_searched_again(
+    pack: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    levels = Pack(pack).levels
+    why = found("gold-left", (2,), most=1, never="never gold")
+    obstacles: Obstacles = {(named.level, "gold"): why for file, named in levels.items() if file != FIRST}
+    packs.accept(pack, FIRST, "no-gold-run", "a joke")
+    searched: list[str] = []
+
+    def search(levels: list[NamedLevel], *_: object, **__: object) -> list[dict[str, object]]:
+        searched.extend(each.name for each in levels)
+        return [{} for _ in levels]
+
+    monkeypatch.setattr("ninja_game.search.certify.certify_all", search)
+    ready = make_ready(pack, seconds=1.0, jobs=1, say=str, obstacles=obstacles)
+    assert searched == []
+    assert {finding.code for finding in ready.findings} == {"no-gold-run"}
+    assert len(ready.findings) == len(levels) - 1
+    assert ready.findings[0].text.endswith("The search found none: 1 at most were collected at once, never gold")
+    packs.take_back(pack, FIRST, "no-gold-run")
+    assert "accept" not in (pack / "pack.toml").read_text("utf-8")
+    make_ready(pack, seconds=1.0, jobs=1, say=str, obstacles=obstacles)
+    assert searched == ["First Steps"]
 
 
 def test_the_command_makes_a_pack_ready(pack: Path, tmp_path: Path) -> None:

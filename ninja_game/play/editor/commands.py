@@ -60,6 +60,7 @@ class EditorCommands(DocumentCommands):
         self.view = view
         self._palette = palette
         self._finding = -1
+        view.open_message = self.messages
 
     def run(self, name: str) -> None:
         tools = self.session.tools
@@ -166,12 +167,26 @@ class EditorCommands(DocumentCommands):
         """Start the solver, or stop it."""
         certifier = self.session.certifier
         self.session.tools.finish()
-        if certifier.busy:
+        if certifier.busy and not certifier.is_stale(self.session.draft.level):
             certifier.stop()
         elif any(finding.code in ("no-ninja", "no-exit") for finding in self.session.findings):
             self.app.notify("Place a ninja and an exit with its switch first")
         else:
             certifier.start(self.session.draft.level)
+
+    def unless_unsaved(self, action: Action) -> None:
+        """Ask first if the solver is still looking for a run of the level, too."""
+        certifier, ask = self.session.certifier, super().unless_unsaved
+        if not certifier.busy or certifier.search.run:
+            ask(action)
+            return
+
+        def stop() -> None:
+            certifier.stop()
+            ask(action)
+
+        rows: list[Row] = [("Let it search on", nothing, "Stay here"), ("Stop the search", stop, "F7 begins another")]
+        self.app.push(Menu(self.app, "The solver is still looking for a run", rows))
 
     # --- files ---
 
@@ -187,7 +202,7 @@ class EditorCommands(DocumentCommands):
             ("Copy a link", session.copy_link, "Opens the level"), ("Copy as level text of N", session.copy_string, ""),
             ("Paste a level", session.paste_string, "From the clipboard: text in any format, of N too, or a link"),
             ("Export a picture", session.export_picture, "A PNG file among your exports"),
-            ("Keep the run that was found", session.keep_certificate, "As a replay among yours"),
+            ("Keep the solver's run", session.keep_certificate, "As a replay among yours"),
             ("Good levels", self.good_levels, "Ten of the game's, and what makes each of them good"),
             ("Leave the editor", self.leave, ""),
         ]  # fmt: skip
@@ -262,8 +277,11 @@ class EditorCommands(DocumentCommands):
 
         self.app.push(FormPanel(self.app, "About the level", fields, "OK", on_accept))
 
-    def messages(self) -> None:
-        """What the level says to its player, and when; near a place: that of what is selected, or of the pointer."""
+    def messages(self, at: Cell | None = None) -> None:
+        """What the level says to its player, and when; near a place: that of what is selected, or of the pointer.
+
+        ``at``: the cell of the message that is looked for.
+        """
         tools, view = self.session.tools, self.view
         tools.finish()
         found = [points(tools.draft.objects[number]).get(part) for number, part in tools.selection.parts]
@@ -276,7 +294,7 @@ class EditorCommands(DocumentCommands):
         def put(says: str) -> None:
             tools.history.change(replace(tools.draft, says=says))
 
-        self.app.push(MessagesScreen(self.app, tools.draft.says, here, pick, put))
+        self.app.push(MessagesScreen(self.app, tools.draft.says, here, pick, put, at))
 
     def open(self) -> None:
         self.unless_unsaved(lambda: self.app.push(LevelChoice(self.app, self.edit_entry)))

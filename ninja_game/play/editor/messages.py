@@ -10,9 +10,13 @@ import pygame
 
 from ninja_game.editor.draft import Cell
 from ninja_game.errors import LevelError
-from ninja_game.formats.sayings import BAR, KEYS, MOST_LETTERS, MOST_SAYINGS, THINGS, read_sayings
+from ninja_game.formats.sayings import BAR, KEYS, MOST_LETTERS, MOST_SAYINGS, THINGS, named_keys, read_sayings
 from ninja_game.play.app import App
+from ninja_game.play.level.hud import Hud
 from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.menus.panels import CANCEL, Menu, Row
+from ninja_game.sim.level import Level
+from ninja_game.ui.canvas import WIDTH
 from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.widgets import Button, Choice, Widget
 
@@ -20,15 +24,13 @@ ROW, TOP = 78, 66
 
 _WHEN = [
     ("At the start", "start"), ("The exit opens", "switch"), ("The first gold", "gold"), ("After deaths", "death"),
-    ("Near a place", "at"),
+    ("A locked door opens", "lock"), ("A trap closes", "trap"), ("Near a place", "at"),
 ]  # fmt: skip
 
 _HELP = (
-    "At the start: at each start, until the exit is open. The exit opens: as soon as its switch is touched.",
-    "The first gold: when it is taken. After deaths: at the start after that many deaths.",
-    "Near a place: the first time that the ninja comes near that cell; a bubble marks it in the editor.",
-    f"In a text {', '.join(f'{{{key}}}' for key in KEYS)} become the key or button of whoever plays;",
-    f"{' and '.join(f'{{{thing}}}' for thing in THINGS)} name what an arrow points at. At most {MOST_LETTERS} letters.",
+    "At the start: at each start, until the exit is open. Near a place: the first time that the ninja comes near.",
+    f"{', '.join(f'{{{key}}}' for key in KEYS)} become the key or button of whoever plays;",
+    f"{' and '.join(f'{{{thing}}}' for thing in THINGS)} become these words; arrows lead to both where messages are.",
 )
 
 
@@ -76,28 +78,44 @@ def messages_of(says: str) -> list[Message]:
 class MessagesScreen(MenuScreen):
     """``here``: the cell that a message near a place begins with. ``pick`` has the player point at a cell.
 
-    ``put``: takes the header's value.
+    ``put``: takes the header's value. ``at``: the message of this cell gets the focus.
     """
 
     title = "Messages to the player"
 
     def __init__(
         self, app: App, says: str, here: Cell, pick: Callable[[Callable[[Cell | None], None]], object],
-        put: Callable[[str], object],
+        put: Callable[[str], object], at: Cell | None = None,
     ) -> None:  # fmt: skip
         super().__init__(app)
         self.messages = messages_of(says)
+        self._selected = 0
+        self._before, self._hud = self.source, Hud(self.theme)
+        self._wanted = "{},{}".format(*at) if at else ""
         self._here, self._pick, self._put = here, pick, put
         self._details: list[Widget] = []
         self._texts: list[Widget] = []
+        self._row_widgets: list[list[Widget]] = []
+
+    @property
+    def source(self) -> str:
+        """The header's value as it is here."""
+        return f" {BAR} ".join(message.source for message in self.messages)
+
+    def enter(self) -> None:
+        super().enter()
+        place = next((k for k, each in enumerate(self.messages) if self._wanted and each.detail == self._wanted), None)
+        if place is not None:
+            self.focus, self._wanted = self._texts[place], ""
 
     def build(self) -> Sequence[Widget]:
         self._details, self._texts = [], []
-        rows = [widget for number in range(len(self.messages)) for widget in self._row(number)]
+        self._row_widgets = [self._row(number) for number in range(len(self.messages))]
+        rows = [widget for row in self._row_widgets for widget in row]
         y = TOP + ROW * len(self.messages)
         add = Button((36, y, 160, 28), "Add a message", self._add if len(self.messages) < MOST_SAYINGS else None)
         add.hint = f"A level has at most {MOST_SAYINGS}"
-        end = [Button((480, y, 132, 28), "OK", self._accept), Button((624, y, 132, 28), "Cancel", self.close)]
+        end = [Button((480, y, 132, 28), "OK", self._accept), Button((624, y, 132, 28), "Cancel", self.app.pop)]
         return [*rows, add, *end]
 
     def _row(self, number: int) -> list[Widget]:
@@ -108,14 +126,14 @@ class MessagesScreen(MenuScreen):
             longest=MOST_LETTERS, hint="{jump} becomes the key or button of whoever plays",
         )  # fmt: skip
         moment = Choice((36, y, 220, 28), "", _WHEN, lambda: message.when, partial(self._choose, message))
-        moment.hint = "When it is said: at the start, the exit opens, the first gold, after deaths, near a place"
+        moment.hint = f"When it is said: {', '.join(words[0].lower() + words[1:] for words, _ in _WHEN)}"
         about: list[Widget] = []
         if message.when in ("death", "at"):
             hint = "Column and row of the cell" if message.when == "at" else "How many deaths"
             detail = partial(setattr, message, "detail")
             about.append(TextEntry((264, y, 80, 28), hint, message.detail, detail, longest=6, hint=hint))
         if message.when == "at":
-            show = Button((352, y, 150, 28), "Show it in the level", partial(self._point, message), size=10)
+            show = Button((352, y, 150, 28), "Pick a place...", partial(self._point, message), size=10)
             show.hint = "The next click in the level says where"
             about.append(show)
         self._details.append(about[0] if about else text)
@@ -134,7 +152,7 @@ class MessagesScreen(MenuScreen):
                 message.detail = "{},{}".format(*cell)
             self.app.push(self)
 
-        self.close()
+        self.app.pop()
         self._pick(take)
 
     def _add(self) -> None:
@@ -155,8 +173,16 @@ class MessagesScreen(MenuScreen):
                 self.app.notify(problem)
                 self.redraw = True
                 return
-        self.close()
-        self._put(f" {BAR} ".join(message.source for message in self.messages))
+        self.app.pop()
+        self._put(self.source)
+
+    def close(self) -> None:
+        """Ask what is to become of changes."""
+        rows: list[Row] = [("Keep the changes", self._accept, ""), ("Discard changes", self.app.pop, ""), CANCEL]
+        if self.source == self._before:
+            super().close()
+        else:
+            self.app.push(Menu(self.app, "The messages are changed", rows))
 
     def act(self, action: str, *, held: bool = False) -> None:
         """Enter in a field means OK."""
@@ -166,7 +192,23 @@ class MessagesScreen(MenuScreen):
             super().act(action, held=held)
 
     def draw_frame(self, surface: pygame.Surface) -> None:
-        """What moments there are, and what a text may name."""
+        """How long the texts are, the selected one as the level says it, and what a text may name."""
         super().draw_frame(surface)
-        y = TOP + ROW * len(self.messages) + 44
-        self.theme.paragraph(surface, _HELP, (36, y, 720, 560 - y), 11, 15, colour=self.theme.palette.faint)
+        theme = self.theme
+        for number, message in enumerate(self.messages):
+            row, length = TOP + ROW * number, len(message.text)
+            colour = theme.palette.faint if length < MOST_LETTERS else theme.palette.bad
+            count = f"{length} of {MOST_LETTERS}"
+            theme.text(surface, count, 646, row + 9, size=10, colour=colour, align="right")
+            if self.focus in self._row_widgets[number]:
+                self._selected = number
+        y = TOP + ROW * len(self.messages) + 40
+        shown = self.messages[self._selected].text.strip() if self._selected < len(self.messages) else ""
+        if shown:
+            self._hud.theme = theme
+            lines, _, _, w, high, margin, size = self._hud.box(
+                named_keys(shown, lambda name: self.app.controls.name(name) if name in KEYS else f"{{{name}}}"),
+                Level().tiles, (), None, covers=True,
+            )  # fmt: skip
+            self._hud.said(surface, (lines, (WIDTH - w) / 2, y, w, high, margin, size))
+        theme.paragraph(surface, _HELP, (36, 506, 720, 54), 11, 15, colour=theme.palette.faint)

@@ -55,7 +55,7 @@ class ObjectList(EditorPart):
             for k, (text, by, hint) in enumerate(_MOVES)
         ]
         every = Button((x + 106, y + h - 22, 70, 19), "Select all", self._choose_shown, size=9)
-        every.hint = "All that are shown: change a property of them at once, below"
+        every.hint = "Select all that are shown; a property that all of them have is changed at once, below"
         palette = ToolButton((x + w - 54, y + 3, 46, 17), "list", "Palette", run, view)
         self.widgets = [find, palette, self.list, *moves, every]
 

@@ -278,9 +278,11 @@ class Findings(EditorPart):
     def __init__(self, view: EditorView, go_to: Callable[[int], object]) -> None:
         super().__init__(view)
         self._shown: list[Finding] = []
+        self._lines: list[tuple[int, str]] = []
         self.list = ListView(
-            self.area, 19, self._draw_row, go_to, empty="No problems found", hint="A click goes there and selects it"
-        )
+            self.area, 19, self._draw_row, lambda row: go_to(self._lines[row][0]), empty="No problems found",
+            hint="A click goes there and selects it",
+        )  # fmt: skip
         self.widgets = [self.list]
 
     def render_key(self) -> tuple[object, ...]:
@@ -288,18 +290,21 @@ class Findings(EditorPart):
 
     def update(self, real_ms: int) -> None:
         if self._shown is not self.session.findings:
-            self._shown = self.session.findings
-            self.list.fill(self._shown)
+            self._shown, theme = self.session.findings, self.view.app.theme
+            room = self.area[2] - 32
+            self._lines = [(k, each) for k, f in enumerate(self._shown) for each in wrapped(theme, f.advice, room, 9.5)]
+            self.list.fill(self._lines)
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)
         theme.canvas.fill_rect(surface, theme.palette.panel, *self.area, 3)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
-        finding = self._shown[index]
+        number, line = self._lines[index]
         x, y, w, _ = area
-        theme.text(surface, "!", x + 4, y + 5, size=9.5, bold=True, colour=theme.palette.bad)
-        theme.text(surface, finding.advice, x + 14, y + 5, size=9.5, width=w - 16)
+        if index == 0 or self._lines[index - 1][0] != number:
+            theme.text(surface, "!", x + 4, y + 5, size=9.5, bold=True, colour=theme.palette.bad)
+        theme.text(surface, line, x + 14, y + 5, size=9.5, width=w - 16)
 
 
 class FilePart(EditorPart):
@@ -328,7 +333,7 @@ class FilePart(EditorPart):
         if stale and not certifier.busy:
             text = f"{'Certified before' if run else 'Not certified since'} the last change: F7 again"
         elif run and not certifier.busy:
-            text += ". To keep it: File, Keep the run that was found"
+            text += f". {session.keeping}"
         for number, line in enumerate(wrapped(theme, text, w, 9)[:3]):
             colour = palette.good if run and not stale else palette.text
             theme.text(surface, line, x, y + 36 + 12 * number, size=9, colour=colour)

@@ -9,6 +9,7 @@ import pygame
 from ninja_game.editor.brush import SNAPS, snapped
 from ninja_game.editor.files import Source
 from ninja_game.editor.specs import PROPERTIES, properties, word
+from ninja_game.editor.stamp import Selection
 from ninja_game.play.app import App
 from ninja_game.play.editor.commands import EditorCommands
 from ninja_game.play.editor.controls import DIRECTION_KEYS, OBJECT_TYPE_OF_KEY, TABLE, tile_of_key
@@ -79,6 +80,7 @@ class EditorScreen(WorkspaceScreen):
     def leave(self) -> None:
         """Covered or closed: what is edited is kept safe at once."""
         super().leave()
+        self.session.certify_file()
         self.session.autosave.flush(self.session.draft, self.session.source)
 
     # --- keys, pads, the mouse ---
@@ -132,39 +134,44 @@ class EditorScreen(WorkspaceScreen):
         if key.startswith("shift+") and key[6:] in DIRECTIONS:
             tools.nudge(*DIRECTIONS[key[6:]])
             return True
-        if not tools.objects and not tools.selection:
-            tile = tile_of_key(key, tools.tile)
-            if tile is not None:
-                tools.pick_up(tile)
-            if tile is not None or key not in OBJECT_TYPE_OF_KEY:
-                return tile is not None
-        object_type = OBJECT_TYPE_OF_KEY.get(key)
-        if object_type and not tools.selection:
-            tools.pick_up(object_type.spec)
-        elif key in DIRECTION_KEYS:
-            self._direct(DIRECTION_KEYS[key])
-        elif key in ("q", "e"):
-            self._next_word("movement", -1 if key == "q" else 1)
-        elif key == "n":
-            self._next_word("seeker", 1)
-        else:
-            return object_type is not None
+        object_type, about_objects = OBJECT_TYPE_OF_KEY.get(key), tools.objects or bool(tools.selection.parts)
+        if about_objects and self._change_by_key(key):
+            return True
+        # What is in hand has the digits; E and D are tiles wherever an object needs them for nothing else.
+        tile = tile_of_key(key, tools.tile) if not about_objects or key in ("e", "d") else None
+        what = tile if tile is not None else object_type.spec if object_type else None
+        if what is None:
+            return False
+        tools.selection = Selection()
+        tools.pick_up(what)
         return True
 
-    def _direct(self, direction: str) -> None:
-        """Turn the object in hand, or those that are selected; doors have sides instead."""
-        tools = self.session.tools
-        side = {"up": "top", "down": "bottom"}.get(direction, direction)
-        for name, text in (("direction", direction), ("side", side)):
-            if any(name in properties(spec) for spec in tools.subjects):
-                tools.put_word(name, text)
+    def _change_by_key(self, key: str) -> bool:
+        """Change the object in hand, or those that are selected; whether they have what the key is for."""
+        if key in DIRECTION_KEYS:
+            return self._direct(DIRECTION_KEYS[key])
+        if key in ("q", "e"):
+            return self._next_word("movement", -1 if key == "q" else 1)
+        return key == "n" and self._next_word("seeker", 1)
 
-    def _next_word(self, name: str, by: int) -> None:
-        spec = self.session.tools.subject
-        if name in properties(spec):
-            words = list(PROPERTIES[spec.kind][name].words)
-            place = words.index(word(spec, name)) if word(spec, name) in words else 0
-            self.session.tools.put_word(name, words[(place + by) % len(words)])
+    def _direct(self, direction: str) -> bool:
+        """Turn the object in hand, or those that are selected; doors have sides instead."""
+        tools, side = self.session.tools, {"up": "top", "down": "bottom"}.get(direction, direction)
+        words = {"direction": direction, "side": side}
+        has = [name for name in words if any(name in properties(spec) for spec in tools.subjects)]
+        for name in has:
+            tools.put_word(name, words[name])
+        return bool(has)
+
+    def _next_word(self, name: str, by: int) -> bool:
+        tools = self.session.tools
+        spec = next((each for each in tools.subjects if name in properties(each)), None)
+        if spec is None:
+            return False
+        words = list(PROPERTIES[spec.kind][name].words)
+        place = words.index(word(spec, name)) if word(spec, name) in words else 0
+        tools.put_word(name, words[(place + by) % len(words)])
+        return True
 
     def update(self, real_ms: int) -> None:
         """Keep the level safe, examine it, and follow what comes of that."""

@@ -87,6 +87,8 @@ class EditorSession:
         Raises FileError for what another window continues with.
         """
         before = self.autosave
+        self.certifier.stop()
+        self.certify_file()
         self._begin(source, found)
         self.certifier.forget()
         before.close()
@@ -139,7 +141,8 @@ class EditorSession:
     def update(self) -> None:
         """Keep the level safe, examine it, look for what can be reached: all in the background."""
         self._follow_pointer()
-        self._certify_file()
+        if not self.certifier.busy:
+            self.certify_file()
         self.autosave.poll(self.draft, self.source)
         if self.autosave.problem:
             self.app.notify(self.autosave.problem)
@@ -180,14 +183,26 @@ class EditorSession:
         self.source = source
         self.tools.history.change(source.draft)
 
-    def _certify_file(self) -> None:
-        """Put the solver's run beside the level's file as soon as that holds its level: packs need no other then."""
+    @property
+    def keeping(self) -> str:
+        """What becomes of the run that the solver has found, a sentence."""
+        path = self.source.path
+        if path and not self._keeps_runs(path):
+            return "To keep it: File, Keep the solver's run"
+        return "Kept with the level" if path and self.is_saved else "Kept when the level is saved"
+
+    def _keeps_runs(self, path: Path) -> bool:
+        """Whether certificates lie beside a file: in the player's folder of levels, and in packs."""
+        return path.parent == self.app.player.folder / LEVELS or is_pack(path.parent)
+
+    def certify_file(self) -> None:
+        """Put the solver's run beside the level's file if that holds its level: packs need no other then."""
         run, path = self.certifier.search.run, self.source.path
-        done = self.certifier.busy or (run, path) == self._certified
+        done = (run, path) == self._certified
         if run is None or path is None or done or not self.is_saved or self.certifier.is_stale(self.draft.level):
             return
         self._certified = run, path
-        if path.parent == self.app.player.folder / LEVELS or is_pack(path.parent):
+        if self._keeps_runs(path):
             from ninja_game.search.certify import keep_run
 
             try:
@@ -197,7 +212,7 @@ class EditorSession:
 
     def close(self) -> None:
         self.certifier.close()
-        self._certify_file()
+        self.certify_file()
         self.autosave.close()
 
     # --- files ---

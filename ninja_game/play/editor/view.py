@@ -9,7 +9,7 @@ import pygame
 
 from ninja_game.editor.brush import placed
 from ninja_game.editor.certify import NO_TESTS
-from ninja_game.editor.draft import Cell, is_inside
+from ninja_game.editor.draft import Cell, Draft, is_inside
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.reach import SQUARE, Reach
 from ninja_game.editor.specs import BODY, SWITCH, carried, points
@@ -31,6 +31,7 @@ from ninja_game.play.editor.sheet import (
 from ninja_game.play.workspace.part import Part
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.ui.canvas import Canvas, Colour, Point
+from ninja_game.ui.text_entry import DOUBLE_MS
 from ninja_game.ui.theme import Area, Palette, Theme
 from ninja_game.ui.widgets import Widget, following
 from ninja_game.view.sprites.drawing import DrawTarget, drawing, is_near
@@ -188,6 +189,7 @@ class EditorView(Part):
     """The level under edit, and what lies over it. ``hovering``: the pointer is shown; ``hint``: for the line below.
 
     ``taker``: gets the cell of the next press, which draws nothing then; None where it is given up.
+    ``open_message``: called with the cell of a message that is clicked twice.
     ``listing``: the list of objects is shown in the place of the palette; ``tests``: the map of the tests is shown.
     """
 
@@ -202,6 +204,8 @@ class EditorView(Part):
         self.lines = self.paths = True
         self.listing = self.tests = False
         self.taker: Callable[[Cell | None], None] | None = None
+        self.open_message: Callable[[Cell], object] = lambda _: None
+        self._pressed: tuple[Cell, int, Draft] | None = None
         self._step_palette = step_palette
         self._held = False
         self._marked: tuple[object, ...] = ()
@@ -229,6 +233,17 @@ class EditorView(Part):
     def press(self, *, erase: bool = False, pick: bool = False, add: bool = False) -> None:
         cell = self.session.tools.cell
         if is_inside(cell) and self.take(cell):
+            return
+        before, now = None if erase or pick else self._pressed, pygame.time.get_ticks()
+        self._pressed = cell, now, self.session.draft
+        middle = 24.0 * cell[0] + 12.0, 24.0 * cell[1] + 12.0
+        if before and before[0] == cell and now - before[1] < DOUBLE_MS and middle in said_places(before[2].says):
+            # The first click has drawn what nobody meant.
+            self.session.tools.finish()
+            if self.session.draft is not before[2]:
+                self.session.tools.undo()
+            self._pressed = None
+            self.open_message(cell)
             return
         self._held = True
         self.session.tools.press(erase=erase, pick=pick, add=add)

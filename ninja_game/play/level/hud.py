@@ -247,6 +247,7 @@ class Hud:
             things = (*things, (*eye, MUST))
         for rows, width in ((1, 1), (2, 1), (2, 0.6), (0, 1), (0, 0.6)):
             lines = text.split("\n") if keys else wrapped(theme, text, width * SAID_WIDE, SAID)
+            lines = [theme.fit(line, SAID_WIDEST - keys, SAID) for line in lines]
             w = max(theme.width(line, SAID) for line in lines) + 28 + keys
             left, y, covered, hidden = solid_place(tiles, w, high * len(lines) + 19, things, eye, rows=rows)
             if hidden < (MUST if keys else 1) and (covers or not rows or not covered):
@@ -396,8 +397,8 @@ FOOT, IN_BORDER, BESIDE_GOLD, KEYS_WIDE, NAME_FROM = 11.0, 576.0, 490.0, 70.0, 9
 """Size of the lines in the borders; where what a level says is in a border; its width there; of keys; px from which on
 there is room for a name beside it."""
 
-SAID, SAID_LINE, SAID_WIDE = 15.0, 22.0, 440.0
-"""Size of what a level says, height of its lines, and how wide they are at most."""
+SAID, SAID_LINE, SAID_WIDE, SAID_WIDEST = 15.0, 22.0, 440.0, 680.0
+"""Size of what a level says, height of its lines, how wide they are at most, and how wide a single word."""
 
 _TOOLS = {"quick_save": "save", "quick_load": "load", "rewind": "rewind", "slow": "slow", "step": "step"}
 _TOOLS_NAMED = 600

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from math import hypot
 
 from ninja_game.formats.sayings import THINGS, Saying
-from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN
+from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL
 from ninja_game.sim.states import SLIDING
@@ -32,7 +32,7 @@ CLIMB = (
 SLIPS, CLIMBED = 2, 4 * CELL
 """CLIMB is said after so many slips from a wall back to where the jump began, until the ninja is so many px higher."""
 
-_WHEN = {EXIT_OPENED: "switch", GOLD_TAKEN: "gold"}
+_WHEN = {EXIT_OPENED: "switch", GOLD_TAKEN: "gold", LOCK_OPENED: "lock", TRAP_CLOSED: "trap"}
 
 WHY = {
     "zap drone": "Its touch kills. Watch where it goes, and wait until it has passed.",

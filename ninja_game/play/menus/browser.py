@@ -178,9 +178,12 @@ class Browser(ThumbnailScreen):
         self.play_it.enabled = self.practice.enabled = not lock
         self.play_it.hint, self.practice.hint = lock, lock or PRACTICE_HINT
         self.watch_best.enabled = selected is not None and selected.digest in self.bests
+        mine = selected is not None and selected.source == "yours"
+        run = mine and selected and self.player.catalogue.author_run(selected)
         opened = selected is not None and opens_author(selected, self.marks.get(selected.digest))
-        self.watch_author.enabled = opened
-        self.watch_author.hint = "" if self.watch_author.enabled else "earn a gold medal to watch it"
+        self.watch_author.enabled = bool(run) if mine else opened
+        closed = "none is known: Certify, in the editor, finds one" if mine else "earn a gold medal to watch it"
+        self.watch_author.hint = "" if self.watch_author.enabled else closed
         self.watch_best.hint = "Your best run" if self.watch_best.enabled else "You have not passed this level yet"
 
     # --- go ---
@@ -227,7 +230,8 @@ class Browser(ThumbnailScreen):
             return
         self.thumbnails.draw(surface, entry, SIDE + 28, 66, SIDE_WIDTH - 56)
         theme.text(surface, entry.title, SIDE, 278, size=17, bold=True, width=SIDE_WIDTH - 44)
-        by = f"by {author_name(entry.named.author)}" if entry.named.author else "author unknown"
+        unsigned = "yours" if entry.source == "yours" else "author unknown"
+        by = f"by {author_name(entry.named.author)}" if entry.named.author else unsigned
         about = "    ".join(filter(None, (by, where_from(entry))))
         theme.text(surface, about, SIDE, 303, size=10.5, colour=palette.faint, width=SIDE_WIDTH)
         teaches = [f"Teaches: {entry.named.teaches}"] if entry.named.teaches else []
@@ -274,6 +278,13 @@ class LevelChoice(Browser):
 
     def build(self) -> Sequence[Widget]:
         return [*self.choosers(), Button((SIDE, 470, SIDE_WIDTH, 32), "Edit", lambda: self.play(self.list.index))]
+
+    def act(self, action: str, *, held: bool = False) -> None:
+        """Enter in the search opens the only level that is found."""
+        if action == "confirm" and self.focus is self.entry_field and len(self.shown) == 1:
+            self.play(0)
+        else:
+            super().act(action, held=held)
 
     def play(self, index: int, *, practice: bool = False) -> None:
         if index < len(self.shown):

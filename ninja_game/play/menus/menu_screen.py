@@ -108,6 +108,9 @@ class MenuScreen(Screen):
                 self._typed.begin(event.raw, scancode_of(event.raw), first=FIRST_REPEAT_MS, every=TEXT_REPEAT_MS)
         if taken:
             self.widgets_changed()
+        if isinstance(self.focus, TextEntry) and self.focus.edited.was_full:
+            self.focus.edited.was_full = False
+            self.app.notify(f"At most {self.focus.edited.longest} letters")
         return taken
 
     def handle(self, event: InputEvent) -> None:

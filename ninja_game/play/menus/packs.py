@@ -12,13 +12,13 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.editor import packs
-from ninja_game.editor.packing import ReadyPack, make_ready, problems_of
+from ninja_game.editor.packing import Obstacles, ReadyPack, make_ready, obstacle_of, problems_of
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.links.fragment import link_kind
-from ninja_game.formats.pack.files import INDEX, PARS
-from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, EpisodeIndex
+from ninja_game.formats.pack.files import INDEX, certificate_name
+from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, Accepted, EpisodeIndex
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.generator.daily import FOLDER as DAILY
@@ -26,11 +26,13 @@ from ninja_game.levels.findings import Finding, PackFinding
 from ninja_game.levels.warnings import level_findings
 from ninja_game.play.app import WARNING_MS, App
 from ninja_game.play.clipboard import copy_link, pasted_text
-from ninja_game.play.menus.panels import CANCEL, FormPanel, Menu, Row
+from ninja_game.play.level.screen import play_level
+from ninja_game.play.menus.panels import CANCEL, FormPanel, Menu, Question, Row
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
+from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
 from ninja_game.player.catalogue import Entry, EpisodeSet
-from ninja_game.runs.packs import file_of
+from ninja_game.runs.packs import NEVER_ACCEPTED, file_of, level_of
 from ninja_game.runtime import NewestJob
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.input.keys import chord
@@ -43,6 +45,12 @@ WIDE, HIGH = 93, 106
 
 SECONDS = 20.0
 """For each search of a run."""
+
+DELETED = "deleted"
+"""The folder among the player's files into which packs go that are deleted."""
+
+NOT_CERTIFIED = ("changed", "no run yet")
+"""States of levels of which nobody knows whether they can be passed as they are."""
 
 PULL = 6
 """px that the mouse moves with its button down before it takes something along."""
@@ -121,16 +129,20 @@ class PackScreen(ThumbnailScreen):
         self.beside = "none"
         self.cells: list[Cell] = []
         self.side: list[Cell] = []
-        self.measured = ""
+        self.states: dict[int, str] = {}
         self.held: Cell | None = None
         self.pointer: tuple[float, float] | None = None
         self.status = ""
         self.shelves = Rack((36, 96, 6 * WIDE + BAR + 4, 4 * HIGH), 6, self, self._choose)
         self.tray = Rack((622, 126, WIDE + BAR + 24, 4 * HIGH - 28), 1, self, self._choose_beside)
         self._stop = False
+        self._obstacles: Obstacles = {}
         self._job: NewestJob[Path, ReadyPack] = NewestJob(self._make_ready)
         self._seen: ReadyPack | None = None
         self._said = ""
+        self._checks: NewestJob[Pack, tuple[Pack, list[PackFinding]]] = NewestJob(self._check)
+        self._checked: tuple[Pack, list[PackFinding]] | None = None
+        self._asked: Pack | None = None
 
     @property
     def path(self) -> Path:
@@ -155,14 +167,17 @@ class PackScreen(ThumbnailScreen):
     def _show(self, pack: EpisodeSet | None) -> None:
         """Put a pack on the shelves, else the first one."""
         self.pack = pack = pack or next(iter(self.mine), None)
-        self.cells, self.measured = [], ""
+        self.cells = []
+        self.states.clear()
+        if pack and pack.pack is not self._asked and pack.pack:
+            self._asked = pack.pack
+            self._checks.ask(pack.pack)
         if pack and pack.pack:
             for episode in pack.pack.index.episodes:
                 levels = pack.episodes[episode.number].levels if episode.number in pack.episodes else ()
                 self.cells += [Cell(episode, head=True), *(Cell(episode, each) for each in levels)]
                 self.cells += [Cell(episode)] * (LEVELS_PER_EPISODE - len(levels))
             self.cells += [Cell(None, head=True), *[Cell(None)] * LEVELS_PER_EPISODE]
-            self.measured = pack.pack.files.text(PARS) if PARS in pack.pack.files.names else ""
         entries: Sequence[Entry] = pack.singles if pack else ()
         if self.beside == "yours":
             entries = self.player.catalogue.own()
@@ -191,8 +206,8 @@ class PackScreen(ThumbnailScreen):
         paste = Button((304, 60, 84, 28), "Paste link", self._paste, size=10)
         paste.hint = "Ctrl+V: the pack whose link is in the clipboard becomes one of yours"
         about = Button((396, 60, 92, 28), "About it...", self._about, size=10, hint="Name, author, version, link")
-        problems = Button((492, 60, 84, 28), "Problems", lambda: self.app.push(ProblemsScreen(self.app, self.problems)))
-        problems.size = 10
+        show = partial(ProblemsScreen, self.app, self.problems)
+        problems = Button((492, 60, 84, 28), "Problems", lambda: self.app.push(show()), size=10)
         make = Button((580, 60, 176, 28), ready, self._ready_or_stop, hint=hint)
         return [self.shelves, chosen, new, paste, about, problems, make, beside, self.tray] if have else [new, paste]
 
@@ -235,6 +250,9 @@ class PackScreen(ThumbnailScreen):
             if link_kind(text) != "pack":
                 raise NinjaGameError("there is no link of a pack in the clipboard: copy all of it first")
             pack = Pack(Path(f"#{text.partition('#')[2]}"))
+            if there := next((each for each in self.mine if each.pack and packs.same_pack(pack, each.pack)), None):
+                self._show(there)
+                raise NinjaGameError(f"{shown_text(there.name)} is among your packs already")
             self._read(packs.copy_pack(pack, self.folder, pack.name))
             self.app.notify(f"{shown_text(pack.name)} is among your packs now: Episodes plays it")
 
@@ -271,9 +289,20 @@ class PackScreen(ThumbnailScreen):
             ("Name, author, version...", self._form, ""),
             ("Copy of the pack...", lambda: self.ask("Name of the copy", f"{index.name} copy", copy), ""),
             ("Copy link", link, "Opens the pack; or Levels > Packs takes it in"),
+            ("Delete the pack...", self._delete, "It goes to a folder beside your levels"),
             CANCEL,
         ]
         self.app.push(Menu(self.app, index.name, rows))
+
+    def _delete(self) -> None:
+        """Move the pack away, if that is meant."""
+        name, path = self.pack.name if self.pack else "", self.path
+
+        def delete() -> None:
+            there = packs.bin_pack(path, self.player.folder / DELETED)
+            self.app.notify(f"{shown_text(name)} is in the folder {there.relative_to(self.player.folder)} now")
+
+        self.app.push(Question(self.app, f"Delete {shown_text(name)}?", "Delete it", lambda: self.do(delete)))
 
     def _choose(self, index: int) -> None:
         cell = self.cells[index]
@@ -307,7 +336,17 @@ class PackScreen(ThumbnailScreen):
             new = packs.duplicate(self.path, level.named)
             packs.place(self.path, new, episode.number if episode else None)
 
-        rows: list[Row] = [("Edit", lambda: self._edit(level, None), ""), ("Move...", lambda: self._hold(cell), "")]
+        run = self.player.catalogue.author_run(level)
+
+        def play() -> None:
+            if why := play_level(self.app, level):
+                self.app.notify(why)
+
+        rows: list[Row] = [
+            ("Edit", lambda: self._edit(level, None), ""), ("Play", play, ""),
+            ("Watch the run", partial(watch, self.app, [run]) if run else None, "" if run else "None is known yet"),
+            ("Move...", lambda: self._hold(cell), ""),
+        ]  # fmt: skip
         if file.parent == self.path:
             rows += [("Rename...", lambda: self.ask("Another name", level.named.name, rename), "")]
             rows += [("Copy", lambda: self.do(copy), "Another level like it")]
@@ -321,7 +360,11 @@ class PackScreen(ThumbnailScreen):
         columns += [""] * (column + 1 - len(columns))
 
         def level(name: str) -> None:
-            packs.place(path, packs.new_level(path, name, self.player.settings.name), number)
+            file = packs.new_level(path, name, self.player.settings.name)
+            packs.place(path, file, number)
+            self._read()
+            if entry := self._entry(file):
+                self._edit(entry, None)
 
         def name_column(name: str) -> None:
             packs.describe(path, {"columns": [*columns[:column], name, *columns[column + 1 :]]})
@@ -331,7 +374,7 @@ class PackScreen(ThumbnailScreen):
             partial(packs.new_episode, path, column=self._column() + 1),
         )
         rows: list[Row] = [
-            ("New level...", lambda: self.ask("Name of the level", "New level", level), "An empty one"),
+            ("New level...", lambda: self.ask("Name of the level", "New level", level), "Made, and opened"),
             ("Rename...", lambda: self.ask("Another name", episode.name, rename), ""),
             ("Move...", lambda: self._hold(Cell(episode, head=True)), ""),
             ("Name of the column...", lambda: self.ask("Name of the column", columns[column], name_column), ""),
@@ -402,32 +445,62 @@ class PackScreen(ThumbnailScreen):
 
     # --- problems, and what takes time ---
 
-    def problems(self) -> list[Problem]:
-        """What is odd about the pack."""
-        pack, ready = Pack(self.path), self._seen
-        found = problems_of(pack, ready.obstacles if ready else {})
-        notes = ready.notes if ready and ready.pack.files.path == self.path else []
-        return [*(self._problem(each, file_of(pack, each)) for each in found), *map(Problem, notes)]
+    def _check(self, pack: Pack) -> tuple[Pack, list[PackFinding]]:
+        return pack, problems_of(pack, self._obstacles)
 
-    def _problem(self, finding: PackFinding, file: str) -> Problem:
+    @property
+    def findings(self) -> list[PackFinding] | None:
+        """What is odd about the pack as it is now; None until that is known."""
+        known = self._checked and self.pack and self._checked[0] is self.pack.pack
+        return self._checked[1] if self._checked and known else None
+
+    def problems(self) -> list[Problem]:
+        """What is odd about the pack, then what is accepted."""
+        pack = (self.pack and self.pack.pack) or Pack(self.path)
+        if self.findings is None:
+            self._checked = self._check(pack)
+        return [*(self._problem(pack, each) for each in self.findings or ()), *map(self._accepted, pack.index.accepted)]
+
+    def _entry(self, file: str) -> Entry | None:
+        """The pack's level in a file."""
         levels = self.pack.levels if self.pack else []
-        entry = next((each for each in levels if each.named.file == str(self.path / file)), None)
+        return next((each for each in levels if each.named.file == str(self.path / file)), None)
+
+    def _problem(self, pack: Pack, finding: PackFinding) -> Problem:
+        file = file_of(pack, finding)
+        entry, why = self._entry(level_of(pack, file)), obstacle_of(pack, finding, self._obstacles)
+        text = str(finding).replace(f"{self.path}{os.sep}", "")
         go: Callable[[], object] | None = self._about if file == INDEX else None
         if finding.code == "no-author":
             go = partial(self._form, 1)
         elif entry:
-            level, ready = entry.named.level, self._seen
-            known = *level_findings(level), ready.obstacles.get(level) if ready else None
-            found = next((each for each in known if each and each.code == finding.code), None)
-            go = partial(self._edit, entry, found)
+            known = why or next((each for each in level_findings(entry.named.level) if each.code == finding.code), None)
+            go, text = partial(self._edit, entry, known), f"{entry.title}: {finding.text}"
 
         def accept(why: str) -> None:
             packs.accept(self.path, file, finding.code, why)
 
-        may = bool(file) and finding.code != "unreadable"
+        may = bool(file) and finding.code not in NEVER_ACCEPTED
         asked = partial(self.ask, "Accepted: why is it meant so?", "", accept) if may else None
-        hint = "The button Make ready does that." if "`ninja-game" in finding.hint else finding.hint
-        return Problem(str(finding).replace(f"{self.path}{os.sep}", ""), hint, go, asked)
+        hint = why.hint if why else "Make ready does that." if "`ninja-game" in finding.hint else finding.hint
+        return Problem(text, hint, go, asked)
+
+    def _accepted(self, accepted: Accepted) -> Problem:
+        entry, code = self._entry(accepted.file), accepted.code.replace("-", " ")
+        take_back = partial(packs.take_back, self.path, accepted.file, accepted.code)
+        text = f"{entry.title if entry else accepted.file}: {code}. Accepted: {accepted.reason}"
+        go = partial(self._edit, entry, None) if entry else None
+        return Problem(text, "", go, lambda: self.do(take_back), accepted=True)
+
+    def state(self, level: Entry) -> str:
+        """How far a level is, in a word: its time where it is measured."""
+        known, file = self.states.get(id(level)), Path(level.named.file)
+        if known is None:
+            beside = file.parent / certificate_name(file.name, "exit")
+            run = level.pars or self.player.catalogue.author_run(level)
+            known = "certified" if run else "changed" if beside.is_file() else "no run yet"
+            known = self.states[id(level)] = f"{seconds_text(level.pars.exit)} s" if level.pars else known
+        return known
 
     def _ready_or_stop(self) -> None:
         if self._job.idle:
@@ -443,7 +516,8 @@ class PackScreen(ThumbnailScreen):
                 raise NinjaGameError("Stopped; what was found is kept")
             self._said = text
 
-        return make_ready(path, seconds=SECONDS, jobs=max(1, (os.cpu_count() or 2) - 1), say=say)
+        jobs = max(1, (os.cpu_count() or 2) - 1)
+        return make_ready(path, seconds=SECONDS, jobs=jobs, say=say, obstacles=self._obstacles)
 
     def update(self, real_ms: int) -> None:
         super().update(real_ms)
@@ -453,10 +527,12 @@ class PackScreen(ThumbnailScreen):
             self.status = self._job.problem
             if ready and ready is not self._seen and not self._job.problem:
                 self._share(ready)
-            self._seen = ready
+            self._seen, self._asked = ready, None
             self.enter()
         elif self._said and self._said != self.status:
             self.status, self.redraw = self._said, True
+        if self._checks.result is not self._checked and self._checks.idle:
+            self._checked, self.redraw = self._checks.result, True
 
     def _share(self, ready: ReadyPack) -> None:
         """Write the zip, and put the link into the clipboard."""
@@ -469,7 +545,6 @@ class PackScreen(ThumbnailScreen):
             copy_link(self.app, lambda: ready.link, title=name)
             notes.insert(1, "the link is in the clipboard")
         self.app.notify("; ".join(notes), ms=WARNING_MS)
-        self.status = f"{counted(len(ready.pack.levels), 'level')}, {problems}"
 
     def leave(self) -> None:
         super().leave()
@@ -492,12 +567,16 @@ class PackScreen(ThumbnailScreen):
         """What the pack holds."""
         if self.pack is None:
             return ""
-        levels = self.pack.levels
-        to_do = sum(entry.pars is None for entry in levels)
+        levels, found = self.pack.levels, self.findings
+        states = [self.state(each) for each in levels]
+        counts = {"to certify": sum(map(states.count, NOT_CERTIFIED)), "to measure": states.count("certified")}
+        missing = ", ".join(f"{count} {what}" for what, count in counts.items() if count)
+        to_do = missing or "all certified and measured"
         alone = f", {len(self.pack.singles)} in none" if self.pack.singles else ""
         episodes = sum(cell.head for cell in self.cells) - 1
         where = f"{counted(len(levels), 'level')} in {counted(episodes, 'episode')}{alone}"
-        return f"{where}; {f'{to_do} to certify' if to_do else 'all certified'}" if levels else where
+        open_ones = "looking for problems" if found is None else counted(len(found), "open problem")
+        return f"{where}; {to_do}; {open_ones}" if levels else where
 
     def draw_widgets(self, surface: pygame.Surface) -> None:
         """What the mouse takes along lies over all."""
@@ -530,17 +609,14 @@ class PackScreen(ThumbnailScreen):
             theme.canvas.frame_rect(surface, theme.palette.panel_edge, *inner, 1, 4)
 
     def _draw_state(self, surface: pygame.Surface, theme: Theme, level: Entry, x: float, y: float, w: float) -> None:
-        palette = theme.palette
-        if level.pars is None:
-            name = Path(level.named.file).name
-            pack = self.pack.pack if self.pack and level.source == self.pack.key else None
-            known = "certified" if pack and pack.certificate(name, "exit") else "no run yet"
-            text, colour = ("changed", palette.bad) if pack and f'"{name}"' in self.measured else (known, palette.faint)
-            theme.text(surface, text, x, y, size=8.5, colour=colour, width=w)
-            return
-        theme.text(surface, f"{seconds_text(level.pars.exit)} s", x, y, size=8.5, colour=palette.good, width=w - 14)
-        if level.pars.gold is not None:
+        palette, state = theme.palette, self.state(level)
+        colour = palette.good if level.pars else palette.bad if state == "changed" else palette.faint
+        theme.text(surface, state, x, y, size=8.5, colour=colour, width=w - 14)
+        if level.pars and level.pars.gold is not None:
             draw_all_gold(surface, theme, x + w - 5, y + 5, 8)
+        file = f"{level.named.file}:"
+        if any(str(each).startswith(file) for each in self.findings or ()):
+            theme.text(surface, "!", x + w - 16, y - 1, size=11, bold=True, colour=palette.bad, align="centre")
 
     def _draw_head(self, surface: pygame.Surface, theme: Theme, cell: Cell, area: Area) -> None:
         x, y, w, h = area

@@ -20,12 +20,16 @@ LONGEST = 900
 
 
 class Problem(NamedTuple):
-    """``text``: where and what; ``hint``: how to mend it. ``go``: leads to its place, ``accept``: lets it be."""
+    """``text``: where and what; ``hint``: how to mend it. ``go``: leads to its place, ``accept``: lets it be.
+
+    ``accepted``: it is accepted already, and ``accept`` takes that back.
+    """
 
     text: str
     hint: str = ""
     go: Callable[[], object] | None = None
     accept: Callable[[], object] | None = None
+    accepted: bool = False
 
 
 class ProblemsScreen(MenuScreen):
@@ -42,7 +46,7 @@ class ProblemsScreen(MenuScreen):
             selected=lambda _: self._offer(), opens=True,
         )  # fmt: skip
         self.go = Button((464, 530, 136, 28), "Go there", self._go)
-        self.accept = Button((612, 530, 136, 28), "Accept it...", self._accept, hint="With a reason, kept in the pack")
+        self.accept = Button((612, 530, 136, 28), "Accept it...", self._accept)
 
     def build(self) -> Sequence[Widget]:
         self.problems = self._find()
@@ -56,6 +60,8 @@ class ProblemsScreen(MenuScreen):
 
     def _offer(self) -> None:
         self.go.enabled, self.accept.enabled = bool(self.selected.go), bool(self.selected.accept)
+        self.accept.text = "Take it back" if self.selected.accepted else "Accept it..."
+        self.accept.hint = "It is a problem again" if self.selected.accepted else "With a reason, kept in the pack"
         self.list.hint = "Enter or a second click leads there" if self.selected.go else ""
 
     def _go(self) -> None:
@@ -73,12 +79,16 @@ class ProblemsScreen(MenuScreen):
         theme.panel(surface, 44, 418, 704, 104)
         texts = [f"{shown_text(problem.text, LONGEST)}.", problem.hint] if problem.text else []
         theme.paragraph(surface, texts, (54, 426, 684, 90), 11, 14)
-        theme.text(surface, counted(len(self.problems), "problem"), 44, 538, size=10, colour=theme.palette.faint)
+        accepted = sum(each.accepted for each in self.problems)
+        count = counted(len(self.problems) - accepted, "problem") + f", {accepted} accepted" * bool(accepted)
+        theme.text(surface, count, 44, 538, size=10, colour=theme.palette.faint)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         x, y, w, h = area
         theme.row(surface, (x, y + 1, w, h - 2), chosen=index == self.list.index, focused=focused)
-        theme.paragraph(surface, [shown_text(self.problems[index].text)], (x + 10, y + 4, w - 20, h - 6), 10, 13)
+        problem, place = self.problems[index], (x + 10, y + 4, w - 20, h - 6)
+        colour = theme.palette.faint if problem.accepted else theme.palette.text
+        theme.paragraph(surface, [shown_text(problem.text, LONGEST)], place, 10, 13, colour=colour)
 
 
 def of_files(texts: Sequence[str]) -> list[Problem]:

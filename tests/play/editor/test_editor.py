@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from time import thread_time
 from typing import Any
+from unittest.mock import patch
 
 import pygame
 import pytest
@@ -22,9 +23,10 @@ from ninja_game.formats.ascii.places import place_text
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import parse_replay
+from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.controls import COMMANDS
 from ninja_game.play.editor.object_list import ObjectList
-from ninja_game.play.editor.parts import FIRST_STEPS
+from ninja_game.play.editor.parts import FIRST_STEPS, Findings
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.menus.help import HelpPage
@@ -638,3 +640,79 @@ def test_what_went_wrong_is_still_said_over_a_screen_that_opens_then(room: Maker
     room.press("f2")
     room.shown(FormPanel)
     assert room.app.notice == "What went wrong"
+
+
+def test_keys_of_objects_and_tiles_work_whatever_is_selected_or_in_hand(room: Maker) -> None:
+    tools = room.editor.session.tools
+    launch, mine = object_of_type("launch pad"), object_of_type("mine")
+    for key, spec in (("equals", launch), ("3", mine)):
+        tools.choose(frozenset({(0, 0)}))
+        room.press(key)
+        assert (tools.objects, tools.spec.kind, bool(tools.selection)) == (True, spec.kind, False)
+    for key, tile in (("e", 1), ("d", 0)):
+        tools.pick_up(mine)
+        room.press(key)
+        assert (tools.objects, tools.tile) == (False, tile)
+    tools.pick_up(object_of_type("zap drone"))
+    before = tools.spec
+    room.press("e")
+    assert tools.objects
+    assert tools.spec != before, "it has a movement"
+
+
+def test_a_search_is_left_only_if_that_is_meant_and_its_run_is_kept(room: Maker, tmp_path: Path) -> None:
+    session = room.editor.session
+    certifier = session.certifier
+    room.chord("s", pygame.KMOD_LCTRL)
+    kept = tmp_path / "levels" / "certificates" / "room.exit.replay.txt"
+    with patch.object(type(certifier._job), "idle", False):
+        certifier.search = Search(session.draft.level)
+        room.chord("n", pygame.KMOD_LCTRL)
+        assert room.shown(Menu).title == "The solver is still looking for a run"
+        room.choose("Let it search on")
+        assert certifier.busy
+        certifier.search.run = verified_run(session.draft.level, with_press_bits(bytes([2]) * 100))
+        room.frames()
+        assert certifier.text.endswith(", shortening")
+        assert not kept.exists(), "a better one may come"
+        room.choose_in_menu("New")
+        room.choose("Empty")
+    assert kept.exists()
+
+
+def test_f7_after_a_change_looks_at_the_level_as_it_is(room: Maker) -> None:
+    certifier = room.editor.session.certifier
+    asked: list[Search] = []
+    with (
+        patch.object(type(certifier._job), "idle", False),
+        patch.object(certifier._job, "ask", asked.append),
+        patch("ninja_game.editor.certify.compiled_available", lambda: True),
+    ):
+        room.press("f7")
+        room.drag((300, 300))
+        room.press("f7")
+        assert [search.level for search in asked] == [ROOM.level, room.draft.level]
+        assert (asked[0].end, asked[1].end) == ("Stopped", "")
+        room.press("f7")
+        assert asked[1].end == "Stopped"
+
+
+def test_the_panel_says_what_becomes_of_the_run(room: Maker, tmp_path: Path) -> None:
+    session = room.editor.session
+    assert session.keeping == "Kept when the level is saved"
+    room.chord("s", pygame.KMOD_LCTRL)
+    assert session.keeping == "Kept with the level"
+    session.save(tmp_path / "elsewhere.txt")
+    assert session.keeping == "To keep it: File, Keep the solver's run"
+
+
+def test_a_problem_is_shown_whole_where_there_is_room(room: Maker) -> None:
+    session = room.editor.session
+    room.wait(lambda: session.examined is room.draft.level, "findings")
+    session._checks.result = room.draft.level, [Finding("no-exit", "word " * 60), Finding("no-ninja", "none")]
+    room.frames(2)
+    part = next(each for each in room.editor.parts if isinstance(each, Findings))
+    assert [number for number, _ in part._lines] == [0, 0, 0, 1]
+    x, y, w, h = part.list.row_area(2)
+    room.mouse(x + w / 2, y + h / 2)
+    assert room.editor.view.hint.startswith("Word word")

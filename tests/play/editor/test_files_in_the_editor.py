@@ -383,3 +383,15 @@ def test_good_levels_are_shown_with_notes_and_opened_as_copies(
     room.choose("Discard changes")
     assert isinstance(room.top(), EditorScreen)
     assert (room.draft.name, room.editor.session.source.path) == ("Rolling Hills", None)
+
+
+def test_enter_in_the_search_opens_the_only_level_that_is_found(room: Maker) -> None:
+    room.chord("s", pygame.KMOD_LCTRL)
+    room.chord("o", pygame.KMOD_LCTRL)
+    choice = room.shown(LevelChoice)
+    assert [choice.selected and choice.selected.source, choice.watch_author.enabled] == ["yours", False]
+    assert "Certify" in choice.watch_author.hint
+    room.type("locksmith")
+    assert len(choice.shown) == 1
+    room.press("return")
+    assert room.draft.name == "Locksmith"

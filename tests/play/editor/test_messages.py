@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pygame
 import pytest
 
 from ninja_game.editor.stamp import Stamp, put
-from ninja_game.formats.sayings import MOST_SAYINGS, read_sayings
+from ninja_game.formats.sayings import MOST_LETTERS, MOST_SAYINGS, read_sayings
 from ninja_game.play.editor.messages import Message, MessagesScreen, messages_of
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import said_places
 from ninja_game.play.editor.trying import TryScreen
+from ninja_game.play.level.sayings import Sayings
+from ninja_game.sim.events import LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.ui.text_entry import TextEntry
+from tests.support.draw_log import DrawLog
 from tests.support.level_maker import Maker
 
 ALL = "start: {jump} jumps | switch: Now the exit | death 3: Wait | at 12,5: Jump: here"
@@ -25,6 +29,15 @@ def opened(maker: Maker) -> MessagesScreen:
     maker.chord("m", pygame.KMOD_LSHIFT)
     maker.frames(2)
     return maker.shown(MessagesScreen)
+
+
+def shown(maker: Maker) -> str:
+    """Everything that is drawn now."""
+    log = DrawLog()
+    with log.installed(), log.recording(maker.app.theme.palette) as lines:
+        maker.app.stack.redraw_all()
+        maker.app.draw()
+    return "\n".join(lines)
 
 
 def test_messages_are_made_row_by_row_and_a_test_says_them(room: Maker) -> None:
@@ -101,11 +114,11 @@ def test_a_place_begins_at_the_pointer_or_with_what_is_selected_and_is_shown_by_
     room.type("here")
     room.mouse(screen.widgets[0].area[0] + 5, screen.widgets[0].centre[1])
     assert (screen.messages[0].when, screen.messages[0].detail) == ("at", "7,9")
-    room.choose("Show it in the level")
+    room.choose("Pick a place...")
     before = room.draft
     room.press("escape")
     assert room.top() is screen, "given up"
-    room.choose("Show it in the level")
+    room.choose("Pick a place...")
     room.drag((24 * 20 + 5, 24 * 4 + 5))
     assert room.top() is screen
     assert room.draft is before, "the click draws nothing"
@@ -125,3 +138,57 @@ def test_a_level_about_which_something_is_said_keeps_its_messages(room: Maker) -
     room.fill("Other", "OK")
     assert (room.draft.name, room.draft.says) == ("Other", ALL)
     assert read_sayings(room.draft.says)
+
+
+def test_the_selected_message_is_shown_as_the_level_says_it_with_its_letters_counted(room: Maker) -> None:
+    room.editor.session.tools.history.change(replace(room.draft, says="start: {jump} jumps | switch: The exit"))
+    room.frames()
+    screen = opened(room)
+    key = room.app.controls.name("jump")
+    assert f"text '{key} jumps'" in shown(room)
+    assert "'12 of 120'" in shown(room)
+    room.mouse(*screen._texts[1].centre)
+    assert f"text '{key} jumps'" not in shown(room)
+    screen.messages[1].text = "x" * MOST_LETTERS
+    screen.enter()
+    room.mouse(*screen._texts[1].centre)
+    room.type("y")
+    assert room.app.notice == "At most 120 letters"
+
+
+def test_escape_asks_about_changed_messages(room: Maker) -> None:
+    for answer, says in (("Cancel", ""), ("Discard changes", ""), ("Keep the changes", "start: on")):
+        screen = opened(room)
+        room.press("escape")
+        assert isinstance(room.top(), EditorScreen), "nothing is changed"
+        screen = opened(room)
+        room.choose("Add a message")
+        room.type("on")
+        room.press("escape")
+        room.choose(answer)
+        if answer == "Cancel":
+            assert room.top() is screen
+            room.choose("Cancel")
+        assert isinstance(room.top(), EditorScreen)
+        assert room.draft.says == says
+
+
+def test_two_clicks_on_a_bubble_open_its_message_and_draw_nothing(room: Maker) -> None:
+    room.editor.session.tools.history.change(replace(room.draft, says=ALL))
+    room.frames()
+    before = room.draft
+    room.drag((24 * 12 + 12, 24 * 5 + 12))
+    room.drag((24 * 12 + 12, 24 * 5 + 12))
+    screen = room.shown(MessagesScreen)
+    assert screen.focus is screen._texts[3]
+    assert room.draft == before
+
+
+def test_a_locked_door_and_a_trap_have_their_words() -> None:
+    told = Sayings(read_sayings("lock: The door is open | trap: Shut"))
+    world = SimpleNamespace(events=[SimpleNamespace(kind=LOCK_OPENED)], event_count=1)
+    assert told.on_tick(world)  # type: ignore[arg-type]
+    assert told.text == "The door is open"
+    world.events[0].kind = TRAP_CLOSED
+    assert told.on_tick(world)  # type: ignore[arg-type]
+    assert told.text == "Shut"

@@ -13,16 +13,19 @@ from zipfile import ZipFile
 import pygame
 import pytest
 
+from ninja_game.editor import packs
 from ninja_game.editor.packing import ReadyPack
 from ninja_game.formats.links.fragment import write_link
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.levels.findings import in_pack
 from ninja_game.play.editor.screen import EditorScreen
+from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.menu_screen import BACK, MenuScreen
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.panels import FormPanel
 from ninja_game.play.menus.problems import ProblemsScreen
+from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.runs.packs import lint
 from ninja_game.ui.input.gamepad import BUTTONS
 from tests.support.menu_driver import MenuDriver
@@ -109,9 +112,6 @@ def test_a_pad_alone_makes_a_pack_with_a_level_and_edits_it(driver: MenuDriver) 
     button("dpad-down")
     button("a")
     assert [cell.level.title for cell in screen.cells if cell.level] == ["New level"]
-    button("dpad-right")
-    button("a")
-    button("a")
     assert driver.shown(EditorScreen).session.source.path == screen.path / "new-level.txt"
     driver.shown(EditorScreen).session.close()
 
@@ -166,7 +166,10 @@ def test_a_problem_leads_to_its_place_and_is_accepted_with_a_reason(driver: Menu
     opened(driver)
     driver.choose("Problems")
     screen = driver.shown(ProblemsScreen)
-    assert [problem.text for problem in screen.problems] == ["00-0-first-steps.txt: no name"]
+    assert [problem.text for problem in screen.problems if not problem.text.endswith("gold is known")] == [
+        "00-0-first-steps: no name"
+    ]
+    count = len(screen.problems)
     driver.press("return")
     assert driver.shown(EditorScreen).session.source.path == level
     driver.shown(EditorScreen).session.close()
@@ -174,8 +177,12 @@ def test_a_problem_leads_to_its_place_and_is_accepted_with_a_reason(driver: Menu
     driver.choose("Accept it...")
     typed(driver, "found on the street")
     assert driver.top() is screen
-    assert screen.problems == []
+    assert screen.problems[-1].text == "00-0-first-steps: no name. Accepted: found on the street"
     assert Pack(path).index.accepted[0].reason == "found on the street"
+    x, y, w, h = screen.list.row_area(count - 1)
+    driver.mouse(x + w / 2, y + h / 2)
+    driver.choose("Take it back")
+    assert (len(screen.problems), Pack(path).index.accepted) == (count, ())
     driver.mouse(BACK[0] + 10, BACK[1] + 10)
     driver.shown(PackScreen)
 
@@ -185,10 +192,10 @@ def test_a_pack_is_made_ready_in_the_background(
 ) -> None:
     pack = Pack(path)
     left = [in_pack("no-author", "pack.toml")]
-    ready = ReadyPack(pack, left, pack.files.zipped(), pack.files.link(), ["00-1.txt: no run with all gold"])
+    ready = ReadyPack(pack, left, pack.files.zipped(), pack.files.link(), ["No par times"])
     begun = []
 
-    def made(folder: Path, *, seconds: float, jobs: int, say: object) -> ReadyPack:
+    def made(folder: Path, *, seconds: float, jobs: int, say: object, obstacles: object) -> ReadyPack:
         begun.append(folder)
         say("Certifying")  # type: ignore[operator]
         return replace(ready)
@@ -196,20 +203,21 @@ def test_a_pack_is_made_ready_in_the_background(
     monkeypatch.setattr("ninja_game.play.menus.packs.make_ready", made)
     screen = opened(driver)
     driver.choose("Make ready")
-    driver.wait(lambda: screen.status == "8 levels, 1 open problem (no author)", "the pack is ready")
+    driver.wait(lambda: "1 open problem (no author)" in driver.app.notice, "the pack is ready")
     zipped = driver.player.folder / "exports" / "laundry-1.zip"
     assert begun == [path]
     assert ZipFile(zipped).namelist()[0] == "laundry/pack.toml"
-    said = (
-        "laundry-1.zip, with 1 open problem (no author); the link is in the clipboard; 00-1.txt: no run with all gold"
-    )
+    said = "laundry-1.zip, with 1 open problem (no author); the link is in the clipboard; No par times"
     assert driver.app.notice.endswith(said)
-    assert screen.problems()[-1].text == "00-1.txt: no run with all gold"
+    driver.wait(lambda: screen.findings is not None, "the problems are known")
+    assert screen._counts() == "8 levels in 2 episodes; all certified and measured; 8 open problems"
+    assert len(screen.problems()) == 8
+    assert all(problem.go and problem.accept for problem in screen.problems())
     assert driver.button("Make ready")
 
 
 def test_making_ready_is_stopped(driver: MenuDriver, path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def endless(folder: Path, *, seconds: float, jobs: int, say: object) -> ReadyPack:
+    def endless(folder: Path, *, seconds: float, jobs: int, say: object, obstacles: object) -> ReadyPack:
         while True:
             say("Certifying")  # type: ignore[operator]
 
@@ -228,7 +236,49 @@ def test_what_changed_is_marked(driver: MenuDriver, path: Path) -> None:
     screen = opened(driver)
     stale = [cell.level.title for cell in screen.cells if cell.level and cell.level.pars is None]
     assert stale == ["Mind the Gap"]
-    assert screen._counts() == "8 levels in 2 episodes; 1 to certify"
+    assert screen._counts() == "8 levels in 2 episodes; 1 to certify; looking for problems"
+    driver.wait(lambda: screen.findings is not None, "the problems are known")
+    assert [screen.state(cell.level) for cell in screen.cells if cell.level][1] == "changed"
+    packs.place(path, packs.new_level(path, "Empty", "me"), 1)
+    screen.enter()
+    driver.wait(lambda: screen.findings is not None, "the problems are known")
+    assert screen._counts().startswith("9 levels in 2 episodes; 2 to certify; ")
+    [entry] = [each.level for each in screen.cells if each.level and each.level.title == "Empty"]
+    assert screen.state(entry) == "no run yet"
+    no_ninja = [problem for problem in screen.problems() if "there is no ninja" in problem.text]
+    assert [(problem.text[:5], problem.accept) for problem in no_ninja] == [("Mind ", None), ("Empty", None)]
+
+
+def test_what_the_editor_certified_is_certified_in_the_folder_too(driver: MenuDriver, path: Path) -> None:
+    levels, name = path.parent, "00-0-first-steps"
+    shutil.copy(path / f"{name}.txt", levels)
+    screen = opened(driver)
+    screen._choose_tray("yours")
+    entry = screen.side[0].level
+    assert entry
+    assert screen.state(entry) == "no run yet"
+    (levels / "certificates").mkdir()
+    shutil.copy(path / "certificates" / f"{name}.exit.replay.txt", levels / "certificates")
+    screen._read()
+    assert screen.state(entry) == "certified"
+    screen._level_menu(screen.side[0])
+    driver.choose("Watch the run")
+    driver.shown(ReplayScreen)
+    driver.app.pop()
+    screen._level_menu(screen.side[0])
+    driver.choose("Play")
+    driver.shown(LevelScreen)
+
+
+def test_a_pack_that_is_deleted_can_be_found_again(driver: MenuDriver, path: Path) -> None:
+    screen = opened(driver)
+    for answer, there in (("Cancel", True), ("Delete it", False)):
+        driver.choose("About it...")
+        driver.choose("Delete the pack...")
+        driver.choose(answer)
+        assert (path.exists(), bool(screen.mine)) == (there, there)
+    assert Pack(driver.player.folder / "deleted" / "laundry").name == "Laundry"
+    assert "in the folder deleted/laundry now" in driver.app.notice.replace("\\", "/")
 
 
 def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path) -> None:
@@ -247,9 +297,13 @@ def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path) 
         assert [pack.name for pack in screen.mine] == ["Laundry"]
         first = layout(screen.path)
         driver.chord("v", pygame.KMOD_LCTRL)
+        assert len(screen.mine) == 1
+        assert "Laundry is among your packs already" in driver.app.notice
+        packs.rename_episode(screen.path, 0, "Other")
+        first = layout(screen.path)
+        driver.chord("v", pygame.KMOD_LCTRL)
         assert len(screen.mine) == 2, "it never goes over what is there"
     assert layout(screen.path) == first
-    assert first[0]
 
 
 def linked(*names: str) -> str:
