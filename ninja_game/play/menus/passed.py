@@ -150,7 +150,7 @@ class EpisodePassed(ThumbnailScreen):
         """The score between its medal and what it is worth; below it what the episode has brought."""
         theme, palette, run = self.app.theme, self.app.theme.palette, self.run
         score = f"{seconds_text(run.score)} s left"
-        half = theme.lettering.width(score, 44, bold=True) / 2
+        half = theme.width(score, 44, bold=True) / 2
         stamp = min(1.0, max(0.0, (self.ticks - self._marks_end) / STAMP_TICKS))
         theme.text(surface, score, WIDTH / 2, 290, size=44, align="centre", bold=True, height=60)
         if self.medal:
