@@ -33,12 +33,13 @@ class Screen:
 
     ``see_through``: the screen below is drawn first. ``below_runs``: the screen below is updated too. ``redraw``: the
     app sets it when the whole window must be drawn again (resized, uncovered, another palette). ``wipes``: whether it
-    comes and goes with a wipe.
+    comes and goes with a wipe. ``plays``: a level is played in it, over which nothing is to be written.
     """
 
     see_through = False
     wipes = True
     below_runs = False
+    plays = False
 
     def __init__(self, app: App) -> None:
         self.app = app
@@ -173,8 +174,8 @@ UNSEEN = {"dummy", "offscreen"}
 FALLBACK_RATE = 60
 """Pictures per second where the display does not say its rate."""
 
-NOTICE, NOTICE_WIDE, NOTICE_LINES = 12.5, 620.0, 5
-"""Size of a notice's letters, how wide its lines are at most, and how many are shown."""
+NOTICE, IN_BORDER, NOTICE_WIDE, NOTICE_LINES = 12.5, 10.0, 620.0, 5
+"""Size of a notice's letters, also in the border below a level; how wide its lines are at most, how many are shown."""
 
 NOTICE_MS, WARNING_MS = 4000, 12_000
 """How long a notice is shown, and what went wrong when the game started."""
@@ -417,13 +418,16 @@ class App:
 
     def _draw_notice(self, theme: Theme) -> pygame.Rect:
         (left, _), (right, _) = theme.canvas.logical((0, 0)), theme.canvas.logical(theme.canvas.window)
-        middle, y = (left + right) / 2, 30.0
-        lines, high = wrapped(theme, self.notice, NOTICE_WIDE, NOTICE)[:NOTICE_LINES], 1.5 * NOTICE * theme.scales[0]
-        wide = min(NOTICE_WIDE, max(theme.width(line, NOTICE) for line in lines)) + 28
-        rect = theme.window(self.surface, middle - wide / 2, y, wide, high * len(lines) + 12)
+        middle, lines = (left + right) / 2, wrapped(theme, self.notice, NOTICE_WIDE, NOTICE)[:NOTICE_LINES]
+        y, size, margin, high = 30.0, NOTICE, 6.0, 1.5 * NOTICE * theme.scales[0]
+        if self.top.plays and len(lines) == 1:
+            # In the border: nothing is written over a level in which somebody runs.
+            y, size, margin, high = 577.0, IN_BORDER, 1.0, 20.0
+        wide = min(NOTICE_WIDE, max(theme.width(line, size) for line in lines)) + 28
+        rect = theme.window(self.surface, middle - wide / 2, y, wide, high * len(lines) + 2 * margin)
         for k, line in enumerate(lines):
-            top = y + 6 + high * (k + 0.5) - NOTICE / 2
-            theme.text(self.surface, line, middle, top, size=NOTICE, align="centre", width=NOTICE_WIDE + 4)
+            top = y + margin + high * (k + 0.5) - size / 2
+            theme.text(self.surface, line, middle, top, size=size, align="centre", width=NOTICE_WIDE + 4)
         return rect
 
     def write_export(self, title: str, suffix: str, content: str | Callable[[Path], object]) -> None:

@@ -42,6 +42,8 @@ HELP_ROW = 2
 class LevelScreen(Screen):
     """Plays the level of a context. ``play``: what happens in it."""
 
+    plays = True
+
     def __init__(self, app: App, context: LevelContext) -> None:
         super().__init__(app)
         self.context = context

@@ -137,7 +137,7 @@ def test_a_text_in_the_border_leaves_room_for_the_name_of_the_level(driver: Menu
     said = (
         "Some words that say a lot about a level in which there is no rock at all",
         (0,) * 713,
-        (),
+        tuple((24.0 * column, 24.0 * row, MUST) for column in range(33) for row in range(25)),
         (396.0, 300.0),
         False,
     )
