@@ -199,11 +199,11 @@ class EditorCommands(DocumentCommands):
             ("Save", self.save, "Ctrl+S"), ("Save as...", self.save_as, "Ctrl+Shift+S"),
             ("Open...", self.open, "Ctrl+O"), ("New", self.new, "Ctrl+N"), ("About the level...", self.about, "F2"),
             ("Messages...", self.messages, "What the level says while it is played: Shift+M"),
-            ("Copy a link", session.copy_link, "Opens the level"), ("Copy as level text of N", session.copy_string, ""),
+            ("Copy a link", session.copy_link, "Opens the level"), ("Copy as N level code", session.copy_string, ""),
             ("Paste a level", session.paste_string, "From the clipboard: text in any format, of N too, or a link"),
             ("Export a picture", session.export_picture, "A PNG file among your exports"),
-            ("Keep the solver's run", session.keep_certificate, "As a replay among yours"),
-            ("Good levels", self.good_levels, "Ten of the game's, and what makes each of them good"),
+            ("Save the run that was found", session.keep_certificate, "As a replay among yours"),
+            ("Ten good levels", self.good_levels, "Ten of the game's, and what makes each of them good"),
             ("Leave the editor", self.leave, ""),
         ]  # fmt: skip
         self.app.push(Menu(self.app, "Level", rows))

@@ -329,7 +329,7 @@ class FilePart(EditorPart):
         theme.text(surface, file, x, y + 20, size=9, colour=palette.faint, width=w)
         certifier = session.certifier
         stale, run = certifier.is_stale(session.draft.level), certifier.search.run
-        text = certifier.text or "Not certified: F7 looks for a run"
+        text = certifier.text or "Not certified yet: F7 looks for a way through it"
         if stale and not certifier.busy:
             text = f"{'Certified before' if run else 'Not certified since'} the last change: F7 again"
         elif run and not certifier.busy:

@@ -188,7 +188,7 @@ class EditorSession:
         """What becomes of the run that the solver has found, a sentence."""
         path = self.source.path
         if path and not self._keeps_runs(path):
-            return "To keep it: File, Keep the solver's run"
+            return "To keep it: File, Save the run that was found"
         return "Kept with the level" if path and self.is_saved else "Kept when the level is saved"
 
     def _keeps_runs(self, path: Path) -> bool:
@@ -241,7 +241,7 @@ class EditorSession:
         try:
             text = write_level_string(self.draft.level, exact=True)
         except NinjaGameError as error:
-            self.app.notify(f"This level cannot be written as level text of N: {error}")
+            self.app.notify(f"This level cannot be written as N level code: {error}")
             return
         copy_text(self.app, text, title=self.name, suffix=".nlevel")
 

@@ -328,7 +328,7 @@ def test_a_certificate_is_shown_and_gets_stale(room: Maker) -> None:
     assert certifier.is_stale(room.draft.level)
     room.chord("z", pygame.KMOD_LCTRL)
     assert not certifier.is_stale(room.draft.level)
-    room.choose_in_menu("Keep the run that was found")
+    room.choose_in_menu("Save the run that was found")
     assert room.player.records.replays()
 
 
@@ -703,7 +703,7 @@ def test_the_panel_says_what_becomes_of_the_run(room: Maker, tmp_path: Path) -> 
     room.chord("s", pygame.KMOD_LCTRL)
     assert session.keeping == "Kept with the level"
     session.save(tmp_path / "elsewhere.txt")
-    assert session.keeping == "To keep it: File, Keep the solver's run"
+    assert session.keeping == "To keep it: File, Save the run that was found"
 
 
 def test_a_problem_is_shown_whole_where_there_is_room(room: Maker) -> None:

@@ -336,7 +336,7 @@ def test_strings_of_n_travel_by_the_clipboard(room: Maker) -> None:
 def test_pictures_and_the_solvers_run_can_be_kept(room: Maker, tmp_path: Path) -> None:
     room.choose_in_menu("Export a picture")
     assert list((tmp_path / "exports").glob("room-1.png"))
-    room.choose_in_menu("Keep the run that was found")
+    room.choose_in_menu("Save the run that was found")
     assert "Certify the level first" in room.app.notice
 
 
@@ -368,7 +368,7 @@ def test_good_levels_are_shown_with_notes_and_opened_as_copies(
     room: Maker, root: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(CHECKOUT, "levels", root / "levels")
-    room.choose_in_menu("Good levels")
+    room.choose_in_menu("Ten good levels")
     screen = room.top()
     assert isinstance(screen, GoodLevelsScreen)
     assert len(screen.levels) == 10
