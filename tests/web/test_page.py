@@ -186,7 +186,7 @@ def test_what_throws_in_a_turn_is_told_and_nothing_foreign_runs(new_visitor: New
     ) == "undefined"  # fmt: skip
     assert visitor.page.evaluate("() => fetch('http://localhost:9/').then(() => 1, error => String(error))")
     eventually(visitor.page, lambda: any("Content Security Policy" in each for each in visitor.problems), "no refusal")
-    visitor.python("setattr(app, 'frame', lambda ms: 1 // 0)")
+    visitor.python("setattr(app, 'advance', lambda ms: 1 // 0)")
     trouble = visitor.page.locator("#trouble[open]")
     trouble.wait_for()
     assert "ZeroDivisionError" in trouble.inner_text()
