@@ -100,6 +100,23 @@ class Canvas:
         return rect
 
 
+def draw_limb(surface: pygame.Surface, colour: Colour, points: Sequence[Point], radii: Sequence[float]) -> None:
+    """A line through points (px), round at each of them and as thick there as its radius says; no edge is smoothed."""
+    circle, polygon = pygame.draw.circle, pygame.draw.polygon
+    before = None
+    for (x, y), radius in zip(points, radii, strict=True):
+        circle(surface, colour, (x, y), radius)
+        if before:
+            bx, by, begin = before
+            dx, dy = x - bx, y - by
+            length = (dx * dx + dy * dy) ** 0.5
+            if length > 0:
+                nx, ny = -dy / length, dx / length
+                ax, ay, cx, cy = nx * begin, ny * begin, nx * radius, ny * radius
+                polygon(surface, colour, ((bx + ax, by + ay), (x + cx, y + cy), (x - cx, y - cy), (bx - ax, by - ay)))
+        before = x, y, radius
+
+
 class Lens(Canvas):
     """A part of the stage, at any scale. ``origin``: px where the stage's upper left corner would be.
 

@@ -9,14 +9,13 @@ import re
 import unicodedata
 from collections.abc import Sequence
 from functools import lru_cache
-from itertools import pairwise
 from math import ceil, cos, floor, radians, sin
 from typing import NamedTuple
 
 import pygame
 
 from ninja_game.files.shown_text import shown_text
-from ninja_game.ui.canvas import Canvas, Colour, Point
+from ninja_game.ui.canvas import Canvas, Colour, Point, draw_limb
 from ninja_game.ui.glyphs import ASCENDERS, CAP, GLYPHS, LOW_MARKS, MARKS
 
 _KEPT = 400
@@ -156,16 +155,8 @@ def _arc(x: float, y: float, rx: float, ry: float, start: float, end: float) -> 
     return [(x + rx * cos(angle), y + ry * sin(angle)) for angle in angles]
 
 
-def _drawn_round_line(surface: pygame.Surface, colour: tuple[int, ...], points: Sequence[Point], radius: float) -> None:
-    """A line with round ends and bends, px."""
-    for point in points:
-        pygame.draw.circle(surface, colour, point, radius)
-    for a, b in pairwise(points):
-        dx, dy = b[0] - a[0], b[1] - a[1]
-        length = (dx * dx + dy * dy) ** 0.5 or 1.0
-        nx, ny = -dy / length * radius, dx / length * radius
-        corners = [(a[0] + nx, a[1] + ny), (b[0] + nx, b[1] + ny), (b[0] - nx, b[1] - ny), (a[0] - nx, a[1] - ny)]
-        pygame.draw.polygon(surface, colour, corners)
+def _drawn_round_line(surface: pygame.Surface, colour: Colour, points: Sequence[Point], radius: float) -> None:
+    draw_limb(surface, colour, points, [radius] * len(points))
 
 
 _round_line = getattr(pygame.draw, "round_line", _drawn_round_line)

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import pygame
 
-from ninja_game.ui.canvas import Colour, Point
+from ninja_game.ui.canvas import Colour, Point, draw_limb
 
 FINE = 4
 """How many times larger the shapes are drawn."""
@@ -84,24 +84,11 @@ class Sketch:
 
     def limb(self, colour: Colour, joints: Sequence[Point], widths: Sequence[float]) -> None:
         """A line through joints, round at each and as wide as is said for it."""
-        fine, circle, polygon = self._fine, pygame.draw.circle, pygame.draw.polygon
         # In the sheet's px at once: a figure has some fifty of these, and is drawn again for each picture.
         zoom, cosine, sine = self._zoom, self._cos, self._sin
         left, top = self._ax * self._fine_by, self._ay * self._fine_by
-        grown, before = self.grown * zoom, None
-        for (across, down), width in zip(joints, widths, strict=True):
-            x, y = left + (across * cosine - down * sine) * zoom, top + (across * sine + down * cosine) * zoom
-            half = width * zoom / 2 + grown
-            circle(fine, colour, (x, y), half)
-            if before:
-                bx, by, begin = before
-                dx, dy = x - bx, y - by
-                length = (dx * dx + dy * dy) ** 0.5
-                if length > 0:
-                    nx, ny = -dy / length, dx / length
-                    ax, ay, cx, cy = nx * begin, ny * begin, nx * half, ny * half
-                    polygon(fine, colour, ((bx + ax, by + ay), (x + cx, y + cy), (x - cx, y - cy), (bx - ax, by - ay)))
-            before = x, y, half
+        places = [(left + (x * cosine - y * sine) * zoom, top + (x * sine + y * cosine) * zoom) for x, y in joints]
+        draw_limb(self._fine, colour, places, [(width / 2 + self.grown) * zoom for width in widths])
 
     def finish(self, alpha: float = 1.0) -> Sprite:
         """The drawing, as solid as ``alpha`` (0…1)."""
