@@ -15,6 +15,7 @@ from unittest.mock import patch
 
 import pygame
 
+from ninja_game.play.app import App
 from ninja_game.play.editor.view import EditorView, Overlay
 from ninja_game.play.menus.thumbnails import Thumbnails
 from ninja_game.ui.canvas import Canvas
@@ -183,3 +184,12 @@ class DrawLog:
             for key, x, y in sprites:
                 places.setdefault(_sprite_name(key), []).append(px(x, y))
         return "\n".join(f"static {name} at {'  '.join(where)}" for name, where in places.items())
+
+
+def drawn(app: App) -> str:
+    """The lines of all that is drawn now."""
+    log = DrawLog()
+    with log.installed(), log.recording(app.theme.palette) as lines:
+        app.stack.redraw_all()
+        app.draw()
+    return "\n".join(lines)

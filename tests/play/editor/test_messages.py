@@ -19,7 +19,7 @@ from ninja_game.sim.events import LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.ui.text_entry import TextEntry
-from tests.support.draw_log import DrawLog
+from tests.support.draw_log import drawn
 from tests.support.level_maker import Maker
 
 ALL = "start: {jump} jumps | switch: Now the exit | death 3: Wait | at 12,5: Jump: here"
@@ -29,15 +29,6 @@ def opened(maker: Maker) -> MessagesScreen:
     maker.chord("m", pygame.KMOD_LSHIFT)
     maker.frames(2)
     return maker.shown(MessagesScreen)
-
-
-def shown(maker: Maker) -> str:
-    """Everything that is drawn now."""
-    log = DrawLog()
-    with log.installed(), log.recording(maker.app.theme.palette) as lines:
-        maker.app.stack.redraw_all()
-        maker.app.draw()
-    return "\n".join(lines)
 
 
 def test_messages_are_made_row_by_row_and_a_test_says_them(room: Maker) -> None:
@@ -145,10 +136,10 @@ def test_the_selected_message_is_shown_as_the_level_says_it_with_its_letters_cou
     room.frames()
     screen = opened(room)
     key = room.app.controls.name("jump")
-    assert f"text '{key} jumps'" in shown(room)
-    assert "'12 of 120'" in shown(room)
+    assert f"text '{key} jumps'" in drawn(room.app)
+    assert "'12 of 120'" in drawn(room.app)
     room.mouse(*screen._texts[1].centre)
-    assert f"text '{key} jumps'" not in shown(room)
+    assert f"text '{key} jumps'" not in drawn(room.app)
     screen.messages[1].text = "x" * MOST_LETTERS
     screen.enter()
     room.mouse(*screen._texts[1].centre)

@@ -18,7 +18,7 @@ from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.player.marks import WITH_HELP
 from ninja_game.runs.packs import certificate
-from tests.support.draw_log import DrawLog
+from tests.support.draw_log import drawn
 from tests.support.menu_driver import MenuDriver
 from tests.support.waiting import LONGEST
 
@@ -166,14 +166,10 @@ def test_days_in_a_row_and_the_week_are_shown_and_one_way_back(
         found.append(screen.streak)
         marks.passed(screen.days[f"2026-11-{day}"].digest, 400, 1, body)
     assert [*found, screen.streak] == [0, 0, 2, 3, 4]
-    log = DrawLog()
-    with log.installed(), log.recording(making.app.theme.palette) as lines:
-        making.app.stack.redraw_all()
-        making.app.draw()
-    drawn = "\n".join(lines)
-    assert "4 daily levels in a row" in drawn
-    assert drawn.count("10.000 s'") >= 3
-    assert "with help" in drawn
+    shown = drawn(making.app)
+    assert "4 daily levels in a row" in shown
+    assert shown.count("10.000 s'") >= 3
+    assert "with help" in shown
     screen.entry = None
     assert not screen.build(), "the frame has its own way back"
 

@@ -21,7 +21,7 @@ from ninja_game.play.menus.episodes import NAMED, Cells, EpisodeGrid
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.problems import ProblemsScreen
 from ninja_game.player.marks import Mark, next_par, reached
-from tests.support.draw_log import DrawLog
+from tests.support.draw_log import drawn
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK
 
@@ -34,15 +34,6 @@ def other_pack(folder: Path, numbers: tuple[int, ...] = (2, 17)) -> Path:
     return folder
 
 
-def shown(driver: MenuDriver) -> str:
-    """Everything that is drawn now."""
-    log = DrawLog()
-    with log.installed(), log.recording(driver.app.theme.palette) as lines:
-        driver.app.stack.redraw_all()
-        driver.app.draw()
-    return "\n".join(lines)
-
-
 def test_pack_in_the_folder_can_be_chosen_and_played(driver: MenuDriver) -> None:
     other_pack(driver.player.folder / "levels" / "other")
     grid = driver.open("Episodes")
@@ -53,10 +44,10 @@ def test_pack_in_the_folder_can_be_chosen_and_played(driver: MenuDriver) -> None
     assert grid.grid.heads == [0, 1]
     assert grid.number == 2, "the first episode that there is, though it is not the first of its column"
     driver.frames(3)
-    assert "'Left'" in shown(driver)
+    assert "'Left'" in drawn(driver.app)
     driver.press("down", "return")
     level = driver.shown(LevelScreen)
-    assert "Pass it for bronze" not in shown(driver), "medals are for who has passed it once"
+    assert "Pass it for bronze" not in drawn(driver.app), "medals are for who has passed it once"
     level.begin()
     level.retry()
     level.begin()
@@ -124,21 +115,21 @@ def test_browser_sorts_by_difficulty(driver: MenuDriver) -> None:
     assert len(hard) == 8
     assert hard == sorted(hard)
     driver.frames(2)
-    assert "easy" in shown(driver)
-    assert "difficulty" not in shown(driver)
+    assert "easy" in drawn(driver.app)
+    assert "difficulty" not in drawn(driver.app)
 
 
 def test_levels_of_days_are_not_counted_among_those_of_the_game(driver: MenuDriver) -> None:
     browser = driver.open("Levels")
     assert isinstance(browser, Browser)
     count = f"{len(browser.entries)} of {len(browser.entries)} levels"
-    assert count in shown(driver)
+    assert count in drawn(driver.app)
     driver.press("escape")
     shutil.copytree(PACK, daily_file(driver.player.folder / LEVELS, date(2026, 11, 27)).parent)
     browser = driver.open("Levels")
     assert isinstance(browser, Browser)
-    assert f"{len(browser.entries)} levels" not in shown(driver)
-    assert count in shown(driver)
+    assert f"{len(browser.entries)} levels" not in drawn(driver.app)
+    assert count in drawn(driver.app)
 
 
 def test_card_says_time_and_gold_and_the_next_par(driver: MenuDriver) -> None:
@@ -172,12 +163,12 @@ def test_all_problems_of_files_are_shown_whole(driver: MenuDriver) -> None:
     (driver.player.folder / "levels" / "torn" / "pack.toml").write_text("name = My pack")
     driver.open("Levels")
     driver.choose("3 problems: show them")
-    text = shown(driver)
+    text = drawn(driver.app)
     for place in ("broken.txt:2:1: not a header line", "worse.txt:2:1:", "torn/pack.toml:1:8: no TOML"):
         assert place in text
     assert str(driver.player.folder) not in text
     driver.press("down", "down")
-    assert "Mend the file as the message says" in shown(driver)
+    assert "Mend the file as the message says" in drawn(driver.app)
     driver.press("escape", "escape")
     driver.open("Episodes")
     driver.choose("1 problem: show it")

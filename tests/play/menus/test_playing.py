@@ -18,7 +18,7 @@ from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.progress import UNLOCKED
 from ninja_game.player.saving import EPISODE_BEST, OF_A_LEVEL
 from ninja_game.runs.verify import verify_recording
-from tests.support.draw_log import DrawLog
+from tests.support.draw_log import drawn
 from tests.support.menu_driver import MenuDriver
 
 
@@ -36,13 +36,9 @@ def test_first_episode_is_played_to_its_end(driver: MenuDriver) -> None:
         driver.press("return")
     passed = driver.shown(EpisodePassed)
     assert driver.player.progress.state(1) == UNLOCKED
-    log = DrawLog()
-    with log.installed(), log.recording(driver.app.theme.palette) as lines:
-        driver.app.stack.redraw_all()
-        driver.app.draw()
-    drawn = "\n".join(lines)
-    assert EPISODE_BEST not in drawn, "there was none to be better than"
-    assert not [notice for notice in OF_A_LEVEL if notice in drawn], "what the last level has brought is not its"
+    shown = drawn(driver.app)
+    assert EPISODE_BEST not in shown, "there was none to be better than"
+    assert not [notice for notice in OF_A_LEVEL if notice in shown], "what the last level has brought is not its"
     best = driver.player.records.episode_best(passed.run.episode.key)
     assert best is not None
     assert best.score == passed.run.score
