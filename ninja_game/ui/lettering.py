@@ -189,7 +189,7 @@ class StrokeFont:
             return self._fallback.size(text)[0] + 2
         return ceil(sum(self._advance(letter) for letter in letters if letter) - SPACING * self._unit + 2)
 
-    def _draw(self, character: str, colour: tuple[int, ...], phase: int) -> pygame.Surface:
+    def _draw(self, character: str, colour: tuple[int, int, int, int], phase: int) -> pygame.Surface:
         """A letter on a sheet of its own, its origin ``phase`` quarters of a px beside ``_pad`` px from the left."""
         letter = glyph(character)
         assert letter is not None  # noqa: S101 - other texts are drawn as a whole
