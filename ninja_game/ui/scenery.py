@@ -135,9 +135,9 @@ def _facets(sheet: pygame.Surface, numbers: Numbers) -> None:
 
 GRAINS: dict[str, Callable[[pygame.Surface, Numbers], None]] = {
     "hills": _strata, "clouds": _stones, "dunes": lambda sheet, numbers: _strata(sheet, numbers, 0.45, 3.0),
-    "towers": _bricks, "crystals": _facets, "paper": lambda *_: None,
+    "towers": _bricks, "crystals": _facets,
 }  # fmt: skip
-"""How rock is marked, by the kind of a scenery: each leaves white what is plain."""
+"""How rock is marked, by the kinds of scenery in which it is: each leaves white what is plain."""
 
 
 def _numbers(name: str) -> Numbers:

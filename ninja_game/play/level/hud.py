@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from math import hypot
@@ -201,7 +201,7 @@ class Hud:
         w = max(220.0, head + beside, *(theme.width(line, LINE) for line in lines)) + 44
         h = 48.0 + 18 * len(lines) + below
         x, y = (WIDTH - w) / 2, UPPER
-        if any(worth > MUST and -NEAR < a - x < w + NEAR and -NEAR < b - y < h + NEAR for a, b, worth in things):
+        if any(worth > MUST for worth in _hidden(things, x, y, w, h)):
             x, y, *_ = solid_place(tiles, w, h, things, rows=2)
         place = theme.canvas.rect(x, y, w, h)
         behind = _behind(surface, place, view.seen)
@@ -241,21 +241,7 @@ class Hud:
         Where it would hide something there, or open space that it may not cover, it lies where it hides least; over
         nothing that it is to keep clear of, nor the ninja, or else in the border below, beside the gold.
         """
-        theme = self.theme
-        high = SAID_LINE * theme.scales[0]
-        if eye:
-            things = (*things, (*eye, MUST))
-        for rows, width in ((1, 1), (2, 1), (2, 0.6), (0, 1), (0, 0.6)):
-            lines = text.split("\n") if keys else wrapped(theme, text, width * SAID_WIDE, SAID)
-            lines = [theme.fit(line, SAID_WIDEST - keys, SAID) for line in lines]
-            w = max(theme.width(line, SAID) for line in lines) + 28 + keys
-            left, y, covered, hidden = solid_place(tiles, w, high * len(lines) + 19, things, eye, rows=rows)
-            if hidden < (MUST if keys else 1) and (covers or not rows or not covered):
-                return lines, left, y, w, high, 10.0, SAID
-        text = text.replace("\n", "    ")
-        size = min(SAID, SAID * BESIDE_GOLD / theme.width(text, SAID))
-        w = theme.width(text, size) + 28
-        return [text], (WIDTH - w) / 2, IN_BORDER, w, 17.0, 3.0, size
+        return _box(self.theme, text, tiles, things, eye, covers, keys)
 
     def said(
         self, surface: pygame.Surface, box: Box, moves: Sequence[int] = (), letters: Sequence[str] = ()
@@ -326,6 +312,32 @@ def _fade(surface: pygame.Surface, place: pygame.Rect, behind: pygame.Surface | 
         surface.blit(behind, place, special_flags=pygame.BLEND_PREMULTIPLIED)
 
 
+def _hidden(things: Things, x: float, y: float, w: float, h: float) -> Iterator[int]:
+    """What each thing is worth that a panel would hide."""
+    return (worth for a, b, worth in things if -NEAR < a - x < w + NEAR and -NEAR < b - y < h + NEAR)
+
+
+@lru_cache(maxsize=4)
+def _box(
+    theme: Theme, text: str, tiles: tuple[int, ...], things: Things, eye: Point | None, covers: bool, keys: float
+) -> Box:
+    """As ``Hud.box``. Kept, since a text is drawn in each picture and its place takes longer than all the rest."""
+    high = SAID_LINE * theme.scales[0]
+    if eye:
+        things = (*things, (*eye, MUST))
+    for rows, width in ((1, 1), (2, 1), (2, 0.6), (0, 1), (0, 0.6)):
+        lines = text.split("\n") if keys else wrapped(theme, text, width * SAID_WIDE, SAID)
+        lines = [theme.fit(line, SAID_WIDEST - keys, SAID) for line in lines]
+        w = max(theme.width(line, SAID) for line in lines) + 28 + keys
+        left, y, covered, hidden = solid_place(tiles, w, high * len(lines) + 19, things, eye, rows=rows)
+        if hidden < (MUST if keys else 1) and (covers or not rows or not covered):
+            return lines, left, y, w, high, 10.0, SAID
+    text = text.replace("\n", "    ")
+    size = min(SAID, SAID * BESIDE_GOLD / theme.width(text, SAID))
+    w = theme.width(text, size) + 28
+    return [text], (WIDTH - w) / 2, IN_BORDER, w, 17.0, 3.0, size
+
+
 @lru_cache(maxsize=4)
 def solid_place(
     tiles: tuple[int, ...], w: float, h: float, things: Things = (), eye: Point | None = None, *, rows: int = 0
@@ -348,7 +360,7 @@ def solid_place(
         x, y = place
         columns, heights = (range(int(a // CELL) - 1, int((a + b - 1) // CELL)) for a, b in ((x, w), (y, h)))
         covered = sum(ways[column * ROWS + row] for column in columns for row in heights if row < ROWS)
-        hidden = sum(worth for a, b, worth in things if -NEAR < a - x < w + NEAR and -NEAR < b - y < h + NEAR)
+        hidden = sum(_hidden(things, x, y, w, h))
         far = hypot(x + w / 2 - eye[0], y + h / 2 - eye[1]) if eye else 0.0
         return covered + hidden, far or abs(x + w / 2 - WIDTH / 2) + y, hidden
 
@@ -451,7 +463,7 @@ def hud_view(play: LevelPlay) -> HudView:
         stamp=play.stamp,
         shine=1.0 if settings.reduced_motion else (play.after_end + play.fraction - STAMP_TICKS) / SHINE_TICKS,
         seen=1.0 if settings.reduced_motion else min(1.0, (play.after_end + play.fraction) / FADE_TICKS),
-        ninja=(attempt.simulation.world.ninja.x, attempt.simulation.world.ninja.y),
+        ninja=play.ninja_place(),
         softly=not settings.reduced_motion,
     )
 

@@ -139,7 +139,7 @@ class LevelPlay:
             self.view.ghosts = self.ghosts
         self.view.on_seek()
 
-    def _ninja_place(self) -> tuple[float, float]:
+    def ninja_place(self) -> tuple[float, float]:
         ninja = self.attempt.simulation.world.ninja
         return ninja.x, ninja.y
 
@@ -158,7 +158,7 @@ class LevelPlay:
                 way.step_keys(keys)
                 if way.tick % 4 == 0:
                     places.append((way.world.ninja.x, way.world.ninja.y, MAY))
-        return (*self._ninja_place(), MUST), *places
+        return (*self.ninja_place(), MUST), *places
 
     # --- from phase to phase ---
 
@@ -291,7 +291,7 @@ class LevelPlay:
             self.view.on_tick()
             self.tools.on_tick()
             if self.phase is Phase.PLAY and self.sayings.on_tick(self.attempt.simulation.world):
-                self.changed, self.eye = True, None if self.sayings.is_start else self._ninja_place()
+                self.changed, self.eye = True, None if self.sayings.is_start else self.ninja_place()
             self._note_end()
         if due and self.phase is Phase.PLAY:
             self.attempt.check_time()
@@ -302,7 +302,7 @@ class LevelPlay:
     def _note_end(self) -> None:
         """Phases follow the first exit contact or death."""
         if self.phase is Phase.PLAY and self.attempt.outcome != "running":
-            self.after_end, self.eye = 0, self._ninja_place()
+            self.after_end, self.eye = 0, self.ninja_place()
             self.phase = _PHASE_OF_OUTCOME[self.attempt.outcome]
             self.changed = True
             if self.phase is Phase.PASSED:

@@ -68,10 +68,13 @@ class Sayings:
     def at_start(self) -> None:
         """The level waits at its start."""
         due = [each for each in self._sayings if each.when == "death" and each.deaths == self._deaths]
-        self.text, self._then = (due[0].text, self._start()) if due else (self._start(), "")
-        self._left = SHOWN_TICKS if due else START_TICKS
+        self._say(*((due[0].text, SHOWN_TICKS, self._start()) if due else (self._start(), START_TICKS)))
         self._still = self._quiet = 0
         self._jumped_at = self._wall = 0.0
+
+    def _say(self, text: str, ticks: int, then: str = "") -> None:
+        """Have a text read for so many ticks, then another one."""
+        self.text, self._left, self._then = text, ticks, then
 
     def _start(self) -> str:
         """How the level begins, until that is done."""
@@ -101,7 +104,7 @@ class Sayings:
         before = self.text
         self._left -= 1
         if self._left <= 0:
-            self.text, self._then, self._left = self._then, "", START_TICKS - SHOWN_TICKS
+            self._say(self._then, START_TICKS - SHOWN_TICKS)
         happened = {_WHEN.get(event.kind) for event in world.events[: world.event_count]}
         if "switch" in happened:
             # The goal is understood: no need to say how it begins again.
@@ -109,15 +112,14 @@ class Sayings:
         for each in self._sayings:
             if each not in self._said and (each.when in happened or (each.when == "at" and _is_near(world, each))):
                 self._said.add(each)
-                self.text, self._then = each.text, ""
-                self._left = START_TICKS if each.when == "switch" else SHOWN_TICKS
+                self._say(each.text, START_TICKS if each.when == "switch" else SHOWN_TICKS)
         if self._again and self._is_stuck(world):
             self._again = False
-            self.text, self._then, self._left = AGAIN, "", SHOWN_TICKS
+            self._say(AGAIN, SHOWN_TICKS)
         if self.helps and (wall := self._slipped(world)):
             towards, away = ("{right}", "{left}") if wall < 0 else ("{left}", "{right}")
             self._climb, self._foot = CLIMB % (towards, away), world.ninja.y
-            self.text, self._then, self._left = self._climb, "", START_TICKS
+            self._say(self._climb, START_TICKS)
         elif self.text == self._climb and self._foot - world.ninja.y > CLIMBED:
             self.text = ""
         return self.text != before

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pygame
 
-from ninja_game.ui.scenery import grain, painted
+from ninja_game.ui.scenery import GRAINS, grain, painted
 from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.tile_sheet import TileSheet
 
@@ -26,7 +26,7 @@ def add_relief(sheet: TileSheet, palette: Palette) -> pygame.Surface:
     small = painted(palette).copy()
     # It is soft, since it is painted on the small sheet of the scenery.
     shadow = pygame.transform.smoothscale(inks["outline"], small.get_size())
-    if palette.scenery != "paper":
+    if palette.scenery in GRAINS:
         _add_grain(sheet, palette, inks)
     shadow.fill((SHADOW,) * 4, special_flags=pygame.BLEND_RGBA_MULT)
     share = sheet.canvas.scale * small.width / size[0]
