@@ -74,8 +74,9 @@ def problems_of(pack: Pack, obstacles: Obstacles) -> list[PackFinding]:
 
 def obstacle_of(pack: Pack, finding: PackFinding, obstacles: Obstacles) -> Finding | None:
     """What kept the solver from the run that a finding misses."""
-    level = pack.levels.get(level_of(pack, file_of(pack, finding)))
-    return obstacles.get((level.level, _MISSING.get(finding.code, ""))) if level else None
+    kind = _MISSING.get(finding.code)
+    level = pack.levels.get(level_of(pack, file_of(pack, finding))) if kind else None
+    return obstacles.get((level.level, kind)) if kind and level else None
 
 
 def _with_obstacle(pack: Pack, finding: PackFinding, obstacles: Obstacles) -> str:

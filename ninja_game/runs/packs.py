@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import PurePath
 
 from ninja_game.batch.difficulty import TRIES, difficulty
@@ -21,6 +21,9 @@ from ninja_game.runs.level_design import design, design_findings
 from ninja_game.runs.verify import Verdict, verify_recording, with_demands
 from ninja_game.sim.level import Level
 
+_verdict = lru_cache(maxsize=1024)(verify_recording)
+"""A pack's certificates are asked for by each of the checks here, and again after each change of the pack."""
+
 
 @dataclass(frozen=True)
 class Certificate:
@@ -34,7 +37,7 @@ class Certificate:
     @cached_property
     def verdict(self) -> Verdict:
         """The result. Raises LevelError for a level that cannot be played."""
-        return verify_recording(self.recording)
+        return _verdict(self.recording)
 
     @property
     def problems(self) -> list[str]:

@@ -76,6 +76,14 @@ class Cell(NamedTuple):
     head: bool = False
 
 
+class _Checked(NamedTuple):
+    """What was odd about a pack. ``places``: the paths of the files that it is about."""
+
+    pack: Pack
+    findings: list[PackFinding]
+    places: frozenset[str]
+
+
 class Rack(ListView):
     """Cells that the mouse can take along: ``pull`` gets the number of one. A second click that pulls none chooses."""
 
@@ -140,8 +148,8 @@ class PackScreen(ThumbnailScreen):
         self._job: NewestJob[Path, ReadyPack] = NewestJob(self._make_ready)
         self._seen: ReadyPack | None = None
         self._said = ""
-        self._checks: NewestJob[Pack, tuple[Pack, list[PackFinding]]] = NewestJob(self._check)
-        self._checked: tuple[Pack, list[PackFinding]] | None = None
+        self._checks: NewestJob[Pack, _Checked] = NewestJob(self._check)
+        self._checked: _Checked | None = None
         self._asked: Pack | None = None
 
     @property
@@ -445,18 +453,21 @@ class PackScreen(ThumbnailScreen):
 
     # --- problems, and what takes time ---
 
-    def _check(self, pack: Pack) -> tuple[Pack, list[PackFinding]]:
-        return pack, problems_of(pack, self._obstacles)
+    def _check(self, pack: Pack) -> _Checked:
+        found = problems_of(pack, self._obstacles)
+        return _Checked(pack, found, frozenset(pack.files.place(file_of(pack, each)) for each in found))
 
     @property
     def findings(self) -> list[PackFinding] | None:
         """What is odd about the pack as it is now; None until that is known."""
-        known = self._checked and self.pack and self._checked[0] is self.pack.pack
-        return self._checked[1] if self._checked and known else None
+        checked = self._checked
+        return checked.findings if checked and self.pack and checked.pack is self.pack.pack else None
 
     def problems(self) -> list[Problem]:
         """What is odd about the pack, then what is accepted."""
-        pack = (self.pack and self.pack.pack) or Pack(self.path)
+        pack = self.pack.pack if self.pack else None
+        if pack is None:
+            return []
         if self.findings is None:
             self._checked = self._check(pack)
         return [*(self._problem(pack, each) for each in self.findings or ()), *map(self._accepted, pack.index.accepted)]
@@ -614,8 +625,7 @@ class PackScreen(ThumbnailScreen):
         theme.text(surface, state, x, y, size=8.5, colour=colour, width=w - 14)
         if level.pars and level.pars.gold is not None:
             draw_all_gold(surface, theme, x + w - 5, y + 5, 8)
-        file = f"{level.named.file}:"
-        if any(str(each).startswith(file) for each in self.findings or ()):
+        if self.findings and self._checked and level.named.file in self._checked.places:
             theme.text(surface, "!", x + w - 16, y - 1, size=11, bold=True, colour=palette.bad, align="centre")
 
     def _draw_head(self, surface: pygame.Surface, theme: Theme, cell: Cell, area: Area) -> None:
