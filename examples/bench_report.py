@@ -28,7 +28,7 @@ from ninja_game.errors import FileError, NinjaGameError
 from ninja_game.files.reading import read_bytes
 from ninja_game.learn.levels.bench import GRADES
 
-TEST, TRAIN, SET = TASKS
+TEST, TRAIN, TRANSFER = TASKS
 RESAMPLES = 2_000
 SHARE = 0.95
 """Of the resamples that an interval holds."""
@@ -57,20 +57,21 @@ def load_results(folder: Path) -> dict[tuple[str, str], list[dict[str, Any]]]:
     for path in sorted(folder.glob("*.json")):
         try:
             run = json.loads(read_bytes(path, MOST_BYTES))
-            for levels, name in product(TASKS, ("passed", "par")):
-                rates([run], levels, name)
-            of_format = run["format"] == FORMAT
-            others = [levels for levels in (TEST, TRAIN) if run["digests"][levels] != DIGESTS[levels]]
-            str(run["digests"][SET])
-            found[str(run["track"]), str(run["agent"])].append(run)
+            of_format, other = run["format"] == FORMAT, None
+            if of_format:
+                for levels, name in product(TASKS, ("passed", "par")):
+                    rates([run], levels, name)
+                digests = {levels: str(run["digests"][levels]) for levels in TASKS}
+                other = next((levels for levels in (TEST, TRAIN) if digests[levels] != DIGESTS[levels]), None)
+                found[str(run["track"]), str(run["agent"])].append(run)
         except (KeyError, TypeError, ValueError) as error:
             raise FileError("not results of examples/measure.py", file=str(path), found=str(error)[:80]) from error
         if not of_format:
-            raise FileError("results of another format", file=str(path), found=str(run["format"])[:9], expected="2")
-        if others:
-            (levels, *_), digests = others, run["digests"]
-            found_there, expected = str(digests[levels])[:12], DIGESTS[levels]
-            raise FileError(f"measured in other levels: {levels}", str(path), found=found_there, expected=expected)
+            said = str(run["format"])[:9]
+            raise FileError("results of another format", file=str(path), found=said, expected=str(FORMAT))
+        if other:
+            there, expected = digests[other][:12], DIGESTS[other]
+            raise FileError(f"measured in other levels: {other}", str(path), found=there, expected=expected)
     if not found:
         raise FileError("there are no results", file=str(folder), expected="files *.json of examples/measure.py")
     return dict(found)
@@ -78,7 +79,7 @@ def load_results(folder: Path) -> dict[tuple[str, str], list[dict[str, Any]]]:
 
 def rates(runs: list[dict[str, Any]], levels: str, name: str) -> NDArray[np.float64]:
     """A score of each run in each grade of levels, (runs, grades)."""
-    grades = ("all",) if levels == SET else GRADES
+    grades = ("all",) if levels == TRANSFER else GRADES
     return np.array([[run["scores"][levels][grade][name] for grade in grades] for run in runs], np.float64)
 
 
@@ -134,9 +135,13 @@ def table(results: dict[tuple[str, str], list[dict[str, Any]]]) -> str:
         grades = learned_in(runs[0])
         gap, gap_again = (rates(runs, TRAIN, "passed") - passed, redrawn(runs, TRAIN, "passed") - passed_again)
         cells += [shown(gap[:, grades].mean(-1), gap_again[..., grades].mean(-1), "+.1f") if grades else "-"]
-        same = [run for run in runs if run["digests"][SET] == DIGESTS[SET]]
+        same = [run for run in runs if run["digests"][TRANSFER] == DIGESTS[TRANSFER]]
         few = f" ({len(same)} of {len(runs)} runs)" * (len(same) < len(runs))
-        cells += [shown(rates(same, SET, "passed")[:, 0], redrawn(same, SET, "passed")[..., 0]) + few if same else "-"]
+        cells += [
+            shown(rates(same, TRANSFER, "passed")[:, 0], redrawn(same, TRANSFER, "passed")[..., 0]) + few
+            if same
+            else "-"
+        ]
         lines.append([track, name, count, f"{curve[-1][0] / 1e6:.1f}M" if curve else "-", *cells])
     return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
 

@@ -108,6 +108,14 @@ def by_level(found: dict[str, NDArray[Any]]) -> dict[str, str]:
     return {name: " ".join(map(str, row.tolist())) for name, row in rows.items()}
 
 
+def tell_digests(context: click.Context, _option: click.Parameter, wanted: bool) -> None:
+    """Print the digests of the levels that there are, if they are wanted, and end."""
+    if wanted:
+        for name in DIGESTS:
+            click.echo(f"{levels_of(name).digest}  {name}")
+        context.exit()
+
+
 @click.command(help=__doc__.replace("\n    python3", "\n\b\n    python3", 1))
 @click.argument("agent_name", metavar="AGENT")
 @click.option("--name", help="What it is called in tables; without, AGENT.")
@@ -116,7 +124,7 @@ def by_level(found: dict[str, NDArray[Any]]) -> dict[str, str]:
 @click.option("--output", "-o", required=True, type=click.Path(dir_okay=False, path_type=Path))
 @click.option(
     "--digests", is_flag=True, is_eager=True, expose_value=False, help="Tell the sha256 of the levels.",
-    callback=lambda _context, _option, wanted: tell_digests(wanted),
+    callback=tell_digests,
 )  # fmt: skip
 def main(agent_name: str, name: str | None, track: str, seed: int, output: Path) -> None:
     try:
@@ -144,14 +152,6 @@ def main(agent_name: str, name: str | None, track: str, seed: int, output: Path)
     for levels, grades in reached.items():
         shown = ", ".join(f"{grade} {values['passed']:.1%}" for grade, values in grades.items())
         click.echo(f"{levels}: passed {shown}")
-
-
-def tell_digests(wanted: bool) -> None:
-    """Print the digests of the levels that there are, if they are wanted, and end."""
-    for name in DIGESTS if wanted else ():
-        click.echo(f"{levels_of(name).digest}  {name}")
-    if wanted:
-        sys.exit()
 
 
 if __name__ == "__main__":

@@ -61,9 +61,9 @@ def level_source(origin: Origin) -> LevelSource:
         return _named([origin])
     if isinstance(origin, Path):
         return _named(load_levels(origin))
-    if not isinstance(origin, str | Sequence) or not (origin or isinstance(origin, str)):
-        raise ArgumentError(f"level is {origin!r:.60}; expected a name, a path, a Level, or several of these")
     if not isinstance(origin, str):
+        if not isinstance(origin, Sequence) or not origin:
+            raise ArgumentError(f"level is {origin!r:.60}; expected a name, a path, a Level, or several of these")
         parts = [level_source(each) for each in origin]
         if len(parts) == 1:
             return parts[0]
