@@ -85,21 +85,25 @@ class _StoppedError(Exception):
 
 @dataclass(eq=False)
 class Search:
-    """The solver's work on a level: ``run``, the best one found, and its ``route``; ``share`` of the time that is over.
+    """The solver's work on a level: ``run``, the best one found, and its ``route``.
 
-    ``worlds``: how many moments it has tried, None until it is ready. ``end``: why it is over, "" as long as it is not;
+    ``progress``: the newest one, None until the solver is ready. ``end``: why it is over, "" as long as it is not;
     ``obstacles``: what kept it from a run in all its ``seconds``.
     """
 
     level: Level | None = None
     run: Replay | None = None
     route: Route = ()
-    share: float = 0.0
-    worlds: int | None = None
+    progress: Progress | None = None
     began: float = field(default_factory=monotonic)
     end: str = ""
     seconds: float = 0.0
     obstacles: tuple[Finding, ...] = ()
+
+    @property
+    def share(self) -> float:
+        """The share of the time that is over."""
+        return min(1.0, self.progress.seconds / self.seconds) if self.progress else 0.0
 
 
 class Certifier:
@@ -122,9 +126,9 @@ class Certifier:
             return f"Certified: {search.run.end_tick / TICKS_PER_SECOND:.2f} s{gold}{shortening}"
         if search.end or search.level is None:
             return search.end
-        if search.worlds is None:
+        if search.progress is None:
             return f"Getting ready, {monotonic() - search.began:.0f} s: minutes the first time. Go on editing"
-        return f"Looking for a run: {search.worlds // 1000} thousand moments tried"
+        return f"Looking for a run: {search.progress.worlds // 1000} thousand moments tried"
 
     @property
     def busy(self) -> bool:
@@ -161,13 +165,10 @@ class Certifier:
         self._job.finish(CLOSING_SECONDS)
 
     def _work(self, search: Search) -> None:
-        seen: list[Progress] = []
-
         def report(progress: Progress) -> None:
             if search.end:
                 raise _StoppedError
-            search.share, search.worlds = min(1.0, progress.seconds / search.seconds), progress.worlds
-            seen[:] = [progress]
+            search.progress = progress
 
         def better(run: Replay) -> None:
             if search.end or search.level is None:
@@ -180,7 +181,8 @@ class Certifier:
             from ninja_game.search.solve import Task, solve
             from ninja_game.search.task import obstacle
 
-            if not solve(Task(search.level, seconds=search.seconds), report=report, on_better=better) and seen:
-                search.obstacles = (obstacle(search.level, 0, seen[0]),)
-        found = f"No run in {search.seconds:.0f} s: the first problem says why. F7 looks twice as long"
-        search.end = search.end or ("Done" if search.run else found)
+            found = solve(Task(search.level, seconds=search.seconds), report=report, on_better=better)
+            if not found and search.progress:
+                search.obstacles = (obstacle(search.level, 0, search.progress),)
+        nothing = f"No run in {search.seconds:.0f} s: the first problem says why. F7 looks twice as long"
+        search.end = search.end or ("Done" if search.run else nothing)

@@ -17,6 +17,7 @@ from ninja_game.files.locking import forget
 from ninja_game.files.reading import read_bytes, read_utf8
 from ninja_game.files.user_folder import EDITING
 from ninja_game.files.writing import write_atomically
+from ninja_game.formats.ascii.writer import headers_of
 from ninja_game.formats.links.fragment import is_link
 from ninja_game.formats.load import load_levels, texts_of
 from ninja_game.formats.named_level import NamedLevel, parse_levels
@@ -69,7 +70,7 @@ def open_source(path: Path, record: int = 0) -> Source:
 
 def draft_of(named: NamedLevel) -> Draft:
     """A level of any file as a draft."""
-    return Draft(named.level, named.name, named.author, named.comment, named.teaches, named.says)
+    return Draft(named.level, **headers_of(named))
 
 
 def save(source: Source, draft: Draft, path: Path, *, replacing: bool = False) -> Source:

@@ -17,7 +17,7 @@ from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.formats.pack.files import CERTIFICATES, INDEX, PARS
+from ninja_game.formats.pack.files import INDEX, PARS, certificate_name
 from ninja_game.formats.pack.pars import DIGITS, Pars, parse_pars, write_pars
 from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
@@ -107,13 +107,8 @@ def _keep(file: Path, level: str, replay: str, pars: Pars) -> None:
     pack, tree = file.parent, Tree(file.parent)
     if not (pack / INDEX).exists():
         tree.write(INDEX, _INDEX)
-    tree.write(_certificate(file), replay)
+    tree.write(certificate_name(file.name, "exit"), replay)
     table = pack / PARS
     lines = parse_pars(read_text(table), file=str(table)) if table.exists() else {}
     tree.write(PARS, write_pars({**lines, file.name: pars}))
     tree.write(file.name, level)
-
-
-def _certificate(file: Path) -> str:
-    """The name of a level's certificate in its pack."""
-    return f"{CERTIFICATES}/{file.stem}.exit.replay.txt"

@@ -41,7 +41,7 @@ GUNS = {"gauss turret": 2, "homing launcher": 2}
 DIRECTIONS = (1, 0), (0, 1), (-1, 0), (0, -1)
 """Right, down, left, up, as a thwump's direction numbers them."""
 LANES = {kinds.THWUMP, kinds.FLOOR_GUARD}
-HAZARDS = kinds.MINE, kinds.DRONE, kinds.FLOOR_GUARD, kinds.THWUMP, kinds.TURRET, kinds.LAUNCHER
+HAZARDS = kinds.MINE, *kinds.ENEMIES
 
 
 class Design(NamedTuple):

@@ -160,9 +160,11 @@ def keep_run(level: NamedLevel, run: Replay) -> None:
     Raises NinjaGameError for a certificate that cannot be read; OSError.
     """
     for kind, gold in zip(KINDS, (0, level.level.gold), strict=True):
+        if run.gold < gold:
+            continue
         path = Path(level.file).parent / certificate_name(Path(level.file).name, kind)
         kept, of_this_level = kept_run(level, path, Task(level.level, gold=gold)) or (None, False)
-        if run.gold >= gold and not (kept and of_this_level and kept.end_tick <= run.end_tick):
+        if not (kept and of_this_level and kept.end_tick <= run.end_tick):
             _write(level, path, run)
 
 

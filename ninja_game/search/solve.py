@@ -198,7 +198,8 @@ class _Job:
             worlds = search.worlds
             if until_found and (self.state.runs or search.best()):
                 break
-        self.state.note_left(search.untouched)
+        if not self.state.runs:
+            self.state.note_left(search.untouched)
         best = search.best()
         if not best:
             return None

@@ -137,7 +137,8 @@ class RunSearch(SpanSearch):
     def _work(self) -> None:
         """Shorten the run by its own route, and beside that by those of all runs."""
         wanted, beside = self._wanted, None
-        self._reaches = run_level(wanted.level, wanted.first, body=wanted.body).outcome == "exit"
+        played = run_level(wanted.level, wanted.first, body=wanted.body)
+        self._reaches = played.outcome == "exit"
         others = tuple(filter(self._counts, wanted.others))
         own = replace(wanted, others=(), jobs=max(1, wanted.jobs // 2) if others else wanted.jobs)
         if others:
@@ -145,7 +146,7 @@ class RunSearch(SpanSearch):
             mixed = partial(self._shorten, replace(own, first=known[0], others=known[1:]), own_route=False)
             beside = run_in_background(mixed, self._fail_beside)
         if not self._reaches:
-            own = self._led_to_exit(own)
+            own = self._led_to_exit(own, played.ticks)
         if own.first:
             self._shorten(own, own_route=True)
         elif not others and not self._cancelled.is_set():
@@ -160,15 +161,12 @@ class RunSearch(SpanSearch):
             return bool(with_plain_triggers(self.task.level, inputs, body=self.task.body, gold=self._wanted.gold))
         return False
 
-    def _led_to_exit(self, task: Task) -> Task:
-        """The same with a run to the exit that begins as one that ends before it; b"" where there is none."""
-        played = run_level(task.level, task.first, body=task.body)
-        way = to_exit(
-            task.level, task.first[: played.ticks], min(task.seconds / 2, WAY_SECONDS), body=task.body, seed=task.seed,
-            threads=task.jobs, goes_on=self._goes_on,
-        )  # fmt: skip
+    def _led_to_exit(self, task: Task, ticks: int) -> Task:
+        """The same with a run to the exit that begins as one that ends before it, b"" where there is none."""
+        first = task.first[:ticks]
+        way = to_exit(task.level, first, WAY_SECONDS, body=task.body, threads=task.jobs, goes_on=self._goes_on)
         gold = run_level(task.level, way, body=task.body).gold if way else 0
-        return replace(task, first=way or b"", gold=min(gold, task.gold), seconds=task.seconds / 2)
+        return replace(task, first=way or b"", gold=min(gold, task.gold))
 
     def _goes_on(self, ticks: int) -> bool:
         self._note_ticks(ticks, own_route=True)
