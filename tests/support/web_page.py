@@ -7,12 +7,11 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 from platformdirs import user_cache_path
 
-from ninja_game.web.site.build import SiteFile, build_site, site_server
+from ninja_game.web.site.build import build_site, site_server
 from ninja_game.web.site.pyodide_files import VERSION
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -103,17 +102,6 @@ def browser() -> Iterator[Any]:
             yield chromium
         finally:
             chromium.close()
-
-
-@contextmanager
-def new_site() -> Iterator[tuple[list[SiteFile], str, Any]]:
-    """For measurements: the files of a site built for them, its address, and Chromium. Exits where there is none."""
-    if words := missing():
-        raise SystemExit(words)
-    with TemporaryDirectory() as folder, browser() as chromium:
-        files = build_site(Path(folder) / "site", None, CACHE)
-        with served(Path(folder) / "site") as address:
-            yield files, address, chromium
 
 
 @contextmanager

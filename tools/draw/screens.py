@@ -117,7 +117,7 @@ def name_of(level: GoodLevel) -> str:
 
 def chapter(levels: list[GoodLevel]) -> str:
     """The chapter of the page."""
-    parts = [HEAD, "The editor has this chapter too (*File > Good levels*) and opens a copy of each.\n"]
+    parts = [HEAD, "The editor has this chapter too (*File > Ten good levels*) and opens a copy of each.\n"]
     for level in levels:
         title = level.entry.named.name
         notes = "\n".join(f"{number}. {text}" for number, (_, _, text) in enumerate(level.notes, 1))

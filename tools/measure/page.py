@@ -12,13 +12,16 @@ import argparse
 import json
 import statistics
 from collections.abc import Callable
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
 
 from ninja_game.web.pages.frame import GAME
+from ninja_game.web.site.build import build_site
 from tests.support.visitor import LOADING
-from tests.support.web_page import BUSY, SIZE, new_site, run_in
+from tests.support.web_page import BUSY, CACHE, SIZE, browser, missing, run_in, served
 
 PAINT = "() => performance.getEntriesByName('first-contentful-paint')[0].startTime"
 RUNS = "#trouble[open], body[data-state]"
@@ -96,13 +99,17 @@ def main() -> None:
     parser.add_argument("--visits", type=int, default=5, help="browsers that visit, each three times")
     parser.add_argument("--seconds", type=int, default=30, help="of play in the busy level")
     options = parser.parse_args()
-    with new_site() as (files, address, chromium):
+    if words := missing():
+        raise SystemExit(words)
+    with TemporaryDirectory() as folder, browser() as chromium:
+        files = build_site(Path(folder) / "site", None, CACHE)
         size, packed = sum(each.size for each in files) / 1e6, sum(each.compressed for each in files) / 1e6
         print(f"size: {size:.2f} MB, {packed:.2f} MB by gzip")
-        if options.visits:
-            tell_starts(chromium, address, options.visits)
-        if options.seconds:
-            tell_turns(chromium, address, options.seconds)
+        with served(Path(folder) / "site") as address:
+            if options.visits:
+                tell_starts(chromium, address, options.visits)
+            if options.seconds:
+                tell_turns(chromium, address, options.seconds)
 
 
 if __name__ == "__main__":

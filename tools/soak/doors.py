@@ -152,17 +152,25 @@ Pool = dict[str, list[bytes]]
 
 
 def loop(trial: Trial, pool: Pool, rng: random.Random, *, grow: bool, kept: Path | None) -> Iterator[None]:
-    """Read one odd input after another; where the pool grows, those that reach new lines join it, and are ``kept``."""
+    """Read the pool, then one odd input after another.
+
+    Where the pool grows, those that reach lines that nothing in it does join it, and are ``kept``.
+    """
+
+    def reached(name: str, data: bytes) -> set[Any]:
+        if grow:
+            return lines_of(partial(trial.read, name, data))
+        trial.read(name, data)
+        return set()
+
     names = [name for name in pool for _ in range(DOORS[name].share)]
-    known: dict[str, set[Any]] = {name: set() for name in pool}
+    known = {name: set[Any]().union(*(reached(name, data) for data in inputs)) for name, inputs in pool.items()}
     while True:
         name = rng.choice(names)
         other = rng.choice(pool[name if rng.random() < 0.8 else rng.choice(names)])
         data = mutated(rng.choice(pool[name]), other, rng)
-        if not grow:
-            trial.read(name, data)
-        elif not (reached := lines_of(partial(trial.read, name, data))) <= known[name]:
-            known[name] |= reached
+        if not (lines := reached(name, data)) <= known[name]:
+            known[name] |= lines
             pool[name].append(data)
             if kept:
                 (kept / sha256(name.encode() + data).hexdigest()).write_bytes(name.encode() + b"\n" + data)
@@ -184,7 +192,7 @@ def sound_inputs(names: list[str], kept: Path | None) -> Pool:
     return found
 
 
-def options_of(words: list[str] | None = None) -> argparse.Namespace:
+def options_of() -> argparse.Namespace:
     """The options of the command line."""
     parser = argparse.ArgumentParser(description="Feed odd inputs to every door; only our own errors may come out.")
     parser.add_argument("--texts", type=int, default=0, help="how many inputs (default: without end, or 100000)")
@@ -195,7 +203,7 @@ def options_of(words: list[str] | None = None) -> argparse.Namespace:
     parser.add_argument("--corpus", type=Path, help="folder of inputs to begin with; --coverage keeps its own there")
     parser.add_argument("--findings", type=Path, default=Path("findings"), help="folder of what is wrong (./findings)")
     parser.add_argument("--read", type=Path, help="read this one file, through the --door")
-    return parser.parse_args(words)
+    return parser.parse_args()
 
 
 def main() -> int:
@@ -223,9 +231,6 @@ def main() -> int:
 
         if options.coverage and options.corpus:
             options.corpus.mkdir(exist_ok=True)
-        for name, inputs in pool.items():
-            for data in inputs:
-                trial.read(name, data)
         for _ in loop(trial, pool, random.Random(options.seed), grow=options.coverage, kept=options.corpus):
             trial.tell_progress()
             if over():

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 import time
 from collections.abc import Iterator, Mapping
@@ -83,7 +82,6 @@ class RunFolder:
     def __init__(self, folder: Path, levels: Mapping[str, Level]) -> None:
         self.folder = folder
         self.levels = levels
-        self._root = os.fspath(folder)
         self.known: dict[tuple[str, int], bytes] = {}
         """Inputs of runs that were judged just now, by file and record."""
         self.drawn: dict[tuple[str, int], str] = {}
@@ -108,7 +106,7 @@ class RunFolder:
 
     def stamp(self, name: str) -> list[int]:
         """As ``stamp_of``; [] for a file so new that it may be changed again in the same moment."""
-        found = stamp_of(f"{self._root}/{name}")
+        found = stamp_of(f"{self.folder}/{name}")
         return found if found and time.time_ns() - max(found[1:3]) > SETTLED else []
 
     def recordings(self, file: SentFile) -> list[Sent]:

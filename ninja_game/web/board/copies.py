@@ -143,15 +143,16 @@ class Courses:
         on_path = (places >= ON_PATH * len(course.places)) & (len(course.strokes) >= FEWEST_STROKES)
         pressed = (presses >= SAME_PRESSES * of) & (presses >= FEWEST_PRESSES)
 
-        of_path, of_presses = places / max(1, len(course.places)), presses / np.maximum(1, of)
-        alike = np.maximum(of_path * on_path, of_presses * pressed)
+        of_path = places / max(1, len(course.places)) * on_path
+        of_presses = presses / np.maximum(1, of) * pressed
+        alike = np.maximum(of_path, of_presses)
 
         def found(chosen: NDArray[np.bool_]) -> tuple[list[int], str]:
             near = np.flatnonzero(chosen & (on_path | pressed))
             if near.size:
                 near = near[np.lexsort((self.numbers[near], -alike[near]))]
                 first = near[0]
-                if pressed[first] and of_presses[first] > (of_path * on_path)[first]:
+                if of_presses[first] > of_path[first]:
                     said = f"{presses[first]} of {of[first]} presses and releases are at the ticks of"
                 else:
                     said = f"{places[first]} of the {len(course.places)} places on its way are those of"

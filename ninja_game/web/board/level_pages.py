@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from datetime import datetime
 from itertools import compress, pairwise
-from operator import attrgetter
 from typing import Any
 
 from ninja_game.files.shown_text import counted
@@ -76,9 +75,12 @@ class LevelPages(Parts):
     def _table(self, part: Part, ranked: Sequence[Ranked], told: set[str]) -> Markup:
         """A table without columns that are empty. ``told``: remarks that a table above has."""
         rows = []
-        for place, run, values in map(attrgetter("place", "run", "values"), ranked[:FIRST]):
+        for each in ranked[:FIRST]:
+            run = each.run
             shown = replace(run, remark="as above") if run.remark in told else run
-            rows.append((place, *self.run(shown, part[1].text(values[0]), timed=part[1].unit == FASTEST.unit)))
+            rows.append(
+                (each.place, *self.run(shown, part[1].text(each.values[0]), timed=part[1].unit == FASTEST.unit))
+            )
             told |= {run.remark} - {""}
         heads = ("Place", "Player", part[1].unit, *RUN_HEADS)
         filled = [any(cell != "" for cell in column) for column in zip(*rows, strict=True)]
@@ -89,7 +91,7 @@ class LevelPages(Parts):
         """How the record fell."""
         category, runs = part[1], self.ranking.history[entry.digest, part]
         moved = "rose" if category.rising else "fell"
-        numbers = [(self.ranking.values(category, run) or (0.0,))[0] for run in runs]
+        numbers = [self.ranking.number(category, run) for run in runs]
         better = ["", *(category.difference(before - now) for before, now in pairwise(numbers))]
         rows = [
             (run.day, self.player_link(run.player, UP), category.text(number), gain, self.watch([run], UP))

@@ -113,7 +113,7 @@ class BoardPages(LevelPages):
     def _achieved(self, record: Record) -> Iterator[str]:
         """The categories of a record, its results in them, and by how much it is better."""
         for category, amount in record.before.items():
-            result = category.measured((self.ranking.values(category, record.run) or (0.0,))[0])
+            result = category.measured(self.ranking.number(category, record.run))
             gain = "first" if amount is None else f"better by {category.difference(amount)}"
             yield f"{self.part_name((record.run.ladder, category))}: {result}, {gain}"
 

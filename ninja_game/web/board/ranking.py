@@ -76,6 +76,10 @@ class Ranking:
         """What a run is ranked by; None where it is not of the category."""
         return self._values[category][run.key]
 
+    def number(self, category: Category, run: Run) -> float:
+        """The first of ``values``: what is shown of a run that is of the category."""
+        return (self.values(category, run) or (0.0,))[0]
+
     def _table(self, runs: Iterable[Run], category: Category) -> list[Ranked]:
         """The best run of each player, in order; of equal ones of a player the one that came first."""
         best: dict[str, tuple[tuple[float, ...], Run]] = {}
@@ -87,7 +91,8 @@ class Ranking:
         order = sorted(best.values(), key=lambda each: (each[0], each[1].near, each[1].added, each[1].key))
         # A near copy that nobody has confirmed is never first.
         first = next((number for number, (_, run) in enumerate(order) if not run.near), 0)
-        order[: first + 1] = [*order[first : first + 1], *order[:first]]
+        if order:
+            order.insert(0, order.pop(first))
         for number, (values, run) in enumerate(order, 1 + (bool(order) and order[0][1].near)):
             shared = found and found[-1].values == values and not run.near
             place = found[-1].place if shared else number
@@ -133,7 +138,7 @@ class Ranking:
         """Every record that was ever set, a run once, the newest first."""
         found: dict[tuple[str, int], dict[Category, float | None]] = defaultdict(dict)
         for (_, (_, category)), runs in self.history.items():
-            numbers = [(self.values(category, run) or (0.0,))[0] for run in runs]
+            numbers = [self.number(category, run) for run in runs]
             for number, run in enumerate(runs):
                 found[run.key][category] = numbers[number - 1] - numbers[number] if number else None
         set_ = [Record(run, found[run.key]) for run in self.judged.runs if run.key in found]

@@ -7,7 +7,6 @@ from collections import Counter
 from collections.abc import Iterator
 from datetime import UTC, datetime, timedelta
 from functools import lru_cache
-from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
@@ -43,13 +42,6 @@ _FIELDS: dict[str, dict[str, type]] = {
 }  # fmt: skip
 
 
-def board_data(judged: ValidatedRuns) -> dict[str, Any]:
-    """The board as plain values: nothing in it but the dates depends on time or machine."""
-    runs = sorted(judged.runs, key=lambda run: run.key)
-    rejected = list(map(_rejected_data, sorted([*judged.rejected, *judged.again], key=attrgetter("file", "record"))))
-    return {"version": VERSION, "runs": list(map(_run_data, runs)), "rejected": rejected}
-
-
 def _run_data(run: Run) -> dict[str, Any]:
     return {
         "file": run.file, "record": run.record, "player": run.player, "level": run.entry.digest,
@@ -64,14 +56,14 @@ def _rejected_data(rejected: Rejected) -> dict[str, Any]:
 
 
 def board_text(judged: ValidatedRuns, before: Ledger = NO_LEDGER) -> str:
-    """A board as JSON, a run a line, so that a difference of two reads well.
+    """A board as JSON, a run a line, so that a difference of two reads well; only its dates depend on time.
 
     ``before``: its ledger; a run there whose file does not count or cannot be read now keeps its way and date, and one
     that counted once stays its player's.
     """
-    data = board_data(judged)
+    data = {"runs": [_run_data(run) for run in sorted(judged.runs, key=lambda run: run.key)]}
     counted = {run.key for run in judged.runs}
-    rejected = {(row["file"], row["record"]): row for row in data["rejected"]}
+    rejected = {(each.file, each.record): _rejected_data(each) for each in (*judged.rejected, *judged.again)}
     for key, old in (before.rejected | before.runs).items():
         whole = rejected.get((key[0], 0), {})
         row = rejected.get(key) or (whole if whole.get("kind") == "unreadable" else {})

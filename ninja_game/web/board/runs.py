@@ -294,15 +294,15 @@ def _judged(
             stamp = [] if why else folder.stamp(name)
             noted = memo.recall(name)
             *seen, digest, rows = noted if isinstance(noted, list) and len(noted) == 4 else ["", [], "", []]
-            as_before = stamp != [] and seen == [context, stamp]
-            file = None if as_before and (known := _known(rows, shown)) else SentFile(name, problem=why)
-            if file:
-                file = file if why else folder.file(name)
-                known = _known(rows, shown) if [*seen[:1], digest] == [context, file.digest] else []
-                if known:
+            known, sent = (_known(rows, shown) if seen[0] == context else []), list[Sent]()
+            if not (known and stamp and stamp == seen[1]):
+                file = SentFile(name, problem=why) if why else folder.file(name)
+                if known and digest == file.digest:
                     memo.note(name, [context, stamp, digest, rows])
-            sent = folder.recordings(file) if file and not known else []
-            files.append((name, file.digest if file else str(digest), stamp, sent, known))
+                else:
+                    known, sent = [], folder.recordings(file)
+                digest = file.digest
+            files.append((name, str(digest), stamp, sent, known))
             yield from (each.chunk for each in sent)
 
     levels = [entry.named for entry in shown.entries.values()]
@@ -426,8 +426,8 @@ def _without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run
     ways: dict[tuple[str, str], Run] = {}
     for run in runs:
         way = run.entry.digest, run.way
-        owner = owners.get(way, {"added": run.added})
-        if way not in ways and owner["added"] < run.added:
+        owner = owners.get(way)
+        if owner and way not in ways and owner["added"] < run.added:
             why = f"a copy of an earlier run by {owner['player']}, which was withdrawn or does not count any more"
             copies.append(Rejected(*run.key, "copy", why, run.player, run.entry.title, run.way, run.added))
             continue
@@ -458,7 +458,7 @@ def _remarked(runs: list[Run], memo: Memo) -> list[Run]:
             fast = nsmallest(MOST_COMPARED, range(known, number), key=lambda each: runs[each].tick)
             for each in sorted(fast):
                 courses.add(each, runs[each].tick, partial(_course, runs[each]))
-            course, known = _course(run), number + 1
+            course, known = _course(run, new=True), number + 1
             near = _near_to_another(run.player, course, courses, [each.player for each in runs[:number]])
             courses.add(number, run.tick, partial(replace, course))
             said = f"{near[1]} the run by {runs[near[0]].player} in {runs[near[0]].file}" if near else ""
@@ -467,10 +467,12 @@ def _remarked(runs: list[Run], memo: Memo) -> list[Run]:
     return found
 
 
-def _course(run: Run) -> Course:
+def _course(run: Run, *, new: bool = False) -> Course:
+    """What tells whether a run is near to others. ``new``: its page is made, and shows its path."""
     inputs = run.inputs
     found = run_level(run.entry.named.level, inputs)
-    run.folder.drawn[run.key] = path_data(found.positions)
+    if new:
+        run.folder.drawn[run.key] = path_data(found.positions)
     return course_of(inputs, found)
 
 

@@ -108,7 +108,7 @@ export class Painter {
     this.open = false;
     const { context, wide } = this;
     const draw = (style) => {
-      context.fillStyle = context.strokeStyle = style;
+      context[wide ? "strokeStyle" : "fillStyle"] = style;
       if (wide) context.stroke();
       else context.fill();
     };

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Callable, Iterable
 from html import escape
@@ -119,7 +118,6 @@ class Pages:
         self.folder = site / name
         self._memo = memo or Memo()
         self._site = Tree(site, kept=False)  # they can always be made again
-        self._root = os.fspath(site)
         self._written: set[str] = set()
         there = self._site.names(name)
         if there and MARK not in there:
@@ -146,7 +144,7 @@ class Pages:
 
     def _make(self, name: str, data: object, content: Callable[[], str | bytes]) -> None:
         digest = digest_of([program(), data])
-        file = f"{self._root}/{name}"
+        file = f"{self._site.root}/{name}"
         if self._memo.recall(name) != [digest, *stamp_of(file)]:
             self._site.write(name, content())
             self._memo.note(name, [digest, *stamp_of(file)])
