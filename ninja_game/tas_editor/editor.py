@@ -75,6 +75,11 @@ class TasEditor:
         return self.session.track
 
     @property
+    def beside(self) -> OtherRun | None:
+        """The chosen one of the runs beside this one; None without any."""
+        return self.others[self.chosen % len(self.others)] if self.others else None
+
+    @property
     def selection(self) -> Span:
         """The selected ticks, at least the one under the cursor."""
         anchor = self.cursor if self.anchor is None else self.anchor

@@ -192,7 +192,7 @@ class Foot(TasPart):
         selected = f", {last - first} selected" if last - first > 1 else ""
         timeline = editor.session.timeline
         known = "" if timeline.complete else f", simulated up to {timeline.simulated_until}"
-        other = editor.others[editor.chosen % len(editor.others)] if editor.others and editor.ghosts else None
+        other = editor.beside if editor.ghosts else None
         beside = f", beside {theme.fit(other.name, 110, 9.5)}" if other else ""
         text = f"tick {editor.cursor} of {len(editor.track)}{selected}{known}{beside}"
         theme.text(surface, text, 8, y + 5, size=9.5, colour=palette.on_tile)

@@ -168,7 +168,7 @@ def test_rubbish_gives_an_error_of_ours(text: str) -> None:
 
 
 def reference_texts() -> list[str]:
-    # The crowded ones are many and alike: every tenth keeps the suite fast, `tool soak.doors --reference` takes all.
+    # The crowded ones are many and alike: every tenth keeps the suite fast.
     crowded = [row.data for row in fuzz()[::10]] + [row.data for row in random_runs()[::10]]
     return [row.data for row in levels()] + [row.data for row in scenes()] + crowded
 

@@ -266,14 +266,14 @@ class EditorCommands(DocumentCommands):
         """Name, author, comment, what the level teaches."""
         prompts = {"teaches": "What it teaches"}
         about = headers_of(self.session.draft)
-        fields = [(prompts.get(key, key.capitalize()), text, 200) for key, text in about.items() if key != "says"]
+        del about["says"]  # which has a screen of its own
+        fields = [(prompts.get(key, key.capitalize()), text, 200) for key, text in about.items()]
 
         def on_accept(texts: list[str]) -> None:
             tools = self.session.tools
             tools.finish()
             self.app.know_author(tools.draft.author, texts[1])
-            # The last header, what it says, has a screen of its own.
-            tools.history.change(replace(tools.draft, **(about | dict(zip(about, texts, strict=False)))))
+            tools.history.change(replace(tools.draft, **(about | dict(zip(about, texts, strict=True)))))
 
         self.app.push(FormPanel(self.app, "About the level", fields, "OK", on_accept))
 

@@ -90,11 +90,9 @@ class MessagesScreen(MenuScreen):
         super().__init__(app)
         self.messages = messages_of(says)
         self._selected = 0
-        self._before, self._hud = self.source, Hud(self.theme)
+        self._before = self.source
         self._wanted = "{},{}".format(*at) if at else ""
         self._here, self._pick, self._put = here, pick, put
-        self._details: list[Widget] = []
-        self._texts: list[Widget] = []
         self._row_widgets: list[list[Widget]] = []
 
     @property
@@ -106,10 +104,9 @@ class MessagesScreen(MenuScreen):
         super().enter()
         place = next((k for k, each in enumerate(self.messages) if self._wanted and each.detail == self._wanted), None)
         if place is not None:
-            self.focus, self._wanted = self._texts[place], ""
+            self.focus, self._wanted = self._row_widgets[place][-1], ""
 
     def build(self) -> Sequence[Widget]:
-        self._details, self._texts = [], []
         self._row_widgets = [self._row(number) for number in range(len(self.messages))]
         rows = [widget for row in self._row_widgets for widget in row]
         y = TOP + ROW * len(self.messages)
@@ -119,7 +116,7 @@ class MessagesScreen(MenuScreen):
         return [*rows, add, *end]
 
     def _row(self, number: int) -> list[Widget]:
-        """The widgets of a message."""
+        """The widgets of a message: its moment first, its text last; between them what the moment needs."""
         message, y = self.messages[number], TOP + ROW * number
         text = TextEntry(
             (36, y + 34, 720, 30), "What is said", message.text, partial(setattr, message, "text"),
@@ -136,8 +133,6 @@ class MessagesScreen(MenuScreen):
             show = Button((352, y, 150, 28), "Pick a place...", partial(self._point, message), size=10)
             show.hint = "The next click in the level says where"
             about.append(show)
-        self._details.append(about[0] if about else text)
-        self._texts.append(text)
         remove = Button((656, y, 100, 28), "Remove", lambda: self._remove(message), size=10)
         return [moment, *about, remove, text]
 
@@ -158,7 +153,7 @@ class MessagesScreen(MenuScreen):
     def _add(self) -> None:
         self.messages.append(Message())
         self.enter()
-        self.focus = self._texts[-1]
+        self.focus = self._row_widgets[-1][-1]
 
     def _remove(self, message: Message) -> None:
         self.messages = [each for each in self.messages if each is not message]
@@ -169,7 +164,7 @@ class MessagesScreen(MenuScreen):
         for number, message in enumerate(self.messages):
             about_detail, problem = message.problem
             if problem:
-                self.focus = (self._details if about_detail else self._texts)[number]
+                self.focus = self._row_widgets[number][1 if about_detail else -1]
                 self.app.notify(problem)
                 self.redraw = True
                 return
@@ -205,10 +200,10 @@ class MessagesScreen(MenuScreen):
         y = TOP + ROW * len(self.messages) + 40
         shown = self.messages[self._selected].text.strip() if self._selected < len(self.messages) else ""
         if shown:
-            self._hud.theme = theme
-            lines, _, _, w, high, margin, size = self._hud.box(
+            hud = Hud(theme)
+            lines, _, _, w, high, margin, size = hud.box(
                 named_keys(shown, lambda name: self.app.controls.name(name) if name in KEYS else f"{{{name}}}"),
                 Level().tiles, (), None, covers=True,
             )  # fmt: skip
-            self._hud.said(surface, (lines, (WIDTH - w) / 2, y, w, high, margin, size))
+            hud.said(surface, (lines, (WIDTH - w) / 2, y, w, high, margin, size))
         theme.paragraph(surface, _HELP, (36, 506, 720, 54), 11, 15, colour=theme.palette.faint)

@@ -81,7 +81,8 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
             rows.append(lambda area: _setting(area, tools, "spacing", words, "How far apart they lie along it"))
     else:
         title = f"Draw: {tile_name(tools.tile)}"
-        rows += [partial(Label, text=text, size=9.5) for text in FIRST_STEPS if tools.draft.level == Level()]
+        first = FIRST_STEPS if tools.draft.level == Level() else ()
+        rows += [partial(Label, text=text, size=9.5) for text in first]
         texts = ("1 to 8: shape", "Q W A S: its solid corner", "E: full    D: empty", "H, J, U: mirror, flip, turn")
         rows += [partial(Label, text=text, size=9.5, faint=True) for text in texts]
         words = [("slopes: by hand", False), ("slopes: by themselves", True)]

@@ -24,6 +24,7 @@ from ninja_game.play.workspace.screen import WorkspaceScreen
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.input.keys import chord
 from ninja_game.ui.text_entry import TextEntry
+from ninja_game.ui.widgets import following
 
 
 class EditorScreen(WorkspaceScreen):
@@ -168,9 +169,8 @@ class EditorScreen(WorkspaceScreen):
         spec = next((each for each in tools.subjects if name in properties(each)), None)
         if spec is None:
             return False
-        words = list(PROPERTIES[spec.kind][name].words)
-        place = words.index(word(spec, name)) if word(spec, name) in words else 0
-        tools.put_word(name, words[(place + by) % len(words)])
+        words, now = list(PROPERTIES[spec.kind][name].words), word(spec, name)
+        tools.put_word(name, following(words, now if now in words else words[0], by))
         return True
 
     def update(self, real_ms: int) -> None:

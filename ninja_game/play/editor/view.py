@@ -9,7 +9,7 @@ import pygame
 
 from ninja_game.editor.brush import placed
 from ninja_game.editor.certify import NO_TESTS
-from ninja_game.editor.draft import Cell, Draft, is_inside
+from ninja_game.editor.draft import Cell, Draft, cell_of, is_inside
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.reach import SQUARE, Reach
 from ninja_game.editor.specs import BODY, SWITCH, carried, points
@@ -236,8 +236,8 @@ class EditorView(Part):
             return
         before, now = None if erase or pick else self._pressed, pygame.time.get_ticks()
         self._pressed = cell, now, self.session.draft
-        middle = 24.0 * cell[0] + 12.0, 24.0 * cell[1] + 12.0
-        if before and before[0] == cell and now - before[1] < DOUBLE_MS and middle in said_places(before[2].says):
+        twice = before and before[0] == cell and now - before[1] < DOUBLE_MS
+        if before and twice and cell in (cell_of(*place) for place in said_places(before[2].says)):
             # The first click has drawn what nobody meant.
             self.session.tools.finish()
             if self.session.draft is not before[2]:

@@ -65,6 +65,7 @@ class Browser(ThumbnailScreen):
         self.shown: list[Entry] = []
         self.bests: dict[str, SavedReplay] = {}
         self.marks: dict[str, Mark] = {}
+        self._count = ""
         self.list = ListView(
             (44, 112, 376, 8 * ROW), ROW, self._draw_row, self.play, empty="No level matches",
             hint="Enter to play, Right for more, Up to search", selected=self._select, opens=True,
@@ -162,6 +163,9 @@ class Browser(ThumbnailScreen):
             found.sort(key=keys[self.sort])  # type: ignore[arg-type]
         # A name is found before a comment.
         found.sort(key=lambda e: not all(word in e.title.casefold() for word in words))
+        # The levels of days are a game of their own.
+        shown, known = (sum(Path(e.named.file).parent.name != DAILY for e in es) for es in (found, self.entries))
+        self._count = f"{shown} of {known} levels"
         if found != self.shown:
             self.shown = found
             self.list.index = self.list.first = 0
@@ -219,10 +223,7 @@ class Browser(ThumbnailScreen):
         super().draw_frame(surface)
         theme, palette = self.app.theme, self.app.theme.palette
         entry = self.selected
-        # The levels of days are a game of their own.
-        shown, known = (sum(Path(e.named.file).parent.name != DAILY for e in es) for es in (self.shown, self.entries))
-        count = f"{shown} of {known} levels"
-        theme.text(surface, count, 44, 549, size=9.5, colour=palette.faint)
+        theme.text(surface, self._count, 44, 549, size=9.5, colour=palette.faint)
         word = "" if self.watch_author.enabled else f"Author's run: {self.watch_author.hint}"
         colour = palette.bad if self.message else palette.faint
         theme.text(surface, self.message or word, SIDE, 548, size=10, colour=colour, width=SIDE_WIDTH)

@@ -191,7 +191,8 @@ class DailyScreen(ThumbnailScreen):
         theme.text(surface, entry.title, SIDE, TOP + 24, size=17, bold=True, width=SIDE_WIDTH)
         mark = self.player.marks.of(entry.digest)
         played = self.player.statistics.played(entry.digest)
-        lines = [f"{self.streak} daily levels in a row"] if self.streak > 1 else []
+        streak = self.streak
+        lines = [f"{streak} daily levels in a row"] if streak > 1 else []
         lines += [entry.pars.grade] if entry.pars and entry.pars.grade else []
         lines.append(f"{entry.all_gold} gold")
         lines.append(self.player.reached(entry, mark))

@@ -10,12 +10,15 @@ import pygame
 
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
+from ninja_game.play.level.hud import SHINE_TICKS
+from ninja_game.play.level.play import STAMP_TICKS
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal
 from ninja_game.player.catalogue import Episode
-from ninja_game.player.marks import worst_medal
+from ninja_game.player.marks import Mark, worst_medal
 from ninja_game.player.playthrough import EpisodeRun
+from ninja_game.player.records import EpisodeBest
 from ninja_game.player.saving import EPISODE_BEST, OF_A_LEVEL
 from ninja_game.sim.rules import TICK_MS
 from ninja_game.ui.canvas import WIDTH
@@ -26,9 +29,9 @@ from ninja_game.view.sprites.light import Look, light_picture
 
 PICTURE = 132
 
-LEVEL_TICKS, STAMP_TICKS, SHINE_TICKS, FEAST_TICKS = 8, 14, 20, 130
+LEVEL_TICKS, FEAST_TICKS = 8, 130
 """The marks of the levels come one after the other, so many ticks apart; then the medal is stamped, papers fly, light
-sweeps over it; and all of it is over."""
+sweeps over it as over a level's; and all of it is over."""
 
 PAPERS, PRIZE, MIDDLE = 70, 64.0, 318.0
 """How many papers fly; size of the medal that all levels have, and the height, px, at which it and the score stand."""
@@ -40,7 +43,10 @@ CLOCK = "What was left on the clock after the last level"
 
 
 class EpisodePassed(ThumbnailScreen):
-    """Shown after an episode's last level. Space goes on to the next episode, which ``play`` begins."""
+    """Shown after an episode's last level. Space goes on to the next episode, which ``play`` begins.
+
+    ``medal``: what all its levels have, or better; "" where one has none.
+    """
 
     def __init__(self, app: App, run: EpisodeRun, play: Callable[[EpisodeRun], object]) -> None:
         super().__init__(app)
@@ -49,11 +55,8 @@ class EpisodePassed(ThumbnailScreen):
         self.title = f"Episode {run.episode.code} passed"
         self.particles = Particles()
         self.ticks = 0.0
-
-    @property
-    def medal(self) -> str:
-        """What all its levels have, or better; "" where one has none."""
-        return worst_medal(self.run.episode.levels, self.player.marks.all())
+        self.medal, self._marks = "", dict[str, Mark]()
+        self._best: EpisodeBest | None = None
 
     @property
     def _marks_end(self) -> int:
@@ -91,13 +94,16 @@ class EpisodePassed(ThumbnailScreen):
         return self.player.catalogue.following(self.run.episode)
 
     def build(self) -> Sequence[Widget]:
+        self._best = self.player.records.episode_best(self.run.episode.key)
+        self._marks = self.player.marks.all()
+        self.medal = worst_medal(self.run.episode.levels, self._marks)
         following = self.next_episode
         buttons: list[Widget] = []
         if following is not None:
             text = f"Next: {following.code} {following.name}"
             buttons.append(Button((236, 440, 320, 36), text, self.go_on, size=13, hint="The next episode"))
         watch = Button((236, 482, 156, 30), "Watch the run", self.watch, hint="The best run of this episode")
-        watch.enabled = self.player.records.episode_best(self.run.episode.key) is not None
+        watch.enabled = self._best is not None
         return [*buttons, watch, Button((400, 482, 156, 30), "Episodes", self._episodes)]
 
     def _episodes(self) -> None:
@@ -112,9 +118,8 @@ class EpisodePassed(ThumbnailScreen):
             self._play(EpisodeRun(self.player, self.next_episode, practice_mode=practice_mode))
 
     def watch(self) -> None:
-        best = self.player.records.episode_best(self.run.episode.key)
-        if best is not None:
-            watch(self.app, [self.player.records.replay(number) for number in best.replays])
+        if self._best is not None:
+            watch(self.app, [self.player.records.replay(number) for number in self._best.replays])
 
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)
@@ -134,7 +139,7 @@ class EpisodePassed(ThumbnailScreen):
             theme.text(surface, entry.title, middle, 232, size=10, align="centre", width=PICTURE, height=15)
             if self.ticks < LEVEL_TICKS * (place + 1):
                 continue
-            mark = self.player.marks.of(entry.digest)
+            mark = self._marks.get(entry.digest)
             for line, words in enumerate(self.player.reached(entry, mark).split(", ")):
                 y = 247 + 14 * line
                 theme.text(surface, words, middle, y, size=10, colour=palette.faint, align="centre", width=PICTURE)
@@ -156,7 +161,7 @@ class EpisodePassed(ThumbnailScreen):
         if self.medal:
             shine = (self.ticks - self._marks_end - STAMP_TICKS) / SHINE_TICKS
             draw_stamp(surface, theme, self.medal, WIDTH / 2 - half - 52, MIDDLE, PRIZE, stamp, shine)
-        best = self.player.records.episode_best(run.episode.key)
+        best = self._best
         told, news = "", [notice for notice in run.notices if notice not in OF_A_LEVEL and notice != EPISODE_BEST]
         if not run.whole:
             told = "A level was skipped or passed with help: this does not count as a record"

@@ -53,11 +53,9 @@ class OtherRuns:
     @property
     def chosen(self) -> OtherRun | None:
         """The run that parts are taken from; a notice where there is none."""
-        editor = self.editor
-        if not editor.others:
-            editor.app.notify(NONE_YET)
-            return None
-        return editor.others[editor.chosen % len(editor.others)]
+        if not self.editor.others:
+            self.editor.app.notify(NONE_YET)
+        return self.editor.beside
 
     def next(self) -> None:
         editor = self.editor

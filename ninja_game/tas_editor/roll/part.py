@@ -13,6 +13,7 @@ from ninja_game.tas_editor.editor import TasEditor, TasPart
 from ninja_game.tas_editor.roll.commands import RollCommands
 from ninja_game.tas_editor.roll.facts import compared, different_rows, in_words, keys_in_words, row_facts
 from ninja_game.tas_editor.roll.rows import COLUMNS, Column, RollLayout, RowSheet, layout_of
+from ninja_game.ui.text_entry import DOUBLE_MS
 from ninja_game.ui.theme import Theme, mixed
 
 MARGIN = 4
@@ -21,7 +22,6 @@ MARGIN = 4
 WHEEL_ROWS = 4
 SCROLL_MS = 25
 """Beyond the edge a row comes after so many ms for each row that the pointer is beyond it, but for four at most."""
-DOUBLE_MS = 400
 
 
 class Roll(TasPart):

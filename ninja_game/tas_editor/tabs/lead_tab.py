@@ -74,7 +74,7 @@ class LeadTab(Tab):
         editor = self.editor
         if editor.against is not None:
             return editor.against
-        return editor.others[editor.chosen % len(editor.others)].track if editor.others else self._opened
+        return editor.beside.track if editor.beside else self._opened
 
     def _put(self, track: object) -> None:
         self.editor.against = track if isinstance(track, InputTrack) else None

@@ -244,10 +244,7 @@ class SearchTab(Tab):
         self.found: tuple[Found, ...] = ()
         fields = ("x > 400, taken(12), distance(300, 200) < 6 ...", "speed; vx, y, gold ...")
         self.goal, self.measure = (
-            EntryField(
-                prompt, self.start, longest=LONGEST, hint=_NAMES, put=lambda _: self._put_method("auto", IMPROVES)
-            )
-            for prompt in fields
+            EntryField(prompt, self.start, longest=LONGEST, hint=_NAMES, put=self._typed) for prompt in fields
         )
         self._button = Button(UNPLACED, "Start", self._start_or_stop, size=SMALL)
         self.list = Rows(self._draw_row, self._put, keeps=False,
@@ -327,10 +324,13 @@ class SearchTab(Tab):
         self.span, self._why = (0 if wanted.method else first, wanted.last or self._behind), wanted.why
         self.wants = self.goal
 
-    def _put_method(self, method: str, instead_of: tuple[str, ...] = ()) -> None:
-        """Take a method, instead of some only; what is not the whole run any more is the selection."""
-        if instead_of and self.method not in instead_of:
-            return
+    def _typed(self, _: str) -> None:
+        """A goal that is typed is none of the whole run."""
+        if self.method in IMPROVES:
+            self.use_selection()
+
+    def _put_method(self, method: str) -> None:
+        """Take a method; what is not the whole run any more is the selection."""
         left, self.method = self.method, method
         if left in IMPROVES and method not in IMPROVES:
             self.use_selection()

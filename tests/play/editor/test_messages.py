@@ -41,7 +41,7 @@ def test_messages_are_made_row_by_row_and_a_test_says_them(room: Maker) -> None:
     room.mouse(*choice.centre)
     room.choose("Add a message")
     room.type("on")
-    room.mouse(*screen._texts[1].centre)
+    room.mouse(*screen._row_widgets[1][-1].centre)
     room.type("out")
     room.press("return")
     assert room.draft.says == "start: run | switch: out | start: on"
@@ -138,11 +138,11 @@ def test_the_selected_message_is_shown_as_the_level_says_it_with_its_letters_cou
     key = room.app.controls.name("jump")
     assert f"text '{key} jumps'" in drawn(room.app)
     assert "'12 of 120'" in drawn(room.app)
-    room.mouse(*screen._texts[1].centre)
+    room.mouse(*screen._row_widgets[1][-1].centre)
     assert f"text '{key} jumps'" not in drawn(room.app)
     screen.messages[1].text = "x" * MOST_LETTERS
     screen.enter()
-    room.mouse(*screen._texts[1].centre)
+    room.mouse(*screen._row_widgets[1][-1].centre)
     room.type("y")
     assert room.app.notice == "At most 120 letters"
 
@@ -171,7 +171,7 @@ def test_two_clicks_on_a_bubble_open_its_message_and_draw_nothing(room: Maker) -
     room.drag((24 * 12 + 12, 24 * 5 + 12))
     room.drag((24 * 12 + 12, 24 * 5 + 12))
     screen = room.shown(MessagesScreen)
-    assert screen.focus is screen._texts[3]
+    assert screen.focus is screen._row_widgets[3][-1]
     assert room.draft == before
 
 
