@@ -45,7 +45,12 @@ VENV = ROOT / ".venv"
 STAMP = VENV / "ninja-game-installed.txt"
 MADE = (".pytest_cache", ".mypy_cache", ".ruff_cache", ".import_linter_cache", ".hypothesis", "build", "dist")
 DEVELOPMENT = ("cluster", "dev", "fast", "film", "learn", "minari", "plots", "train")
-USES = {"play": (), "film": ("film",), "verify": ("cluster", "fast"), "demonstrations": ("fast", "learn", "minari")}
+USES = {
+    **dict.fromkeys(("play", "splits", "compare"), ()),
+    "film": ("film",),
+    "verify": ("cluster", "fast"),
+    "demonstrations": ("fast", "learn", "minari"),
+}
 """The extras that commands of the game use; those that are not here may use Numba."""
 PROGRAMS = {
     "benchmark": ("benchmarks",),

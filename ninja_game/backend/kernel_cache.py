@@ -197,10 +197,8 @@ class KernelCache:
             forget_old_code(self.folder)
         except OSError as error:
             say_once(f"compiled code cannot be kept in {self.folder}: {error.strerror or error}{COMPILES_AGAIN}")
-            try:
+            with suppress(OSError):
                 part.unlink(missing_ok=True)
-            except OSError:
-                return
 
 
 def _read(path: Path, context: Any) -> Any:

@@ -68,8 +68,8 @@ MODULES = {
 """Modules of ``ninja_game.cli`` that hold several commands; any other command is in a module of its name."""
 
 COMPILING = (
-    "verify", "board", "trace", "splits", "compare", "solve", "improve", "search", "tas",
-    "check", "levels", "generate", "demonstrations", "compile",
+    "verify", "board", "trace", "solve", "improve", "search", "tas", "check", "levels", "generate", "demonstrations",
+    "compile",
 )  # fmt: skip
 """Those that may have to compile the rules first."""
 

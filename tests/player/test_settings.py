@@ -45,8 +45,7 @@ VALUES = {
 SETTINGS = st.builds(Settings, **{each.name: VALUES.get(each.name, st.booleans()) for each in fields(Settings)})
 
 
-def test_every_setting_has_a_rule_that_its_default_fits() -> None:
-    assert set(RULES) == {each.name for each in fields(Settings)}
+def test_every_default_fits_its_rule() -> None:
     assert all(rule.fits(getattr(Settings(), name)) for name, rule in RULES.items())
 
 

@@ -12,7 +12,6 @@ import pygame
 import pytest
 from PIL import Image
 
-from ninja_game.cli import windows
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.lab.figure import FIGURE, Figure, room_world
 from ninja_game.play.lab.figures.cells import CellsTouched, GridOfCells, NineCells
@@ -68,10 +67,6 @@ def test_every_figure_has_two_sentences_and_links_to_sections_that_exist(name: s
         assert anchor in map(slug, titles)
     assert len(figure.numbers()) <= 8
     assert len(figure.controls()) <= 4
-
-
-def test_the_command_knows_every_figure() -> None:
-    assert tuple(FIGURES) == windows.FIGURES
 
 
 @pytest.mark.parametrize("name", FIGURES)

@@ -197,6 +197,7 @@ def test_an_edit_in_front_ends_the_search(at: TasDriver, tab: SearchTab) -> None
     at.wait(lambda: results.search.ticks_run, "a search")
     at.editor.edit(lambda track: track.replaced(0, 0, [0]))
     at.wait(lambda: not results.running, "the end")
+    assert results.behind is None, "it did not end by itself"
 
 
 def test_the_same_end_is_found_sooner_and_the_rest_follows(at: TasDriver, tab: SearchTab) -> None:
