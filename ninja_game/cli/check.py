@@ -114,8 +114,6 @@ def check(
 
 
 class _Tally:
-    """Counts levels by what was found of them."""
-
     def __init__(self) -> None:
         self.levels = 0
         self.broken = 0
@@ -161,7 +159,6 @@ def _files(levels: Sequence[NamedLevel], goals: Iterable[str], folder: Path | No
 
 
 def _rows(level: NamedLevel, found: Mapping[str, Certified]) -> str:
-    """A level's runs in a line each, and a line for each warning."""
     rows = [_row(goal, certified, level) for goal, certified in found.items()]
     rows[0] += f"  {shown_text(level.name)}  {shown_text(level.file)}:{level.record}"
     best = next(iter(found.values())).run
@@ -183,7 +180,6 @@ def _row(goal: str, certified: Certified, level: NamedLevel) -> str:
 
 
 def _facts(level: NamedLevel, found: Mapping[str, Certified], files: Mapping[str, Path]) -> dict[str, Any]:
-    """A level's certificate for programs."""
     from ninja_game.formats.n14.level_string import level_digest
 
     run = next(iter(found.values())).run

@@ -95,7 +95,6 @@ def _recordings(file: Path, level: Level | None) -> list[Recording]:
 
 
 def _counts(level: NamedLevel) -> Counter[str]:
-    """How many objects of each kind."""
     from ninja_game.sim.kinds import KIND_NAMES
 
     return Counter(KIND_NAMES[spec.kind] for spec in filter(makes_object, level.level.objects))
@@ -117,7 +116,6 @@ def _sorts(level: NamedLevel) -> Counter[str]:
 
 
 def _facts(level: NamedLevel, run: Recording | None) -> dict[str, Any]:
-    """Everything about a level, for programs."""
     from ninja_game.formats.n14.level_string import level_digest
     from ninja_game.levels.warnings import level_warnings
 

@@ -41,7 +41,6 @@ class InputPath(click.Path):
         super().__init__(exists=True, dir_okay=dir_okay, path_type=Path)
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """The path; usage error for what is not there."""
         from ninja_game.formats.links.fragment import is_link
 
         return Path(value) if is_link(value) else super().convert(value, param, ctx)
@@ -51,7 +50,6 @@ class LevelPath(InputPath):
     """A file or link; or the name of one of the game's own levels, which stands for its file."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """The path; usage error for what is neither there nor a name."""
         from ninja_game.formats.links.fragment import is_link
 
         if is_link(value):
@@ -64,7 +62,6 @@ class LevelPath(InputPath):
         return super().convert(value if there else own.get(str(value), value), param, ctx)
 
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-        """Files, and the names that begin so."""
         names = [CompletionItem(name) for name in _own_levels() if name.startswith(incomplete)]
         return super().shell_complete(ctx, param, incomplete) + names
 
@@ -114,7 +111,6 @@ class Pixels(click.ParamType):  # type: ignore[type-arg, unused-ignore]
     name = "WIDTHxHEIGHT"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[int, int]:
-        """Width and height; usage error for anything else."""
         if isinstance(value, tuple):
             return value
         width, _, height = value.lower().partition("x")
@@ -211,7 +207,6 @@ class ProgressLog:
         self.start = self.last = time.monotonic()
 
     def say(self, text: str) -> None:
-        """Write the line if it is time for one."""
         now = time.monotonic()
         if now - self.last >= EVERY:
             self.last = now

@@ -34,7 +34,6 @@ class GoldCount(click.ParamType):  # type: ignore[type-arg, unused-ignore]
     name = "all|N"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
-        """The number; usage error for anything else."""
         if isinstance(value, int):
             return value
         if str(value).lower() == "all":
@@ -48,7 +47,6 @@ class Seconds(click.FloatRange):
     """A time in seconds, not "not a number"."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        """The number; usage error for anything else."""
         seconds: float = super().convert(value, param, ctx)
         if seconds != seconds:  # noqa: PLR0124 - NaN
             self.fail(f"{value!r} is not a number of seconds", param, ctx)
@@ -61,7 +59,6 @@ gold_option = click.option(
 
 
 def seconds_option(default: float) -> Callable[[F], F]:
-    """How long to search."""
     return click.option(
         "--seconds", type=Seconds(min=0.1), default=default, show_default=True, help="Stop after this time."
     )
@@ -86,14 +83,12 @@ body_option = click.option(
 
 
 def default_threads(jobs: int | None) -> int:
-    """As many as asked for, else one a core."""
     from ninja_game.batch.thread_pool import cores
 
     return jobs or cores()
 
 
 def check_gold(task: Task) -> None:
-    """Usage error if more gold is asked for than there is."""
     from dataclasses import replace
 
     there = replace(task, gold=-1).gold_wanted
@@ -174,7 +169,6 @@ def not_found_text(task: Task, progress: Progress | None) -> str:
 
 
 def progress_text(progress: Progress) -> str:
-    """Best run, worlds explored and speed in a line."""
     best = time_text(progress.best) if progress.best >= 0 else "none yet"
     speed = progress.ticks / progress.seconds / 1e6 if progress.seconds > 0 else 0.0
     worlds = progress.worlds / 1e6
@@ -182,7 +176,6 @@ def progress_text(progress: Progress) -> str:
 
 
 def time_text(end_tick: int) -> str:
-    """A run's length in ticks and seconds."""
     return f"{end_tick} ticks ({seconds_text(end_tick)} s)"
 
 

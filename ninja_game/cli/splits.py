@@ -138,7 +138,6 @@ def titles(recordings: Sequence[Recording]) -> list[str]:
 
 
 def show(tables: Sequence[Table]) -> None:
-    """Print tables of splits."""
     from rich.console import Console
     from rich.table import Table as RichTable
 
@@ -175,7 +174,6 @@ def _behind(tick: int | None, best: int | None) -> str:
 
 
 def as_json(runs: Sequence[RunSplits], rows: Sequence[SplitRow]) -> dict[str, Any]:
-    """A table for programs."""
     from ninja_game.runs.compare import sum_of_best
 
     return {

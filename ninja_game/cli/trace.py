@@ -138,7 +138,6 @@ class Traces:
 
 
 def _digests(traced: Traced) -> dict[str, Any]:
-    """The digests of a run, for programs."""
     from ninja_game.runs.trace import trace_digests
 
     file, record, name, run = traced.file, traced.trace.record, traced.trace.name, traced.trace.run

@@ -123,7 +123,6 @@ def _reported(results: Iterable[Result], report: Path, files: Sequence[Path], st
 
 
 def _write_table(results: Iterable[Result], out: IO[bytes]) -> Iterator[Result]:
-    """Results, written as a table as they pass."""
     from ninja_game.runs.archive import Totals
     from ninja_game.runs.recording_reader import Unreadable
 

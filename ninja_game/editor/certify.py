@@ -102,7 +102,6 @@ class Search:
 
     @property
     def share(self) -> float:
-        """The share of the time that is over."""
         return min(1.0, self.progress.seconds / self.seconds) if self.progress else 0.0
 
 
@@ -132,7 +131,6 @@ class Certifier:
 
     @property
     def busy(self) -> bool:
-        """Whether the solver is at work on the newest search."""
         return self.search.level is not None and not (self.search.end or self._job.idle)
 
     def is_stale(self, level: Level) -> bool:
@@ -160,7 +158,6 @@ class Certifier:
         self.search, self._job.problem = Search(), ""
 
     def close(self) -> None:
-        """Stop, and give the thread a moment to end."""
         self.stop()
         self._job.finish(CLOSING_SECONDS)
 

@@ -28,6 +28,8 @@ from ninja_game.editor.stamp import (
     cells_of,
     chosen_in,
     copied,
+    covered,
+    curve,
     filled,
     middle_of,
     moved,
@@ -36,8 +38,9 @@ from ninja_game.editor.stamp import (
     put,
     removed,
     reordered,
+    sloped,
+    spread,
 )
-from ninja_game.editor.strokes import covered, curve, sloped, spread
 from ninja_game.sim.kinds import GOLD, MINE, NINJA
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import WORLD_HEIGHT, WORLD_WIDTH
@@ -87,7 +90,6 @@ class EditorTools:
 
     @property
     def cell(self) -> Cell:
-        """The cell under the pointer."""
         return cell_of(*self.pointer)
 
     @property
@@ -178,7 +180,6 @@ class EditorTools:
         self.history.end()
 
     def finish(self) -> None:
-        """Whatever is half done is done now."""
         self._switchless = None
         self._doing, self.marquee = "", None
         self.history.end()
@@ -200,7 +201,6 @@ class EditorTools:
             self.pick_up(self.draft.tile(self.cell))
 
     def pick_up(self, what: int | ObjectSpec) -> None:
-        """Draw with a tile or with objects such as this one."""
         self.finish()
         if isinstance(what, int):
             self.tile, self.objects = what, False
@@ -221,7 +221,6 @@ class EditorTools:
 
     @property
     def preview(self) -> Tiles:
-        """The tiles that a press of the brush would change."""
         after = self._with(Stamp({self.cell: self.tile}), self.draft)
         return {cell: after.tile(cell) for cell in changed_cells(self.draft, after)}
 
@@ -259,7 +258,6 @@ class EditorTools:
         return bool(self._doing)
 
     def _dropped(self) -> ObjectSpec:
-        """The brush's object as it would be placed now."""
         return placed(self.spec, *self.pointer, self.snap)
 
     def _drop(self) -> None:
@@ -338,7 +336,6 @@ class EditorTools:
         self.history.change(draft)
 
     def reorder(self, by: int) -> None:
-        """Put the chosen objects so many places later in the order."""
         if self.selection.parts:
             draft, self.selection = reordered(self.draft, self.selection, by)
             self.history.change(draft)
@@ -370,7 +367,6 @@ class EditorTools:
         return bool(self.selection)
 
     def cut(self) -> None:
-        """Remember what is chosen, and delete it."""
         if self.copy():
             self.delete()
 
@@ -400,7 +396,6 @@ class EditorTools:
 
     @property
     def chosen(self) -> ObjectSpec | None:
-        """The only object that is selected."""
         numbers = self.selection.numbers
         number = next(iter(numbers)) if len(numbers) == 1 and self.selection.area is None else -1
         return self.draft.objects[number] if 0 <= number < len(self.draft.objects) else None
@@ -430,7 +425,6 @@ class EditorTools:
         self.selection = Selection(self.selection.area, parts)
 
     def put_subject(self, spec: ObjectSpec) -> None:
-        """Put another object in the place of the subject."""
         if self.chosen is None:
             self.spec = spec
             return

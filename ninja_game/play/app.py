@@ -14,8 +14,7 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import data_folder, export_path
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
-from ninja_game.play.window import TITLE, Window, save_picture
-from ninja_game.play.wipe import Wipe
+from ninja_game.play.window import TITLE, Window, Wipe, save_picture
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import FASTEST_TICK_GAIN
 from ninja_game.player.settings import BY_COLUMN, Settings
@@ -82,8 +81,6 @@ class Screen:
 
 
 class ScreenStack:
-    """Screens on top of each other; only the top one gets events."""
-
     def __init__(self) -> None:
         self._screens: list[Screen] = []
 
@@ -107,7 +104,6 @@ class ScreenStack:
         return self._screens[-2] if len(self) > 1 else None
 
     def push(self, screen: Screen) -> None:
-        """Cover the top screen by another."""
         if self._screens:
             self.top.leave()
         self._screens.append(screen)
@@ -119,7 +115,6 @@ class ScreenStack:
         self._uncover()
 
     def replace(self, screen: Screen) -> None:
-        """Put another screen in the top one's place."""
         self._screens.pop().leave()
         self._screens.append(screen)
         self._uncover()
@@ -134,7 +129,6 @@ class ScreenStack:
             self.top.enter()
 
     def redraw_all(self) -> None:
-        """Have every screen draw everything again."""
         for screen in self._screens:
             screen.redraw = True
 
@@ -225,7 +219,6 @@ class App:
 
     @property
     def settings(self) -> Settings:
-        """What the player has chosen."""
         return self.player.settings
 
     @property
@@ -234,7 +227,6 @@ class App:
 
     @property
     def tick_ms(self) -> int:
-        """Length of a tick in real ms."""
         return TICK_MS - min(FASTEST_TICK_GAIN, max(0, self.overclock))
 
     def change_settings(self, **values: object) -> None:
@@ -278,7 +270,6 @@ class App:
         self.stack.redraw_all()
 
     def palette_in(self, mood: int) -> Palette:
-        """The palette that the player has chosen, as it is in a mood."""
         return palette_named(self.settings.palette, mood)
 
     def follow_mood(self, mood: int) -> None:
@@ -505,7 +496,6 @@ class BossScreen(Screen):
             self.app.quit()
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
-        """The sheet; it never changes."""
         if not self.redraw:
             return []
         draw_spreadsheet(surface, self.theme)

@@ -32,18 +32,15 @@ class Marks:
         self.store = store
 
     def all(self, body: str = "circle") -> dict[str, Mark]:
-        """All marks by level digest."""
         query = "SELECT level, fastest, most_gold FROM level_mark WHERE body = ?"
         return {level: Mark(*numbers) for level, *numbers in self.store.rows(query, (body,), [str, int, int])}
 
     def of(self, level: str, body: str = "circle") -> Mark | None:
-        """The mark of a level, by its digest."""
         query = "SELECT fastest, most_gold FROM level_mark WHERE level = ? AND body = ?"
         rows = self.store.rows(query, (level, body), [int, int])
         return Mark(*rows[0]) if rows else None
 
     def is_passed(self, level: str) -> bool:
-        """Whether a level was passed, with help or without."""
         return (self.of(level) or self.of(level, WITH_HELP)) is not None
 
     def passed(self, level: str, tick: int, gold: int, body: str = "circle") -> Mark:
@@ -66,7 +63,6 @@ class Tally(NamedTuple):
 
 
 def medal_of(entry: Entry, mark: Mark | None) -> str:
-    """The medal that a mark brings in a level, "" for none."""
     return entry.pars.medal(mark.fastest) if entry.pars and mark else ""
 
 
@@ -91,7 +87,6 @@ def reached(entry: Entry, mark: Mark | None) -> str:
 
 
 def has_all_gold(entry: Entry, mark: Mark | None) -> bool:
-    """Whether a level, which has gold, was passed with all of it."""
     return mark is not None and mark.most_gold >= entry.all_gold > 0
 
 

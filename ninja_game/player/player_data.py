@@ -11,9 +11,8 @@ from ninja_game.files.writing import remove_leftovers
 from ninja_game.player.catalogue import Catalogue, Entry, Episode
 from ninja_game.player.marks import HELPED, Mark, Marks, reached
 from ninja_game.player.progress import LOCKED, UNLOCKED, Progress, complete_columns
-from ninja_game.player.records import Records
+from ninja_game.player.records import Records, Statistics
 from ninja_game.player.settings import Settings, read_settings, write_changes
-from ninja_game.player.statistics import Statistics
 from ninja_game.player.store import Store
 
 
@@ -40,7 +39,6 @@ class PlayerData:
 
     @cached_property
     def store(self) -> Store:
-        """The database, opened when it is first needed."""
         return Store(self.folder / RECORDS)
 
     @property
@@ -66,7 +64,6 @@ class PlayerData:
 
     @property
     def progress(self) -> Progress:
-        """How far the player has come in the game's own pack."""
         return self.progress_in("")
 
     def progress_in(self, pack: str) -> Progress:
@@ -138,6 +135,5 @@ class PlayerData:
         return ""
 
     def close(self) -> None:
-        """Close the database, if it was opened."""
         if "store" in self.__dict__:
             self.store.close()

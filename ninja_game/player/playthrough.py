@@ -135,7 +135,6 @@ class LevelContext:
         return self.data.settings.level_texts and not marks.is_passed(level) and marks.of(level, self.body) is None
 
     def sayings(self) -> tuple[Saying, ...]:
-        """What the level says, where it ``helps``."""
         if not self.helps:
             return ()
         with suppress(LevelError):
@@ -349,7 +348,6 @@ class EpisodeRun(LevelContext):
         return notices
 
     def restart(self) -> bool:
-        """The level starts again: as if it had not been passed."""
         self._passed = None
         return False
 

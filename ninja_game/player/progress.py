@@ -147,7 +147,6 @@ def is_place(place: Place, column: int) -> bool:
 
 
 def _ends_column(episode: int) -> bool:
-    """Whether an episode is the tenth of its column."""
     return episode % EPISODES_PER_COLUMN == EPISODES_PER_COLUMN - 1
 
 

@@ -56,7 +56,6 @@ class SettingRule(NamedTuple):
 
 
 def _setting(default: Any, table: str, fits: Callable[[Any], bool], expected: str, meaning: str) -> Any:
-    """A field with its rule."""
     return field(default=default, metadata={"rule": SettingRule(table, fits, expected, meaning)})
 
 
@@ -226,7 +225,6 @@ def _put_aside(path: Path, why: str) -> str:
 
 
 def _settings_of(data: Mapping[str, Any]) -> tuple[Settings, list[str]]:
-    """The settings in a parsed file, value by value."""
     values: dict[str, Any] = {}
     messages = []
     for name, rule in RULES.items():
@@ -252,7 +250,6 @@ def _settings_of(data: Mapping[str, Any]) -> tuple[Settings, list[str]]:
 
 
 def _shown(value: object) -> str:
-    """A wrong value for a message."""
     try:
         return shown_text(repr(value), 60)
     except ValueError:
@@ -260,7 +257,6 @@ def _shown(value: object) -> str:
 
 
 def key_of(name: str) -> str:
-    """What a setting is called in the file."""
     return name.replace("_", "-")
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.play.app import App
-from ninja_game.play.workspace.part import Part
+from ninja_game.play.workspace import Part
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.session import Session
@@ -76,18 +76,15 @@ class TasEditor:
 
     @property
     def beside(self) -> OtherRun | None:
-        """The chosen one of the runs beside this one; None without any."""
         return self.others[self.chosen % len(self.others)] if self.others else None
 
     @property
     def selection(self) -> Span:
-        """The selected ticks, at least the one under the cursor."""
         anchor = self.cursor if self.anchor is None else self.anchor
         return min(anchor, self.cursor), max(anchor, self.cursor) + 1
 
     @property
     def last_tick(self) -> int:
-        """The last tick that has a row."""
         return len(self.session.timeline) - 1
 
     def show_tab(self, name: str) -> None:
@@ -106,7 +103,6 @@ class TasEditor:
         self.cursor, self.anchor = first, max(first, last - 1)
 
     def refuse(self, why: str) -> None:
-        """Say why something is not done."""
         self._refusal = why
         self.app.notify(why)
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import pygame
 
-from ninja_game.play.workspace.part import Commands
+from ninja_game.play.workspace import Commands
 from ninja_game.tas_editor.editor import TasEditor, TasPart
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas, Point
 from ninja_game.ui.theme import Area, Theme
@@ -111,7 +111,6 @@ class Splitters(TasPart):
 
     @property
     def preferences(self) -> LayoutPreferences:
-        """What the player has chosen, or is dragging to."""
         settings = self.editor.app.settings
         return self._dragged_to or LayoutPreferences(settings.text_scale, settings.level_width, settings.tabs_height)
 
@@ -136,7 +135,6 @@ class Splitters(TasPart):
         }  # fmt: skip
 
     def change_text_scale(self, by: int) -> None:
-        """The next size, up or down, of those that fit the window."""
         app = self.editor.app
         now = self.editor.theme.canvas.scale * 100
         largest = app.theme.canvas.scale * 100
@@ -153,7 +151,6 @@ class Splitters(TasPart):
         return ()
 
     def draw(self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool) -> list[pygame.Rect]:
-        """Nothing: what is between the parts has been filled already."""
         return []
 
     def contains(self, x: float, y: float) -> bool:

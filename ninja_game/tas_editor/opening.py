@@ -49,7 +49,6 @@ def open_tas_editor(app: App, recording: Recording, others: Sequence[Recording],
 
 
 def is_prepared() -> bool:
-    """Whether the TAS editor opens at once."""
     from ninja_game.sim.memory.kernels import trace_world
 
     return not compiled_available() or is_compiled(trace_world) or begins_plain()

@@ -12,11 +12,9 @@ import pygame
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
-from ninja_game.play.workspace.part import Commands
-from ninja_game.play.workspace.screen import WorkspaceScreen
+from ninja_game.play.workspace import Commands, WorkspaceScreen
 from ninja_game.tas.session import Session
-from ninja_game.tas_editor.commands import RunCommands
-from ninja_game.tas_editor.controls import TABLE
+from ninja_game.tas_editor.commands import TABLE, RunCommands
 from ninja_game.tas_editor.editor import TasEditor, TasPart
 from ninja_game.tas_editor.layout import Splitters
 from ninja_game.tas_editor.level.part import LevelPart
@@ -95,7 +93,6 @@ class TasScreen(WorkspaceScreen):
         self.app.replace(TasScreen(self.app, found.opened, found=found))
 
     def enter(self) -> None:
-        """The first time, ask about what was not saved."""
         self.editor.theme = self.theme  # all parts are in their places before the first of them looks around
         super().enter()
         # All that there is now (compiled code has much) is left out when memory is cleared up: that took 80 ms.
@@ -105,7 +102,6 @@ class TasScreen(WorkspaceScreen):
             self.files.offer_recovered()
 
     def leave(self) -> None:
-        """Covered or closed: what is going on ends."""
         super().leave()
         gc.unfreeze()
         self.level.stop()
@@ -116,7 +112,6 @@ class TasScreen(WorkspaceScreen):
             self.session.close(keep=True)  # what is not saved is offered again
 
     def meaning(self, event: InputEvent) -> str:
-        """The command that an event means, which is another one while the run is taken over; '' for none."""
         return self.level.meaning(event)
 
     def capture(self, event: InputEvent) -> bool:
@@ -129,7 +124,6 @@ class TasScreen(WorkspaceScreen):
         return taken or (event.source == ("keys", "escape") and not hides and self.tab.stop())
 
     def update(self, real_ms: int) -> None:
-        """Simulate what is not simulated yet; parts go on."""
         super().update(real_ms)
         if not self.level.take_over.on:
             self.session.timeline.simulate(self.session.ticks_per_frame)
@@ -139,8 +133,6 @@ class TasScreen(WorkspaceScreen):
 
 
 class Head(TasPart):
-    """The run's name and file, and whether it is saved."""
-
     slot = "head"
 
     def render_key(self) -> tuple[object, ...]:
@@ -174,12 +166,9 @@ class Head(TasPart):
 
 
 class Foot(TasPart):
-    """Where the cursor is, what is selected, and a hint."""
-
     slot = "foot"
 
     def render_key(self) -> tuple[object, ...]:
-        """Cursor, selection, the run's length, the hint."""
         editor = self.editor
         beside = editor.chosen, len(editor.others), editor.ghosts
         run = len(editor.track), editor.session.timeline.simulated_until

@@ -60,7 +60,6 @@ class TextEntry(Widget):
     # --- keys ---
 
     def text_event(self, event: pygame.Event) -> bool:
-        """Type, move, select, erase, copy and paste."""
         if event.type not in (pygame.TEXTINPUT, pygame.KEYDOWN):
             return False
         before = self.text
@@ -74,7 +73,6 @@ class TextEntry(Widget):
         return True
 
     def _press(self, event: pygame.Event) -> bool:
-        """A key; whether it is one for a text."""
         *modifiers, key = chord(event).split("+")
         select, ctrl, edited = "shift" in modifiers, "ctrl" in modifiers, self.edited
         if key in ("left", "right"):
@@ -139,7 +137,6 @@ class TextEntry(Widget):
     # --- picture ---
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
-        """The text with its cursor and what is selected, or the prompt."""
         self.draw_base(surface, theme, focused=focused)
         x, y, w, h = self.area
         left, top, room = x + PAD, y + (h - TEXT) / 2, w - 2 * PAD - 4
@@ -240,7 +237,6 @@ class EditedText:
         self.go(first + len(line))
 
     def undo(self) -> None:
-        """Take back what was typed or taken out last."""
         if self._past:
             self.text, self.cursor, self.anchor = self._past.pop()
 

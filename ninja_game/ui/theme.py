@@ -21,7 +21,6 @@ Area = tuple[float, float, float, float]
 
 
 def inside(area: Area, x: float, y: float) -> bool:
-    """Whether a point lies in an area."""
     left, top, w, h = area
     return left <= x < left + w and top <= y < top + h
 

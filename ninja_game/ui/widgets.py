@@ -64,7 +64,6 @@ class Widget:
         return False
 
     def wheel(self, steps: int) -> bool:
-        """The mouse wheel over it, positive: up."""
         return False
 
     def text_event(self, event: pygame.Event) -> bool:
@@ -228,7 +227,6 @@ class Slider(Widget):
         return x + w * 0.5 + 10, w * 0.5 - 80
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
-        """The text left, a track with a knob and the number right."""
         self.draw_base(surface, theme, focused=focused)
         canvas, palette = theme.canvas, theme.palette
         x, y, w, h = self.area

@@ -1,4 +1,4 @@
-"""What each command of the editor does: tools, files, tests, views; the choice of a level, and the help page."""
+"""The editor's commands: what they are called, which keys mean them, and what each does. The help page is the table."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from ninja_game.editor.brush import SNAPS
+from ninja_game.editor.brush import FAMILIES, OBJECT_TYPES, QUARTERS, SNAPS
 from ninja_game.editor.draft import Cell, cell_of
 from ninja_game.editor.files import SUFFIX, Source, draft_of, new_source, open_source, recovered
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
@@ -20,7 +20,6 @@ from ninja_game.files.user_folder import LEVELS, free_path
 from ninja_game.formats.ascii.writer import headers_of
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
-from ninja_game.play.editor.controls import COMMANDS
 from ninja_game.play.editor.messages import MessagesScreen
 from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.session import EditorSession
@@ -31,10 +30,82 @@ from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.panels import CANCEL, Action, FormPanel, Menu, Row, nothing
-from ninja_game.play.workspace.document import DocumentCommands
+from ninja_game.play.workspace import Command, CommandTable, DocumentCommands
 from ninja_game.player.catalogue import Entry
 from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.ui.widgets import following
+
+COMMANDS = (
+    Command("help", "This page", ("f1",)),
+    Command("menu", "File menu; gives up what is half done", ("escape",), "b"),
+    Command("test", "Test: play it; Esc comes back", ("f5",), "start"),
+    Command("test_here", "Test with the ninja at the pointer", ("f6",)),
+    Command("certify", "Certify: the solver looks for a run", ("f7",)),
+    Command("save", "Save", ("ctrl+s",)),
+    Command("save_as", "Save under another name", ("ctrl+shift+s",)),
+    Command("open", "Open a level", ("ctrl+o",)),
+    Command("new", "New level", ("ctrl+n",)),
+    Command("about", "Name, author, comment, teaches", ("f2",)),
+    Command("messages", "Messages to the player", ("shift+m",)),
+    Command("undo", "Undo", ("ctrl+z",), "lefttrigger+"),
+    Command("redo", "Redo", ("ctrl+y", "ctrl+shift+z"), "righttrigger+"),
+    Command("copy", "Copy", ("ctrl+c",)),
+    Command("cut", "Cut", ("ctrl+x",)),
+    Command("paste", "Paste at the pointer", ("ctrl+v",)),
+    Command("choose_all", "Select everything", ("ctrl+a",)),
+    Command("delete", "Delete what is selected, or nearest", ("delete", "backspace"), "x"),
+    Command("brush", "Brush", ("b",)),
+    Command("rectangle", "Box: fill a rectangle", ("r",)),
+    Command("line", "Line; the wheel bends it", ("shift+l",)),
+    Command("ellipse", "Ellipse", ("shift+e",)),
+    Command("fill", "Fill with a tile or objects", ("f",)),
+    Command("select", "Select and move", ("v",)),
+    Command("pick", "Pick: draw with what is there", ("k",), "y"),
+    Command("next_tool", "Next tool", (), "rightstick"),
+    Command("swap", "Tiles or objects", ("grave", "insert"), "leftstick"),
+    Command("mirror", "Mirror left-right", ("h",)),
+    Command("flip", "Flip up-down", ("j",)),
+    Command("turn", "Turn by a quarter", ("u",)),
+    Command("symmetry", "Mirror: next symmetry", ("m",)),
+    Command("grid", "Next grid", ("g",)),
+    Command("snap_next", "Next snap for objects"),
+    Command("snap_cell", "Snap to cells", ("l",)),
+    Command("snap_half", "Snap to half cells", ("x",)),
+    Command("snap_quarter", "Snap to quarter cells", ("c",)),
+    Command("snap_px", "Snap to px", ("z",)),
+    Command("slopes", "Slopes set themselves, on or off", ("shift+s",)),
+    Command("list", "List of objects, or the palette", ("f3",)),
+    Command("lines", "Lines from switches, on or off", ("t",)),
+    Command("paths", "Paths of the last test and of the solver", ("f8",)),
+    Command("tests", "Map of tests: where they went and died", ("f9",)),
+    Command("reach", "What can be reached from the pointer", ("y",)),
+    Command("next_finding", "Go to the next problem", ("f4",)),
+    Command("next_entry", "Next tile or object", ("pagedown",), "rightshoulder"),
+    Command("previous_entry", "Tile or object before", ("pageup",), "leftshoulder"),
+)
+"""Everything that a key does by itself. Other keys choose tiles and objects."""
+
+TABLE = CommandTable(COMMANDS, repeating=dict.fromkeys(("undo", "redo"), 100))
+
+DIRECTION_KEYS = {"w": "up", "a": "left", "s": "down", "d": "right"}
+"""Directions of objects, as in Ned."""
+
+OBJECT_TYPE_OF_KEY = {object_type.key: object_type for object_type in OBJECT_TYPES}
+"""Objects by their keys."""
+
+_FAMILY_OF_KEY = {family.key: family for family in FAMILIES}
+
+
+def tile_of_key(name: str, present: int) -> int | None:
+    """The tile that a key chooses in tile mode, beside the one in hand: a digit its family, a letter its quarter."""
+    if name in ("e", "d"):
+        return int(name == "e")
+    family = next((each for each in FAMILIES if present in each.tiles), FAMILIES[0])
+    place = family.tiles.index(present) if present in family.tiles else 0
+    if name in _FAMILY_OF_KEY:
+        return _FAMILY_OF_KEY[name].tiles[place]
+    return family.tiles[QUARTERS.index(name)] if name in QUARTERS else None
+
 
 HELP = """\
 A first level: draw a floor with the left mouse button. Take the ninja from the objects at the right and click where \
@@ -104,7 +175,6 @@ class EditorCommands(DocumentCommands):
         tools.symmetry = following(names, tools.symmetry)
 
     def switch_slopes(self) -> None:
-        """Have corners of drawn rock cut, or not."""
         tools = self.session.tools
         tools.slopes = not tools.slopes
         self.view.hint = (
@@ -129,7 +199,6 @@ class EditorCommands(DocumentCommands):
         self.view.hint = f"What can be reached within a second from the pointer: {self.session.start}. Y: the next"
 
     def go_to_finding(self, index: int) -> None:
-        """Show one of the problems."""
         findings = self.session.findings
         if not findings:
             self.app.notify("No problems found")
@@ -138,7 +207,6 @@ class EditorCommands(DocumentCommands):
         self.show_finding(findings[self._finding])
 
     def show_finding(self, finding: Finding) -> None:
-        """Put the pointer at a problem and select what it is about."""
         tools = self.session.tools
         places = finding_points(tools.draft.level, finding)
         records = [number for number in finding.records if number < len(tools.draft.objects)]
@@ -164,7 +232,6 @@ class EditorCommands(DocumentCommands):
         self.app.push(screen)
 
     def certify(self) -> None:
-        """Start the solver, or stop it."""
         certifier = self.session.certifier
         self.session.tools.finish()
         if certifier.busy and not certifier.is_stale(self.session.draft.level):
@@ -219,7 +286,6 @@ class EditorCommands(DocumentCommands):
         return self.session.source.path or free_path(self._levels, file_stem(self.session.draft.name, "level"), SUFFIX)
 
     def reload_rows(self, path: Path) -> list[Row]:
-        """Load the file again."""
         if path != self.session.source.path or not path.exists():
             return []
         return [("Load it again", lambda: self._load(lambda: self.session.take(open_source(path))), _UNDO)]
@@ -246,7 +312,6 @@ class EditorCommands(DocumentCommands):
         self._load(follow)
 
     def saved_text(self, path: Path) -> str:
-        """Where it is, and whether the menu shows it."""
         return f"Saved{', and in the menu Levels' * path.is_relative_to(self._levels)}: {path}"
 
     def save_as(self, then: Action = nothing) -> None:
@@ -263,7 +328,6 @@ class EditorCommands(DocumentCommands):
         self.app.push(FormPanel(self.app, "Save as", fields, "Save", on_accept))
 
     def about(self) -> None:
-        """Name, author, comment, what the level teaches."""
         prompts = {"teaches": "What it teaches"}
         about = headers_of(self.session.draft)
         del about["says"]  # which has a screen of its own
@@ -312,7 +376,6 @@ class EditorCommands(DocumentCommands):
             self.session.begin(Source(draft_of(entry.named)))
 
     def open_file(self, path: Path) -> None:
-        """Edit the level of a file."""
         self._load(lambda: self.session.begin(open_source(path)))
 
     def _load(self, action: Action) -> None:

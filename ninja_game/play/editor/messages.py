@@ -44,7 +44,6 @@ class Message:
 
     @property
     def source(self) -> str:
-        """As the header has it."""
         return f"{self.when} {self.detail.replace(' ', '')}".strip() + f": {self.text.strip()}"
 
     @property
@@ -70,7 +69,6 @@ def _fits(source: str) -> bool:
 
 
 def messages_of(says: str) -> list[Message]:
-    """The messages of a header's value, which is sound."""
     details = {"death": "{0.deaths}", "at": "{0.cell[0]},{0.cell[1]}"}
     return [Message(each.when, details.get(each.when, "").format(each), each.text) for each in read_sayings(says)]
 
@@ -97,7 +95,6 @@ class MessagesScreen(MenuScreen):
 
     @property
     def source(self) -> str:
-        """The header's value as it is here."""
         return f" {BAR} ".join(message.source for message in self.messages)
 
     def enter(self) -> None:

@@ -36,7 +36,6 @@ _HIDDEN = 4
 
 @drawing(REACH)
 def _standing(s: Sketch, p: Palette) -> None:
-    """The ninja before its run."""
     paint_figure(s, p, STAND, 1, (0.0, 0.0), colour=p.ninja)
 
 
@@ -48,7 +47,6 @@ class ObjectSprites(NamedTuple):
     cells: list[Cell]
 
     def draw(self, target: DrawTarget, *, alpha: int = 8) -> None:
-        """Draw it in its place; ``alpha``: eighths as solid."""
         for key, x, y in self.sprites:
             target.sprite(key if alpha == 8 else key.faded(min(alpha, key.alpha)), x, y)
 
@@ -70,8 +68,6 @@ def _model(spec: ObjectSpec) -> ObjectSpec:
 
 
 class _Noted(DrawTarget):
-    """Takes down which sprites would be drawn."""
-
     def __init__(self, canvas: Canvas, palette: Palette, book: SpriteBook) -> None:
         super().__init__(canvas, palette, book)
         self.sprites: list[PlacedSprite] = []

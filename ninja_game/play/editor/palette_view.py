@@ -145,7 +145,6 @@ class PaletteView(Widget):
 
 
 def _said(what: int | ObjectType) -> str:
-    """What an entry is called, and its keys."""
     if isinstance(what, ObjectType):
         return f"{what.name.capitalize()}: {key_label_of(what.key)}"
     name = tile_name(what)

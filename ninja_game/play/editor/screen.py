@@ -11,16 +11,13 @@ from ninja_game.editor.files import Source
 from ninja_game.editor.specs import PROPERTIES, properties, word
 from ninja_game.editor.stamp import Selection
 from ninja_game.play.app import App
-from ninja_game.play.editor.commands import EditorCommands
-from ninja_game.play.editor.controls import DIRECTION_KEYS, OBJECT_TYPE_OF_KEY, TABLE, tile_of_key
-from ninja_game.play.editor.object_list import ObjectList
+from ninja_game.play.editor.commands import DIRECTION_KEYS, OBJECT_TYPE_OF_KEY, TABLE, EditorCommands, tile_of_key
 from ninja_game.play.editor.palette_view import PaletteView
-from ninja_game.play.editor.parts import FilePart, Findings, PalettePart, Properties, StatusLine, Toolbar
+from ninja_game.play.editor.parts import FilePart, Findings, ObjectList, PalettePart, Properties, StatusLine, Toolbar
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.view import LAYOUT, EditorView
 from ninja_game.play.menus.menu_screen import DIRECTIONS
-from ninja_game.play.workspace.part import Part
-from ninja_game.play.workspace.screen import WorkspaceScreen
+from ninja_game.play.workspace import Part, WorkspaceScreen
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.input.keys import chord
 from ninja_game.ui.text_entry import TextEntry

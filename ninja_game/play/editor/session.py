@@ -99,7 +99,6 @@ class EditorSession:
 
     @property
     def is_saved(self) -> bool:
-        """Whether the file is as the level is now."""
         return self.draft == self.source.draft
 
     @property
@@ -113,7 +112,6 @@ class EditorSession:
 
     @property
     def examined(self) -> Level | None:
-        """The level to which the findings belong."""
         return self._checks.result[0] if self._checks.result else None
 
     @property
@@ -122,7 +120,6 @@ class EditorSession:
         return self._reaches.result if self.start != "off" else None
 
     def next_start(self) -> None:
-        """Show what can be reached from the next of STARTS."""
         self.start = following(list(STARTS), self.start)
         self._start_asked = None
 
@@ -161,7 +158,6 @@ class EditorSession:
 
     @property
     def test_map(self) -> TestMap | None:
-        """Where the tests came and died, None until that is known."""
         return self._maps.result if self.tries else None
 
     def changed_source(self) -> Source | None:
@@ -218,7 +214,6 @@ class EditorSession:
     # --- files ---
 
     def end(self) -> None:
-        """Whatever is half done is done now."""
         self.tools.finish()
 
     def save(self, path: Path, *, replacing: bool = False, name: str | None = None) -> None:
@@ -232,7 +227,6 @@ class EditorSession:
         self.tools.history.change(named)
 
     def export_picture(self) -> None:
-        """A picture of the level among the player's exports."""
         surface = thumbnail(self.draft.level, self.app.theme.palette, PICTURE_WIDTH)
         self.app.write_export(self.name, ".png", lambda path: save_picture(surface, path))
 
@@ -261,7 +255,6 @@ class EditorSession:
     # --- tests and certificates ---
 
     def level_to_test(self, *, here: bool) -> Level:
-        """The level to try; ``here``: with the ninja at the pointer."""
         self.tools.finish()
         if not here:
             return self.draft.level
@@ -279,7 +272,6 @@ class EditorSession:
         self._maps.ask(self.tries)
 
     def keep_certificate(self) -> None:
-        """Put the solver's run among the player's replays."""
         run = self.certifier.search.run
         if run is None or self.certifier.is_stale(self.draft.level):
             self.app.notify("Certify the level first (F7)")

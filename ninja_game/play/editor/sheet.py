@@ -260,7 +260,6 @@ def said_places(says: str) -> list[Point]:
 
 
 def visit_mark(canvas: Canvas, palette: Palette, cell: Cell, share: float) -> LevelMark:
-    """A cell in which this share of the tests came."""
     rect = canvas.rect(24.0 * cell[0], 24.0 * cell[1], 24, 24)
     veil = pygame.Surface(rect.size, pygame.SRCALPHA)
     veil.fill((*palette.accent[:3], round(40 + 140 * share)))
@@ -268,7 +267,6 @@ def visit_mark(canvas: Canvas, palette: Palette, cell: Cell, share: float) -> Le
 
 
 def death_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
-    """A cross where the ninja died in a test."""
     (x, y), size = at, 5.0
 
     def draw(target: DrawTarget) -> None:

@@ -67,7 +67,6 @@ class TryScreen(LevelScreen):
         super().__init__(app, self._trying)
 
     def leave(self) -> None:
-        """Tell the editor of the last try."""
         super().leave()
         self._trying.left(self.attempt)
 

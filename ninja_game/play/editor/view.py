@@ -28,7 +28,7 @@ from ninja_game.play.editor.sheet import (
     level_marks,
     said_places,
 )
-from ninja_game.play.workspace.part import Part
+from ninja_game.play.workspace import Part
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.ui.canvas import Canvas, Colour, Point
 from ninja_game.ui.text_entry import DOUBLE_MS
@@ -80,7 +80,6 @@ class Overlay:
     def draw(
         self, surface: pygame.Surface, tools: EditorTools, reach: Reach | None, *, hovering: bool
     ) -> list[pygame.Rect]:
-        """Draw it; the px of the window that it covers."""
         self.target.begin(surface)
         surface.set_clip(self.area)
         if reach:
@@ -171,8 +170,6 @@ class Overlay:
 
 
 class EditorLayout(NamedTuple):
-    """Where the parts are, px of the stage."""
-
     toolbar: Area = (0, 0, 792, 26)
     level: Area = (6, 30, 602, 456)
     palette: Area = (610, 26, 182, 231)
@@ -249,7 +246,6 @@ class EditorView(Part):
         self.session.tools.press(erase=erase, pick=pick, add=add)
 
     def turn(self, motion: Motion) -> None:
-        """Flip or turn what is selected or in hand, or say why not."""
         if not self.session.tools.turn(motion):
             self.app.notify("Not turned: a part of it would leave the level. Move it away from the border first")
 
@@ -268,7 +264,6 @@ class EditorView(Part):
         return held
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
-        """Drawing, dragging; the wheel goes on in the palette."""
         if event.type == pygame.MOUSEWHEEL:
             self._step_palette(-event.y)
             return True
@@ -317,7 +312,6 @@ class EditorView(Part):
         return [*changed, *self.overlay.draw(surface, tools, self.session.reach, hovering=self.hovering)]
 
     def _follow_marks(self) -> None:
-        """The marks over the level as they should be now."""
         session, palette = self.session, self.app.theme.palette
         certifier = session.certifier
         stale = certifier.is_stale(session.draft.level)
@@ -339,7 +333,6 @@ class EditorView(Part):
         self.sheet.show_marks(marks)
 
     def _signs(self) -> list[Point]:
-        """Where the findings are, in the level that was examined."""
         examined = self.session.examined
         found = [p for each in self.session.findings for p in finding_points(examined, each)] if examined else []
         return list(dict.fromkeys(found))

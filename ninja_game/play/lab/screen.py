@@ -10,14 +10,12 @@ import pygame
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.app import App
 from ninja_game.play.clock import RunClock
+from ninja_game.play.lab.cells import CellsTouched, GridOfCells, NineCells, RayCast
+from ninja_game.play.lab.edges import Doors, EdgeStates, WalkingEnemies
 from ninja_game.play.lab.figure import FIGURE, Figure, Sheet
-from ninja_game.play.lab.figures.cells import CellsTouched, GridOfCells, NineCells
-from ninja_game.play.lab.figures.drones import WalkingEnemies
-from ninja_game.play.lab.figures.edges import Doors, EdgeStates
-from ninja_game.play.lab.figures.grids import Bullets, FiveCells, LooseGrid
-from ninja_game.play.lab.figures.one_tick import OneTick
-from ninja_game.play.lab.figures.projection import Bodies, Projection, Response
-from ninja_game.play.lab.figures.rays import RayCast
+from ninja_game.play.lab.grids import Bullets, FiveCells, LooseGrid
+from ninja_game.play.lab.one_tick import OneTick
+from ninja_game.play.lab.projection import Bodies, Projection, Response
 from ninja_game.play.menus.menu_screen import DIRECTIONS, MenuScreen
 from ninja_game.play.replay.film import write_gif
 from ninja_game.play.window import save_picture
@@ -57,7 +55,6 @@ class LabScreen(MenuScreen):
         return self.figures[self.list.index]
 
     def build(self) -> Sequence[Widget]:
-        """The list, the figure, its controls, what one can do with it."""
         x, y, w, h = CONTROLS
         controls = [make((x, y + (h + 4) * k, w, h)) for k, make in enumerate(self.figure.controls())]
         buttons = [
@@ -95,12 +92,10 @@ class LabScreen(MenuScreen):
         self.focus_on(self.widgets[self.widgets.index(self.list) + 2])
 
     def handle_press(self) -> None:
-        """The figure was touched: no demonstration any more."""
         self.shows = False
         self.redraw = True
 
     def update(self, real_ms: int) -> None:
-        """Time passes in the figure, 40 ticks a second."""
         super().update(real_ms)
         for _ in range(min(4, self.clock.ticks_due(real_ms))):
             if self.shows:
@@ -193,7 +188,6 @@ class FigurePicture:
         self.area = context.canvas.rect(*FIGURE)
 
     def draw(self) -> None:
-        """Put the figure as it is now into ``area`` of the surface."""
         sheet = Sheet(self.surface, self.theme, self.figure.view)
         self.figure.draw(sheet)
         sheet.close()
@@ -208,7 +202,6 @@ class FigurePicture:
 
 
 def figure_pictures(name: str, *, scale: float = 1.0, ticks: int = FILM_TICKS) -> Iterator[pygame.Surface]:
-    """The figure after each tick of its demonstration."""
     picture = FigurePicture(name, scale)
     for tick in range(ticks):
         picture.demonstrate(tick)

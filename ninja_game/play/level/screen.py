@@ -51,7 +51,6 @@ class LevelScreen(Screen):
         self._start_level()
 
     def _start_level(self) -> None:
-        """The context's present level."""
         self.app.audio_output.quiet()
         self.app.follow_mood(self.mood)
         self.play = LevelPlay(self.app, self.context)
@@ -59,7 +58,6 @@ class LevelScreen(Screen):
 
     @property
     def mood(self) -> int:
-        """That of the level."""
         return self.context.entry.mood
 
     @property
@@ -73,7 +71,6 @@ class LevelScreen(Screen):
 
     @property
     def phase(self) -> Phase:
-        """Where in its life the level is."""
         return self.play.phase
 
     @property
@@ -88,7 +85,6 @@ class LevelScreen(Screen):
         pygame.key.stop_text_input()
 
     def leave(self) -> None:
-        """No sound from a covered level."""
         self.app.audio_output.quiet()
 
     # --- what keys and the pause panel do ---
@@ -100,7 +96,6 @@ class LevelScreen(Screen):
         self.play.begin(ignored=0 if controls.pad_used else controls.choosing())
 
     def pause(self, row: int = 0) -> None:
-        """Pause, with a row of the panel chosen."""
         self.play.pause()
         panel = PausePanel(self.app, self)
         self.app.push(panel)

@@ -79,7 +79,6 @@ class Browser(ThumbnailScreen):
         self.entry_field = TextEntry((44, 66, 194, 32), "Search name or author", "", self._search)
 
     def enter(self) -> None:
-        """Read the player's folder as it is now."""
         catalogue = self.player.catalogue
         catalogue.problems.clear()
         self.entries = catalogue.singles()
@@ -91,13 +90,11 @@ class Browser(ThumbnailScreen):
         super().enter()
 
     def choosers(self) -> list[Widget]:
-        """What a level is found and selected with."""
         sort = Choice((244, 66, 118, 32), "", SORT_ORDERS, lambda: self.sort, self._sort, hint="Sort the list")
         problems = problems_button(self.app, (150, 546, 270, 18), lambda: self.problems)
         return [self.list, self.entry_field, sort, *problems]
 
     def build(self) -> Sequence[Widget]:
-        """The list first, then what can be done with the selected level."""
         change = Button((SIDE + 208, 510, 46, 32), "Edit", self._change, hint="Open it in the editor")
         link = Button((SIDE + 260, 510, 60, 32), "Link", self._copy_link, hint="Copy a link that opens this level")
         watch = self.watch_best, self.watch_author
@@ -150,7 +147,6 @@ class Browser(ThumbnailScreen):
         self._arrange()
 
     def _arrange(self) -> None:
-        """Search and sort; the selection goes to the first."""
         words = self.search.casefold().split()
         found = [e for e in self.entries if all(word in _words(e) for word in words)]
         keys: dict[object, Callable[[Entry], object]] = {
@@ -219,7 +215,6 @@ class Browser(ThumbnailScreen):
     # --- picture ---
 
     def draw_frame(self, surface: pygame.Surface) -> None:
-        """The selected level, large, with what is known about it."""
         super().draw_frame(surface)
         theme, palette = self.app.theme, self.app.theme.palette
         entry = self.selected
@@ -268,8 +263,6 @@ class Browser(ThumbnailScreen):
 
 
 class LevelChoice(Browser):
-    """The browser of levels, to choose one for the editor."""
-
     title = "Open a level"
 
     def __init__(self, app: App, choose: Callable[[Entry], object]) -> None:

@@ -86,7 +86,6 @@ class DailyScreen(ThumbnailScreen):
         return daily.daily_file(self.player.folder / LEVELS, self.day)
 
     def enter(self) -> None:
-        """Show the day's level; make it if it is not there."""
         self._find()
         super().enter()
         if self.entry is None and not self.message:
@@ -128,7 +127,6 @@ class DailyScreen(ThumbnailScreen):
         return count
 
     def update(self, real_ms: int) -> None:
-        """See whether the level is there, and how its making stands."""
         super().update(real_ms)
         maker = self._maker
         if maker is None:
@@ -206,7 +204,6 @@ class DailyScreen(ThumbnailScreen):
         draw_pars(surface, theme, entry.pars, mark and mark.fastest, LEFT, TOP + WIDE * 25 / 33 + 12)
 
     def _draw_week(self, surface: pygame.Surface, theme: Theme) -> None:
-        """The days of this week, and what was reached on each."""
         for place in range(7):
             day = self.day + timedelta(place - self.day.weekday())
             entry = self.days.get(day.isoformat())

@@ -44,7 +44,6 @@ class Cells(ListView):
     heads: list[int]
 
     def arrange(self, episodes: Iterable[int]) -> None:
-        """Columns and lines as far as there are episodes."""
         numbers = set(episodes)
         self.heads = sorted({number // EPISODES_PER_COLUMN for number in numbers})
         lines = max((number % EPISODES_PER_COLUMN for number in numbers), default=0) + 1
@@ -83,7 +82,6 @@ class Cells(ListView):
         return used
 
     def _index_at(self, x: float, y: float) -> int | None:
-        """The cell at a point that holds an episode."""
         index = super()._index_at(x, y)
         return index if index is not None and self.numbers[index] >= 0 else None
 
@@ -176,7 +174,6 @@ class EpisodeGrid(ThumbnailScreen):
 
     @property
     def _below(self) -> float:
-        """Where what stands below the grid begins."""
         return TOP + self.grid.area[3] + 14
 
     def build(self) -> Sequence[Widget]:
@@ -245,7 +242,6 @@ class EpisodeGrid(ThumbnailScreen):
     # --- picture ---
 
     def draw_frame(self, surface: pygame.Surface) -> None:
-        """What the grid's looks mean, the total, and the head of the selected episode."""
         super().draw_frame(surface)
         theme, palette = self.app.theme, self.app.theme.palette
         if len(self.packs) < 2:
@@ -272,7 +268,6 @@ class EpisodeGrid(ThumbnailScreen):
                    colour=palette.good if best else palette.faint)  # fmt: skip
 
     def _draw_total(self, surface: pygame.Surface, theme: Theme, y: float) -> None:
-        """How much of the pack has been passed, with which medals, with all gold."""
         levels = self.pack.levels
         total = tally(levels, self.marks, self.passed)
         theme.text(surface, f"{total.passed} of {total.levels} levels passed", LEFT, y, size=11, bold=True)

@@ -24,8 +24,7 @@ from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Action, Question
-from ninja_game.play.menus.records import RecordsScreen
-from ninja_game.play.menus.replays import ReplaysScreen
+from ninja_game.play.menus.replays import RecordsScreen, ReplaysScreen
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.playback import Playback
 from ninja_game.play.window import LOGO
@@ -80,7 +79,6 @@ class MainMenu(MenuScreen):
         return self.player.statistics.played().attempts > 0
 
     def _where(self) -> str:
-        """With which level play goes on."""
         if self.run is None:
             return "There are no levels"
         return f"{'Go on with' if self.begun else 'Begin with'} {shown_text(self.run.entry.named.name)}"
@@ -108,8 +106,6 @@ class MainMenu(MenuScreen):
         ]
 
     def _browser(self, app: App) -> Browser:
-        """The levels, which can be opened in the editor from there."""
-
         def edit(entry: Entry, finding: Finding | None = None) -> None:
             screen = EditorScreen(app, offers_recovered=False)
             app.push(screen)
@@ -166,7 +162,6 @@ class MainMenu(MenuScreen):
         return None if changed is None else changed + written
 
     def _draw_title(self, surface: pygame.Surface) -> None:
-        """The name, over a headband whose ends fly."""
         theme, (x, y, w, _) = self.theme, PANEL
         for part in BAND:
             corners = [(x + across, y + down) for across, down in part]
@@ -245,7 +240,6 @@ class Attract:
                 self._until = 0
 
     def draw(self, surface: pygame.Surface, *, whole: bool = False) -> list[pygame.Rect] | None:
-        """Draw the replay as it is now; the px that changed, None for all."""
         if self.view is None:
             surface.fill(self.app.theme.palette.background)
             return None

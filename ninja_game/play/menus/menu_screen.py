@@ -146,7 +146,6 @@ class MenuScreen(Screen):
         self.close()
 
     def close(self) -> None:
-        """Go to the screen below."""
         self.app.pop()
 
     def chime(self, name: str) -> None:
@@ -226,7 +225,6 @@ class MenuScreen(Screen):
     # --- time and picture ---
 
     def update(self, real_ms: int) -> None:
-        """Repeat a direction, or a key in a text, that is held."""
         for typed in self._typed.due(real_ms):
             if self.focus is not None and self.focus.text_event(typed):
                 self.widgets_changed()
@@ -240,7 +238,6 @@ class MenuScreen(Screen):
         self._dragged = None
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
-        """All of it, if anything has changed."""
         if not self.redraw:
             return []
         self.draw_frame(surface)
@@ -248,7 +245,6 @@ class MenuScreen(Screen):
         return None
 
     def draw_frame(self, surface: pygame.Surface) -> None:
-        """The background: a room in the stage's colours, the title above, the hint below."""
         theme, canvas, palette = self.theme, self.theme.canvas, self.theme.palette
         surface.fill(palette.tile)
         lay_ground(surface, palette, canvas.stage, canvas.rect(24, 52, WIDTH - 48, HEIGHT - 52 - 36))

@@ -29,8 +29,6 @@ CANCEL: Row = ("Cancel", nothing, "")
 
 
 class Panel(MenuScreen):
-    """A few buttons in a panel over the screen below."""
-
     see_through = True
     offers_back = False
 
@@ -147,7 +145,6 @@ class FormPanel(Menu):
         return [*entries, *list(super().build())[len(entries) :]]
 
     def act(self, action: str, *, held: bool = False) -> None:
-        """Enter in a field means the first button."""
         if action == "confirm" and isinstance(self.focus, TextEntry):
             self.widgets[len(self._fields)].confirm()
         else:

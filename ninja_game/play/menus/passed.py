@@ -60,7 +60,6 @@ class EpisodePassed(ThumbnailScreen):
 
     @property
     def _marks_end(self) -> int:
-        """The tick in which all levels have shown their marks."""
         return LEVEL_TICKS * len(self.run.episode.levels)
 
     def update(self, real_ms: int) -> None:

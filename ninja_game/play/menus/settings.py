@@ -41,7 +41,6 @@ def clash(first: str, second: str) -> bool:
 
 
 def input_label(device: str, name: str) -> str:
-    """What an input is called. ``device``: "keys" or "pad"."""
     return key_label(name) if device == "keys" else pad_label(name)
 
 
@@ -57,7 +56,6 @@ class Capture(Screen):
         self.slot = slot
 
     def capture(self, event: InputEvent) -> bool:
-        """Take the press, whatever it means elsewhere."""
         if event.raw.type == pygame.MOUSEBUTTONDOWN:
             self.app.pop()
             return True
@@ -90,7 +88,6 @@ LABEL_SHARE = 0.34
 
 
 def binding_widgets(screen: SettingsScreen, device: str) -> list[Widget]:
-    """The widgets of a page. ``device``: "keys" or "pad"."""
     actions = [name for name in ACTIONS if device == "keys" or ACTIONS[name].pad or name in ("quit", "skip", "boss")]
     # The same one again after a press was taken, so that the selection stays.
     table = screen.tables.setdefault(device, BindingTable(screen, device, actions))
@@ -136,7 +133,6 @@ class BindingTable(ListView):
         self.screen.change(**{self.device: changed})
 
     def nudge(self, action: str) -> bool:
-        """Left and right within the row, Delete."""
         if action in ("left", "right"):
             slot = self.slot + (1 if action == "right" else -1)
             if not 0 <= slot < self.slots:
@@ -225,8 +221,6 @@ WIDTH_OF_ROW = WIDTH - 36 - LEFT - 12
 
 
 class SettingsScreen(ThumbnailScreen):
-    """Pages at the left, the widgets of the chosen one at the right."""
-
     title = "Settings"
     music = ""
 

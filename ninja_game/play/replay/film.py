@@ -71,13 +71,11 @@ class Film:
 
     @property
     def whole_size(self) -> tuple[int, int]:
-        """Px: two pictures stand side by side, more in two lines."""
         beside, (w, h) = len(self.beside), self.size
         return w * min(2, 1 + beside), h * (1 + beside // 2)
 
     @property
     def length(self) -> int:
-        """How many pictures it has, with those of the films that follow."""
         return len(self.moments) + (self.then.length if self.then else 0)
 
     @cached_property
@@ -365,7 +363,6 @@ class FilmJob:
         self._thread = run_in_background(self._make, self._fail)
 
     def cancel(self) -> None:
-        """Give up, and wait until it is given up."""
         self._wanted = False
         if self._thread.is_alive():
             self._thread.join(5)

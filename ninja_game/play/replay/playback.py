@@ -40,7 +40,6 @@ class Playback:
 
     @property
     def tick(self) -> int:
-        """How many ticks have been played."""
         return self.simulation.tick
 
     def keys_at(self, tick: int) -> int:

@@ -61,7 +61,6 @@ class ReplayScreen(Screen):
 
     @property
     def mood(self) -> int:
-        """That of the run's level."""
         return super().mood if self._mood is None else self._mood
 
     def show(self, index: int) -> None:
@@ -103,7 +102,6 @@ class ReplayScreen(Screen):
 
     @property
     def tick(self) -> int:
-        """The moment shown: after this many ticks."""
         return self.playback.simulation.tick
 
     @property
@@ -114,7 +112,6 @@ class ReplayScreen(Screen):
     # --- moving in time ---
 
     def _look_ahead(self, ticks: int) -> None:
-        """Look for the end of the run for this many ticks."""
         end = self._scout.find_end(ticks) if self._scout else None
         if self._scout and end is not None:
             self.end, self.outcome, self.length = end, self._scout.simulation.outcome, end + SHOWN_AFTER_END
@@ -135,7 +132,6 @@ class ReplayScreen(Screen):
         self._go_on()
 
     def _go_on(self) -> None:
-        """Go on towards the moment sought."""
         if self._way is None or not self._left:
             return
         start, tick = self._way
@@ -241,7 +237,6 @@ class ReplayScreen(Screen):
         self.redraw = True
 
     def step(self, ticks: int) -> None:
-        """A tick back or on, and stop."""
         self.paused = True
         self.app.audio_output.quiet()
         self.seek(self.tick + ticks)
@@ -255,7 +250,6 @@ class ReplayScreen(Screen):
         self.app.change_settings(show_ghost=not self.app.settings.show_ghost)
 
     def start_export(self) -> None:
-        """Make a film of this run among the player's exports."""
         if self.export is None:
             from ninja_game.play.replay.film import FilmJob  # few replays are filmed
 
@@ -355,7 +349,6 @@ class ReplayBar:
 
     @staticmethod
     def write(surface: pygame.Surface, theme: Theme, tick: int, end: int, speed: str, *, still: bool) -> pygame.Rect:
-        """Time and speed; the tick too where it stands still."""
         at = min(tick, end)
         text = f"{seconds_text(at)} / {seconds_text(end)} s    {speed}" + f"    tick {at}" * still
         return theme.text(surface, text, 768, 583, size=9, colour=theme.palette.on_tile, align="right")

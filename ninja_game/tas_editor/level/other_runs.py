@@ -17,7 +17,7 @@ from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import FormPanel
 from ninja_game.play.menus.replays import FILES_SHOWN, ReplayRow, ReplaysScreen
-from ninja_game.play.workspace.part import Commands
+from ninja_game.play.workspace import Commands
 from ninja_game.player.records import SavedReplay
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.files import runs_of_level, same_level, track_of
@@ -32,8 +32,6 @@ NONE_YET = "No other run is open: Ctrl+O opens one"
 
 
 class OtherRuns:
-    """The commands that concern other runs."""
-
     def __init__(self, editor: TasEditor) -> None:
         self.editor = editor
 
@@ -148,7 +146,6 @@ class OtherRunScreen(ReplaysScreen):
         return (level_digest(source.level) if isinstance(source, Recording) else source.level) == self._digest
 
     def handle(self, event: InputEvent) -> None:
-        """Nothing is written or removed here."""
         MenuScreen.handle(self, event)
 
     def act(self, action: str, *, held: bool = False) -> None:
@@ -169,7 +166,6 @@ class OtherRunScreen(ReplaysScreen):
             self.app.pop()
 
     def choose(self, source: SavedReplay | Recording) -> None:
-        """Show it, and go back to the TAS editor."""
         if not isinstance(source, Recording):
             replay = self.player.records.replay(source.id)
             if replay is None or replay.level is None:
@@ -182,7 +178,6 @@ class OtherRunScreen(ReplaysScreen):
 
 
 def _named(row: ReplayRow) -> ReplayRow:
-    """A row that tells a run from others of its level."""
     if not isinstance(row.source, Recording):
         return row
     text = f"{row.source.place}   {row.source.comment}".rstrip()

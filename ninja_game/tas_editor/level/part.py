@@ -11,10 +11,10 @@ import numpy as np
 import pygame
 
 from ninja_game.play.replay.screen import SPEEDS
-from ninja_game.play.workspace.part import Commands
+from ninja_game.play.workspace import Commands
 from ninja_game.sim.kinds import EXIT, KIND_NAMES, SWITCH
 from ninja_game.simulation import ObjectView, Simulation
-from ninja_game.tas_editor.controls import TABLE
+from ninja_game.tas_editor.commands import TABLE
 from ninja_game.tas_editor.editor import TasEditor, TasPart
 from ninja_game.tas_editor.level.other_runs import OtherRuns
 from ninja_game.tas_editor.level.paths import (
@@ -29,8 +29,7 @@ from ninja_game.tas_editor.level.paths import (
 )
 from ninja_game.tas_editor.level.picture import LevelPicture, RunGhost
 from ninja_game.tas_editor.level.playing import Playing, TakeOver
-from ninja_game.tas_editor.tabs.plot import colour_of
-from ninja_game.tas_editor.tabs.values_tab import proposal
+from ninja_game.tas_editor.tabs.values_tab import colour_of, proposal
 from ninja_game.ui.canvas import Point
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.theme import Theme
@@ -112,7 +111,6 @@ class LevelPart(TasPart):
         }  # fmt: skip
 
     def meaning(self, event: InputEvent) -> str:
-        """The command that an event means; '' for none."""
         return self.take_over.meaning(event) if self.take_over.on else TABLE.meaning(event)
 
     @property
@@ -156,7 +154,6 @@ class LevelPart(TasPart):
         return True
 
     def point_at(self, tick: int, found: ObjectView | None) -> None:
-        """Show the tick to which a click goes, and an object."""
         self.hover, self.pointed = tick, found
         self._hovered_run = self.editor.track
 
@@ -179,7 +176,6 @@ class LevelPart(TasPart):
         )  # fmt: skip
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        """The level, the paths of runs, their ghosts, what goes on."""
         editor, picture = self.editor, self.picture
         rect = theme.canvas.rect(*self.area)
         running = self.playing.on or (self.take_over.on and not (self.take_over.still or self.take_over.waiting))
@@ -249,7 +245,6 @@ class LevelPart(TasPart):
         return [RunPath(before, palette.ghost, max(first, at - at % BRIGHT_TICKS - 1), last, FAINT), *beside]
 
     def _write(self, surface: pygame.Surface, theme: Theme) -> None:
-        """What goes on, below the level."""
         take_over = self.take_over
         if take_over.on:
             now = "press a key to begin" if take_over.waiting else "tick by tick" if take_over.still else "your keys"
@@ -270,8 +265,6 @@ class LevelPart(TasPart):
 
 
 class LevelPointer:
-    """What the mouse is doing in the level."""
-
     def __init__(self, part: LevelPart) -> None:
         self._part = part
         self._editor = part.editor
@@ -325,7 +318,6 @@ class LevelPointer:
             self._grabbed = at
 
     def _click(self) -> None:
-        """The button that was down, perhaps without a drag, is up again."""
         part, moved = self._part, self._moved
         self.release()
         if moved or part.take_over.on:

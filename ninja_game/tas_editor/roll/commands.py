@@ -11,7 +11,7 @@ from ninja_game.formats.replay.input_runs import Marker, write_inputs
 from ninja_game.formats.replay.input_text import Inputs
 from ninja_game.play.clipboard import copy_text, pasted_text
 from ninja_game.play.menus.panels import FormPanel
-from ninja_game.play.workspace.part import Commands
+from ninja_game.play.workspace import Commands
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.files import inputs_of_text
 from ninja_game.tas.input_track import InputTrack
@@ -86,7 +86,6 @@ class RollCommands:
             self._editor.app.notify(f"No tick is named {text}")
 
     def _to_marker(self, direction: int) -> None:
-        """The next named tick, or the one before."""
         cursor = self._editor.cursor
         ticks = [tick for tick, _ in self._editor.track.markers if (tick - cursor) * direction > 0]
         if ticks:
@@ -112,7 +111,6 @@ class RollCommands:
     # --- changing ---
 
     def _filled(self) -> Span:
-        """The selected ticks that the run has."""
         first, last = self._editor.selection
         return first, min(last, len(self._editor.track))
 
@@ -123,7 +121,6 @@ class RollCommands:
         self._editor.edit_selected(lambda track: track.with_key(first, last, key, down=down))
 
     def clear(self) -> None:
-        """All keys up in the selected ticks."""
         first, last = self._filled()
         if first >= last:
             self._editor.app.notify(BEHIND)
@@ -143,7 +140,6 @@ class RollCommands:
             self._editor.go(first)
 
     def cut_end(self) -> None:
-        """Take out what is behind exit or death."""
         editor = self._editor
         editor.session.timeline.ensure(editor.last_tick)
         end = editor.session.timeline.end[0]
@@ -207,7 +203,6 @@ class RollCommands:
     # --- markers ---
 
     def name_tick(self) -> None:
-        """Ask for the name of the cursor's tick."""
         editor, tick = self._editor, self._editor.cursor
         name = next((name for at, name in editor.track.markers if at == tick), "")
         fields = [("Marker name (empty removes it)", name, 100)]
@@ -238,7 +233,6 @@ def _with_pasted(track: InputTrack, first: int, pasted: Inputs, *, between: bool
 
 
 def _first_change(before: InputTrack, after: InputTrack) -> int:
-    """The first tick whose keys or name differ."""
     if before.inputs != after.inputs:
         return before.first_difference(after)
     return min((tick for tick, _ in set(before.markers) ^ set(after.markers)), default=0)

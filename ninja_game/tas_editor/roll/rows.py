@@ -158,7 +158,6 @@ class Digits:
         self._advance = {each: (widest if each.isdigit() else width) * scale for each, width in widths.items()}
 
     def _of(self, colour: pygame.Color) -> dict[str, tuple[pygame.Surface, float]]:
-        """Every character in a colour, and how wide it is."""
         render = self.theme.lettering.rendered
         return {each: (render(each, self._size, colour), wide) for each, wide in self._advance.items()}
 
@@ -213,7 +212,6 @@ class RowSheet:
         return len(changed)
 
     def _show(self, surface: pygame.Surface, rows: Sequence[RowFacts]) -> None:
-        """The picture in its two parts, and nothing below the last row."""
         body, row = self.layout.body, self.layout.row
         split = (rows[0].tick % self.layout.rows) * row if rows else 0
         surface.blit(self._picture, body, (0, split, body.width, body.height - split))
@@ -223,7 +221,6 @@ class RowSheet:
         surface.fill(self.theme.palette.background, (body.left, below, body.width, body.bottom - below))
 
     def _row(self, row: RowFacts, y: int) -> None:
-        """One row at a px of the picture; its texts are noted."""
         palette, layout, fill = self.theme.palette, self.layout, self._picture.fill
         ground, ink, line = self._ground(row)
         self._picture.blit(ground, (0, y))
@@ -271,7 +268,6 @@ class RowSheet:
         return self._grounds[kind]
 
     def _key(self, row: RowFacts, place: Place, left: int, y: int, line: pygame.Color) -> None:
-        """A cell of a key: a bar that begins where the key goes down."""
         key, palette, height = place.column.key, self.theme.palette, self.layout.row
         if not row.keys & key:
             return
@@ -300,7 +296,6 @@ class RowSheet:
             fill(self.theme.palette.panel, (x + edge, y, wide - 2 * edge, height))
 
     def _value(self, values: Values, place: Place, left: int, y: int, ink: pygame.Color) -> None:
-        """What a column says after the tick."""
         name, theme = place.column.name, self.theme
         if name == "state":
             word = theme.lettering.rendered(STATES[values.state], SIZE, ink)
@@ -316,7 +311,6 @@ class RowSheet:
             self._blits += self._digits.blits(text, left + place.width - self._margin, y + self._lift, ink)
 
     def _contacts(self, contacts: int, place: Place, left: int, y: int, ink: pygame.Color) -> None:
-        """Bars at the sides that touch something."""
         thick, height = max(2, self.theme.canvas.px(2)), self.layout.row
         x, width, fill = left + 1 + thick, place.width - 2 * thick - 1, self._picture.fill
         if contacts & FLOOR:
@@ -359,7 +353,6 @@ def shortened(value: float, decimals: int) -> str:
 
 
 def _inks(palette: Palette, row: RowFacts) -> tuple[pygame.Color, pygame.Color]:
-    """The colours of a row's ground and letters."""
     ground, ink = palette.panel, palette.text
     if row.values is None:
         ground = mixed(ground, palette.tile, 0.45)

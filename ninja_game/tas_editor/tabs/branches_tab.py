@@ -5,7 +5,7 @@ from __future__ import annotations
 import pygame
 
 from ninja_game.play.menus.panels import FormPanel, Question
-from ninja_game.play.workspace.part import Commands
+from ninja_game.play.workspace import Commands
 from ninja_game.tas.branches import Branch, Branches
 from ninja_game.tas_editor.editor import TasEditor
 from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, Rows, Tab, put_in_a_row
@@ -21,8 +21,6 @@ _COLUMNS = (174, 112, 64)
 
 
 class BranchesTab(Tab):
-    """The tree of branches, and what can be done with the chosen one."""
-
     name = "Branches"
 
     def __init__(self, editor: TasEditor) -> None:
@@ -53,13 +51,11 @@ class BranchesTab(Tab):
 
     @property
     def chosen(self) -> int | None:
-        """The number of the branch that is chosen in the tree."""
         return self.tree[self.list.index][0] if self.list.index < len(self.tree) else None
 
     # --- what can be done ---
 
     def keep(self) -> None:
-        """Keep the run as a branch, after asking for a name."""
         self.editor.show_tab(self.name)
         session = self.editor.session
         end, outcome = session.timeline.end
@@ -95,7 +91,6 @@ class BranchesTab(Tab):
         app.push(FormPanel(app, "Rename the branch", [("its name", old, LONGEST)], "Rename", renamed))
 
     def drop(self) -> None:
-        """Forget the chosen branch, after a question."""
         number = self.chosen
         if number is not None:
             app, session = self.editor.app, self.editor.session
@@ -116,7 +111,6 @@ class BranchesTab(Tab):
         return tree, session.track, session.timeline.end, self.list.over
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        """The names of the columns; the list is a widget."""
         super().paint(surface, theme)
         self.refresh()
         self.list.draw_heads(surface, theme, "Branch", ("Ends in tick", "Gold", "Against the run now"), _COLUMNS)

@@ -8,7 +8,7 @@ from typing import ClassVar
 import pygame
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.play.workspace.part import Commands
+from ninja_game.play.workspace import Commands
 from ninja_game.search.formula.language import FormulaError
 from ninja_game.tas_editor.editor import TasEditor, TasPart
 from ninja_game.ui.list_view import ListView
@@ -37,7 +37,6 @@ class Tab(TasPart):
         self.arrange(*area)
 
     def arrange(self, x: float, y: float, w: float, h: float) -> None:
-        """Put the widgets where they belong in this area."""
         raise NotImplementedError
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
@@ -67,8 +66,6 @@ class Tab(TasPart):
 
 
 class TabName(Button):
-    """The name of a tab, to show it; that of the one that is shown stands out."""
-
     def __init__(self, tab: Tab) -> None:
         super().__init__(UNPLACED, tab.name, lambda: tab.editor.show_tab(tab.name), size=SMALL)
         self._editor = tab.editor
@@ -78,8 +75,6 @@ class TabName(Button):
 
 
 class TabStrip(TasPart):
-    """The names of all tabs, side by side."""
-
     slot = "strip"
 
     def __init__(self, editor: TasEditor, tabs: Sequence[Tab]) -> None:
@@ -136,7 +131,6 @@ class Rows(ListView):
             theme.text(surface, head, at, self.area[1] - 13, size=8, colour=theme.palette.faint)
 
     def hover(self, x: float, y: float) -> bool:
-        """Note what the mouse is over."""
         index = self._index_at(x, y)
         before, self.over = self.over, -1 if index is None else index
         return self.over != before
@@ -151,8 +145,6 @@ class Rows(ListView):
 
 
 class EntryField(TextEntry):
-    """A text field in which Enter does something."""
-
     def __init__(
         self, prompt: str, enter: Callable[[], object], *, longest: int, hint: str = "",
         put: Callable[[str], object] = lambda _: None,

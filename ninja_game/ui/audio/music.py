@@ -128,7 +128,6 @@ class Music:
             channel.set_volume(0)
 
     def _read(self, name: str) -> None:
-        """Read the layers; none where a file is missing or no music."""
         try:
             files = [self.folder / f"{name}-{layer}.ogg" for layer in LAYERS_OF.get(name, ())]
             sounds = [pygame.mixer.Sound(file) for file in files]

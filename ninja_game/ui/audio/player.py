@@ -154,7 +154,6 @@ class AudioPlayer(AudioOutput):
     # --- how ---
 
     def set_volumes(self, volume: int, effects: int, loop_volume: int, music_volume: int) -> None:
-        """Take other volumes, 0 to 99."""
         self.volume, self.effects_volume, self.loop_volume = volume, effects, loop_volume
         self.music_volume = music_volume
         if not volume:
@@ -177,7 +176,6 @@ class AudioPlayer(AudioOutput):
         channel.set_volume(level * self.volume * self.effects_volume * self.loop_volume / LOUDEST**3)
 
     def _read_all(self) -> None:
-        """Read every sound before it is wanted."""
         for path in sorted(self.folder.glob("*.ogg")):
             if self._closed:
                 return
@@ -210,7 +208,6 @@ def _quiet_libraries() -> Iterator[None]:
 
 
 def _open_mixer() -> bool:
-    """Whether there is a sound device that can be used."""
     try:
         if not pygame.mixer.get_init():
             with _quiet_libraries():

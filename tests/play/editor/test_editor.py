@@ -24,9 +24,8 @@ from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import parse_replay
 from ninja_game.levels.findings import Finding
-from ninja_game.play.editor.controls import COMMANDS
-from ninja_game.play.editor.object_list import ObjectList
-from ninja_game.play.editor.parts import FIRST_STEPS, Findings
+from ninja_game.play.editor.commands import COMMANDS
+from ninja_game.play.editor.parts import FIRST_STEPS, Findings, ObjectList
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.menus.help import HelpPage

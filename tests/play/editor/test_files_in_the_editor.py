@@ -15,9 +15,8 @@ import pygame
 import pytest
 
 from ninja_game.cli.main import cli
-from ninja_game.editor.ascii_text import ascii_text
 from ninja_game.editor.draft import is_inside
-from ninja_game.editor.files import Autosave, Source, new_source, open_source, recovered
+from ninja_game.editor.files import Autosave, Source, ascii_text, new_source, open_source, recovered
 from ninja_game.files.user_folder import CHECKOUT, EDITING, bundled_levels
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest

@@ -19,7 +19,7 @@ from ninja_game.play.menus.panels import Menu
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.rooms import room_level, strokes
 from ninja_game.player.playthrough import EpisodeRun, LevelRun
-from ninja_game.player.statistics import SELF
+from ninja_game.player.records import SELF
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.level import ROWS
 from ninja_game.sim.rules import CELL

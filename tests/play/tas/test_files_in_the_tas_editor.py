@@ -13,7 +13,7 @@ from ninja_game.play.menus.panels import Menu
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.sim.inputs import KEY_LEFT
 from ninja_game.tas.journal import FOLDER, recovered
-from ninja_game.tas_editor.controls import COMMANDS
+from ninja_game.tas_editor.commands import COMMANDS
 from ninja_game.tas_editor.opening import open_tas_editor
 from ninja_game.tas_editor.screen import TasScreen
 from tests.play.tas.conftest import RUN
