@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli import solver_options as options
-from ninja_game.cli.run_options import LevelPath
+from ninja_game.cli.run_options import NEW_FOLDER, LevelPath
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.shown_text import counted, name_key, shown_text
 from ninja_game.files.tree import Tree
@@ -54,15 +54,12 @@ class GoldGoals(options.GoldCount):
 @click.option("--jobs", type=click.IntRange(1, 1024), help="Levels at the same time. [default: one per core]")
 @options.body_option
 @click.option(
-    "--replays", metavar="FOLDER", type=click.Path(file_okay=False, path_type=Path),
+    "--replays", metavar="FOLDER", type=NEW_FOLDER,
     help="Keep the runs in this folder. One that is there and still right is not searched again.",
 )  # fmt: skip
 @click.option("--improve", is_flag=True, help="Shorten the runs that are kept, too.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per level, for programs.")
-@click.pass_context
 def check(
-    ctx: click.Context,
-    /,
     levels: Sequence[Path],
     goals: dict[str, int],
     replays: Path | None,
@@ -70,7 +67,7 @@ def check(
     jobs: int | None,
     improve: bool,
     **task_options: Any,
-) -> None:
+) -> int:
     """Certify levels: whether they can be passed, how fast, and what is odd.
 
     LEVEL is a file of levels or a folder. A level is solvable if a run to the exit was found; not finding one in the
@@ -110,7 +107,7 @@ def check(
                 click.echo(json.dumps(_facts(level, found, files)) if as_json else _rows(level, found))
     if not as_json:
         click.echo("\n".join(tally.lines(goals)))
-    ctx.exit(BAD_INPUT if tally.broken else options.NOT_FOUND if tally.without[next(iter(goals))] else 0)
+    return BAD_INPUT if tally.broken else options.NOT_FOUND if tally.without[next(iter(goals))] else 0
 
 
 class _Tally:

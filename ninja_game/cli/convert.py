@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 import click
 
 from ninja_game.cli.run_options import (
+    NEW_FILE,
+    OLD_FILE,
     LevelPath,
     budget_option,
     choose,
@@ -189,11 +191,10 @@ def _file_names(found: Sequence[NamedLevel | Recording], suffix: str) -> Iterato
 
 
 @click.command()
-@click.argument("inputs", metavar="FILE", type=click.Path(exists=True, dir_okay=False, path_type=Path))
+@click.argument("inputs", metavar="FILE", type=OLD_FILE)
 @click.option(
-    "-o", "--output", type=click.Path(dir_okay=False, path_type=Path),
-    help="The replay. [default: FILE's name and .replay.txt, in the current folder]",
-)  # fmt: skip
+    "-o", "--output", type=NEW_FILE, help="The replay. [default: FILE's name and .replay.txt, in the current folder]"
+)
 @click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")
 @other_level_option
 @budget_option

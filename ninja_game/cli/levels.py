@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ninja_game.cli import solver_options as options
-from ninja_game.cli.run_options import with_progress
+from ninja_game.cli.run_options import NEW_FILE, OLD_FOLDER, OLD_PATH, with_progress
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.run_time import seconds_text
@@ -20,10 +20,9 @@ if TYPE_CHECKING:
 
 
 @click.command(name="lint")
-@click.argument("pack", type=click.Path(exists=True, path_type=Path))
+@click.argument("pack", type=OLD_PATH)
 @click.option("--design", is_flag=True, help="Report what levels lack that good ones have, too.")
-@click.pass_context
-def lint(ctx: click.Context, pack: Path, design: bool) -> None:
+def lint(pack: Path, design: bool) -> int:
     """Report what is odd about a pack: its index, its levels, its certificates, its table of pars.
 
     A line says how to mend what was found, and ends in its code (docs/findings.md).
@@ -43,7 +42,7 @@ def lint(ctx: click.Context, pack: Path, design: bool) -> None:
     found = list(lint(opened, with_design=design))
     _show(found)
     click.echo(_summary(opened, len(found)))
-    ctx.exit(1 if found else 0)
+    return 1 if found else 0
 
 
 def _show(found: list[PackFinding]) -> None:
@@ -59,7 +58,7 @@ def _summary(pack: Pack, found: int) -> str:
 
 
 @click.command(name="pars")
-@click.argument("pack", type=click.Path(exists=True, file_okay=False, path_type=Path))
+@click.argument("pack", type=OLD_FOLDER)
 def pars(pack: Path) -> None:
     """Write par times and difficulties of a pack's levels into its pars.toml.
 
@@ -89,14 +88,11 @@ def pars(pack: Path) -> None:
 
 
 @click.command(name="pack")
-@click.argument("pack", type=click.Path(exists=True, file_okay=False, path_type=Path))
+@click.argument("pack", type=OLD_FOLDER)
 @options.seconds_option(20.0)
 @click.option("--jobs", type=click.IntRange(1, 1024), help="Levels at the same time. [default: one per core]")
-@click.option(
-    "--zip", "zip_path", type=click.Path(dir_okay=False, path_type=Path), help="[default: PACK.zip beside it]"
-)
-@click.pass_context
-def pack_up(ctx: click.Context, pack: Path, seconds: float, jobs: int | None, zip_path: Path | None) -> None:
+@click.option("--zip", "zip_path", type=NEW_FILE, help="[default: PACK.zip beside it]")
+def pack_up(pack: Path, seconds: float, jobs: int | None, zip_path: Path | None) -> int:
     """Make a pack ready to share: certificates, par times, difficulties, a list of what is odd, a zip and a link.
 
     Each level is certified to the exit and with all gold, --seconds each. What is there and still right is not done
@@ -121,7 +117,7 @@ def pack_up(ctx: click.Context, pack: Path, seconds: float, jobs: int | None, zi
     click.echo(
         "\n".join([*ready.notes, _summary(ready.pack, len(ready.findings)), f"wrote {path}", ready.link]).strip()
     )
-    ctx.exit(1 if ready.findings else 0)
+    return 1 if ready.findings else 0
 
 
 @click.group(commands={"pack": pack_up, "pars": pars, "lint": lint})
@@ -147,17 +143,13 @@ def levels() -> None:
     help="Difficulty, 1 to 10, on the scale that the game shows.",
 )  # fmt: skip
 @click.option(
-    "-o", "--output", metavar="FILE", type=click.Path(dir_okay=False, path_type=Path),
+    "-o", "--output", metavar="FILE", type=NEW_FILE,
     help="Where to write the level. [default: a new file in the current folder, named after the level]",
 )  # fmt: skip
 @click.option(
-    "--replay", metavar="FILE", type=click.Path(dir_okay=False, path_type=Path),
-    help="Write the certificate too, the solver's run to the exit.",
-)  # fmt: skip
-@click.pass_context
-def generate(
-    ctx: click.Context, /, seed: int | None, difficulty: int, output: Path | None, replay: Path | None
-) -> None:
+    "--replay", metavar="FILE", type=NEW_FILE, help="Write the certificate too, the solver's run to the exit."
+)
+def generate(seed: int | None, difficulty: int, output: Path | None, replay: Path | None) -> int:
     """Make a new level, certified by the solver.
 
     Seed, difficulty and version of ninja-game make the level, on every machine the same. Every level has been passed
@@ -184,7 +176,7 @@ def generate(
         made = generate(seed, difficulty, report=progress.say)
     if made is None:
         click.echo(f"seed {seed} gives no level of difficulty {difficulty} that can be passed; try another one")
-        ctx.exit(options.NOT_FOUND)
+        return options.NOT_FOUND
     output = output or free_path(Path(), made.name.lower().replace(" ", "-"), ".txt")
     write_atomically(output, made.text)
     if replay:
@@ -194,3 +186,4 @@ def generate(
         f"{output}: {made.name}, seed {seed}, difficulty {made.difficulty:.1f}, "
         f"certified in {options.time_text(made.run.end_tick)}"
     )
+    return 0

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import click
 
-from ninja_game.cli.run_options import heartbeat
+from ninja_game.cli.run_options import NEW_FILE, OLD_FILE, heartbeat
 from ninja_game.errors import FileError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.player.player_data import PlayerData
@@ -30,7 +30,7 @@ def player() -> None:
 
 
 @player.command("export")
-@click.argument("file", type=click.Path(dir_okay=False, path_type=Path))
+@click.argument("file", type=NEW_FILE)
 def export(file: Path) -> None:
     """Write all data of the player into FILE, a zip."""
     from ninja_game.player.backup import write_backup
@@ -41,7 +41,7 @@ def export(file: Path) -> None:
 
 
 @player.command("import")
-@click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path))
+@click.argument("file", type=OLD_FILE)
 def take_in(file: Path) -> None:
     """Import FILE. Better runs replace worse ones; nothing of yours is overwritten."""
     from ninja_game.files.reading import read_bytes

@@ -34,6 +34,14 @@ LONG, EVERY = 5.0, 15.0
 """Seconds until the first line of progress, and between two of them, where no bar tells it."""
 
 
+OLD_FILE = click.Path(exists=True, dir_okay=False, path_type=Path)
+NEW_FILE = click.Path(dir_okay=False, path_type=Path)
+OLD_FOLDER = click.Path(exists=True, file_okay=False, path_type=Path)
+NEW_FOLDER = click.Path(file_okay=False, path_type=Path)
+OLD_PATH = click.Path(exists=True, path_type=Path)
+"""A file, a folder, or either, that is there already; one that is to be written."""
+
+
 class InputPath(click.Path):
     """A file or folder that is there; or a link, which is kept as a path as it stands."""
 

@@ -10,7 +10,16 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli import solver_options as options
-from ninja_game.cli.run_options import InputPath, LevelPath, choose, choose_level, level_given, level_option
+from ninja_game.cli.run_options import (
+    NEW_FILE,
+    OLD_FILE,
+    InputPath,
+    LevelPath,
+    choose,
+    choose_level,
+    level_given,
+    level_option,
+)
 from ninja_game.files.reading import keep_inputs
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
@@ -31,20 +40,12 @@ if TYPE_CHECKING:
 @options.smooth_option
 @options.body_option
 @click.option(
-    "-o", "--output", metavar="REPLAY", type=click.Path(dir_okay=False, path_type=Path),
+    "-o", "--output", metavar="REPLAY", type=NEW_FILE,
     help="Where to keep the best run so far. [default: LEVEL's name and .replay.txt, in the current folder]",
 )  # fmt: skip
-@click.pass_context
 def solve(
-    ctx: click.Context,
-    /,
-    level: Path,
-    record: int | None,
-    output: Path | None,
-    jobs: int | None,
-    smooth: int | None,
-    **task_options: Any,
-) -> None:
+    level: Path, record: int | None, output: Path | None, jobs: int | None, smooth: int | None, **task_options: Any
+) -> int:
     """Find a run to the exit, then shorten it.
 
     The best run so far is always in REPLAY, so that the search can be stopped at any time (Ctrl-C). Every run is played
@@ -68,15 +69,16 @@ def solve(
         run = solve(task, report=report, on_better=save)
     if run is None:
         click.echo(options.not_found_text(task, report.last))
-        ctx.exit(options.NOT_FOUND)
+        return options.NOT_FOUND
     if smooth is not None:
         run = options.smoothed_run(task.level, run, smooth)
         save(run)
     click.echo(f"{shown_text(str(output))}: {options.time_text(run.end_tick)}, {run.gold} gold")
+    return 0
 
 
 @click.command()
-@click.argument("replay", type=click.Path(exists=True, dir_okay=False, path_type=Path))
+@click.argument("replay", type=OLD_FILE)
 @click.option("--record", type=click.IntRange(min=0), help="Which of a file's recordings, counted from 0.")
 @level_option
 @options.gold_option
@@ -86,17 +88,13 @@ def solve(
 @options.search_jobs_option
 @options.smooth_option
 @click.option(
-    "--resume", metavar="LOG", type=click.Path(dir_okay=False, path_type=Path),
+    "--resume", metavar="LOG", type=NEW_FILE,
     help="Log better runs in this file; where it is there, go on from the best one, for what is left of the time.",
 )  # fmt: skip
 @click.option(
-    "-o", "--output", metavar="REPLAY", required=True, type=click.Path(dir_okay=False, path_type=Path),
-    help="Where to keep the best run so far.",
-)  # fmt: skip
-@click.pass_context
+    "-o", "--output", metavar="REPLAY", required=True, type=NEW_FILE, help="Where to keep the best run so far."
+)
 def improve(
-    ctx: click.Context,
-    /,
     replay: Path,
     record: int | None,
     level_path: Path | None,
@@ -105,7 +103,7 @@ def improve(
     smooth: int | None,
     resume: Path | None,
     **task_options: Any,
-) -> None:
+) -> int:
     """Shorten a run that exists.
 
     REPLAY is a replay of ours or a recording $name#author#comment#level#demo#. One that ends before the exit is first
@@ -146,7 +144,7 @@ def improve(
         )
         if first is None:
             click.echo(f"{played.outcome} after {played.ticks} ticks, and no way to the exit found from there")
-            ctx.exit(options.NOT_FOUND)
+            return options.NOT_FOUND
         task = replace(task, first=first, others=(), seconds=task.seconds if known else task.seconds / 2)
     before: list[int] = []
 
@@ -167,6 +165,7 @@ def improve(
     gain = before[0] - run.end_tick
     change = f"{abs(gain)} ticks {'shorter' if gain > 0 else 'longer'}" if gain else "no shorter run was found"
     click.echo(f"{output}: {options.time_text(run.end_tick)}, {change}, {run.gold} gold")
+    return 0
 
 
 @click.command()
@@ -191,15 +190,13 @@ def improve(
 @click.option("--record", type=click.IntRange(min=0), help="Which of a file's recordings, counted from 0.")
 @level_option
 @click.option(
-    "-o", "--output", metavar="REPLAY", type=click.Path(dir_okay=False, path_type=Path),
-    help="Where to keep the best run so far. [default: nowhere]",
-)  # fmt: skip
-@click.pass_context
+    "-o", "--output", metavar="REPLAY", type=NEW_FILE, help="Where to keep the best run so far. [default: nowhere]"
+)
 def search(
-    ctx: click.Context, replay: Path, first: int, last: int, goal: str, maximise: str, minimise: str, rest: bool,
+    replay: Path, first: int, last: int, goal: str, maximise: str, minimise: str, rest: bool,
     method: str, every: int, seconds: float, seed: int, jobs: int | None, record: int | None, level_path: Path | None,
     output: Path | None,
-) -> None:  # fmt: skip
+) -> int:  # fmt: skip
     """Find other keys for a span of a run.
 
     RUN is a recording of any format; the keys of the ticks from --from on, up to but without --to, are searched.
@@ -255,7 +252,7 @@ def search(
         click.echo("the goal was not reached; more time, a longer span or another --method may reach it")
     elif output:
         click.echo(f"{output}: the first of them")
-    ctx.exit(0 if found else options.NOT_FOUND)
+    return 0 if found else options.NOT_FOUND
 
 
 def _keys(found: Found) -> str:

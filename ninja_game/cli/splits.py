@@ -11,7 +11,17 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ninja_game.cli.run_options import budget_option, choose, heartbeat, level_given, level_option, with_progress
+from ninja_game.cli.run_options import (
+    NEW_FILE,
+    OLD_FILE,
+    OLD_PATH,
+    budget_option,
+    choose,
+    heartbeat,
+    level_given,
+    level_option,
+    with_progress,
+)
 from ninja_game.cli.terminal import BAD_INPUT, complain, data_output
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.run_time import seconds_text
@@ -34,15 +44,14 @@ format_option = click.option(
 )  # fmt: skip
 
 picture_option = click.option(
-    "--picture", metavar="OUT.png", type=click.Path(dir_okay=False, path_type=Path),
-    help="Draw the paths over the level, and the speeds, into this file.",
-)  # fmt: skip
+    "--picture", metavar="OUT.png", type=NEW_FILE, help="Draw the paths over the level, and the speeds, into this file."
+)
 
 
 @click.command()
-@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path))
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=OLD_PATH)
 @click.option(
-    "--against", metavar="BEST", type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    "--against", metavar="BEST", type=OLD_FILE,
     help="The run that the others are measured against. [default: the fastest to the exit]",
 )  # fmt: skip
 @click.option("--gold/--no-gold", default=True, help="A split for each piece of gold, or for none.")
@@ -50,11 +59,10 @@ picture_option = click.option(
 @format_option
 @picture_option
 @budget_option
-@click.pass_context
 def splits(
-    ctx: click.Context, files: Sequence[Path], against: Path | None, gold: bool, level_path: Path | None, form: str,
+    files: Sequence[Path], against: Path | None, gold: bool, level_path: Path | None, form: str,
     picture: Path | None, budget: int,
-) -> None:  # fmt: skip
+) -> int:  # fmt: skip
     """Show when runs take gold, open doors and the exit, and end.
 
     FILE is a replay of ours, a file of $name#author#comment#level#demo# records, or a folder of them. Each level has a
@@ -96,7 +104,7 @@ def splits(
         drawn = tables[0][0]
         paths = list(zip(titles([run.recording for run in drawn]), (run.positions for run in drawn), strict=True))
         draw(picture, drawn[0].recording.level, paths, [*files, *filter(None, [level_path, against])])
-    ctx.exit(BAD_INPUT if unreadable else 0)
+    return BAD_INPUT if unreadable else 0
 
 
 def readable(files: Iterable[Path], level: Any) -> tuple[list[Recording], int]:
@@ -226,8 +234,8 @@ COMPARED = ("at", "x", "y", "tick", "other", "ahead")
 
 
 @click.command()
-@click.argument("first", metavar="A", type=click.Path(exists=True, dir_okay=False, path_type=Path))
-@click.argument("second", metavar="B", type=click.Path(exists=True, dir_okay=False, path_type=Path))
+@click.argument("first", metavar="A", type=OLD_FILE)
+@click.argument("second", metavar="B", type=OLD_FILE)
 @click.option("--record", type=click.IntRange(min=0), help="Which recording of A, counted from 0.")
 @click.option("--against-record", type=click.IntRange(min=0), help="Which recording of B, counted from 0.")
 @level_option

@@ -14,6 +14,8 @@ from typing import IO, TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli.run_options import (
+    NEW_FILE,
+    OLD_FILE,
     InputPath,
     budget_option,
     jobs_option,
@@ -44,21 +46,14 @@ SECTION = re.compile(r"(world|objects|ninja|game) [0-9.]+")
 @click.option("--after", type=click.IntRange(0, MOST_TICKS), help="Run this many ticks more than `verify` does.")
 @click.option("--objects", is_flag=True, help="Rows for the objects too, not only for the ninja.")
 @click.option("--digests", is_flag=True, help="One JSON object per recording with digests of everything, instead.")
-@click.option(
-    "--against", type=click.Path(exists=True, dir_okay=False, path_type=Path),
-    help="Compare with this trace, or with this file of recordings.",
-)  # fmt: skip
+@click.option("--against", type=OLD_FILE, help="Compare with this trace, or with this file of recordings.")
 @click.option("--against-record", type=click.IntRange(min=0), help="Compare every run with this record of --against.")
 @level_option
-@click.option(
-    "-o", "--output", type=click.Path(dir_okay=False, path_type=Path), help="Write to this .csv or .npz file."
-)
+@click.option("-o", "--output", type=NEW_FILE, help="Write to this .csv or .npz file.")
 @memory_option
 @jobs_option
 @budget_option
-@click.pass_context
 def trace(
-    ctx: click.Context,
     files: Sequence[Path],
     record: int | None,
     ticks: int | None,
@@ -72,7 +67,7 @@ def trace(
     memory: str,
     jobs: int | None,
     budget: int,
-) -> None:
+) -> int:
     """Show every tick of recordings: position, velocity, state, events.
 
     FILE is a replay of ours, a file of $name#author#comment#level#demo# records, or a folder of them. Each runs as
@@ -112,7 +107,7 @@ def trace(
     if not traces.count and not traces.unreadable:
         there_is_no = "recordings here" if record is None else f"record {record}"
         raise click.UsageError(f"{', '.join(map(str, files))}: no {there_is_no}")
-    ctx.exit(BAD_INPUT if traces.unreadable else 1 if different else 0)
+    return BAD_INPUT if traces.unreadable else 1 if different else 0
 
 
 class Traces:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ninja_game.cli.run_options import InputPath, jobs_option
+from ninja_game.cli.run_options import NEW_FILE, NEW_FOLDER, OLD_FILE, OLD_FOLDER, InputPath, jobs_option
 from ninja_game.cli.splits import as_json, draw, show, table_of
 from ninja_game.errors import ArgumentError
 from ninja_game.files.shown_text import shown_text
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from ninja_game.web.pages.memo import Memo
 
 rules_option = click.option(
-    "--rules", metavar="BOARD.TOML", type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    "--rules", metavar="BOARD.TOML", type=OLD_FILE,
     help="The categories in which runs are ranked. [default: the fastest, and the highest score]",
 )  # fmt: skip
 
@@ -76,11 +76,10 @@ levels_option = click.option(
 
 
 @click.command()
-@click.argument("out", required=False, type=click.Path(file_okay=False, path_type=Path))
+@click.argument("out", required=False, type=NEW_FOLDER)
 @click.option(
-    "--pyodide", metavar="FOLDER", type=click.Path(exists=True, file_okay=False, path_type=Path),
-    help="The unpacked npm package of Pyodide; by default npm gets it.",
-)  # fmt: skip
+    "--pyodide", metavar="FOLDER", type=OLD_FOLDER, help="The unpacked npm package of Pyodide; by default npm gets it."
+)
 @click.option("--serve", is_flag=True, help="Then serve it for this machine, until Ctrl-C.")
 @click.option(
     "--port", type=click.IntRange(0, 65535), default=8000, show_default=True, help="Port for --serve; 0: any free port."
@@ -147,29 +146,27 @@ class _Board(click.Command):
 
 
 @click.command(cls=_Board)
-@click.argument("folder", type=click.Path(exists=True, file_okay=False, path_type=Path))
+@click.argument("folder", type=OLD_FOLDER)
 @levels_option
 @click.option(
-    "--site", metavar="OUT", type=click.Path(file_okay=False, path_type=Path),
-    help="Write the pages into OUT/board and the runs into OUT/replays.",
-)  # fmt: skip
+    "--site", metavar="OUT", type=NEW_FOLDER, help="Write the pages into OUT/board and the runs into OUT/replays."
+)
 @click.option(
-    "--json", "data", metavar="FILE", type=click.Path(dir_okay=False, path_type=Path),
+    "--json", "data", metavar="FILE", type=NEW_FILE,
     help="Write the board as data, for --check. It is the board's ledger: runs that FILE has already keep their dates.",
 )  # fmt: skip
 @click.option(
-    "--check", metavar="FILE", type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    "--check", metavar="FILE", type=OLD_FILE,
     help="Report what differs from this file written by --json; exit code 1 if anything is refused, changed or gone.",
 )  # fmt: skip
 @rules_option
 @click.option("--again", is_flag=True, help="Simulate every run, and write every page, also those known from before.")
 @jobs_option
 @address_option
-@click.pass_context
 def board(
-    ctx: click.Context, folder: Path, levels: Path | None, site: Path | None, data: Path | None, check: Path | None,
+    folder: Path, levels: Path | None, site: Path | None, data: Path | None, check: Path | None,
     rules: Path | None, again: bool, jobs: int | None, address: str,
-) -> None:  # fmt: skip
+) -> int:  # fmt: skip
     """Rank the runs of a folder, all simulated again: tables, pages, checks.
 
     FOLDER holds replays, as people send them to a repository; nothing in them is believed but the inputs. Runs on
@@ -223,12 +220,12 @@ def board(
         for line in gone(judged, before):
             click.echo(line)
         click.echo(summary(judged))
-        return
+        return 0
     found = list(changes(ranking, before))
     for _, line in found:
         click.echo(line)
     click.echo(summary(judged) if found else f"nothing has changed: {summary(judged)}")
-    ctx.exit(0 if all(allowed for allowed, _ in found) else 1)
+    return 0 if all(allowed for allowed, _ in found) else 1
 
 
 QUESTIONS = ("rank", "best", "inputs", "splits", "trace", "film")
@@ -244,19 +241,19 @@ TYPED = (
 
 
 @click.command()
-@click.argument("folder", type=click.Path(exists=True, file_okay=False, path_type=Path))
+@click.argument("folder", type=OLD_FOLDER)
 @click.argument("what", type=click.Choice(QUESTIONS))
 @click.argument("level")
 @click.argument("players", nargs=-1)
 @levels_option
 @rules_option
 @click.option(
-    "--ledger", metavar="FILE", type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    "--ledger", metavar="FILE", type=OLD_FILE,
     help="The file that `ninja-game board --json` wrote, for the dates, and for whose a run is.",
 )  # fmt: skip
 @click.option("--category", metavar="NAME", help="One of the board's categories. [default: the first]")
 @click.option("--assisted", is_flag=True, help="The ladder of runs that were edited or searched.")
-@click.option("-o", "--output", type=click.Path(dir_okay=False, path_type=Path), help="The picture, or the film.")
+@click.option("-o", "--output", type=NEW_FILE, help="The picture, or the film.")
 @click.option("--json", "as_data", is_flag=True, help="Answer as JSON.")
 @jobs_option
 def ask(
