@@ -25,7 +25,6 @@ if TYPE_CHECKING:
 F = TypeVar("F", bound=Callable[..., Any])
 
 NOT_FOUND = 1
-"""Exit code of a search that found nothing."""
 
 
 class GoldCount(click.ParamType):  # type: ignore[type-arg, unused-ignore]

@@ -237,7 +237,6 @@ TYPED = (
     "{player}: {ticks} ticks, {presses} presses, {jumps} jumps; ticks left {left}, right {right}, neither {neither}, "
     "jump {jump}; {strokes} strokes, the longest {longest} ticks"
 )
-"""Lines of an answer."""
 
 
 @click.command()
@@ -286,11 +285,8 @@ def ask(
     memo = memo_of("runs", folder, folder, again=False)
     before = read_board(ledger, now) if ledger else NO_LEDGER
     dates = dates_of(before, now) if ledger else None
-    ranking = Ranking(
-        judge(folder, shown, dates=dates, jobs=jobs, memo=memo, ledger=before),
-        shown,
-        read_categories(rules) if rules else USUAL,
-    )
+    judged = judge(folder, shown, dates=dates, jobs=jobs, memo=memo, ledger=before)
+    ranking = Ranking(judged, shown, read_categories(rules) if rules else USUAL)
     memo.save()
     chosen = _category(ranking, category)
     table = ranking.tables.get(entry.digest, {}).get((ASSISTED if assisted else PLAYED, chosen), [])

@@ -7,23 +7,14 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from ninja_game.cli.run_options import (
-    NEW_FILE,
-    OLD_FILE,
-    InputPath,
-    LevelPath,
-    level_given,
-    level_option,
-    other_level_option,
-    window_options,
-)
+from ninja_game.cli import run_options as options
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App, Screen
 
 
 @click.command()
-@click.argument("level", required=False, type=LevelPath())
+@click.argument("level", required=False, type=options.LevelPath())
 @click.option(
     "--record", type=click.IntRange(0, 10**6), default=0, help="Begin with this level of the file, counted from 0."
 )
@@ -32,9 +23,9 @@ if TYPE_CHECKING:
     help="The ninja's body: the circle of the classic rules, or a box of the same size.",
 )  # fmt: skip
 @click.option("--practice", is_flag=True, help="No time limit, nothing counts.")
-@click.option("--replay", type=InputPath(dir_okay=False), help="Watch the recordings of this file or link.")
-@level_option
-@window_options
+@click.option("--replay", type=options.InputPath(dir_okay=False), help="Watch the recordings of this file or link.")
+@options.level_option
+@options.window_options
 def play(
     level: Path | None,
     record: int,
@@ -80,9 +71,9 @@ def play(
 
 
 @click.command()
-@click.argument("level", required=False, type=LevelPath())
+@click.argument("level", required=False, type=options.LevelPath())
 @click.option("--record", type=click.IntRange(0, 10**6), default=0, help="This level of the file, counted from 0.")
-@window_options
+@options.window_options
 def edit(level: Path | None, record: int, **window: Any) -> int:
     """Make a level, or change one, in a window.
 
@@ -109,15 +100,15 @@ def edit(level: Path | None, record: int, **window: Any) -> int:
 
 
 @click.command()
-@click.argument("file", type=OLD_FILE)
+@click.argument("file", type=options.OLD_FILE)
 @click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")
-@other_level_option
+@options.other_level_option
 @click.option(
-    "--against", multiple=True, type=OLD_FILE,
+    "--against", multiple=True, type=options.OLD_FILE,
     help="Compare with the runs of the same level in this file; may be given several times.",
 )  # fmt: skip
 @click.option("--tick", type=click.IntRange(0, 10**6), default=0, help="Put the cursor on this tick.")
-@window_options
+@options.window_options
 def tas(
     file: Path, record: int | None, level_path: Path | None, against: tuple[Path, ...], tick: int, **window: Any
 ) -> int:
@@ -137,7 +128,7 @@ def tas(
     """
     from ninja_game.tas.files import open_run, runs_of_level
 
-    opened = open_run(file, record=record, level=level_given(level_path))
+    opened = open_run(file, record=record, level=options.level_given(level_path))
     others = [run for path in against for run in runs_of_level(path, opened.recording)]
     from ninja_game.play.main import run_app
     from ninja_game.tas_editor.opening import OpeningScreen, open_tas_editor
@@ -163,9 +154,9 @@ FIGURES = (
 
 @click.command()
 @click.argument("figure", metavar="[FIGURE]", required=False, type=click.Choice(FIGURES))
-@window_options
+@options.window_options
 @click.option(
-    "-o", "--output", type=NEW_FILE,
+    "-o", "--output", type=options.NEW_FILE,
     help="Open no window: write the figure to this .png file, or its demonstration to this .gif file.",
 )  # fmt: skip
 def lab(figure: str | None, output: Path | None, **window: Any) -> int:

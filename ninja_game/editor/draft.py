@@ -10,7 +10,6 @@ Cell = tuple[int, int]
 """Column 1…31, row 1…23."""
 
 Tiles = dict[Cell, int]
-"""Tile ids by cell."""
 
 
 @dataclass(frozen=True)

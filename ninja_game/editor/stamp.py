@@ -59,7 +59,6 @@ def cells_of(area: CellArea) -> list[Cell]:
 
 
 WHOLE: CellArea = (1, 1, COLUMNS, ROWS)
-"""All cells of a level."""
 
 
 def put(draft: Draft, stamp: Stamp, symmetry: Iterable[Motion] = ()) -> Draft:

@@ -6,17 +6,7 @@ They know no window: points are px of the level.
 from __future__ import annotations
 
 from ninja_game.document import History
-from ninja_game.editor.brush import (
-    EMPTY,
-    FULL,
-    OBJECT_TYPE_NAMES,
-    SNAPS,
-    object_of_type,
-    object_type_of,
-    placed,
-    snapped,
-    with_switch,
-)
+from ninja_game.editor import brush
 from ninja_game.editor.draft import Cell, Draft, Tiles, cell_of, changed_cells, is_inside
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.specs import has_switch, points, properties, with_word
@@ -69,7 +59,7 @@ class EditorTools:
         self.history = History(draft)
         self.objects = False
         self.tile = 1
-        self.spec: ObjectSpec = object_of_type("gold")
+        self.spec: ObjectSpec = brush.object_of_type("gold")
         self.snap = "cell"
         self.symmetry = "off"
         self.spacing, self.slopes = 24.0, False
@@ -99,7 +89,7 @@ class EditorTools:
 
     @property
     def draws_one(self) -> bool:
-        """Whether every tool puts one object at a time: a ninja, or what has a switch to be placed after it."""
+        """Whether every tool puts one object at a time: a ninja, or what has a switch to be brush.placed after it."""
         return self.objects and (self.spec.kind == NINJA or has_switch(self.spec))
 
     @property
@@ -157,7 +147,7 @@ class EditorTools:
         if self.effective_tool == "fill" and not erase:
             cells = filled(self.draft, self.cell)
             middles = [(24.0 * column + 12, 24.0 * row + 12) for column, row in cells if self.objects]
-            objects = tuple(placed(self.spec, *middle, "cell") for middle in middles)
+            objects = tuple(brush.placed(self.spec, *middle, "cell") for middle in middles)
             self._change(Stamp({} if self.objects else dict.fromkeys(cells, self.tile), objects))
             return
         many = not self.objects or self.spec.kind in (GOLD, MINE)
@@ -167,7 +157,7 @@ class EditorTools:
 
     def release(self) -> None:
         if self._doing == "drop" and has_switch(self._dropped()):
-            self._switchless = placed(self.spec, *self._pressed_at, self.snap)
+            self._switchless = brush.placed(self.spec, *self._pressed_at, self.snap)
             self._doing = ""
             far = max(abs(a - b) for a, b in zip(self.pointer, self._pressed_at, strict=True)) > DRAGGED
             if far:
@@ -204,7 +194,7 @@ class EditorTools:
         self.finish()
         if isinstance(what, int):
             self.tile, self.objects = what, False
-        elif object_type_of(what) in OBJECT_TYPE_NAMES:
+        elif brush.object_type_of(what) in brush.OBJECT_TYPE_NAMES:
             self.spec, self.objects = what, True
         if self.tool in ("select", "pick"):
             self.tool = "brush"
@@ -217,7 +207,7 @@ class EditorTools:
     def _with(self, stamp: Stamp, draft: Draft) -> Draft:
         """The draft with a stamp on it, in all images of the symmetry, and with slopes where they set themselves."""
         after = put(draft, stamp, SYMMETRIES[self.symmetry])
-        return sloped(draft, after) if self.slopes and set(stamp.tiles.values()) <= {EMPTY, FULL} else after
+        return sloped(draft, after) if self.slopes and set(stamp.tiles.values()) <= {brush.EMPTY, brush.FULL} else after
 
     @property
     def preview(self) -> Tiles:
@@ -232,7 +222,7 @@ class EditorTools:
         elif erasing:
             self.delete_nearest()
         else:
-            self._change(Stamp({}, (placed(self.spec, *self.pointer, self.snap),)))
+            self._change(Stamp({}, (brush.placed(self.spec, *self.pointer, self.snap),)))
 
     def _draw_shape(self) -> None:
         """Tiles that fill it, or objects: a box is full of them, a line or an ellipse has them along it."""
@@ -240,15 +230,15 @@ class EditorTools:
             cells = covered(self._doing, cell_of(*self._pressed_at), self.cell, self._bend)
             self._change(Stamp(dict.fromkeys(cells, self.tile)), self.history.began)
             return
-        ends = snapped(*self._pressed_at, self.snap), snapped(*self.pointer, self.snap)
+        ends = brush.snapped(*self._pressed_at, self.snap), brush.snapped(*self.pointer, self.snap)
         if self._doing in CURVES:
             places, snap = spread(curve(self._doing, *ends, self._bend), self.spacing), "px"
         else:
-            step, snap = max(SNAPS[self.snap], 12.0), self.snap
+            step, snap = max(brush.SNAPS[self.snap], 12.0), self.snap
             (x, right), (y, bottom) = (sorted(along) for along in zip(*ends, strict=True))
             rows, columns = (range(int(length // step) + 1) for length in (bottom - y, right - x))
             places = [(x + step * i, y + step * j) for j in rows for i in columns]
-        self._change(Stamp({}, tuple(placed(self.spec, *place, snap) for place in places)), self.history.began)
+        self._change(Stamp({}, tuple(brush.placed(self.spec, *place, snap) for place in places)), self.history.began)
 
     def bend(self, steps: int) -> bool:
         """Bend the line that is being drawn to its right; whether anything is being drawn or dragged."""
@@ -258,18 +248,18 @@ class EditorTools:
         return bool(self._doing)
 
     def _dropped(self) -> ObjectSpec:
-        return placed(self.spec, *self.pointer, self.snap)
+        return brush.placed(self.spec, *self.pointer, self.snap)
 
     def _drop(self) -> None:
         """One object under the pointer, until the button goes up; a switch is dragged out of its door."""
         spec = self._dropped()
         if has_switch(spec):
-            spec = with_switch(placed(self.spec, *self._pressed_at, self.snap), *self.pointer, self.snap)
+            spec = brush.with_switch(brush.placed(self.spec, *self._pressed_at, self.snap), *self.pointer, self.snap)
         self._change(Stamp({}, (spec,)), self.history.began)
 
     def _put_switch(self) -> None:
         if self._switchless is not None:
-            spec = with_switch(self._switchless, *self.pointer, self.snap)
+            spec = brush.with_switch(self._switchless, *self.pointer, self.snap)
             self._change(Stamp({}, (spec,)), self.history.began)
 
     def delete_nearest(self) -> None:
@@ -309,7 +299,7 @@ class EditorTools:
 
     def _drag(self) -> None:
         snap = "cell" if self._chosen_before.area else self.snap
-        (ax, ay), (bx, by) = snapped(*self._pressed_at, snap), snapped(*self.pointer, snap)
+        (ax, ay), (bx, by) = brush.snapped(*self._pressed_at, snap), brush.snapped(*self.pointer, snap)
         draft, self.selection = moved(self.history.began, self._chosen_before, Motion(dx=bx - ax, dy=by - ay))
         self.history.change(draft)
 
@@ -331,7 +321,7 @@ class EditorTools:
 
     def nudge(self, dx: float, dy: float) -> None:
         """Move what is chosen by steps of the snap, or of cells."""
-        step = 24.0 if self.selection.area else SNAPS[self.snap]
+        step = 24.0 if self.selection.area else brush.SNAPS[self.snap]
         draft, self.selection = moved(self.draft, self.selection, Motion(dx=dx * step, dy=dy * step))
         self.history.change(draft)
 
@@ -387,7 +377,7 @@ class EditorTools:
         tiles = self.clipboard.tiles
         places = [point for spec in self.clipboard.objects for point in points(spec).values()]
         corner = (24.0 * min(c for c, _ in tiles), 24.0 * min(r for _, r in tiles)) if tiles else min(places)
-        there = (24.0 * self.cell[0], 24.0 * self.cell[1]) if tiles else snapped(*self.pointer, self.snap)
+        there = (24.0 * self.cell[0], 24.0 * self.cell[1]) if tiles else brush.snapped(*self.pointer, self.snap)
         motion = Motion(dx=there[0] - corner[0], dy=there[1] - corner[1])
         draft, self.selection = pasted(self.draft, self.clipboard.carried(motion))
         self.tool = "select"

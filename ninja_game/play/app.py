@@ -237,7 +237,7 @@ class App:
         self.controls.bind(after.keys, after.pad)
         self.controls.pads.dead_zone = after.dead_zone
         self.controls.tap_to_run = after.tap_to_run
-        self.audio_output.set_volumes(after.volume, after.effects_volume, after.loop_volume, after.music_volume)
+        self.audio_output.set_volumes(*after.volumes)
         self.window.set_fullscreen(wanted=after.fullscreen)
         look = attrgetter("palette", "fullscreen", "text_size")
         if look(after) != look(before):
@@ -462,13 +462,7 @@ def build_app(
     settings = player.settings
     bindings = controls or Bindings(settings.keys, settings.pad, dead_zone=settings.dead_zone)
     bindings.tap_to_run = settings.tap_to_run
-    sound = audio_output or AudioPlayer(
-        data_folder("assets") / "sounds",
-        volume=settings.volume,
-        effects_volume=settings.effects_volume,
-        loop_volume=settings.loop_volume,
-        music_volume=settings.music_volume,
-    )
+    sound = audio_output or AudioPlayer(data_folder("assets") / "sounds", *settings.volumes)
     app = App(player, bindings, sound, size=size, tas_editor=tas_editor, window=window)
     player.open_records()
     if bindings.unknown:

@@ -18,7 +18,6 @@ from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.ui.theme import PALETTES, Theme, palette_named
 
 TITLE = "ninja-game"
-"""What the window is called."""
 LOGO = "NINJA"
 """What stands over the main menu, and on the first picture."""
 

@@ -12,8 +12,7 @@ import pygame
 from ninja_game.document import OccupiedError
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.play.app import App
-from ninja_game.play.menus.menu_screen import MOUSE, MenuScreen
-from ninja_game.play.menus.panels import CANCEL, Action, Menu, Row, nothing
+from ninja_game.play.menus.menu_screen import CANCEL, MOUSE, Action, Menu, MenuScreen, Row, nothing
 from ninja_game.ui.audio.music import SILENCE
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.input.gamepad import Gamepads

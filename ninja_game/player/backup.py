@@ -31,9 +31,8 @@ from ninja_game.files.zips import open_zip, unpacked
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
-from ninja_game.player.marks import WITH_HELP
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.progress import is_place
+from ninja_game.player.progress import WITH_HELP, is_place
 from ninja_game.player.records import KILLERS, Records, level_score
 from ninja_game.player.schema import SCHEMA, TABLES, VERSION, OtherVersionError, bounded
 from ninja_game.player.settings import read_settings

@@ -9,8 +9,7 @@ from ninja_game.errors import FileError, reason
 from ninja_game.files.user_folder import LEVELS, RECORDS, REPLAYS, SETTINGS, make_user_folder, user_folder
 from ninja_game.files.writing import remove_leftovers
 from ninja_game.player.catalogue import Catalogue, Entry, Episode
-from ninja_game.player.marks import HELPED, Mark, Marks, reached
-from ninja_game.player.progress import LOCKED, UNLOCKED, Progress, complete_columns
+from ninja_game.player.progress import HELPED, LOCKED, UNLOCKED, Mark, Marks, Progress, complete_columns, reached
 from ninja_game.player.records import Records, Statistics
 from ninja_game.player.settings import Settings, read_settings, write_changes
 from ninja_game.player.store import Store

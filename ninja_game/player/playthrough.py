@@ -24,9 +24,8 @@ from ninja_game.formats.replay.text import Replay, parse_replay, write_replay
 from ninja_game.formats.sayings import Saying, read_sayings
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry, Episode
-from ninja_game.player.marks import next_par
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.progress import LOCKED, UNLOCKED, new_unlocks
+from ninja_game.player.progress import LOCKED, UNLOCKED, new_unlocks, next_par
 from ninja_game.player.saving import EPISODE_BEST, count_of, replay_of, save_best, told
 from ninja_game.player.store import Store, Work
 from ninja_game.sim.level import Level
@@ -391,12 +390,8 @@ def move_on(
     """
     following = data.catalogue.following(episode)
     levels = len(episode.levels)
-    data.progress_in(episode.pack).level_passed(
-        (episode.number, position),
-        levels=levels,
-        following=following.number if following else None,
-        legitimate=legitimate,
-    )
+    progress, goal = data.progress_in(episode.pack), following.number if following else None
+    progress.level_passed((episode.number, position), levels=levels, following=goal, legitimate=legitimate)
     if legitimate and kept and position < levels - 1:
         keep_place(data.store, episode.key, replays)
     elif legitimate and kept:

@@ -8,8 +8,8 @@ from __future__ import annotations
 from ninja_game.formats.replay.text import Replay
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.marks import WITH_HELP, has_all_gold, medal_of
 from ninja_game.player.player_data import PlayerData
+from ninja_game.player.progress import WITH_HELP, has_all_gold, medal_of
 from ninja_game.player.store import Work
 
 SAVED = ": saved"

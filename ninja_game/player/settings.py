@@ -161,6 +161,10 @@ class Settings:
     keys: InputNames = field(default_factory=dict, metadata=_bindings("keys", "['z', 'lshift']"))
     pad: InputNames = field(default_factory=dict, metadata=_bindings("buttons", "['a']"))
 
+    @property
+    def volumes(self) -> tuple[int, int, int, int]:
+        return self.volume, self.effects_volume, self.loop_volume, self.music_volume
+
     def changed(self, **values: Any) -> Settings:
         """These settings with some of them changed. Raises ValueError for a value that a setting cannot have."""
         for name, value in values.items():

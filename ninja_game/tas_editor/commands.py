@@ -16,7 +16,7 @@ from ninja_game.formats.links.making import replay_link
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.panels import Action, FormPanel, Menu, Row, nothing
+from ninja_game.play.menus.menu_screen import Action, FormPanel, Menu, Row, nothing
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.workspace import Command, Commands, CommandTable, DocumentCommands
 from ninja_game.player.saving import keep_replay
@@ -107,7 +107,6 @@ The level shows the world after that tick. Enter takes over: play on yourself, E
 Select some ticks and press F to search for better keys there; a click on a result puts it into the run.
 The wheel scrolls the roll, and shows the level or a plot larger; the right button moves the level, the left one \
 a plot. With Ctrl the wheel goes tick by tick. Drag what is between the parts to give one of them more room."""
-"""What one has to know to begin."""
 
 
 class RunCommands(DocumentCommands):
@@ -168,11 +167,8 @@ class RunCommands(DocumentCommands):
             else:
                 self.app.notify(f"Not saved: there is no folder {path.parent}")
 
-        self.app.push(
-            FormPanel(
-                self.app, f"Save in {folder.absolute()}", [("Name or path of the file", name, 300)], "Save", on_accept
-            )
-        )
+        fields = [("Name or path of the file", name, 300)]
+        self.app.push(FormPanel(self.app, f"Save in {folder.absolute()}", fields, "Save", on_accept))
 
     def saved_text(self, path: Path) -> str:
         tail = ", with what is behind its end (Ctrl+E takes that out)" if self.session.has_tail else ""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import gc
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pygame
 
@@ -13,10 +12,11 @@ from ninja_game.formats.recording import Recording
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
 from ninja_game.play.workspace import Commands, WorkspaceScreen
+from ninja_game.tas.files import OpenedRun
+from ninja_game.tas.journal import RecoveredRun
 from ninja_game.tas.session import Session
 from ninja_game.tas_editor.commands import TABLE, RunCommands
-from ninja_game.tas_editor.editor import TasEditor, TasPart
-from ninja_game.tas_editor.layout import Splitters
+from ninja_game.tas_editor.editor import Splitters, TasEditor, TasPart
 from ninja_game.tas_editor.level.part import LevelPart
 from ninja_game.tas_editor.roll.part import Roll
 from ninja_game.tas_editor.tabs.branches_tab import BranchesTab
@@ -27,10 +27,6 @@ from ninja_game.tas_editor.tabs.text_tab import TextTab
 from ninja_game.tas_editor.tabs.values_tab import ValuesTab
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.theme import Theme
-
-if TYPE_CHECKING:
-    from ninja_game.tas.files import OpenedRun
-    from ninja_game.tas.journal import RecoveredRun
 
 
 class TasScreen(WorkspaceScreen):
@@ -137,13 +133,8 @@ class Head(TasPart):
 
     def render_key(self) -> tuple[object, ...]:
         session = self.editor.session
-        return (
-            session.about.replay.credit,
-            session.file.path,
-            session.is_saved,
-            session.timeline.end,
-            session.journal.problem,
-        )
+        run = session.about.replay.credit, session.timeline.end
+        return *run, session.file.path, session.is_saved, session.journal.problem
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         session, palette, right = self.editor.session, theme.palette, self.area[2] - 8

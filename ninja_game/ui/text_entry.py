@@ -30,16 +30,9 @@ class TextEntry(Widget):
     """
 
     def __init__(
-        self,
-        area: Area,
-        prompt: str,
-        text: str,
-        put: Callable[[str], object],
-        *,
-        longest: int = MAX_ENTRY,
-        hint: str = "",
-        proposed: bool = False,
-    ) -> None:
+        self, area: Area, prompt: str, text: str, put: Callable[[str], object], *,
+        longest: int = MAX_ENTRY, hint: str = "", proposed: bool = False,
+    ) -> None:  # fmt: skip
         super().__init__(area, hint=hint)
         self.prompt = prompt
         self.put = put

@@ -217,7 +217,6 @@ class Palette:
 
 
 ROLES = tuple(entry.name for entry in fields(Palette) if entry.name not in {"name", "danger_by_shape", "scenery"})
-"""All colour roles."""
 
 _CLASSIC = dict(  # noqa: C408 - one form for all palettes
     background="#cacad0", tile="#787887", text="#17171c", faint="#5f5f6b", on_tile="#e4e4ea", panel="#dcdce1",

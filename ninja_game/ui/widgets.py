@@ -245,7 +245,6 @@ _INK = pygame.Color("#1d1d22")
 _LARGE = 30.0
 """Size from which a medal shows its relief, px."""
 MEDALS = tuple(reversed(pars.MEDALS))
-"""All of them, the easiest first."""
 
 
 def draw_medal(

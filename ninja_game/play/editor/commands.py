@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import Protocol
 
 from ninja_game.editor.brush import FAMILIES, OBJECT_TYPES, QUARTERS, SNAPS
 from ninja_game.editor.draft import Cell, cell_of
@@ -18,21 +19,27 @@ from ninja_game.errors import LevelError, NinjaGameError, reason
 from ninja_game.files.shown_text import counted, file_stem
 from ninja_game.files.user_folder import LEVELS, free_path
 from ninja_game.formats.ascii.writer import headers_of
+from ninja_game.formats.named_level import NamedLevel
+from ninja_game.formats.sayings import Saying, read_sayings
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
 from ninja_game.play.editor.messages import MessagesScreen
 from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.sheet import finding_points
-from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.editor.view import EditorView
+from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.panels import CANCEL, Action, FormPanel, Menu, Row, nothing
+from ninja_game.play.menus.menu_screen import CANCEL, Action, FormPanel, Menu, Row, nothing
 from ninja_game.play.workspace import Command, CommandTable, DocumentCommands
+from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
-from ninja_game.sim.level import COLUMNS, ROWS
+from ninja_game.player.player_data import PlayerData
+from ninja_game.player.playthrough import LevelContext, Navigation, PacedRun
+from ninja_game.sim.level import COLUMNS, ROWS, Level
+from ninja_game.ui.audio.music import SILENCE
 from ninja_game.ui.widgets import following
 
 COMMANDS = (
@@ -91,7 +98,6 @@ DIRECTION_KEYS = {"w": "up", "a": "left", "s": "down", "d": "right"}
 """Directions of objects, as in Ned."""
 
 OBJECT_TYPE_OF_KEY = {object_type.key: object_type for object_type in OBJECT_TYPES}
-"""Objects by their keys."""
 
 _FAMILY_OF_KEY = {family.key: family for family in FAMILIES}
 
@@ -401,3 +407,64 @@ class EditorCommands(DocumentCommands):
             CANCEL,
         ]
         self.unless_unsaved(lambda: self.app.push(Menu(self.app, "New level from", rows)))
+
+
+class Tried(Protocol):
+    def __call__(self, inputs: bytes, *, over: bool) -> object:
+        """Called with the inputs of a try when it is left, or is ``over``."""
+
+
+class TryContext(LevelContext):
+    """A level that is only tried out: with practice tools and without a clock; nothing counts."""
+
+    def __init__(self, data: PlayerData, entry: Entry, tried: Tried) -> None:
+        super().__init__(data, entry, practice_mode=True)
+        self._tried = tried
+
+    def ghosts(self) -> list[PacedRun]:
+        """None: nobody has a best on a level that is being made."""
+        return []
+
+    def sayings(self) -> tuple[Saying, ...]:
+        """All of them, however often the level was passed."""
+        return read_sayings(self.entry.named.says)
+
+    def passed(self, attempt: Attempt) -> list[str]:
+        self._tried(bytes(attempt.inputs), over=True)
+        return ["It can be passed"]
+
+    def died(self, attempt: Attempt) -> None:
+        self._tried(bytes(attempt.inputs), over=True)
+
+    def gave_up(self, attempt: Attempt) -> None:
+        self.left(attempt, over=True)
+
+    def left(self, attempt: Attempt, *, over: bool = False) -> None:
+        """Tell of a try that has not ended by itself."""
+        if attempt.outcome == "running":
+            self._tried(bytes(attempt.inputs), over=over)
+
+    def advance(self) -> Navigation:
+        return Navigation.BACK
+
+
+class TryScreen(LevelScreen):
+    """Plays a level; the back key leaves at once, whatever is going on. Raises LevelError for one without a ninja."""
+
+    music = SILENCE
+
+    def __init__(self, app: App, name: str, level: Level, tried: Tried, *, says: str = "") -> None:
+        title = f"{name} ({app.controls.name('back')}: back to the editor)"
+        named = NamedLevel(title, "", "", level, "", says=says)
+        self._trying = TryContext(app.player, Entry(named, "yours"), tried)
+        super().__init__(app, self._trying)
+
+    def leave(self) -> None:
+        super().leave()
+        self._trying.left(self.attempt)
+
+    def _dispatch_action(self, pressed: tuple[str, ...]) -> None:
+        if "back" in pressed or "quit" in pressed:
+            self.app.pop()
+        else:
+            super()._dispatch_action(pressed)

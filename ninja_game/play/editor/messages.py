@@ -13,8 +13,7 @@ from ninja_game.errors import LevelError
 from ninja_game.formats.sayings import BAR, KEYS, MOST_LETTERS, MOST_SAYINGS, THINGS, named_keys, read_sayings
 from ninja_game.play.app import App
 from ninja_game.play.level.hud import Hud
-from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.panels import CANCEL, Menu, Row
+from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuScreen, Row
 from ninja_game.sim.level import Level
 from ninja_game.ui.canvas import WIDTH
 from ninja_game.ui.text_entry import TextEntry

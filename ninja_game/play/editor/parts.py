@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import lru_cache, partial
-from typing import TYPE_CHECKING
 
 import pygame
 
@@ -15,6 +14,7 @@ from ninja_game.editor.tools import CURVES, SPACINGS, EditorTools
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.places import place_text, read_place
 from ninja_game.formats.ascii.writer import best_form
+from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.commands import TABLE
 from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.session import EditorSession
@@ -25,11 +25,6 @@ from ninja_game.ui.list_view import ListView
 from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme, wrapped
 from ninja_game.ui.widgets import Button, Choice, Label, Widget
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from ninja_game.levels.findings import Finding
 
 ROW = 23.0
 

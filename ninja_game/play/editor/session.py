@@ -5,13 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 from time import monotonic
-from typing import TYPE_CHECKING
 
 from ninja_game.editor.brush import object_of_type, placed
-from ninja_game.editor.certify import Certifier, Route, TestMap, Try, map_of, route_of
+from ninja_game.editor.certify import STARTS, Ask, Certifier, Reach, Route, TestMap, Try, find_reach, map_of, route_of
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Autosave, RecoveredDraft, Source, draft_of_text, new_source, open_source, save
-from ninja_game.editor.reach import STARTS, Ask, Reach, find_reach
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import NinjaGameError, reason
@@ -20,6 +18,7 @@ from ninja_game.files.user_folder import LEVELS
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.pack.files import is_pack
+from ninja_game.formats.replay.text import Replay
 from ninja_game.levels.findings import Finding
 from ninja_game.levels.warnings import level_findings
 from ninja_game.play.app import App
@@ -30,9 +29,6 @@ from ninja_game.runtime import NewestJob
 from ninja_game.sim.level import Level
 from ninja_game.ui.widgets import following
 from ninja_game.view.sprites.thumbnail import thumbnail
-
-if TYPE_CHECKING:
-    from ninja_game.formats.replay.text import Replay
 
 LOOK_SPACING = 0.5
 """Seconds from one look at the level's file to the next."""

@@ -18,7 +18,7 @@ from ninja_game.editor.draft import Cell, Draft, changed_cells
 from ninja_game.editor.specs import BODY, SWITCH, has_switch, points
 from ninja_game.formats.sayings import read_sayings
 from ninja_game.levels.findings import Finding
-from ninja_game.play.editor.object_pictures import ObjectPictures, ObjectSprites
+from ninja_game.play.editor.palette_view import ObjectPictures, ObjectSprites
 from ninja_game.sim import kinds
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.loader import grid_tiles
@@ -185,7 +185,6 @@ GRIDS = (
     Grid("4 cells", 96), Grid("cells + 1/2", 24, 12), Grid("2 cells + 1/2", 48, 12), Grid("4 cells + 1/2", 96, 12),
     Grid("level / 4", -1),
 )  # fmt: skip
-"""The ten grids (game.md §6)."""
 
 
 class LevelMark(NamedTuple):

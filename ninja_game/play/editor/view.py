@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import pygame
 
 from ninja_game.editor.brush import placed
-from ninja_game.editor.certify import NO_TESTS
+from ninja_game.editor.certify import NO_TESTS, SQUARE, Reach, Route
 from ninja_game.editor.draft import Cell, Draft, cell_of, is_inside
 from ninja_game.editor.motion import SYMMETRIES, Motion
-from ninja_game.editor.reach import SQUARE, Reach
 from ninja_game.editor.specs import BODY, SWITCH, carried, points
 from ninja_game.editor.stamp import CellArea, area_between, nearest
 from ninja_game.editor.tools import PICK_REACH, EditorTools
@@ -36,9 +35,6 @@ from ninja_game.ui.theme import Area, Palette, Theme
 from ninja_game.ui.widgets import Widget, following
 from ninja_game.view.sprites.drawing import DrawTarget, drawing, is_near
 from ninja_game.view.sprites.sketch import Sketch
-
-if TYPE_CHECKING:
-    from ninja_game.editor.certify import Route
 
 GHOST = 5
 """Eighths as solid as what is there is what would be drawn."""

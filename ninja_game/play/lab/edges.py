@@ -10,18 +10,8 @@ from ninja_game.formats.ascii.legend import DIRECTION_WORDS, TILE_CHARS
 from ninja_game.formats.ascii.object_lines import MOVEMENTS
 from ninja_game.play.lab.figure import ELSEWHERE, Control, Figure, FigureSetting, Sheet, Stage, room_world
 from ninja_game.play.lab.projection import Push, pushed
+from ninja_game.sim.collision import tiles
 from ninja_game.sim.collision.rays import ray_tiles, sees
-from ninja_game.sim.collision.tiles import (
-    CENTRE_X,
-    CENTRE_Y,
-    COLUMN,
-    EXISTS,
-    FACE,
-    NEIGHBOUR_OFFSET,
-    ROW,
-    UNIT_X,
-    UNIT_Y,
-)
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.kinds import DOOR, DRONE
 from ninja_game.sim.memory.object_fields import Object
@@ -72,7 +62,7 @@ class EdgeStates(Figure):
     def press(self, x: float, y: float) -> None:
         """Paint the cell; one that has the tile already becomes empty."""
         self.drag(x, y)
-        row, column = ROW[self.cell] - 1, COLUMN[self.cell] - 1
+        row, column = tiles.ROW[self.cell] - 1, tiles.COLUMN[self.cell] - 1
         if 0 <= row < len(self.rows) and 0 <= column < len(self.rows[0]) and self.rows[row][column] != "&":
             wanted = TILE_CHARS[int(self.tile)]
             self.rows[row][column] = "." if self.rows[row][column] == wanted else wanted
@@ -91,14 +81,20 @@ class EdgeStates(Figure):
         return cell_at(self.x, self.y)
 
     def numbers(self) -> list[tuple[str, str]]:
-        neighbour = self.cell + NEIGHBOUR_OFFSET[self.side]
-        own = FACE[4 * self.tiles.tiles[self.cell] + self.side]
-        other = FACE[4 * self.tiles.tiles[neighbour] + (self.side ^ 2)]
-        states = [self.world.edges[4 * cell + side] for cell in range(len(EXISTS)) if EXISTS[cell] for side in range(4)]
+        column, row, tile = tiles.COLUMN[self.cell], tiles.ROW[self.cell], self.tiles.tiles[self.cell]
+        neighbour = self.cell + tiles.NEIGHBOUR_OFFSET[self.side]
+        own = tiles.FACE[4 * self.tiles.tiles[self.cell] + self.side]
+        other = tiles.FACE[4 * self.tiles.tiles[neighbour] + (self.side ^ 2)]
+        states = [
+            self.world.edges[4 * cell + side]
+            for cell in range(len(tiles.EXISTS))
+            if tiles.EXISTS[cell]
+            for side in range(4)
+        ]
         return [
-            ("cell", f"column {COLUMN[self.cell]}, row {ROW[self.cell]}: {tile_name(self.tiles.tiles[self.cell])}"),
+            ("cell", f"column {column}, row {row}: {tile_name(tile)}"),
             ("1. its own face there", FACES[own]),
-            ("2. the neighbour's face", FACES[other] if EXISTS[neighbour] else "there is no neighbour"),
+            ("2. the neighbour's face", FACES[other] if tiles.EXISTS[neighbour] else "there is no neighbour"),
             ("3. the state", STATES[self.world.edges[4 * self.cell + self.side]]),
             ("in the level", ", ".join(f"{states.count(state)} {name}" for state, name in enumerate(STATES))),
         ]
@@ -108,12 +104,12 @@ class EdgeStates(Figure):
         sheet.tiles(self.tiles)
         sheet.grid()
         sheet.edges(self.world)
-        x, y = CENTRE_X[self.cell], CENTRE_Y[self.cell]
+        x, y = tiles.CENTRE_X[self.cell], tiles.CENTRE_Y[self.cell]
         sheet.shade(self.cell, p.good, 90)
-        sheet.arrow(p.good, (x, y), (x + 17 * UNIT_X[self.side], y + 17 * UNIT_Y[self.side]), 3)
+        sheet.arrow(p.good, (x, y), (x + 17 * tiles.UNIT_X[self.side], y + 17 * tiles.UNIT_Y[self.side]), 3)
         door = self.world.objects[self._door]
         cell, side = divmod(door.edge_1, 4)
-        middle = CENTRE_X[cell] + 12 * UNIT_X[side], CENTRE_Y[cell] + 12 * UNIT_Y[side]
+        middle = tiles.CENTRE_X[cell] + 12 * tiles.UNIT_X[side], tiles.CENTRE_Y[cell] + 12 * tiles.UNIT_Y[side]
         sheet.text("door", middle[0], middle[1] - 18, colour=p.lock)
 
 
@@ -175,7 +171,9 @@ class Doors(EdgeStates):
         drone = next(o for o in self.world.objects if o.kind == DRONE)
         sheet.circle(p.switch, drone.x, drone.y, DRONE_RADIUS, 2)
         side = DIRECTIONS.index(self.drone_goes())
-        sheet.arrow(p.switch, (drone.x, drone.y), (drone.x + 20 * UNIT_X[side], drone.y + 20 * UNIT_Y[side]), 3)
+        sheet.arrow(
+            p.switch, (drone.x, drone.y), (drone.x + 20 * tiles.UNIT_X[side], drone.y + 20 * tiles.UNIT_Y[side]), 3
+        )
         sheet.text("drone", drone.x - 32, drone.y - 14)
         sheet.text("turret", self.turret[0], self.turret[1] - 12)
 
@@ -201,7 +199,10 @@ class WalkingEnemies(Figure):
     def press(self, x: float, y: float) -> None:
         self.drag(x, y)
         self.toggle(
-            min(self._of_kind(DOOR), key=lambda o: abs(CENTRE_X[o.edge_1 // 4] - x) + abs(CENTRE_Y[o.edge_1 // 4] - y))
+            min(
+                self._of_kind(DOOR),
+                key=lambda o: abs(tiles.CENTRE_X[o.edge_1 // 4] - x) + abs(tiles.CENTRE_Y[o.edge_1 // 4] - y),
+            )
         )
 
     def drag(self, x: float, y: float) -> None:
@@ -236,7 +237,7 @@ class WalkingEnemies(Figure):
         for rotation in ROTATIONS[4 * movement : 4 * movement + 4]:
             candidate = (max(direction, 0) + rotation) % 4
             found.append((candidate, self.stage.world.edges[4 * cell + candidate]))
-            if NEIGHBOUR_OFFSET[candidate] + cell == cell_at(o.goal_x, o.goal_y):
+            if tiles.NEIGHBOUR_OFFSET[candidate] + cell == cell_at(o.goal_x, o.goal_y):
                 break
         return found
 
@@ -261,7 +262,7 @@ class WalkingEnemies(Figure):
             sheet.circle(p.switch, o.x, o.y, DRONE_RADIUS, 1.5)
             sheet.text(str(number), o.x, o.y - 15)
             if o.slot in self.decided:
-                x, y = CENTRE_X[self.decided[o.slot][0]], CENTRE_Y[self.decided[o.slot][0]]
+                x, y = tiles.CENTRE_X[self.decided[o.slot][0]], tiles.CENTRE_Y[self.decided[o.slot][0]]
                 for direction, state in self.tried(o):
-                    tip = x + 11 * UNIT_X[direction], y + 11 * UNIT_Y[direction]
+                    tip = x + 11 * tiles.UNIT_X[direction], y + 11 * tiles.UNIT_Y[direction]
                     sheet.arrow(p.bad if state else p.good, (x, y), tip, 1.5)

@@ -241,7 +241,6 @@ class Stage:
 
 
 Control = Callable[[Area], Widget]
-"""Makes a widget in an area."""
 
 Span = tuple[float, float, float]
 

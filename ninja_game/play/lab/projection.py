@@ -24,7 +24,6 @@ from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Point
 
 COLUMN, ROW = 8, 5
-"""The cell that holds the tile."""
 
 PUSH = "push_from_tile"
 STAGES = ("collide_circle", "collide_box", "collide_corner")

@@ -192,28 +192,26 @@ class FigurePicture:
         self.figure.draw(sheet)
         sheet.close()
 
-    def drawn(self) -> pygame.Surface:
-        self.draw()
-        return self.surface.subsurface(self.area)
-
     def demonstrate(self, tick: int) -> None:
         self.figure.demonstrate(tick)
         self.figure.tick()
 
 
-def figure_pictures(name: str, *, scale: float = 1.0, ticks: int = FILM_TICKS) -> Iterator[pygame.Surface]:
-    picture = FigurePicture(name, scale)
+def figure_pictures(
+    name: str, *, scale: float = 1.0, ticks: int = FILM_TICKS, palette: str = "classic"
+) -> Iterator[pygame.Surface]:
+    """The figure after each tick of its demonstration, always on the same surface."""
+    picture = FigurePicture(name, scale, palette)
     for tick in range(ticks):
         picture.demonstrate(tick)
-        yield picture.drawn()
+        picture.draw()
+        yield picture.surface.subsurface(picture.area)
 
 
 def figure_picture(name: str, *, scale: float = 1.0, palette: str = "classic") -> pygame.Surface:
     """The figure at one moment of its demonstration."""
-    picture = FigurePicture(name, scale, palette)
-    for tick in range(PICTURE_TICK):
-        picture.demonstrate(tick)
-    return picture.drawn()
+    *_, last = figure_pictures(name, scale=scale, ticks=PICTURE_TICK, palette=palette)
+    return last
 
 
 def export_figure(name: str, path: Path, *, scale: float = 1.0) -> None:
@@ -236,4 +234,3 @@ FIGURES: dict[str, type[Figure]] = {
         Bullets, RayCast, WalkingEnemies, OneTick,
     )
 }  # fmt: skip
-"""By the name that the command line has for each."""

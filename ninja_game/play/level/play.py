@@ -11,8 +11,8 @@ from ninja_game.play.clock import RunClock
 from ninja_game.play.level.sayings import Sayings
 from ninja_game.play.replay.playback import Ghost, Playback
 from ninja_game.player.attempt import Attempt, Moment
-from ninja_game.player.marks import HELPED
 from ninja_game.player.playthrough import LevelContext
+from ninja_game.player.progress import HELPED
 from ninja_game.player.records import cause_of
 from ninja_game.sim.kinds import EXIT, GOLD, SWITCH
 from ninja_game.sim.rules import LIFETIME

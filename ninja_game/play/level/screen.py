@@ -16,15 +16,15 @@ from ninja_game.play.clipboard import copy_level_link, copy_link
 from ninja_game.play.level.hud import Hud, hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, LATE_JUMP, STUCK_AFTER, LevelPlay, Phase
 from ninja_game.play.menus.help import HelpScreen
-from ninja_game.play.menus.panels import Menu, Panel, Row, nothing
+from ninja_game.play.menus.menu_screen import Menu, Panel, Row, nothing
 from ninja_game.play.menus.passed import EpisodePassed
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.marks import opens_author
 from ninja_game.player.playthrough import EpisodeRun, LevelContext, LevelRun, Navigation
+from ninja_game.player.progress import opens_author
 from ninja_game.player.saving import keep_replay
 from ninja_game.sim.inputs import JUMP_HELD
 from ninja_game.ui.audio.music import BY_COLUMN, SILENCE

@@ -19,13 +19,13 @@ from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.episodes import draw_look
-from ninja_game.play.menus.panels import Action
+from ninja_game.play.menus.menu_screen import Action
 from ninja_game.play.menus.problems import Problem, of_files, problems_button
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text, where_from
 from ninja_game.player.catalogue import Entry, author_name
-from ninja_game.player.marks import Mark, opens_author
+from ninja_game.player.progress import Mark, opens_author
 from ninja_game.player.records import SavedReplay
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import ListView

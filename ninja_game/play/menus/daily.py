@@ -19,7 +19,7 @@ from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.marks import next_par
+from ninja_game.player.progress import next_par
 from ninja_game.runtime import require_desktop, run_in_background
 from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.ui.theme import Theme, wrapped
@@ -173,15 +173,9 @@ class DailyScreen(ThumbnailScreen):
         else:
             self._draw_entry(surface, entry)
         if self.message:
+            colour = palette.bad if entry else palette.on_tile
             for number, line in enumerate(wrapped(theme, self.message, WIDE - 40, 11)):
-                theme.text(
-                    surface,
-                    line,
-                    LEFT + 20,
-                    TOP + 150 + 18 * number,
-                    size=11,
-                    colour=palette.bad if entry else palette.on_tile,
-                )
+                theme.text(surface, line, LEFT + 20, TOP + 150 + 18 * number, size=11, colour=colour)
 
     def _draw_entry(self, surface: pygame.Surface, entry: Entry) -> None:
         theme = self.app.theme

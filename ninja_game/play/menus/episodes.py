@@ -11,14 +11,13 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.level.screen import LevelScreen, play_level
-from ninja_game.play.menus.panels import CANCEL, Menu, Row
+from ninja_game.play.menus.menu_screen import CANCEL, Menu, Row
 from ninja_game.play.menus.problems import of_files, problems_button
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, tries_text
 from ninja_game.player.catalogue import Episode, EpisodeSet
-from ninja_game.player.marks import WITH_HELP, Mark, has_all_gold, next_par, tally, worst_medal
 from ninja_game.player.playthrough import EpisodeRun, left_half_way
-from ninja_game.player.progress import CHEATED, LOCKED
+from ninja_game.player.progress import CHEATED, LOCKED, WITH_HELP, Mark, has_all_gold, next_par, tally, worst_medal
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import BAR, ListView
 from ninja_game.ui.theme import Area, Theme, mixed
@@ -291,15 +290,8 @@ class EpisodeGrid(ThumbnailScreen):
         if look != "locked":
             colour = theme.palette.on_tile if look == "beaten" else theme.palette.text
             size = min(16.0, h / 2)
-            theme.text(
-                surface,
-                self.pack.episodes[number].code,
-                x + w / 2,
-                y + (h - size) / 2,
-                size=size,
-                colour=colour,
-                align="centre",
-            )
+            code, top = self.pack.episodes[number].code, y + (h - size) / 2
+            theme.text(surface, code, x + w / 2, top, size=size, colour=colour, align="centre")
             self._draw_reached(surface, theme, number, area)
         if index == self.grid.index:
             width = 2.5 if focused else 1.2

@@ -22,8 +22,7 @@ from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.help import HelpScreen
-from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.panels import Action, Question
+from ninja_game.play.menus.menu_screen import Action, MenuScreen, Question
 from ninja_game.play.menus.replays import RecordsScreen, ReplaysScreen
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.playback import Playback

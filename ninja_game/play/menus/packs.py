@@ -27,7 +27,7 @@ from ninja_game.levels.warnings import level_findings
 from ninja_game.play.app import WARNING_MS, App
 from ninja_game.play.clipboard import copy_link, pasted_text
 from ninja_game.play.level.screen import play_level
-from ninja_game.play.menus.panels import CANCEL, FormPanel, Menu, Question, Row
+from ninja_game.play.menus.menu_screen import CANCEL, FormPanel, Menu, Question, Row
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
@@ -41,7 +41,6 @@ from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Choice, Widget, draw_all_gold
 
 WIDE, HIGH = 93, 106
-"""Size of a cell, px."""
 
 SECONDS = 20.0
 """For each search of a run."""

@@ -16,8 +16,8 @@ from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal
 from ninja_game.player.catalogue import Episode
-from ninja_game.player.marks import Mark, worst_medal
 from ninja_game.player.playthrough import EpisodeRun
+from ninja_game.player.progress import Mark, worst_medal
 from ninja_game.player.records import EpisodeBest
 from ninja_game.player.saving import EPISODE_BEST, OF_A_LEVEL
 from ninja_game.sim.rules import TICK_MS

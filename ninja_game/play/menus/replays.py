@@ -22,11 +22,10 @@ from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
-from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.panels import Question
+from ninja_game.play.menus.menu_screen import MenuScreen, Question
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.catalogue import author_name
-from ninja_game.player.marks import opens_author
+from ninja_game.player.progress import opens_author
 from ninja_game.player.records import NEWEST_SHOWN, SavedReplay, has_words
 from ninja_game.player.saving import forget_replay
 from ninja_game.sim.rules import TICK_MS

@@ -11,7 +11,7 @@ import pygame
 from ninja_game.files.user_folder import LEVELS
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.play.app import App, Screen
-from ninja_game.play.menus.panels import CANCEL, Menu, Row
+from ninja_game.play.menus.menu_screen import CANCEL, Menu, Row
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
 from ninja_game.player.progress import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
 from ninja_game.player.settings import BY_COLUMN, GHOSTS

@@ -25,13 +25,9 @@ class Playback:
     """
 
     def __init__(
-        self,
-        simulation: Simulation,
-        inputs: bytes | bytearray,
-        *,
-        spacing: int = SPACING,
-        states: SaveStates[SaveState] | None = None,
-    ) -> None:
+        self, simulation: Simulation, inputs: bytes | bytearray, *,
+        spacing: int = SPACING, states: SaveStates[SaveState] | None = None,
+    ) -> None:  # fmt: skip
         self.simulation = simulation
         self.inputs = inputs
         # A save-state holds the inputs that led to it too, a byte each.

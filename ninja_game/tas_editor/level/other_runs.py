@@ -14,8 +14,7 @@ from ninja_game.formats.links.fragment import is_link
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App
-from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.panels import FormPanel
+from ninja_game.play.menus.menu_screen import FormPanel, MenuScreen
 from ninja_game.play.menus.replays import FILES_SHOWN, ReplayRow, ReplaysScreen
 from ninja_game.play.workspace import Commands
 from ninja_game.player.records import SavedReplay

@@ -50,7 +50,6 @@ COLUMNS = (
     Column("exit", "exit", 27, 1, meaning="Px to the exit's disc"),
     Column("events", "events", 0, meaning="Events and markers"),
 )
-"""From left to right."""
 
 
 class Place(NamedTuple):
@@ -100,7 +99,6 @@ def layout_of(canvas: Canvas, area: Area, hidden: Collection[str]) -> RollLayout
 
 
 STATES = ("stand", "run", "skid", "jump", "fall", "slide", "dead", "won")
-"""In the order of the state numbers."""
 
 
 class EventWord(NamedTuple):
@@ -138,7 +136,6 @@ _WORDS = {
     "door-closed": EventWord(9, "door shut"),
 }
 EVENTS = {name: _WORDS.get(name, EventWord(10, name.replace("-", " "))) for name in EVENT_NAMES}
-"""By the names of events."""
 
 
 Blit = tuple[pygame.Surface, tuple[int, int]]
@@ -179,7 +176,6 @@ SIZE = 8.0
 SHORTEST = 20.0
 """Room in which a name is worth beginning, logical px."""
 LONGEST = 6
-"""Characters of a number."""
 _KEY_LETTERS = {KEY_LEFT: "L", KEY_RIGHT: "R", JUMP_HELD: "J"}
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pygame
 
-from ninja_game.play.menus.panels import FormPanel, Question
+from ninja_game.play.menus.menu_screen import FormPanel, Question
 from ninja_game.play.workspace import Commands
 from ninja_game.tas.branches import Branch, Branches
 from ninja_game.tas_editor.editor import TasEditor
@@ -56,7 +56,7 @@ class BranchesTab(Tab):
     # --- what can be done ---
 
     def keep(self) -> None:
-        self.editor.show_tab(self.name)
+        self.editor.tab = self.name
         session = self.editor.session
         end, outcome = session.timeline.end
         name = f"{outcome} {end}" if end >= 0 else f"branch {len(self.branches) + 1}"
@@ -77,7 +77,7 @@ class BranchesTab(Tab):
     def compare(self) -> None:
         if self.chosen is not None:
             self.editor.against = self.branches.all[self.chosen].track
-            self.editor.show_tab("Lead")
+            self.editor.tab = "Lead"
 
     def rename(self) -> None:
         number = self.chosen

@@ -13,7 +13,7 @@ import pygame
 from ninja_game.batch.thread_pool import cores
 from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.files.shown_text import counted
-from ninja_game.play.menus.panels import Menu
+from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.play.workspace import Commands
 from ninja_game.search.certificate import moved_markers
 from ninja_game.search.formula.background import RunSearch, SpanSearch
@@ -276,7 +276,7 @@ class SearchTab(Tab):
         """Show this tab for the selected ticks, with the focus on the goal; without new ones it stays as it is."""
         if self.editor.anchor is not None or self.editor.selection != self._taken:
             self.use_selection()
-        self.editor.show_tab(self.name)
+        self.editor.tab = self.name
         self.wants = self.goal
 
     def use_selection(self) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import ClassVar
 
 import pygame
@@ -67,7 +68,7 @@ class Tab(TasPart):
 
 class TabName(Button):
     def __init__(self, tab: Tab) -> None:
-        super().__init__(UNPLACED, tab.name, lambda: tab.editor.show_tab(tab.name), size=SMALL)
+        super().__init__(UNPLACED, tab.name, partial(setattr, tab.editor, "tab", tab.name), size=SMALL)
         self._editor = tab.editor
 
     def draw_base(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
@@ -86,7 +87,7 @@ class TabStrip(TasPart):
         return {"next_tab": self.show_next}
 
     def show_next(self) -> None:
-        self.editor.show_tab(following([tab.name for tab in self.tabs], self.editor.tab))
+        self.editor.tab = following([tab.name for tab in self.tabs], self.editor.tab)
 
     @property
     def shown(self) -> Tab:

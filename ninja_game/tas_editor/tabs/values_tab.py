@@ -5,15 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pygame
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.app import App
-from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.panels import FormPanel
+from ninja_game.play.menus.menu_screen import FormPanel, MenuScreen
 from ninja_game.play.workspace import Commands
 from ninja_game.runs.compare import SPLIT_EVENTS
 from ninja_game.search.formula.language import Values
@@ -24,9 +22,6 @@ from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, Rows, Tab, put_in_a_
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.theme import RUN_COLOURS, Area, Palette, Theme, inside
 from ninja_game.ui.widgets import Button, Widget
-
-if TYPE_CHECKING:
-    from ninja_game.search.formula.language import Values
 
 SHORTEST = 10.0
 """Ticks that are shown at least."""
@@ -279,7 +274,7 @@ class ValuesTab(Tab):
             self.list.fill(self.watched)
 
     def ask(self, text: str = "") -> None:
-        self.editor.show_tab(self.name)
+        self.editor.tab = self.name
         fields = [("speed, x > 400, object_x(12) ...", text, LONGEST)]
         self.editor.app.push(
             FormPanel(self.editor.app, "Watch a value", fields, "Watch", lambda texts: self.add(texts[0]))

@@ -19,10 +19,8 @@ from ninja_game.ui.audio.table import warning_of
 
 MENU = "menu"
 BY_COLUMN = ("ground", "machines", "places", "trials", "hardest")
-"""The music of each column of episodes."""
 
 SILENCE = "silence"
-"""A music without layers."""
 
 LAYERS = ("base", "danger", "speed", "exit")
 LAYERS_OF: dict[str, tuple[str, ...]] = {MENU: LAYERS[:1], **dict.fromkeys(BY_COLUMN, LAYERS)}

@@ -64,14 +64,9 @@ class AudioPlayer(AudioOutput):
     """
 
     def __init__(
-        self,
-        folder: Path,
-        *,
-        volume: int = LOUDEST,
-        effects_volume: int = LOUDEST,
-        loop_volume: int = LOUDEST,
+        self, folder: Path, volume: int = LOUDEST, effects_volume: int = LOUDEST, loop_volume: int = LOUDEST,
         music_volume: int = 0,
-    ) -> None:
+    ) -> None:  # fmt: skip
         self.folder = folder
         self.volume = volume
         self.effects_volume = effects_volume

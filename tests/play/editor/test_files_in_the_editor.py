@@ -25,7 +25,7 @@ from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.menus.browser import Browser, LevelChoice
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.panels import FormPanel, Menu
+from ninja_game.play.menus.menu_screen import FormPanel, Menu
 from ninja_game.player.backup import read_backup, write_backup
 from ninja_game.signals import Terminated
 from tests.support.level_maker import ROOM, Maker

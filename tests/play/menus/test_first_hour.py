@@ -15,7 +15,7 @@ from ninja_game.play.level.sayings import CLIMB, CLIMBED, FALL_HELP, QUIET_TICKS
 from ninja_game.play.level.screen import LevelScreen, PausePanel, play_level
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.panels import Menu
+from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.rooms import room_level, strokes
 from ninja_game.player.playthrough import EpisodeRun, LevelRun
