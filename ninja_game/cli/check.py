@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ninja_game.cli import solver_options as options
-from ninja_game.cli.run_options import NEW_FOLDER, LevelPath
+from ninja_game.cli import options
+from ninja_game.cli.options import NEW_FOLDER, LevelPath
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.shown_text import counted, name_key, shown_text
 from ninja_game.files.tree import Tree
@@ -51,7 +51,7 @@ class GoldGoals(options.GoldCount):
 @options.work_option
 @options.seed_option
 @click.option("--first", "first_only", is_flag=True, help="Stop each search at the first run that it finds.")
-@click.option("--jobs", type=click.IntRange(1, 1024), help="Levels at the same time. [default: one per core]")
+@click.option("--jobs", type=options.JOBS, help="Levels at the same time. [default: one per core]")
 @options.body_option
 @click.option(
     "--replays", metavar="FOLDER", type=NEW_FOLDER,

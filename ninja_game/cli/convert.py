@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ninja_game.cli.run_options import (
+from ninja_game.cli.options import (
     NEW_FILE,
     OLD_FILE,
     LevelPath,

@@ -9,7 +9,7 @@ from typing import Any
 import click
 
 from ninja_game.budget import DATASET_MIB
-from ninja_game.cli.run_options import NEW_FILE, OLD_PATH, level_given, level_option, memory_option, with_progress
+from ninja_game.cli.options import NEW_FILE, OLD_PATH, level_given, level_option, memory_option, with_progress
 from ninja_game.cli.terminal import complain
 from ninja_game.sim.rules import LIFETIME
 

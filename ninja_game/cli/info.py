@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ninja_game.cli.run_options import LevelPath, level_given, level_option
+from ninja_game.cli.options import LevelPath, level_given, level_option
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.run_time import seconds_text

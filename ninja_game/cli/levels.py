@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ninja_game.cli import solver_options as options
-from ninja_game.cli.run_options import NEW_FILE, OLD_FOLDER, OLD_PATH, with_progress
+from ninja_game.cli import options
+from ninja_game.cli.options import NEW_FILE, OLD_FOLDER, OLD_PATH, with_progress
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.run_time import seconds_text
@@ -90,7 +90,7 @@ def pars(pack: Path) -> None:
 @click.command(name="pack")
 @click.argument("pack", type=OLD_FOLDER)
 @options.seconds_option(20.0)
-@click.option("--jobs", type=click.IntRange(1, 1024), help="Levels at the same time. [default: one per core]")
+@click.option("--jobs", type=options.JOBS, help="Levels at the same time. [default: one per core]")
 @click.option("--zip", "zip_path", type=NEW_FILE, help="[default: PACK.zip beside it]")
 def pack_up(pack: Path, seconds: float, jobs: int | None, zip_path: Path | None) -> int:
     """Make a pack ready to share: certificates, par times, difficulties, a list of what is odd, a zip and a link.
@@ -135,9 +135,7 @@ def levels() -> None:
 
 
 @click.command()
-@click.option(
-    "--seed", type=click.IntRange(0, 10**9), metavar="N", help="The same seed gives the same level. [default: any]"
-)
+@click.option("--seed", type=options.SEED, metavar="N", help="The same seed gives the same level. [default: any]")
 @click.option(
     "--difficulty", type=click.IntRange(1, 10), default=4, show_default=True, metavar="D",
     help="Difficulty, 1 to 10, on the scale that the game shows.",

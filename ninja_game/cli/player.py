@@ -9,7 +9,7 @@ from pathlib import Path
 
 import click
 
-from ninja_game.cli.run_options import NEW_FILE, OLD_FILE, heartbeat
+from ninja_game.cli.options import NEW_FILE, OLD_FILE, heartbeat
 from ninja_game.errors import FileError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.player.player_data import PlayerData

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ninja_game.cli import solver_options as options
-from ninja_game.cli.run_options import (
+from ninja_game.cli import options
+from ninja_game.cli.options import (
     NEW_FILE,
     OLD_FILE,
     InputPath,

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ninja_game.cli.run_options import (
+from ninja_game.cli.options import (
     NEW_FILE,
     OLD_FILE,
     OLD_PATH,

@@ -13,7 +13,7 @@ from typing import IO, TYPE_CHECKING, Any
 
 import click
 
-from ninja_game.cli.run_options import (
+from ninja_game.cli.options import (
     NEW_FILE,
     OLD_FILE,
     InputPath,

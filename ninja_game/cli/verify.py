@@ -10,7 +10,7 @@ from typing import IO, TYPE_CHECKING, Any
 
 import click
 
-from ninja_game.cli.run_options import NEW_FILE, InputPath, budget_option, jobs_option, with_progress
+from ninja_game.cli.options import NEW_FILE, InputPath, budget_option, jobs_option, with_progress
 from ninja_game.cli.terminal import BAD_INPUT, complain
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.run_time import seconds_text

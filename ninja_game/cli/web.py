@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ninja_game.cli.run_options import NEW_FILE, NEW_FOLDER, OLD_FILE, OLD_FOLDER, InputPath, jobs_option
+from ninja_game.cli.options import NEW_FILE, NEW_FOLDER, OLD_FILE, OLD_FOLDER, InputPath, jobs_option
 from ninja_game.cli.splits import as_json, draw, show, table_of
 from ninja_game.errors import ArgumentError
 from ninja_game.files.shown_text import shown_text

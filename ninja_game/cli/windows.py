@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from ninja_game.cli import run_options as options
+from ninja_game.cli import options
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App, Screen
@@ -66,8 +66,10 @@ def play(
     from ninja_game.tas_editor.opening import open_tas_editor
 
     replay_path = str(replay) if replay is not None else None
-    how = {"body": body, "practice": practice, "record": record, "replay_path": replay_path}
-    return main(path, **how, **window, tas_editor=open_tas_editor, window=opened)
+    return main(
+        path, body=body, replay_path=replay_path, practice=practice, record=record, tas_editor=open_tas_editor,
+        window=opened, **window,
+    )  # fmt: skip
 
 
 @click.command()

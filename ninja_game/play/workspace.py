@@ -105,8 +105,6 @@ class Part:
     wants: Widget | None = None
     _drawn: tuple[object, ...] | None = None
 
-    # --- what parts say of themselves ---
-
     def render_key(self) -> tuple[object, ...]:
         """All that its picture depends on, besides the window's size, the palette and the focus."""
         raise NotImplementedError
@@ -130,8 +128,6 @@ class Part:
 
     def update(self, real_ms: int) -> None:
         """Let real time pass."""
-
-    # --- for the screen ---
 
     def place(self, area: Area) -> None:
         """Be there from now on; all is drawn again."""
@@ -225,8 +221,6 @@ class WorkspaceScreen(MenuScreen):
             typing = isinstance(self.focus, TextEntry)
             (pygame.key.start_text_input if typing else pygame.key.stop_text_input)()
 
-    # --- keys and mouse ---
-
     def meaning(self, event: InputEvent) -> str:
         return self.table.meaning(event)
 
@@ -282,8 +276,6 @@ class WorkspaceScreen(MenuScreen):
             if raw.type == pygame.MOUSEBUTTONDOWN:
                 focus = self.focus if isinstance(self.focus, TextEntry) else None
             self.focus = focus
-
-    # --- time and picture ---
 
     def update(self, real_ms: int) -> None:
         super().update(real_ms)

@@ -112,8 +112,6 @@ class Attempt:
         self.simulation.kill(cause, dx, dy)
         self.ended_tick = self.simulation.tick
 
-    # --- practice ---
-
     def save(self) -> Moment:
         return self.simulation.save(), bytes(self.inputs), self.lifetime, self.ended_tick, self.own_hand
 
@@ -135,8 +133,6 @@ class Attempt:
             self.inputs.extend(bytes(tick - len(self.inputs)))
             self.ended_tick, self.score, self.own_hand = -1, 0, False
         self.assists.add("rewind")
-
-    # --- recordings ---
 
     def replay(self, name: str = "", author: str = "") -> Replay:
         """The recording in our form: run again from its inputs, so that it holds what really comes of them."""

@@ -16,7 +16,7 @@ from ninja_game.formats.links.making import replay_link
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.menu_screen import Action, FormPanel, Menu, Row, nothing
+from ninja_game.play.menus.menu_screen import Action, Menu, Row, ask_text, nothing
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.workspace import Command, Commands, CommandTable, DocumentCommands
 from ninja_game.player.saving import keep_replay
@@ -141,8 +141,6 @@ class RunCommands(DocumentCommands):
         ]  # fmt: skip
         self.app.push(Menu(self.app, "Run", rows))
 
-    # --- saving ---
-
     def own_path(self) -> Path | None:
         return self.session.file.path
 
@@ -160,15 +158,14 @@ class RunCommands(DocumentCommands):
         free = free_path(folder, file_stem(self.session.name, "run"), SUFFIX)
         name = (path or free).name.removesuffix(SUFFIX)
 
-        def on_accept(texts: list[str]) -> None:
-            path = folder / Path(texts[0].strip()).expanduser()
+        def on_accept(text: str) -> None:
+            path = folder / Path(text.strip()).expanduser()
             if path.parent.is_dir():
                 self.save_to(path.with_name(f"{file_stem(path.name.removesuffix(SUFFIX), 'run')}{SUFFIX}"), then)
             else:
                 self.app.notify(f"Not saved: there is no folder {path.parent}")
 
-        fields = [("Name or path of the file", name, 300)]
-        self.app.push(FormPanel(self.app, f"Save in {folder.absolute()}", fields, "Save", on_accept))
+        ask_text(self.app, f"Save in {folder.absolute()}", "Name or path of the file", name, "Save", on_accept, 300)
 
     def saved_text(self, path: Path) -> str:
         tail = ", with what is behind its end (Ctrl+E takes that out)" if self.session.has_tail else ""
@@ -190,8 +187,6 @@ class RunCommands(DocumentCommands):
 
     def watch(self) -> None:
         self.app.push(ReplayScreen(self.app, [self.session.recording()], editable=False))
-
-    # --- what was not saved ---
 
     def offer_recovered(self) -> None:
         """Ask what to do with this run, if it was being edited when the program died; tell of others.

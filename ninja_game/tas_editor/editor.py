@@ -279,8 +279,6 @@ class Splitters(TasPart):
         else:
             app.change_settings(text_scale=text_scale)
 
-    # --- a part of the window, without a picture ---
-
     def render_key(self) -> tuple[object, ...]:
         return ()
 

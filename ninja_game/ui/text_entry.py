@@ -50,8 +50,6 @@ class TextEntry(Widget):
     def show(self, text: str) -> None:
         self.edited = EditedText(text, self.edited.longest)
 
-    # --- keys ---
-
     def text_event(self, event: pygame.Event) -> bool:
         if event.type not in (pygame.TEXTINPUT, pygame.KEYDOWN):
             return False
@@ -97,8 +95,6 @@ class TextEntry(Widget):
                 edited.put(pygame.scrap.get_text())
         return letter in ("a", "z", "c", "x", "v")
 
-    # --- mouse ---
-
     def click(self, x: float, y: float) -> bool:
         """Put the cursor there; twice: select the word, three times: everything. With Shift select up to there."""
         now, place = pygame.time.get_ticks(), self._place_at(x)
@@ -126,8 +122,6 @@ class TextEntry(Widget):
         if x > stops[-1] + PAD:
             return self._first + len(stops)
         return self._first + min(range(len(stops)), key=lambda k: abs(stops[k] - x))
-
-    # --- picture ---
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         self.draw_base(surface, theme, focused=focused)

@@ -32,7 +32,7 @@ from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.menu_screen import CANCEL, Action, FormPanel, Menu, Row, nothing
+from ninja_game.play.menus.menu_screen import CANCEL, Action, FormPanel, Menu, Row, ask_text, nothing
 from ninja_game.play.workspace import Command, CommandTable, DocumentCommands
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
@@ -183,9 +183,8 @@ class EditorCommands(DocumentCommands):
     def switch_slopes(self) -> None:
         tools = self.session.tools
         tools.slopes = not tools.slopes
-        self.view.hint = (
-            f"Slopes {'set themselves where full tiles are drawn or erased' if tools.slopes else 'stay as drawn'}"
-        )
+        how = "set themselves where full tiles are drawn or erased" if tools.slopes else "stay as drawn"
+        self.view.hint = f"Slopes {how}"
 
     def switch_tests(self) -> None:
         """Show where all tests of this session came and died, or no more."""
@@ -323,15 +322,15 @@ class EditorCommands(DocumentCommands):
     def save_as(self, then: Action = nothing) -> None:
         """Ask for the level's name, write it into a file of that name, and do ``then``."""
         session = self.session
-        fields = [(f"Name of the level, or else {NAMELESS}", session.draft.name, 60)]
 
-        def on_accept(texts: list[str]) -> None:
-            name = texts[0].strip() or NAMELESS
+        def on_accept(text: str) -> None:
+            name = text.strip() or NAMELESS
             folder = session.source.path.parent if session.source.path else self._levels
             save = partial(session.save, name=name)
             self.save_to(folder / f"{file_stem(name, 'level')}{SUFFIX}", then, save=save)
 
-        self.app.push(FormPanel(self.app, "Save as", fields, "Save", on_accept))
+        prompt = f"Name of the level, or else {NAMELESS}"
+        ask_text(self.app, "Save as", prompt, session.draft.name, "Save", on_accept, 60)
 
     def about(self) -> None:
         prompts = {"teaches": "What it teaches"}

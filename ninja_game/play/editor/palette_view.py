@@ -111,9 +111,7 @@ class ObjectPictures:
             # It sinks to the floor of its cell.
             x, y = places[BODY]
             places = {BODY: (x, 24.0 * cell_of(x, y)[1] + 18.0)}
-        sprites = [
-            (key, places[part][0] + x, places[part][1] + y) for part, key, x, y in self._kept[model] if part in places
-        ]
+        sprites = [(key, places[at][0] + x, places[at][1] + y) for at, key, x, y in self._kept[model] if at in places]
         canvas, book = self.target.canvas, self.target.book
         rects, cells = [], [cell_of(*place) for place in places.values()]
         for key, x, y in sprites:
@@ -226,10 +224,8 @@ class PaletteView(Widget):
         if tools.bend(by):
             return
         if tools.objects:
-            names = [object_type.name for object_type in brush.OBJECT_TYPES]
-            tools.pick_up(
-                brush.OBJECT_TYPES[(names.index(brush.object_type_of(tools.spec)) + by) % len(brush.OBJECT_TYPES)].spec
-            )
+            place = brush.OBJECT_TYPE_NAMES.index(brush.object_type_of(tools.spec))
+            tools.pick_up(brush.OBJECT_TYPES[(place + by) % len(brush.OBJECT_TYPES)].spec)
         else:
             place = TILE_ORDER.index(tools.tile) if tools.tile in TILE_ORDER else 0
             tools.pick_up(TILE_ORDER[(place + by) % len(TILE_ORDER)])

@@ -81,8 +81,6 @@ class EditorScreen(WorkspaceScreen):
         self.session.certify_file()
         self.session.autosave.flush(self.session.draft, self.session.source)
 
-    # --- keys, pads, the mouse ---
-
     def capture(self, event: InputEvent) -> bool:
         """Enter ends what is typed, too."""
         ends = event.raw.type == pygame.KEYDOWN and chord(event.raw) in ("return", "kp_enter")

@@ -207,8 +207,6 @@ class EditorSession:
         self.certify_file()
         self.autosave.close()
 
-    # --- files ---
-
     def end(self) -> None:
         self.tools.finish()
 
@@ -247,8 +245,6 @@ class EditorSession:
             self.app.notify("The level of the clipboard; undo brings yours back")
         except NinjaGameError:
             self.app.notify("There is no level in the clipboard: copy its text first")
-
-    # --- tests and certificates ---
 
     def level_to_test(self, *, here: bool) -> Level:
         self.tools.finish()

@@ -221,8 +221,6 @@ class EditorView(Part):
         self.grid = following(GRIDS, self.grid)
         self.sheet.show_grid(self.grid.lines())
 
-    # --- the mouse ---
-
     def press(self, *, erase: bool = False, pick: bool = False, add: bool = False) -> None:
         cell = self.session.tools.cell
         if is_inside(cell) and self.take(cell):
@@ -276,8 +274,6 @@ class EditorView(Part):
 
     def mouse_left(self) -> None:
         self.hovering = False
-
-    # --- drawing ---
 
     def render_key(self) -> tuple[object, ...]:
         """All that the overlay depends on; the sheet knows what has changed of the level."""

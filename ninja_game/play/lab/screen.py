@@ -40,9 +40,7 @@ class LabScreen(MenuScreen):
     def __init__(self, app: App, name: str = "") -> None:
         super().__init__(app)
         self.figures = [make() for make in FIGURES.values()]
-        self.list = ListView(
-            (44, 62, 158, 20 * len(self.figures)), 20, self._draw_row, self._choose, selected=self._show
-        )
+        self.list = ListView((44, 62, 158, 20 * len(FIGURES)), 20, self._draw_row, self._choose, selected=self._show)
         self.list.hint = "Up and down choose a figure, right goes to it"
         self.list.index = list(FIGURES).index(name) if name else 0
         self.clock = RunClock()

@@ -136,8 +136,6 @@ class Browser(ThumbnailScreen):
             self.message = reason(error)
         self.redraw = True
 
-    # --- which ---
-
     def _search(self, text: str) -> None:
         self.search = text
         self._arrange()
@@ -186,14 +184,10 @@ class Browser(ThumbnailScreen):
         self.watch_author.hint = "" if self.watch_author.enabled else closed
         self.watch_best.hint = "Your best run" if self.watch_best.enabled else "You have not passed this level yet"
 
-    # --- go ---
-
     def play(self, index: int, *, practice: bool = False) -> None:
         if index < len(self.shown):
-            entry, *following = self.shown[index:]
-            self.message = self.player.lock_of(entry) or play_level(
-                self.app, entry, practice=practice, following=following
-            )
+            entry, *rest = self.shown[index:]
+            self.message = self.player.lock_of(entry) or play_level(self.app, entry, practice=practice, following=rest)
 
     def _change(self) -> None:
         if self._edit is not None and self.selected is not None:
@@ -211,8 +205,6 @@ class Browser(ThumbnailScreen):
         best = self.bests.get(self.selected.digest) if self.selected else None
         if best is not None:
             watch(self.app, [self.player.records.replay(best.id)])
-
-    # --- picture ---
 
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)

@@ -77,9 +77,8 @@ class DailyScreen(ThumbnailScreen):
         self._rng = Random(self.day.toordinal())  # noqa: S311 - a picture
         self._dug, self._way, self._dig_ms = [(16, 12)], (1, 0), 0
         self.play = Button((SIDE, 390, SIDE_WIDTH, 36), "Play", self._play)
-        self.practice = Button(
-            (SIDE, 436, SIDE_WIDTH, 36), "Practice", lambda: self._play(practice=True), hint=PRACTICE_HINT
-        )
+        self.practice = Button((SIDE, 436, SIDE_WIDTH, 36), "Practice", lambda: self._play(practice=True))
+        self.practice.hint = PRACTICE_HINT
 
     @property
     def file(self) -> Path:

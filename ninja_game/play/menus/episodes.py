@@ -139,8 +139,6 @@ class EpisodeGrid(ThumbnailScreen):
         self.problems = of_files(catalogue.told)
         self.pack = next((pack for pack in self.packs if pack.key == key), catalogue.ours)
 
-    # --- which ---
-
     @property
     def number(self) -> int:
         return self.grid.numbers[self.grid.index] if self.grid.numbers else -1
@@ -213,8 +211,6 @@ class EpisodeGrid(ThumbnailScreen):
         else:
             super().handle(event)
 
-    # --- go ---
-
     def _play(self, _index: int) -> None:
         """Play the episode; one that was left half-way goes on there, or begins again."""
         if self.episode is None or self._state(self.number) == LOCKED:
@@ -237,8 +233,6 @@ class EpisodeGrid(ThumbnailScreen):
             entry, *following = self.episode.levels[index:]
             if problem := play_level(self.app, entry, following=following):
                 self.app.notify(problem)
-
-    # --- picture ---
 
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)
@@ -323,14 +317,12 @@ class EpisodeGrid(ThumbnailScreen):
         theme.row(surface, (x, y + 2, w, h - 4), chosen=focused, focused=focused)
         self.thumbnails.draw(surface, entry, x + 6, y + 5, SMALL_PICTURE)
         left = x + SMALL_PICTURE + 18
-        theme.text(
-            surface, f"{index + 1}  {entry.title}", left, y + 12, size=13, bold=True, width=w - SMALL_PICTURE - 70
-        )
+        room = w - SMALL_PICTURE - 24
+        theme.text(surface, f"{index + 1}  {entry.title}", left, y + 12, size=13, bold=True, width=room - 46)
         mark = self.marks.get(entry.digest)
         all_gold_and_medal(surface, theme, entry, mark, x + w - 14, y + 19)
         played = self.player.statistics.played(entry.digest)
         colour = theme.palette.good if mark else theme.palette.faint
-        room = w - SMALL_PICTURE - 24
         theme.text(surface, self.player.reached(entry, mark), left, y + 32, size=11, colour=colour, width=room)
         following = next_par(entry.pars, mark) if entry.pars and mark else ""
         theme.text(surface, following, left, y + 48, size=10, width=room)

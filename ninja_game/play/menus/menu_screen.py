@@ -87,8 +87,6 @@ class MenuScreen(Screen):
         """What a widget shows has changed, or which one has the focus."""
         self.redraw = True
 
-    # --- input ---
-
     def capture(self, event: InputEvent) -> bool:
         """While a text is typed, a key is a letter before it is anything else; Tab leads to the next widget.
 
@@ -218,8 +216,6 @@ class MenuScreen(Screen):
 
     def _at(self, x: float, y: float) -> Widget | None:
         return next((widget for widget in self.widgets if widget.focusable and widget.contains(x, y)), None)
-
-    # --- time and picture ---
 
     def update(self, real_ms: int) -> None:
         for typed in self._typed.due(real_ms):
@@ -421,3 +417,10 @@ class FormPanel(Menu):
             self.texts[place] = text
 
         return take
+
+
+def ask_text(
+    app: App, title: str, prompt: str, text: str, yes: str, action: Callable[[str], object], longest: int = 100
+) -> None:
+    """Ask for one text, at most ``longest`` characters, and do something with it."""
+    app.push(FormPanel(app, title, [(prompt, text, longest)], yes, lambda texts: action(texts[0])))

@@ -27,7 +27,7 @@ from ninja_game.levels.warnings import level_findings
 from ninja_game.play.app import WARNING_MS, App
 from ninja_game.play.clipboard import copy_link, pasted_text
 from ninja_game.play.level.screen import play_level
-from ninja_game.play.menus.menu_screen import CANCEL, FormPanel, Menu, Question, Row
+from ninja_game.play.menus.menu_screen import CANCEL, FormPanel, Menu, Question, Row, ask_text
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
@@ -233,8 +233,7 @@ class PackScreen(ThumbnailScreen):
         self.app.top.enter()
 
     def ask(self, title: str, text: str, action: Callable[[str], object]) -> None:
-        fields = [("", text, 60)]
-        self.app.push(FormPanel(self.app, title, fields, "OK", lambda texts: self.do(lambda: action(texts[0]))))
+        ask_text(self.app, title, "", text, "OK", lambda typed: self.do(lambda: action(typed)), 60)
 
     def _new_pack(self) -> None:
         def make(name: str) -> None:

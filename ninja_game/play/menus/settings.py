@@ -194,10 +194,8 @@ class BindingTable(ListView):
         _, y, _, h = area
         action = self.actions[index]
         top = y + (h - TEXT) / 2
-        theme.text(
-            surface, ACTIONS[action].label, area[0] + 2, top, size=TEXT, bold=focused, width=LIST[2] * LABEL_SHARE - 8
-        )
         left, width = self._cells()
+        theme.text(surface, ACTIONS[action].label, area[0] + 2, top, size=TEXT, bold=focused, width=left - area[0] - 8)
         inputs = self.inputs(action)
         for slot in range(self.slots):
             x = left + slot * width
@@ -256,8 +254,6 @@ class SettingsScreen(ThumbnailScreen):
             return binding_widgets(self, "keys" if self.page == "Keyboard" else "pad")
         pages = {"Picture": self._picture, "Sound": self._sound, "Play": self._play}
         return pages.get(self.page, self._accessibility)()
-
-    # --- changing ---
 
     def change(self, **values: object) -> None:
         self.app.change_settings(**values)
@@ -349,8 +345,6 @@ class SettingsScreen(ThumbnailScreen):
             self._slider(7, "Screen shake", "shake", (0, 100, 5)),
             self._slider(8, "Particles", "particles", (0, 100, 5)),
         ]  # fmt: skip
-
-    # --- picture ---
 
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)

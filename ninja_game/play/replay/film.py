@@ -167,9 +167,7 @@ class _Panel:
 def _called(runs: Sequence[Recording]) -> list[str]:
     """Whose run each is, in a word; of those by one name the file."""
     names = [run.author or run.name for run in runs]
-    return [
-        (run.place if names.count(name) > 1 and run.place else name)[:20] for run, name in zip(runs, names, strict=True)
-    ]
+    return [(run.place or name if names.count(name) > 1 else name)[:20] for run, name in zip(runs, names, strict=True)]
 
 
 def told_splits(own: RunSplits, others: Sequence[RunSplits]) -> list[tuple[int, str]]:

@@ -14,7 +14,7 @@ from ninja_game.formats.links.fragment import is_link
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App
-from ninja_game.play.menus.menu_screen import FormPanel, MenuScreen
+from ninja_game.play.menus.menu_screen import MenuScreen, ask_text
 from ninja_game.play.menus.replays import FILES_SHOWN, ReplayRow, ReplaysScreen
 from ninja_game.play.workspace import Commands
 from ninja_game.player.records import SavedReplay
@@ -151,9 +151,7 @@ class OtherRunScreen(ReplaysScreen):
         MenuScreen.act(self, action, held=held)
 
     def _ask(self) -> None:
-        fields = [("path of a file, or a link", "", 200)]
-        form = FormPanel(self.app, "Runs from a file", fields, "Show them", lambda texts: self.open_file(texts[0]))
-        self.app.push(form)
+        ask_text(self.app, "Runs from a file", "path of a file, or a link", "", "Show them", self.open_file, 200)
 
     def open_file(self, text: str) -> None:
         """Show the runs of a file or a link; a file is looked for beside that of the run in the TAS editor too."""

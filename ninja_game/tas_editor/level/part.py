@@ -121,8 +121,6 @@ class LevelPart(TasPart):
     def _toggle_ghosts(self) -> None:
         self.editor.ghosts = not self.editor.ghosts
 
-    # --- time ---
-
     def update(self, real_ms: int) -> None:
         self.playing.update(real_ms)
         self.take_over.update(real_ms)
@@ -134,8 +132,6 @@ class LevelPart(TasPart):
         self.playing.stop()
         self.playing.remember()
         self.take_over.end()
-
-    # --- keys and mouse ---
 
     def capture(self, event: InputEvent) -> bool:
         """Take the keys of the game while the run is taken over; Escape ends playing. Whether it did."""
@@ -160,8 +156,6 @@ class LevelPart(TasPart):
     def mouse_left(self) -> None:
         self.hover = self.pointed = None
         self._pointer.release()
-
-    # --- picture ---
 
     def render_key(self) -> tuple[object, ...]:
         editor, timeline, playing = self.editor, self.editor.session.timeline, self.playing

@@ -10,7 +10,7 @@ from ninja_game.files.shown_text import counted
 from ninja_game.formats.replay.input_runs import Marker, write_inputs
 from ninja_game.formats.replay.input_text import Inputs
 from ninja_game.play.clipboard import copy_text, pasted_text
-from ninja_game.play.menus.menu_screen import FormPanel
+from ninja_game.play.menus.menu_screen import ask_text
 from ninja_game.play.workspace import Commands
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.files import inputs_of_text
@@ -71,10 +71,7 @@ class RollCommands:
         self._editor.select(0, len(self._editor.track))
 
     def ask_where(self) -> None:
-        editor = self._editor
-        editor.app.push(
-            FormPanel(editor.app, "Go to", [("Tick or name", "", 100)], "Go", lambda texts: self.go_to(texts[0]))
-        )
+        ask_text(self._editor.app, "Go to", "Tick or name", "", "Go", self.go_to)
 
     def go_to(self, text: str) -> None:
         """Go to a tick by its number or its marker's name; a notice tells where there is none."""
@@ -205,10 +202,8 @@ class RollCommands:
     def name_tick(self) -> None:
         editor, tick = self._editor, self._editor.cursor
         name = next((name for at, name in editor.track.markers if at == tick), "")
-        fields = [("Marker name (empty removes it)", name, 100)]
-        editor.app.push(
-            FormPanel(editor.app, f"Tick {tick}", fields, "Name it", lambda texts: self._name(tick, texts[0]))
-        )
+        named = partial(self._name, tick)
+        ask_text(editor.app, f"Tick {tick}", "Marker name (empty removes it)", name, "Name it", named)
 
     def _name(self, tick: int, text: str) -> None:
         words = "-".join(text.split())

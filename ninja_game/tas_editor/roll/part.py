@@ -79,8 +79,6 @@ class Roll(TasPart):
         ]
         self.editor.app.push(Menu(self.editor.app, "Columns", [*rows, ("Done", nothing, "")]))
 
-    # --- a part of the window ---
-
     def render_key(self) -> tuple[object, ...]:
         editor = self.editor
         timeline = editor.session.timeline

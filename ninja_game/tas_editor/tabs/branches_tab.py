@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pygame
 
-from ninja_game.play.menus.menu_screen import FormPanel, Question
+from ninja_game.play.menus.menu_screen import Question, ask_text
 from ninja_game.play.workspace import Commands
 from ninja_game.tas.branches import Branch, Branches
 from ninja_game.tas_editor.editor import TasEditor
@@ -53,21 +53,18 @@ class BranchesTab(Tab):
     def chosen(self) -> int | None:
         return self.tree[self.list.index][0] if self.list.index < len(self.tree) else None
 
-    # --- what can be done ---
-
     def keep(self) -> None:
         self.editor.tab = self.name
         session = self.editor.session
         end, outcome = session.timeline.end
         name = f"{outcome} {end}" if end >= 0 else f"branch {len(self.branches) + 1}"
 
-        def kept(texts: list[str]) -> None:
-            number = session.keep_branch(texts[0].strip() or name)
+        def kept(text: str) -> None:
+            number = session.keep_branch(text.strip() or name)
             self.refresh()
             self.list.index = [each for each, _ in self.tree].index(number)
 
-        app = self.editor.app
-        app.push(FormPanel(app, "Keep the run as a branch", [("its name", name, LONGEST)], "Keep", kept))
+        ask_text(self.editor.app, "Keep the run as a branch", "its name", name, "Keep", kept, LONGEST)
 
     def checkout(self) -> None:
         number = self.chosen
@@ -85,10 +82,10 @@ class BranchesTab(Tab):
             return
         app, session, old = self.editor.app, self.editor.session, self.branches.all[number].name
 
-        def renamed(texts: list[str]) -> None:
-            session.rename_branch(number, texts[0].strip() or old)
+        def renamed(text: str) -> None:
+            session.rename_branch(number, text.strip() or old)
 
-        app.push(FormPanel(app, "Rename the branch", [("its name", old, LONGEST)], "Rename", renamed))
+        ask_text(app, "Rename the branch", "its name", old, "Rename", renamed, LONGEST)
 
     def drop(self) -> None:
         number = self.chosen
@@ -96,8 +93,6 @@ class BranchesTab(Tab):
             app, session = self.editor.app, self.editor.session
             title = f"Drop {self.branches.all[number].name}?"
             app.push(Question(app, title, "Drop it", lambda: session.drop_branch(number)))
-
-    # --- picture ---
 
     def refresh(self) -> None:
         self.tree = list(self.branches.in_tree())

@@ -53,8 +53,6 @@ class LeadTab(Tab):
         self._choice.area = x + 56, y + 4, w - 60, 18
         self.list.area = x + 4, y + 53, w - 8, h - 55
 
-    # --- which runs ---
-
     def _options(self) -> list[tuple[str, object]]:
         session, found = self.editor.session, [("the run as it was opened", self._opened)]
         if len(session.saved):
@@ -109,8 +107,6 @@ class LeadTab(Tab):
     def _go(self, index: int) -> None:
         if self.table is not None:
             self.editor.go(self.table.rows[index].tick)
-
-    # --- picture ---
 
     @property
     def summary(self) -> str:

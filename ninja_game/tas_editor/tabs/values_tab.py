@@ -11,7 +11,7 @@ import pygame
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.app import App
-from ninja_game.play.menus.menu_screen import FormPanel, MenuScreen
+from ninja_game.play.menus.menu_screen import MenuScreen, ask_text
 from ninja_game.play.workspace import Commands
 from ninja_game.runs.compare import SPLIT_EVENTS
 from ninja_game.search.formula.language import Values
@@ -261,8 +261,6 @@ class ValuesTab(Tab):
     def commands(self) -> Commands:
         return {"watch": self.ask}
 
-    # --- the values ---
-
     def refresh(self) -> None:
         timeline = self.editor.session.timeline
         made = (self.editor.track.inputs, timeline.simulated_until, *self.watched)
@@ -275,10 +273,8 @@ class ValuesTab(Tab):
 
     def ask(self, text: str = "") -> None:
         self.editor.tab = self.name
-        fields = [("speed, x > 400, object_x(12) ...", text, LONGEST)]
-        self.editor.app.push(
-            FormPanel(self.editor.app, "Watch a value", fields, "Watch", lambda texts: self.add(texts[0]))
-        )
+        prompt = "speed, x > 400, object_x(12) ..."
+        ask_text(self.editor.app, "Watch a value", prompt, text, "Watch", self.add, LONGEST)
 
     def add(self, text: str) -> None:
         """Watch a formula; what is wrong with it is reported, and the question is put again."""
@@ -317,8 +313,6 @@ class ValuesTab(Tab):
         others = [each for each in self.watched if each.plotted and each is not latest]
         if latest.plotted and len(others) >= LANES:
             others[0].plotted = False
-
-    # --- picture ---
 
     def update(self, real_ms: int) -> None:
         if self.editor.tab != self.name:
@@ -382,8 +376,6 @@ class ValuesTab(Tab):
         right = theme.text(surface, value, x + w - 4, y + 3, size=SMALL, bold=True, align="right")
         room = right.left / theme.canvas.scale - theme.canvas.origin[0] / theme.canvas.scale - (x + 16) - 4
         theme.text(surface, each.watch.text, x + 16, y + 3, size=SMALL, width=room)
-
-    # --- mouse ---
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
         """In the plot: the wheel zooms, a drag moves, a click puts the cursor there, the right button shows all."""

@@ -88,8 +88,6 @@ class AudioPlayer(AudioOutput):
             pygame.register_quit(self.close)
         self._reader = run_in_background(self._read_all, lambda _: None) if self.works else None
 
-    # --- what is heard ---
-
     def play_events(self, world: World) -> None:
         """After a tick: its events once each, and the loops of what goes on."""
         if not self.works or not self.volume:
@@ -145,8 +143,6 @@ class AudioPlayer(AudioOutput):
             side = max(-1.0, min(1.0, 2 * x / WORLD_WIDTH - 1)) if isfinite(x) else 0.0
             level *= self.volume * self.effects_volume / LOUDEST**2
             channel.set_volume(level * (1 - PAN * max(side, 0.0)), level * (1 + PAN * min(side, 0.0)))
-
-    # --- how ---
 
     def set_volumes(self, volume: int, effects: int, loop_volume: int, music_volume: int) -> None:
         self.volume, self.effects_volume, self.loop_volume = volume, effects, loop_volume
