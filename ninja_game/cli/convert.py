@@ -9,18 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ninja_game.cli.options import (
-    NEW_FILE,
-    OLD_FILE,
-    LevelPath,
-    budget_option,
-    choose,
-    heartbeat,
-    level_given,
-    level_option,
-    other_level_option,
-    with_progress,
-)
+from ninja_game.cli import options
 from ninja_game.cli.terminal import data_output
 from ninja_game.errors import FileError, LevelError
 from ninja_game.files.shown_text import counted, shown_text
@@ -47,12 +36,12 @@ FORM_OF_NAME = {
 
 
 @click.command()
-@click.argument("sources", metavar="IN...", nargs=-1, required=True, type=LevelPath())
+@click.argument("sources", metavar="IN...", nargs=-1, required=True, type=options.LevelPath())
 @click.argument("target", metavar="OUT", type=click.Path(allow_dash=True))
 @click.option("--to", "form", type=click.Choice(FORMS), help="The form to write, whatever OUT is called.")
 @click.option("--legend", is_flag=True, help="End readable levels with the meaning of all characters, as comments.")
-@level_option
-@budget_option
+@options.level_option
+@options.budget_option
 @click.option("--force", is_flag=True, help="Replace files that exist. IN is never replaced.")
 def convert(
     sources: Sequence[Path], target: str, form: str | None, legend: bool, level_path: Path | None, budget: int,
@@ -90,7 +79,7 @@ def convert(
 
     output = Output(target, sources, force=force)
     texts = [named for source in sources for named in texts_of(source)]
-    level = level_given(level_path)
+    level = options.level_given(level_path)
     form = form or next((form for suffix, form in FORM_OF_NAME.items() if target.lower().endswith(suffix)), "")
     if level and form in ("ascii", "string"):
         raise click.UsageError("--level is for recordings: add --to replay or --to file")
@@ -100,7 +89,7 @@ def convert(
         form = form or "file"
         if form in RUN_FORMS:
             written = replay_texts(recordings, budget) if form == "replay" else input_texts(recordings, form)
-            output.write_each(list(with_progress(written, "recording")), recordings, RUN_FORMS[form])
+            output.write_each(list(options.with_progress(written, "recording")), recordings, RUN_FORMS[form])
         elif form == "episode":
             output.write(episode_text(recordings, budget))
     else:
@@ -191,13 +180,16 @@ def _file_names(found: Sequence[NamedLevel | Recording], suffix: str) -> Iterato
 
 
 @click.command()
-@click.argument("inputs", metavar="FILE", type=OLD_FILE)
+@click.argument("inputs", metavar="FILE", type=options.OLD_FILE)
 @click.option(
-    "-o", "--output", type=NEW_FILE, help="The replay. [default: FILE's name and .replay.txt, in the current folder]"
+    "-o",
+    "--output",
+    type=options.NEW_FILE,
+    help="The replay. [default: FILE's name and .replay.txt, in the current folder]",
 )
 @click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")
-@other_level_option
-@budget_option
+@options.other_level_option
+@options.budget_option
 @click.option("--force", is_flag=True, help="Replace a file that exists. FILE is never replaced.")
 def record(
     inputs: Path, output: Path | None, record: int | None, level_path: Path | None, budget: int, force: bool
@@ -220,9 +212,9 @@ def record(
     from ninja_game.formats.replay.text import parse_replay
     from ninja_game.runs.conversion import on_level, replay_texts
 
-    level = level_given(level_path)
-    recording = choose(load_replays(inputs, level=level, changed=True), "recordings", inputs, record)
-    with heartbeat(lambda: "running the inputs"):
+    level = options.level_given(level_path)
+    recording = options.choose(load_replays(inputs, level=level, changed=True), "recordings", inputs, record)
+    with options.heartbeat(lambda: "running the inputs"):
         (text,) = replay_texts([on_level(recording, level)], budget)
     path = output or free_path(Path(), inputs.name.partition(".")[0], ".replay.txt")
     Output(str(path), [inputs], force=force).write(text)
@@ -233,7 +225,7 @@ def record(
 
 
 @click.command()
-@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=LevelPath())
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=options.LevelPath())
 @click.option("--record", type=click.IntRange(min=0), help="This level or recording of the file, counted from 0.")
 @click.option("--base", metavar="URL", default="", help="Address of a page with the game, which opens the link.")
 def link(files: Sequence[Path], record: int | None, base: str) -> None:
@@ -268,8 +260,8 @@ def link_of(files: Sequence[Path], record: int | None = None) -> str:
         return PackFiles(first).link()
     if all(holds_recordings(text) for file in files for _, text in texts_of(file)):
         found = [each for file in files for each in load_replays(file)]
-        return recording_link(found if record is None else [choose(found, "recordings", first, record)])
+        return recording_link(found if record is None else [options.choose(found, "recordings", first, record)])
     if len(files) > 1:
         raise click.UsageError("a link carries one level; make a pack of several, or give replays only")
-    named = choose(load_levels(first), "levels", first, record)
+    named = options.choose(load_levels(first), "levels", first, record)
     return level_link(named.level, **headers_of(named))

@@ -10,16 +10,6 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli import options
-from ninja_game.cli.options import (
-    NEW_FILE,
-    OLD_FILE,
-    InputPath,
-    LevelPath,
-    choose,
-    choose_level,
-    level_given,
-    level_option,
-)
 from ninja_game.files.reading import keep_inputs
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
@@ -30,7 +20,7 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.argument("level", type=LevelPath(dir_okay=False))
+@click.argument("level", type=options.LevelPath(dir_okay=False))
 @click.option("--record", type=click.IntRange(min=0), help="Which of a file's levels, counted from 0.")
 @options.gold_option
 @options.seconds_option(60.0)
@@ -40,7 +30,7 @@ if TYPE_CHECKING:
 @options.smooth_option
 @options.body_option
 @click.option(
-    "-o", "--output", metavar="REPLAY", type=NEW_FILE,
+    "-o", "--output", metavar="REPLAY", type=options.NEW_FILE,
     help="Where to keep the best run so far. [default: LEVEL's name and .replay.txt, in the current folder]",
 )  # fmt: skip
 def solve(
@@ -60,7 +50,7 @@ def solve(
     """
     from ninja_game.search.solve import Task, solve
 
-    chosen = choose_level(level, record)
+    chosen = options.choose_level(level, record)
     output = output or free_path(Path(), level.stem, ".replay.txt")
     task = Task(chosen.level, jobs=options.default_threads(jobs), **task_options)
     options.check_gold(task)
@@ -78,9 +68,9 @@ def solve(
 
 
 @click.command()
-@click.argument("replay", type=OLD_FILE)
+@click.argument("replay", type=options.OLD_FILE)
 @click.option("--record", type=click.IntRange(min=0), help="Which of a file's recordings, counted from 0.")
-@level_option
+@options.level_option
 @options.gold_option
 @options.seconds_option(60.0)
 @options.work_option
@@ -88,11 +78,11 @@ def solve(
 @options.search_jobs_option
 @options.smooth_option
 @click.option(
-    "--resume", metavar="LOG", type=NEW_FILE,
+    "--resume", metavar="LOG", type=options.NEW_FILE,
     help="Log better runs in this file; where it is there, go on from the best one, for what is left of the time.",
 )  # fmt: skip
 @click.option(
-    "-o", "--output", metavar="REPLAY", required=True, type=NEW_FILE, help="Where to keep the best run so far."
+    "-o", "--output", metavar="REPLAY", required=True, type=options.NEW_FILE, help="Where to keep the best run so far."
 )
 def improve(
     replay: Path,
@@ -126,7 +116,9 @@ def improve(
 
     earlier = load_replays(output) if resume and output.exists() else []
     keep_inputs(on=True)  # what was read of the output may be replaced
-    recording = choose(load_replays(replay, level=level_given(level_path)), "recordings", replay, record)
+    recording = options.choose(
+        load_replays(replay, level=options.level_given(level_path)), "recordings", replay, record
+    )
     threads = options.default_threads(jobs)
     task = Task(recording.level, body=recording.body, first=recording.inputs, jobs=threads, **task_options)
     options.check_gold(task)
@@ -169,7 +161,7 @@ def improve(
 
 
 @click.command()
-@click.argument("replay", metavar="RUN", type=InputPath(dir_okay=False))
+@click.argument("replay", metavar="RUN", type=options.InputPath(dir_okay=False))
 @click.option("--from", "first", required=True, type=click.IntRange(min=0), help="First tick whose keys may change.")
 @click.option("--to", "last", required=True, type=click.IntRange(min=1), help="First tick after the span.")
 @click.option("--goal", default="", metavar="FORMULA", help="Formula that must be true after a tick of the span.")
@@ -188,9 +180,13 @@ def improve(
 @options.seed_option
 @options.search_jobs_option
 @click.option("--record", type=click.IntRange(min=0), help="Which of a file's recordings, counted from 0.")
-@level_option
+@options.level_option
 @click.option(
-    "-o", "--output", metavar="REPLAY", type=NEW_FILE, help="Where to keep the best run so far. [default: nowhere]"
+    "-o",
+    "--output",
+    metavar="REPLAY",
+    type=options.NEW_FILE,
+    help="Where to keep the best run so far. [default: nowhere]",
 )
 def search(
     replay: Path, first: int, last: int, goal: str, maximise: str, minimise: str, rest: bool,
@@ -224,7 +220,9 @@ def search(
         raise click.UsageError("nothing to search for; give --goal, --maximise, --minimise or --rest")
     if every > 1 and method != "exhaustive":
         raise click.UsageError("--every is for --method exhaustive")
-    recording = choose(load_replays(replay, level=level_given(level_path)), "recordings", replay, record)
+    recording = options.choose(
+        load_replays(replay, level=options.level_given(level_path)), "recordings", replay, record
+    )
     save = options.saver_of_better(output, recording, "search") if output else None
     task = SpanTask(
         recording.level, recording.inputs, first, last, goal=goal, measure=maximise or minimise,

@@ -11,17 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ninja_game.cli.options import (
-    NEW_FILE,
-    OLD_FILE,
-    OLD_PATH,
-    budget_option,
-    choose,
-    heartbeat,
-    level_given,
-    level_option,
-    with_progress,
-)
+from ninja_game.cli import options
 from ninja_game.cli.terminal import BAD_INPUT, complain, data_output
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.run_time import seconds_text
@@ -44,21 +34,24 @@ format_option = click.option(
 )  # fmt: skip
 
 picture_option = click.option(
-    "--picture", metavar="OUT.png", type=NEW_FILE, help="Draw the paths over the level, and the speeds, into this file."
+    "--picture",
+    metavar="OUT.png",
+    type=options.NEW_FILE,
+    help="Draw the paths over the level, and the speeds, into this file.",
 )
 
 
 @click.command()
-@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=OLD_PATH)
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=options.OLD_PATH)
 @click.option(
-    "--against", metavar="BEST", type=OLD_FILE,
+    "--against", metavar="BEST", type=options.OLD_FILE,
     help="The run that the others are measured against. [default: the fastest to the exit]",
 )  # fmt: skip
 @click.option("--gold/--no-gold", default=True, help="A split for each piece of gold, or for none.")
-@level_option
+@options.level_option
 @format_option
 @picture_option
-@budget_option
+@options.budget_option
 def splits(
     files: Sequence[Path], against: Path | None, gold: bool, level_path: Path | None, form: str,
     picture: Path | None, budget: int,
@@ -80,11 +73,11 @@ def splits(
     """
     from ninja_game.runs.compare import SPLIT_EVENTS, run_splits
 
-    level, events = level_given(level_path), [name for name in SPLIT_EVENTS if gold or name != "gold-taken"]
+    level, events = options.level_given(level_path), [name for name in SPLIT_EVENTS if gold or name != "gold-taken"]
     found, unreadable = readable(files, level)
     best = readable([against], level)[0][:1] if against else []
     # A run that costs too much ends the command: a table without it would be wrong.
-    all_runs = list(with_progress((run_splits(each, events, budget) for each in [*best, *found]), "run"))
+    all_runs = list(options.with_progress((run_splits(each, events, budget) for each in [*best, *found]), "run"))
     bests, runs = all_runs[: len(best)], all_runs[len(best) :]
     groups: dict[str, list[RunSplits]] = {}
     for run in runs:
@@ -234,14 +227,14 @@ COMPARED = ("at", "x", "y", "tick", "other", "ahead")
 
 
 @click.command()
-@click.argument("first", metavar="A", type=OLD_FILE)
-@click.argument("second", metavar="B", type=OLD_FILE)
+@click.argument("first", metavar="A", type=options.OLD_FILE)
+@click.argument("second", metavar="B", type=options.OLD_FILE)
 @click.option("--record", type=click.IntRange(min=0), help="Which recording of A, counted from 0.")
 @click.option("--against-record", type=click.IntRange(min=0), help="Which recording of B, counted from 0.")
-@level_option
+@options.level_option
 @format_option
 @picture_option
-@budget_option
+@options.budget_option
 def compare(
     first: Path, second: Path, record: int | None, against_record: int | None, level_path: Path | None, form: str,
     picture: Path | None, budget: int,
@@ -260,10 +253,10 @@ def compare(
     from ninja_game.formats.load import load_replays
     from ninja_game.runs.compare import compare_runs
 
-    level = level_given(level_path)
-    ours = choose(load_replays(first, level=level), "recordings", first, record)
-    theirs = choose(load_replays(second, level=level), "recordings", second, against_record)
-    with heartbeat(lambda: "running both"):
+    level = options.level_given(level_path)
+    ours = options.choose(load_replays(first, level=level), "recordings", first, record)
+    theirs = options.choose(load_replays(second, level=level), "recordings", second, against_record)
+    with options.heartbeat(lambda: "running both"):
         found = compare_runs(ours, theirs, budget)
     if form == "json":
         parts = {"first_keys": found.first_keys, "first_place": found.first_place}

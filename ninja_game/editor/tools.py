@@ -89,7 +89,7 @@ class EditorTools:
 
     @property
     def draws_one(self) -> bool:
-        """Whether every tool puts one object at a time: a ninja, or what has a switch to be brush.placed after it."""
+        """Whether every tool puts one object at a time: a ninja, or what has a switch to be placed after it."""
         return self.objects and (self.spec.kind == NINJA or has_switch(self.spec))
 
     @property

@@ -12,7 +12,7 @@ from math import dist, isnan, sqrt
 from ninja_game.formats.ascii.places import place_text
 from ninja_game.formats.ascii.writer import best_form
 from ninja_game.levels.findings import Finding, found
-from ninja_game.sim import kinds
+from ninja_game.sim import kinds, rules
 from ninja_game.sim.arithmetic import is_set
 from ninja_game.sim.collision import tiles
 from ninja_game.sim.collision.rays import solid_at
@@ -24,20 +24,6 @@ from ninja_game.sim.loader import grid_tiles
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import CAPACITY, TileMap, World
 from ninja_game.sim.objects.door import create_door
-from ninja_game.sim.rules import (
-    CELL,
-    DOOR_SWITCH_RADIUS,
-    EXIT_RADIUS,
-    GOLD_RADIUS,
-    MINE_RADIUS,
-    OFF,
-    RADIUS,
-    SOLID,
-    STRIDE,
-    SWITCH_RADIUS,
-    THINK_PAUSE,
-    TICKS_PER_SECOND,
-)
 from ninja_game.sim.states import LOCKED, TRAP
 
 
@@ -103,7 +89,7 @@ class Ground:
                     door
                     for place in _around(cell)
                     for door in waiting.get(place, ())
-                    if _touches(cell, door.x, door.y, DOOR_SWITCH_RADIUS)
+                    if _touches(cell, door.x, door.y, rules.DOOR_SWITCH_RADIUS)
                 )
                 opened = closed.intersection(edge for door in touched for edge in edges_of(door))
                 closed -= opened
@@ -114,21 +100,21 @@ class Ground:
         for side, step in enumerate(tiles.NEIGHBOUR_OFFSET):
             there, here = 4 * cell + side, 4 * (cell + step) + (side ^ 2)
             if tiles.EXISTS[cell + step] and tiles.SHAPE[self.level.tiles[cell + step]] != tiles.FULL:
-                tiles_open = self.edges[there] != SOLID and self.edges[here] != SOLID
+                tiles_open = self.edges[there] != rules.SOLID and self.edges[here] != rules.SOLID
                 if tiles_open and there not in closed and here not in closed:
                     yield cell + step
 
 
 def _around(cell: int) -> list[int]:
     """A cell and its eight neighbours; none for the cell outside the grid."""
-    return [cell + row + column for row in (-STRIDE, 0, STRIDE) for column in (-1, 0, 1)] if cell else []
+    return [cell + row + column for row in (-rules.STRIDE, 0, rules.STRIDE) for column in (-1, 0, 1)] if cell else []
 
 
 def _touches(cell: int, x: float, y: float, radius: float) -> bool:
     """Whether a ninja with its centre in a cell could touch a disc (px)."""
-    dx = max(abs(x - tiles.CENTRE_X[cell]) - CELL / 2, 0.0)
-    dy = max(abs(y - tiles.CENTRE_Y[cell]) - CELL / 2, 0.0)
-    return dx * dx + dy * dy < (radius + RADIUS) ** 2
+    dx = max(abs(x - tiles.CENTRE_X[cell]) - rules.CELL / 2, 0.0)
+    dy = max(abs(y - tiles.CENTRE_Y[cell]) - rules.CELL / 2, 0.0)
+    return dx * dx + dy * dy < (radius + rules.RADIUS) ** 2
 
 
 MANY_OBJECTS = 2000
@@ -215,7 +201,7 @@ def _level_oddities(level: Level, objects: Sequence[ObjectSpec]) -> Iterator[Fin
         yield found("many-objects", count=len(objects), most=MANY_OBJECTS)
     waiting = [id_ for id_, record in enumerate(objects) if _waits_for_its_turn(record)]
     if len(waiting) > MANY_THINKERS:
-        seconds = len(waiting) * (THINK_PAUSE + 1) / TICKS_PER_SECOND
+        seconds = len(waiting) * (rules.THINK_PAUSE + 1) / rules.TICKS_PER_SECOND
         yield found("slow-thinkers", tuple(waiting), count=len(waiting), seconds=seconds)
     ignored = [record.text or str(record.kind) for record in level.objects if not makes_object(record)]
     if ignored:
@@ -249,7 +235,7 @@ def _deadly_start(objects: Sequence[ObjectSpec]) -> Iterator[Finding]:
     starts = [record.values for record in objects if record.kind == kinds.NINJA and well_formed(record)]
     for id_, record in enumerate(objects):
         mine = record.kind == kinds.MINE and well_formed(record)
-        if mine and starts and dist(record.values, starts[-1]) < MINE_RADIUS + RADIUS:
+        if mine and starts and dist(record.values, starts[-1]) < rules.MINE_RADIUS + rules.RADIUS:
             yield found("deadly-start", (id_,), mine=object_name(record, id_))
             return
 
@@ -309,9 +295,9 @@ def _deep(ground: Ground, x: float, y: float) -> bool:
 
 def _exit(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
     x, y, switch_x, switch_y = record.values
-    if cell_at(x, y) and not ground.touchable(x, y, EXIT_RADIUS):
+    if cell_at(x, y) and not ground.touchable(x, y, rules.EXIT_RADIUS):
         yield found("unreachable")
-    if not ground.touchable(switch_x, switch_y, SWITCH_RADIUS):
+    if not ground.touchable(switch_x, switch_y, rules.SWITCH_RADIUS):
         yield found("unreachable-switch", place=place_text(switch_x, switch_y))
 
 
@@ -319,8 +305,8 @@ def _gold(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
     x, y = record.values
     if not cell_at(x, y):
         return
-    places = [(x + a * GOLD_RADIUS, y + b * GOLD_RADIUS) for a in _SAMPLES for b in _SAMPLES]
-    if not ground.touchable(x, y, GOLD_RADIUS):
+    places = [(x + a * rules.GOLD_RADIUS, y + b * rules.GOLD_RADIUS) for a in _SAMPLES for b in _SAMPLES]
+    if not ground.touchable(x, y, rules.GOLD_RADIUS):
         yield found("unreachable")
     elif sum(solid_at(ground.level, *place) for place in places) >= _HIDDEN * len(places):
         yield found("hidden-gold")
@@ -349,7 +335,7 @@ def _floor_guard(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
         yield found("guard-in-border")
     elif SHAPE[ground.level.tiles[cell]] == FULL:
         yield found("in-full-tile")
-    elif ground.edges[4 * cell + 1] != SOLID:
+    elif ground.edges[4 * cell + 1] != rules.SOLID:
         yield found("guard-without-floor")
 
 
@@ -367,7 +353,7 @@ def _drone(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
         yield found("seeker-with-weapon")
     cell = cell_at(x, y)
     sides = range(4 * cell, 4 * cell + 4)
-    if cell and all(ground.edges[side] != OFF or side in ground.closed_edges for side in sides):
+    if cell and all(ground.edges[side] != rules.OFF or side in ground.closed_edges for side in sides):
         yield found("closed-in")
 
 
@@ -384,9 +370,9 @@ def _door(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
         yield found("door-outside")
     elif ground.doors_on_side[edges] > 1:
         yield found("doors-on-one-side")
-    elif any(ground.edges[edge] == SOLID or SHAPE[ground.level.tiles[edge // 4]] == FULL for edge in edges):
+    elif any(ground.edges[edge] == rules.SOLID or SHAPE[ground.level.tiles[edge // 4]] == FULL for edge in edges):
         yield found("closed-anyway")
-    if (is_set(trap) or is_set(locked)) and not ground.touchable(x, y, DOOR_SWITCH_RADIUS):
+    if (is_set(trap) or is_set(locked)) and not ground.touchable(x, y, rules.DOOR_SWITCH_RADIUS):
         yield found("unreachable-switch", place=place_text(x, y))
 
 

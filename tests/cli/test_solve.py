@@ -11,6 +11,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from ninja_game.backend.memories import compiled_available
+from ninja_game.cli import options
 from ninja_game.cli.main import cli
 from ninja_game.cli.options import default_threads, progress_text
 from ninja_game.files.user_folder import free_path
