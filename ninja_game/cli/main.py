@@ -64,6 +64,7 @@ MODULES = {
     **dict.fromkeys(("solve", "improve"), "search"),
     **dict.fromkeys(("site", "board"), "web"),
     **dict.fromkeys(("record", "link"), "convert"),
+    **dict.fromkeys(("player", "desktop", "compile"), "machine"),
     "compare": "splits",
     "generate": "levels",
 }

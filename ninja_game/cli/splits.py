@@ -168,7 +168,6 @@ def _number(count: int | None) -> str:
 
 
 def _behind(tick: int | None, best: int | None) -> str:
-    """A run's tick beside the best one's: the difference; the tick itself where only this run gets there."""
     if tick is None:
         return "-"
     return f"{tick - best:+d}" if best is not None else str(tick)

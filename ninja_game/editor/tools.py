@@ -215,7 +215,6 @@ class EditorTools:
         return {cell: after.tile(cell) for cell in changed_cells(self.draft, after)}
 
     def _draw_line(self, before: Cell, *, erasing: bool) -> None:
-        """Tiles from the last cell to this one, or objects where the pointer goes."""
         if not self.objects:
             tile = 0 if erasing else self.tile
             self._change(Stamp(dict.fromkeys(covered("line", before, self.cell, 0.0), tile)))
@@ -251,7 +250,6 @@ class EditorTools:
         return brush.placed(self.spec, *self.pointer, self.snap)
 
     def _drop(self) -> None:
-        """One object under the pointer, until the button goes up; a switch is dragged out of its door."""
         spec = self._dropped()
         if has_switch(spec):
             spec = brush.with_switch(brush.placed(self.spec, *self._pressed_at, self.snap), *self.pointer, self.snap)
@@ -275,7 +273,6 @@ class EditorTools:
         return Selection(selection.area or before.area, selection.parts | before.parts)
 
     def _choose(self, *, add: bool) -> None:
-        """Drag what is chosen, or choose what is under the pointer, or begin to draw a frame around what to choose."""
         found = nearest(self.draft, *self.pointer, PICK_REACH)
         if not add and (found in self.selection.parts or self._in_area()):
             self._begin_drag()

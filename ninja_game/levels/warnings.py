@@ -106,12 +106,10 @@ class Ground:
 
 
 def _around(cell: int) -> list[int]:
-    """A cell and its eight neighbours; none for the cell outside the grid."""
     return [cell + row + column for row in (-rules.STRIDE, 0, rules.STRIDE) for column in (-1, 0, 1)] if cell else []
 
 
 def _touches(cell: int, x: float, y: float, radius: float) -> bool:
-    """Whether a ninja with its centre in a cell could touch a disc (px)."""
     dx = max(abs(x - tiles.CENTRE_X[cell]) - rules.CELL / 2, 0.0)
     dy = max(abs(y - tiles.CENTRE_Y[cell]) - rules.CELL / 2, 0.0)
     return dx * dx + dy * dy < (radius + rules.RADIUS) ** 2
@@ -174,7 +172,6 @@ def _some(names: Sequence[str], count: int) -> str:
 
 
 def _odd_tiles(level: Level) -> Iterator[Finding]:
-    """A finding for each sort of odd tile, with its first places by name."""
     odd: dict[str, list[int]] = {}
     for cell, tile in enumerate(level.tiles):
         if not 0 <= tile <= 33:

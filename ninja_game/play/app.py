@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable, Sequence
 from operator import attrgetter
 from pathlib import Path
+from random import Random
 
 import pygame
 
@@ -23,7 +24,6 @@ from ninja_game.sim.rules import TICK_MS
 from ninja_game.ui.audio.player import AudioOutput, AudioPlayer
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.input.bindings import Bindings, InputEvent
-from ninja_game.ui.spreadsheet import draw_spreadsheet
 from ninja_game.ui.theme import PALETTES, Palette, Theme, palette_named, wrapped
 
 
@@ -263,7 +263,6 @@ class App:
             self.notify(text, ms=WARNING_MS)
 
     def _lay_out(self) -> None:
-        """Draw everything again, at the window's present size and in the present palette."""
         self.canvas = Canvas(self.surface.get_size())
         self.theme = Theme(self.palette_in(self.mood), self.canvas, self.settings.text_size)
         self.menu_theme = Theme(self.palette_in(CALM), self.canvas, self.settings.text_size)
@@ -379,7 +378,6 @@ class App:
             self.top.handle(event)
 
     def _dispatch(self, event: InputEvent) -> bool:
-        """Do what a key means on every screen; whether it means anything."""
         if "fullscreen" in event.pressed:
             self.change_settings(fullscreen=not self.settings.fullscreen)
         elif "screenshot" in event.pressed:
@@ -395,7 +393,6 @@ class App:
     # --- the picture ---
 
     def draw(self) -> None:
-        """Draw the screens that are seen and show what changed."""
         self.follow_mood(self.top.mood)
         changed = self.stack.draw(self.surface)
         self.wipe.draw(self.surface, self.theme)
@@ -477,7 +474,6 @@ class BossScreen(Screen):
     """The key that hides the game comes back to it, and so does Esc; the key for leaving ends the program."""
 
     def enter(self) -> None:
-        """Give the window a dull title too."""
         pygame.display.set_caption("Budget")
 
     def leave(self) -> None:
@@ -494,3 +490,31 @@ class BossScreen(Screen):
             return []
         draw_spreadsheet(surface, self.theme)
         return None
+
+
+_PAPER, _LINE, _HEAD, _INK = "#ffffff", "#d0d4da", "#eef0f3", "#3a3f47"
+_ROWS, _ROW_HEIGHT, _TOP = 24, 22.0, 48.0
+_COLUMNS = (("", 40.0), ("Item", 210.0), ("Q1", 100.0), ("Q2", 100.0), ("Q3", 100.0), ("Q4", 100.0), ("Total", 142.0))
+_ITEMS = ("Paper", "Toner", "Postage", "Travel", "Training", "Licences", "Furniture", "Coffee", "Cleaning", "Repairs")
+
+
+def draw_spreadsheet(surface: pygame.Surface, theme: Theme) -> None:
+    """Draw all of it; it never changes."""
+    surface.fill(_PAPER)
+    canvas, text = theme.canvas, theme.text
+    rng = Random(2)  # noqa: S311 - figures that mean nothing
+    canvas.fill_rect(surface, _HEAD, 0, _TOP - _ROW_HEIGHT, 792, _ROW_HEIGHT)
+    text(surface, "Budget, second draft", 12, 6, size=11, colour=_INK)
+    for row in range(_ROWS + 1):
+        y = _TOP + _ROW_HEIGHT * row
+        canvas.line(surface, _LINE, (0, y), (792, y), 0.5)
+        figures = [rng.randrange(40, 3000) for _ in range(4)]
+        cells = [str(row + 1), _ITEMS[row % len(_ITEMS)], *map(str, figures), str(sum(figures))]
+        x = 0.0
+        for (head, width), cell in zip(_COLUMNS, cells, strict=True):
+            if row == 0:
+                text(surface, head, x + 8, _TOP - 16, size=9, colour=_INK)
+                canvas.line(surface, _LINE, (x, _TOP - _ROW_HEIGHT), (x, 600), 0.5)
+            if row < _ROWS:
+                text(surface, cell, x + 8, y + 6, size=9, colour=_INK)
+            x += width

@@ -24,9 +24,8 @@ from ninja_game.formats.replay.text import Replay, parse_replay, write_replay
 from ninja_game.formats.sayings import Saying, read_sayings
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry, Episode
-from ninja_game.player.player_data import PlayerData
+from ninja_game.player.player_data import EPISODE_BEST, PlayerData, count_of, replay_of, save_best, told
 from ninja_game.player.progress import LOCKED, UNLOCKED, new_unlocks, next_par
-from ninja_game.player.saving import EPISODE_BEST, count_of, replay_of, save_best, told
 from ninja_game.player.store import Store, Work
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import LIFETIME

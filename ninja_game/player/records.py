@@ -125,7 +125,6 @@ class Records:
             return db.execute(f"DELETE FROM replay WHERE id = ? AND {_UNNEEDED}", (number,)).rowcount > 0
 
     def _saved(self, condition: str, *values: object) -> list[SavedReplay]:
-        """Replays that meet a condition in SQL, but for those with an unknown outcome or body."""
         query = f"SELECT {_SAVED} FROM replay {condition}"
         found = (SavedReplay(*row) for row in self.store.rows(query, values, _SAVED_KINDS))
         return [saved for saved in found if saved.outcome in OUTCOMES and saved.body in BODIES]

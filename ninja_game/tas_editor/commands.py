@@ -19,7 +19,7 @@ from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.menu_screen import Action, Menu, Row, ask_text, nothing
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.workspace import Command, Commands, CommandTable, DocumentCommands
-from ninja_game.player.saving import keep_replay
+from ninja_game.player.player_data import keep_replay
 from ninja_game.tas.files import SUFFIX, branches_path, replay_of_track, same_level
 from ninja_game.tas.journal import RecoveredRun, recovered
 from ninja_game.tas_editor.editor import TasEditor

@@ -296,7 +296,6 @@ class Splitters(TasPart):
         return "tabs" if level[0] <= x < roll[0] and level[1] + level[3] <= y < strip[1] else ""
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
-        """A drag moves a border; Ctrl+0 brings back what suits the window."""
         if event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
             left, top, w, h = self.layout.level
             self._side, self._grabbed = self._side_at(x, y), (x - left - w, y - top - h)

@@ -104,7 +104,6 @@ class OpeningScreen(Screen):
         return True
 
     def update(self, real_ms: int) -> None:
-        """Wait for the rules, at least for one picture."""
         self._waited_ms += real_ms
         if self._thread.is_alive() or not self._shown:
             return

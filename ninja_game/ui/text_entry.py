@@ -142,7 +142,6 @@ class TextEntry(Widget):
             fill(surface, palette.accent, place - 1, top - 2, 1.5, TEXT + 4)
 
     def _scroll(self, theme: Theme, room: float) -> None:
-        """Show the part of the text with the cursor, and as much as there is room for."""
         text, cursor = self.text, self.edited.cursor
         self._first = min(self._first, cursor)
         while theme.width(text[self._first : cursor], TEXT) > room:

@@ -233,7 +233,6 @@ _CLASSIC = dict(  # noqa: C408 - one form for all palettes
 def _palette(
     name: str, base: Palette | None = None, *, danger_by_shape: bool = False, scenery: str = "", **colours: str
 ) -> Palette:
-    """A palette: another one, or the classic one, with some colours changed."""
     before = _CLASSIC if base is None else {role: getattr(base, role) for role in ROLES}
     horizon = colours.get("background", _CLASSIC["background"])
     changed = {"sky": horizon, "far": horizon, "near": horizon} | colours

@@ -168,7 +168,6 @@ class Choice(Widget, Generic[T]):
         return self._step(-1 if action == "left" else 1) if action in ("left", "right") else False
 
     def click(self, x: float, y: float) -> bool:
-        """On the left arrow the value before, else the next."""
         left, _ = self._values()
         return self._step(-1 if left <= x < left + 24 else 1)
 

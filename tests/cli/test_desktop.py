@@ -14,7 +14,7 @@ import pygame
 import pytest
 from click.testing import CliRunner
 
-from ninja_game.cli.desktop import LEVEL, REPLAY, desktop_files, program_words
+from ninja_game.cli.machine import LEVEL, REPLAY, desktop_files, program_words
 from ninja_game.cli.main import cli
 
 

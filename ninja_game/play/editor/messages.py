@@ -112,7 +112,6 @@ class MessagesScreen(MenuScreen):
         return [*rows, add, *end]
 
     def _row(self, number: int) -> list[Widget]:
-        """The widgets of a message: its moment first, its text last; between them what the moment needs."""
         message, y = self.messages[number], TOP + ROW * number
         text = TextEntry(
             (36, y + 34, 720, 30), "What is said", message.text, partial(setattr, message, "text"),
@@ -183,7 +182,6 @@ class MessagesScreen(MenuScreen):
             super().act(action, held=held)
 
     def draw_frame(self, surface: pygame.Surface) -> None:
-        """How long the texts are, the selected one as the level says it, and what a text may name."""
         super().draw_frame(surface)
         theme = self.theme
         for number, message in enumerate(self.messages):

@@ -225,7 +225,6 @@ class PalettePart(EditorPart):
         theme.text(surface, said, x + 7, y + h - 13, size=8.5, width=w - 48, height=13, bold=True)
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
-        """What an entry is called is said here and in the status line."""
         used = super().mouse(event, x, y)
         if used:
             self.view.hint = self._palette.hover(x, y) or self.view.hint

@@ -76,7 +76,6 @@ class EditorScreen(WorkspaceScreen):
             self.commands.offer_recovered()
 
     def leave(self) -> None:
-        """Covered or closed: what is edited is kept safe at once."""
         super().leave()
         self.session.certify_file()
         self.session.autosave.flush(self.session.draft, self.session.source)
@@ -114,7 +113,6 @@ class EditorScreen(WorkspaceScreen):
         return event.menu_released == "confirm" and self.view.release()
 
     def act(self, action: str, *, held: bool = False) -> None:
-        """Arrows move the pointer by the snap."""
         if action not in DIRECTIONS:
             return
         tools, (dx, dy) = self.session.tools, DIRECTIONS[action]
@@ -151,7 +149,6 @@ class EditorScreen(WorkspaceScreen):
         return key == "n" and self._next_word("seeker", 1)
 
     def _direct(self, direction: str) -> bool:
-        """Turn the object in hand, or those that are selected; doors have sides instead."""
         tools, side = self.session.tools, {"up": "top", "down": "bottom"}.get(direction, direction)
         words = {"direction": direction, "side": side}
         has = [name for name in words if any(name in properties(spec) for spec in tools.subjects)]
@@ -169,7 +166,6 @@ class EditorScreen(WorkspaceScreen):
         return True
 
     def update(self, real_ms: int) -> None:
-        """Keep the level safe, examine it, and follow what comes of that."""
         super().update(real_ms)
         self._drag_on()
         self.session.update()

@@ -24,7 +24,7 @@ from ninja_game.levels.warnings import level_findings
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link, copy_text, pasted_text
 from ninja_game.play.window import save_picture
-from ninja_game.player.saving import keep_replay
+from ninja_game.player.player_data import keep_replay
 from ninja_game.runtime import NewestJob
 from ninja_game.sim.level import Level
 from ninja_game.ui.widgets import following
@@ -132,7 +132,6 @@ class EditorSession:
                 self._reaches.ask(ask)
 
     def update(self) -> None:
-        """Keep the level safe, examine it, look for what can be reached: all in the background."""
         self._follow_pointer()
         if not self.certifier.busy:
             self.certify_file()

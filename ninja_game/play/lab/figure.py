@@ -117,8 +117,6 @@ FIELD = View(CELL, CELL, 0.75)
 
 
 class _ViewCanvas(Canvas):
-    """A canvas whose logical px are those of the world, as a figure shows it."""
-
     def __init__(self, canvas: Canvas, view: View) -> None:
         super().__init__(canvas.window)
         x, y = canvas.exact(FIGURE[0], FIGURE[1])
@@ -319,7 +317,6 @@ class Figure:
         self.drag(x, y)
 
     def nudge(self, dx: int, dy: int) -> None:
-        """An arrow key: the handle moves by a px."""
         self.drag(self.x + dx, self.y + dy)
 
     def demonstrate(self, tick: int) -> None:

@@ -199,7 +199,6 @@ class Bodies(Figure):
         self.fly()
 
     def drag(self, x: float, y: float) -> None:
-        """Another place to fly from, left of the ledge."""
         super().drag(min(x, self.start[0] + 30), y)
         self.fly()
 

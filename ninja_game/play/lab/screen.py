@@ -9,7 +9,6 @@ import pygame
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.app import App
-from ninja_game.play.clock import RunClock
 from ninja_game.play.lab.cells import CellsTouched, GridOfCells, NineCells, RayCast
 from ninja_game.play.lab.edges import Doors, EdgeStates, WalkingEnemies
 from ninja_game.play.lab.figure import FIGURE, Figure, Sheet
@@ -18,6 +17,7 @@ from ninja_game.play.lab.one_tick import OneTick
 from ninja_game.play.lab.projection import Bodies, Projection, Response
 from ninja_game.play.menus.menu_screen import DIRECTIONS, MenuScreen
 from ninja_game.play.replay.film import write_gif
+from ninja_game.play.replay.playback import RunClock
 from ninja_game.play.window import save_picture
 from ninja_game.player.settings import Settings
 from ninja_game.ui.canvas import HEIGHT, WIDTH
@@ -63,7 +63,6 @@ class LabScreen(MenuScreen):
         return [self.list, FigureArea(self), *controls, *buttons]
 
     def _show(self, index: int) -> None:
-        """Another figure is chosen: it shows itself until somebody touches it."""
         self.demonstrate()
         if self.widgets:
             self.enter()
@@ -80,7 +79,6 @@ class LabScreen(MenuScreen):
         self.handle_press()
 
     def act(self, action: str, *, held: bool = False) -> None:
-        """A control that is touched ends the demonstration."""
         if action in ("left", "right", "confirm") and isinstance(self.focus, (FigureArea, Slider, Choice)):
             self.shows = False
         super().act(action, held=held)

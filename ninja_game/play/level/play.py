@@ -7,9 +7,8 @@ from enum import Enum
 from random import Random
 
 from ninja_game.play.app import App
-from ninja_game.play.clock import RunClock
 from ninja_game.play.level.sayings import Sayings
-from ninja_game.play.replay.playback import Ghost, Playback
+from ninja_game.play.replay.playback import Ghost, Playback, RunClock
 from ninja_game.player.attempt import Attempt, Moment
 from ninja_game.player.playthrough import LevelContext
 from ninja_game.player.progress import HELPED

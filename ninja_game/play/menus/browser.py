@@ -120,7 +120,6 @@ class Browser(ThumbnailScreen):
             super().handle(event)
 
     def _take_in(self, file: Path) -> None:
-        """Copy a file of levels into the player's folder, unless it is none."""
         folder = self.player.catalogue.folder
         try:
             load_levels(file)
@@ -266,7 +265,6 @@ class LevelChoice(Browser):
         return [*self.choosers(), Button((SIDE, 470, SIDE_WIDTH, 32), "Edit", lambda: self.play(self.list.index))]
 
     def act(self, action: str, *, held: bool = False) -> None:
-        """Enter in the search opens the only level that is found."""
         if action == "confirm" and self.focus is self.entry_field and len(self.shown) == 1:
             self.play(0)
         else:

@@ -101,7 +101,6 @@ class DailyScreen(ThumbnailScreen):
         return [self.play, self.practice] if self.entry else []
 
     def _find(self) -> None:
-        """Look for the day's level in the player's folder; a message says why it cannot be read."""
         catalogue = self.player.catalogue
         catalogue.problems.clear()
         files = ((Path(each.named.file), each) for each in catalogue.singles())
@@ -142,7 +141,6 @@ class DailyScreen(ThumbnailScreen):
             self.redraw = True
 
     def _dig(self, real_ms: int) -> None:
-        """Something to look at while the level is made: a cave grows, cell by cell."""
         self._dig_ms += real_ms
         for _ in range(self._dig_ms // DIG_MS):
             self._way = self._rng.choice([self._way] * 3 + [(1, 0), (-1, 0), (0, 1), (0, -1)])

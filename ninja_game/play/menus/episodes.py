@@ -132,7 +132,6 @@ class EpisodeGrid(ThumbnailScreen):
         self.grid.arrange(self.pack.episodes)
 
     def _look_for_packs(self, key: str) -> None:
-        """The packs as they are now, that with the key chosen if it is still there."""
         catalogue = self.player.catalogue
         catalogue.problems.clear()
         self.packs = [pack for pack in catalogue.packs() if pack.episodes]
@@ -174,7 +173,6 @@ class EpisodeGrid(ThumbnailScreen):
         return TOP + self.grid.area[3] + 14
 
     def build(self) -> Sequence[Widget]:
-        """The grid, the levels of the selected episode, practice; the choice of a pack where there are several."""
         before = self.pack
         self._look_for_packs(before.key)
         if self.pack is not before:
@@ -292,7 +290,6 @@ class EpisodeGrid(ThumbnailScreen):
             theme.canvas.frame_rect(surface, theme.palette.accent, x, y, w, h, width, 4)
 
     def _draw_reached(self, surface: pygame.Surface, theme: Theme, number: int, area: Area) -> None:
-        """The medal that all of an episode's levels have, at the upper left; at the right the mark for all gold."""
         x, y, w, _ = area
         levels = self.pack.episodes[number].levels
         medal = worst_medal(levels, self.marks)

@@ -13,9 +13,8 @@ from ninja_game import __version__
 from ninja_game.errors import LevelError
 from ninja_game.files.user_folder import data_folder
 from ninja_game.play.app import App
-from ninja_game.play.clock import RunClock
 from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.replay.playback import Playback
+from ninja_game.play.replay.playback import Playback, RunClock
 from ninja_game.play.rooms import room_level, strokes
 from ninja_game.play.workspace import Command, key_text
 from ninja_game.sim.level import Level
@@ -249,7 +248,6 @@ class Demonstration:
             self.view.on_tick()
 
     def draw(self, surface: pygame.Surface) -> pygame.Rect:
-        """Draw the stage on the sheet, and show the part of it that matters; the px it covers."""
         canvas = self.app.canvas
         if self._sheet is None or self._canvas is not canvas:
             self._sheet, self._canvas, self._whole = pygame.Surface(surface.get_size()), canvas, True

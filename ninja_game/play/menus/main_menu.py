@@ -15,7 +15,6 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App, Screen
-from ninja_game.play.clock import RunClock
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
@@ -25,7 +24,7 @@ from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.menu_screen import Action, MenuScreen, Question
 from ninja_game.play.menus.replays import RecordsScreen, ReplaysScreen
 from ninja_game.play.menus.settings import SettingsScreen
-from ninja_game.play.replay.playback import Playback
+from ninja_game.play.replay.playback import Playback, RunClock
 from ninja_game.play.window import LOGO
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import EpisodeRun, next_run
@@ -67,7 +66,6 @@ class MainMenu(MenuScreen):
         return self.app.menu_theme
 
     def enter(self) -> None:
-        """Look where play goes on, and whether a level waits that was not saved."""
         found = next(recovered(self.player.folder), None)
         self._lost = f"Not saved last time: {shown_text(found.draft.name, 40)}" if found else ""
         self.run = next_run(self.player, practice_mode=self.player.settings.practice)
@@ -194,7 +192,6 @@ class Attract:
         self.name = ""
 
     def _shuffled(self) -> Iterator[Callable[[], Recording]]:
-        """Readers of all recordings, again and again, each round in another order."""
         while True:
             files = bundled_replays()
             self._rng.shuffle(files)

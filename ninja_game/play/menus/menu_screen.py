@@ -153,7 +153,6 @@ class MenuScreen(Screen):
             self.widgets_changed()
 
     def _next(self, step: int = 1) -> None:
-        """The focus goes to the next widget in their order, or to the one before."""
         able = [widget for widget in self.widgets if widget.focusable]
         if able:
             place = able.index(self.focus) if self.focus in able else -1
@@ -324,7 +323,6 @@ class Panel(MenuScreen):
         ]
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
-        """The panel; the screen below, which is drawn again whenever this one is, shines through a veil."""
         if not self.redraw:
             return []
         canvas, theme, palette = self.app.canvas, self.theme, self.theme.palette

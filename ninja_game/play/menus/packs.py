@@ -161,7 +161,6 @@ class PackScreen(ThumbnailScreen):
     # --- what there is ---
 
     def _read(self, shown: Path | None = None) -> None:
-        """All packs as they are now; this one on the shelves, or the one before."""
         before, catalogue = shown or self.path, self.player.catalogue
         catalogue.problems.clear()
         self.sets = catalogue.packs()
@@ -396,7 +395,6 @@ class PackScreen(ThumbnailScreen):
         self.app.notify("Choose its new place; Enter or a click puts it there, Esc leaves it where it is")
 
     def back(self) -> None:
-        """First give up what is being moved."""
         if self.held:
             self.held = self.pointer = None
         else:

@@ -25,9 +25,9 @@ from ninja_game.play.clipboard import copy_link
 from ninja_game.play.menus.menu_screen import MenuScreen, Question
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.catalogue import author_name
+from ninja_game.player.player_data import forget_replay
 from ninja_game.player.progress import opens_author
 from ninja_game.player.records import NEWEST_SHOWN, SavedReplay, has_words
-from ninja_game.player.saving import forget_replay
 from ninja_game.sim.rules import TICK_MS
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import ListView
@@ -85,7 +85,6 @@ class ReplaysScreen(MenuScreen):
         self.message = ""
 
     def build(self) -> Sequence[Widget]:
-        """The list, the newest records first, then files, which may be read later."""
         self._find()
         self._read_files(FIRST_SECONDS)
         self._arrange()

@@ -59,7 +59,6 @@ class Thumbnails:
         return made
 
     def draw(self, surface: pygame.Surface, entry: Entry, x: float, y: float, width: float) -> None:
-        """Show a level's picture, or an empty room in its colours until it is made."""
         canvas, palette = self.app.canvas, self.app.theme.palette
         picture = self.get(entry, width)
         height = width * 25 / 33

@@ -143,7 +143,6 @@ class _Panel:
         self.time = world.tick if world.outcome == "running" else self.time
 
     def draw(self, surface: pygame.Surface, *, whole: bool) -> None:
-        """Title, or in an episode the time left; time and the last split below; the keys."""
         self.view.draw(surface, 1.0, whole=whole)
         hud, run, world = self.hud, self.run, self.playback.simulation
         if run.episode:

@@ -15,9 +15,8 @@ from ninja_game.formats.replay.text import Replay
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App, Screen
 from ninja_game.play.clipboard import copy_link
-from ninja_game.play.clock import RunClock
 from ninja_game.play.level.hud import Hud
-from ninja_game.play.replay.playback import Ghost, Playback
+from ninja_game.play.replay.playback import Ghost, Playback, RunClock
 from ninja_game.sim.rules import TICK_MS, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
@@ -183,7 +182,6 @@ class ReplayScreen(Screen):
         return bool(late)
 
     def _play(self, real_ms: int) -> None:
-        """Play the ticks that are due, and no more than the work of a turn."""
         if self.paused or self.bar.dragging:
             return
         if self.still_ms > 0:
@@ -320,7 +318,6 @@ class ReplayBar:
         self.dragging = False
 
     def handle(self, event: pygame.Event, canvas: Canvas, length: int) -> int | None:
-        """The tick that the mouse asks for; None if it asks for none."""
         if event.type == pygame.MOUSEBUTTONUP:
             self.dragging = False
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button == 1:
@@ -335,7 +332,6 @@ class ReplayBar:
 
     @staticmethod
     def draw(surface: pygame.Surface, theme: Theme, tick: int, end: int, length: int, outcome: str) -> pygame.Rect:
-        """The bar with a mark at the end, coloured by the outcome; its px rectangle."""
         palette, canvas = theme.palette, theme.canvas
         trough = mixed(palette.tile, palette.outline, 0.35)
         rect = canvas.fill_rect(surface, trough, _LEFT, _Y - 2, _WIDTH, 4, 2)

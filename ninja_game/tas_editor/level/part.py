@@ -134,7 +134,6 @@ class LevelPart(TasPart):
         self.take_over.end()
 
     def capture(self, event: InputEvent) -> bool:
-        """Take the keys of the game while the run is taken over; Escape ends playing. Whether it did."""
         taken = self.take_over
         if taken.on:
             if event.raw.type == pygame.WINDOWFOCUSLOST:

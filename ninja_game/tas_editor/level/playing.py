@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pygame
 
-from ninja_game.play.clock import RunClock
+from ninja_game.play.replay.playback import RunClock
 from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.sim.rules import TICK_MS
 from ninja_game.tas.timeline import AFTERMATH

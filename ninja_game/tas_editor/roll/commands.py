@@ -91,7 +91,6 @@ class RollCommands:
             self._editor.app.notify(f"No named tick {'behind' if direction > 0 else 'before'} this one: M names it")
 
     def _to_difference(self, direction: int) -> None:
-        """The next tick in which the keys part from those of the run that is compared, or the one before."""
         editor, other = self._editor, compared(self._editor)
         if other is None:
             editor.app.notify("Other runs are not shown: G shows them")

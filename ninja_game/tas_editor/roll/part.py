@@ -167,7 +167,6 @@ class RollMouse:
             self._go_on()
 
     def _tick_at(self, y: int) -> int:
-        """The tick whose row is at a px; beyond the edges the first or last one that is seen."""
         layout = self._roll.layout
         row = min(max(0, layout.row_at(y)), layout.rows - 1)
         return min(self._roll.top + row, self._editor.last_tick)

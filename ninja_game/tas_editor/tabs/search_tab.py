@@ -86,7 +86,6 @@ class SpanResults:
         self._started = monotonic()
 
     def _whole(self, method: str, jobs: int) -> RunSearch:
-        """The search that shortens the whole run, by the routes of the runs beside it too."""
         gold = int(self.editor.session.timeline.column("gold")[self.task.last - 1]) if method == IMPROVE_GOLD else 0
         return RunSearch(self.task, jobs, gold=gold, others=tuple(other.track.inputs for other in self._others))
 
