@@ -21,19 +21,11 @@ from ninja_game.files.locking import forget
 from ninja_game.files.reading import read_bytes, read_utf8
 from ninja_game.files.user_folder import EDITING
 from ninja_game.files.writing import write_atomically
+from ninja_game.formats.ascii import writer
 from ninja_game.formats.ascii.legend import visible_parts
 from ninja_game.formats.ascii.object_lines import Listed, OddTile, read_object_line
 from ninja_game.formats.ascii.problems import Problems
 from ninja_game.formats.ascii.reader import parse_ascii_level, sections
-from ninja_game.formats.ascii.writer import (
-    drawn_only,
-    headers_of,
-    picture_rows,
-    same_record,
-    tile_lines,
-    write_ascii_level,
-    write_object_lines,
-)
 from ninja_game.formats.lines import UNCOMMENTED, header_text, numbered_lines
 from ninja_game.formats.links.fragment import is_link
 from ninja_game.formats.load import load_levels, texts_of
@@ -86,7 +78,7 @@ def open_source(path: Path, record: int = 0) -> Source:
 
 
 def draft_of(named: NamedLevel) -> Draft:
-    return Draft(named.level, **headers_of(named))
+    return Draft(named.level, **writer.headers_of(named))
 
 
 def save(source: Source, draft: Draft, path: Path, *, replacing: bool = False) -> Source:
@@ -201,7 +193,7 @@ _RULER = re.compile(r";[\s\d]*")
 
 
 def ascii_text(draft: Draft) -> str:
-    return write_ascii_level(draft.level, **headers_of(draft))
+    return writer.write_ascii_level(draft.level, **writer.headers_of(draft))
 
 
 def updated_text(text: str, opened: Draft, draft: Draft) -> str:
@@ -225,13 +217,13 @@ def reads_as(text: str, draft: Draft, *, named: bool = True) -> bool:
         read = parse_ascii_level(text)
     except LevelError:
         return False
-    given = headers_of(read) | ({} if named else {"name": draft.name})
+    given = writer.headers_of(read) | ({} if named else {"name": draft.name})
     objects = read.level.objects
     return (
-        given == headers_of(draft)
+        given == writer.headers_of(draft)
         and read.level.tiles == draft.level.tiles
         and len(objects) == len(draft.objects)
-        and all(map(same_record, objects, draft.objects))
+        and all(map(writer.same_record, objects, draft.objects))
     )
 
 
@@ -256,7 +248,7 @@ class _Lines:
     def _change_header(self) -> None:
         places = {line.partition(":")[0].strip(): number for number, line in self.header}
         last = max([self.first, *places.values()])
-        for key, value in headers_of(self.draft).items():
+        for key, value in writer.headers_of(self.draft).items():
             before = getattr(self.opened, key)
             if value != before:
                 line = f"{key}: {header_text(value)}".rstrip()
@@ -267,7 +259,7 @@ class _Lines:
 
     def _change_picture(self) -> None:
         parts = [visible_parts(spec) for spec in self.draft.objects]
-        for (number, line), chars in zip(self.rows, picture_rows(self.draft.level, parts), strict=True):
+        for (number, line), chars in zip(self.rows, writer.picture_rows(self.draft.level, parts), strict=True):
             match = _ROW.fullmatch(line)
             # A blank is as empty as a dot: what a person left blank stays so.
             old = line[match.end(1) : match.start(2)] if match else ""
@@ -279,9 +271,9 @@ class _Lines:
         read = {number: read_object_line(line) for number, line in self.listed}
         tiles = [number for number, entries in read.items() if entries and isinstance(entries[0], OddTile)]
         end = self._end_of_picture()
-        if tile_lines(self.opened.level) != tile_lines(self.draft.level):
+        if writer.tile_lines(self.opened.level) != writer.tile_lines(self.draft.level):
             self.replaced |= {number: [] for number in tiles}
-            self.after[end] += tile_lines(self.draft.level)
+            self.after[end] += writer.tile_lines(self.draft.level)
         owners: list[tuple[int, ObjectSpec]] = [
             (number, entry.record) for number, entries in read.items() for entry in entries if isinstance(entry, Listed)
         ]
@@ -301,16 +293,16 @@ class _Lines:
             if within and j2 > j1:
                 # New objects between two of one line: this and all behind it are written again.
                 self.replaced |= {number: [] for number in content}
-                self.replaced[owners[0][0]] = write_object_lines(wanted)
+                self.replaced[owners[0][0]] = writer.write_object_lines(wanted)
                 return
             if j2 > j1:
-                self.after[owners[i1 - 1][0] if i1 else end] += write_object_lines(wanted[j1:j2])
+                self.after[owners[i1 - 1][0] if i1 else end] += writer.write_object_lines(wanted[j1:j2])
         for number in touched:
             self.replaced[number] = self._rewritten(number, content[number])
 
     def _rewritten(self, number: int, records: Sequence[ObjectSpec]) -> list[str]:
         """A line for those of its objects that are left, with the comment that it ended in."""
-        lines = write_object_lines(records)
+        lines = writer.write_object_lines(records)
         _, mark, comment = self.lines[number - 1].partition(";")
         if mark and lines:
             lines[-1] += f"  ;{comment}"
@@ -325,7 +317,7 @@ class _Lines:
     def _count_drawn(self, listed: int) -> int:
         """How many of the first objects the picture alone makes: as many as before, where that is possible."""
         objects = self.draft.objects
-        most = drawn_only(self.draft.level, [visible_parts(spec) for spec in objects])
+        most = writer.drawn_only(self.draft.level, [visible_parts(spec) for spec in objects])
         old = self.opened.objects
         before = len(old) - listed
         if not listed or old == objects:

@@ -32,9 +32,6 @@ LOCK_SECONDS = 1.0
 
 BY_COLUMN = "by-column"
 """The palette that is another one in each column of episodes."""
-DEFAULT_PALETTE = BY_COLUMN
-DEFAULT_COLOUR = ""
-"""The ninja's colour that comes with the palette."""
 
 GHOSTS = ("best", "next", "silver", "gold", "author")
 """What may play along: the player's best run, or the pace of the next medal or of one."""
@@ -105,11 +102,11 @@ class Settings:
 
     # Which palettes there are is known where they are drawn.
     palette: str = _text(
-        DEFAULT_PALETTE, "look", "[a-z-]{1,24}", "the name of a palette, such as 'classic'",
+        BY_COLUMN, "look", "[a-z-]{1,24}", "the name of a palette, such as 'classic'",
         "colours; by-column: each column has its own",
     )  # fmt: skip
     ninja_colour: str = _text(
-        DEFAULT_COLOUR, "look", "|#[0-9a-fA-F]{6}", "'' or a colour such as '#186285'",
+        "", "look", "|#[0-9a-fA-F]{6}", "'' or a colour such as '#186285'",
         "of the ninja; empty: as the palette has it",
     )  # fmt: skip
     fullscreen: bool = _flag(False, "look", "the whole screen instead of a window")

@@ -16,17 +16,8 @@ from ninja_game.sim.kinds import EXIT, KIND_NAMES, SWITCH
 from ninja_game.simulation import ObjectView, Simulation
 from ninja_game.tas_editor.commands import TABLE
 from ninja_game.tas_editor.editor import TasEditor, TasPart
+from ninja_game.tas_editor.level import paths
 from ninja_game.tas_editor.level.other_runs import OtherRuns
-from ninja_game.tas_editor.level.paths import (
-    BRIGHT_TICKS,
-    FAINT,
-    LETTERS,
-    LevelPaths,
-    Positions,
-    RunPath,
-    first_other_place,
-    shown_span,
-)
 from ninja_game.tas_editor.level.picture import LevelPicture, RunGhost
 from ninja_game.tas_editor.level.playing import Playing, TakeOver
 from ninja_game.tas_editor.tabs.values_tab import colour_of, proposal
@@ -49,9 +40,9 @@ _STILL = 3
 Px = tuple[int, int]
 
 
-def nearest_tick(positions: Positions, x: float, y: float, cursor: int, *, dragged: bool = False) -> int:
+def nearest_tick(positions: paths.Positions, x: float, y: float, cursor: int, *, dragged: bool = False) -> int:
     """The tick, of those whose path is shown, after which the ninja was nearest to a place, px of the level."""
-    first, last = shown_span(cursor)
+    first, last = paths.shown_span(cursor)
     shown = positions[first:last] if first < len(positions) else positions
     first = first if first < len(positions) else 0
     far = np.hypot(shown[:, 0] - x, shown[:, 1] - y)
@@ -87,10 +78,10 @@ class LevelPart(TasPart):
         self.hover: int | None = None
         self.pointed: ObjectView | None = None
         self._hovered_run = editor.track
-        self._paths: LevelPaths | None = None
+        self._paths: paths.LevelPaths | None = None
         self._ghosts: dict[object, RunGhost] = {}
         self._known: tuple[object, ...] = ()
-        self._positions: Positions = np.zeros((0, 2))
+        self._positions: paths.Positions = np.zeros((0, 2))
         self._pointer = LevelPointer(self)
         self._followed: Point = (0.0, 0.0)
 
@@ -180,23 +171,23 @@ class LevelPart(TasPart):
         self._follow_ninja(rect.size, fraction)
         whole = picture.fit(rect.size) or whole
         if whole or self._paths is None or self._paths.theme is not theme:
-            self._paths = LevelPaths(theme, picture.canvas)
+            self._paths = paths.LevelPaths(theme, picture.canvas)
         picture.draw(fraction, whole=whole)
         surface.blit(picture.surface, rect)
         inner = surface.subsurface(rect.clip(surface.get_rect()))
-        paths = self._paths
-        paths.draw_beside(inner, others)
-        paths.draw_flags(inner, positions, editor.track.markers)
+        over = self._paths
+        over.draw_beside(inner, others)
+        over.draw_flags(inner, positions, editor.track.markers)
         for ghost in self.ghosts:
             if ghost.label:
-                paths.draw_name(inner, ghost.label, ghost.place(fraction), ghost.colour(theme.palette))
+                over.draw_name(inner, ghost.label, ghost.place(fraction), ghost.colour(theme.palette))
         if len(positions):
-            paths.draw_present(inner, positions, editor.cursor, editor.selection, shown_span(editor.cursor))
+            over.draw_present(inner, positions, editor.cursor, editor.selection, paths.shown_span(editor.cursor))
         picture.draw_ninja_over(inner, fraction)
         if self.hover is not None and self.hover < len(positions):
-            paths.draw_hover(inner, positions, self.hover)
+            over.draw_hover(inner, positions, self.hover)
         if self.pointed is not None:
-            paths.draw_object(inner, self.pointed)
+            over.draw_object(inner, self.pointed)
         self._write(surface, theme)
 
     def _follow_ninja(self, size: tuple[int, int], fraction: float) -> None:
@@ -206,7 +197,7 @@ class LevelPart(TasPart):
             self.picture.camera.follow(size, *place)
         self._followed = place
 
-    def _present(self) -> Positions:
+    def _present(self) -> paths.Positions:
         """Where the ninja is after each simulated tick."""
         timeline = self.editor.session.timeline
         known = timeline.inputs, timeline.simulated_until
@@ -214,7 +205,7 @@ class LevelPart(TasPart):
             self._known, self._positions = known, timeline.positions
         return self._positions
 
-    def _follow_others(self, positions: Positions) -> list[RunPath]:
+    def _follow_others(self, positions: paths.Positions) -> list[paths.RunPath]:
         """The paths of other runs, and of the run before the last edit where it differs; their ghosts go along."""
         editor = self.editor
         kept, self._ghosts = self._ghosts, {}
@@ -226,16 +217,19 @@ class LevelPart(TasPart):
         if editor.preview is not None:
             runs.append((editor.preview, palette.exit))
         before = editor.session.before
-        at = first_other_place(positions, before.positions)
+        at = paths.first_other_place(positions, before.positions)
         if at <= min(editor.cursor, len(before) - 1, len(positions) - 1):
             self._ghosts[before] = kept.get(before) or RunGhost(before)
         for run, colour in runs:
             self._ghosts[run.trajectory] = kept.get(run.trajectory) or RunGhost(run.trajectory, run.name, colour)
         self.picture.follow(self.ghosts)
         # Not at each tick of a run that is taken over is the other one shorter.
-        first, last = shown_span(editor.cursor)
-        beside = [RunPath(run.trajectory, colour, first, last) for run, colour in runs]
-        return [RunPath(before, palette.ghost, max(first, at - at % BRIGHT_TICKS - 1), last, FAINT), *beside]
+        first, last = paths.shown_span(editor.cursor)
+        beside = [paths.RunPath(run.trajectory, colour, first, last) for run, colour in runs]
+        return [
+            paths.RunPath(before, palette.ghost, max(first, at - at % paths.BRIGHT_TICKS - 1), last, paths.FAINT),
+            *beside,
+        ]
 
     def _write(self, surface: pygame.Surface, theme: Theme) -> None:
         take_over = self.take_over
@@ -252,9 +246,11 @@ class LevelPart(TasPart):
         theme.canvas.fill_rect(surface, palette.tile, x, y, w, LINE)
         zoom = self.picture.camera.zoom
         speed = f"zoom {zoom:.1f}, " * (zoom > 1) + f"speed x {SPEEDS[self.playing.speed]:g}"
-        right = theme.text(surface, speed, x + w - 6, y + 1, size=LETTERS, colour=palette.on_tile, align="right")
+        right = theme.text(surface, speed, x + w - 6, y + 1, size=paths.LETTERS, colour=palette.on_tile, align="right")
         room = right.left / theme.canvas.scale - x - 12
-        theme.text(surface, text, x + 6, y + 1, size=LETTERS, colour=palette.on_tile, bold=take_over.on, width=room)
+        theme.text(
+            surface, text, x + 6, y + 1, size=paths.LETTERS, colour=palette.on_tile, bold=take_over.on, width=room
+        )
 
 
 class LevelPointer:
