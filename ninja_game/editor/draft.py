@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from ninja_game.levels.findings import Cell
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
+
+Cell = tuple[int, int]
+"""Column 1…31, row 1…23."""
 
 Tiles = dict[Cell, int]
 

@@ -106,9 +106,8 @@ class Settings:
         "colours; by-column: each column has its own",
     )  # fmt: skip
     ninja_colour: str = _text(
-        "", "look", "|#[0-9a-fA-F]{6}", "'' or a colour such as '#186285'",
-        "of the ninja; empty: as the palette has it",
-    )  # fmt: skip
+        "", "look", "|#[0-9a-fA-F]{6}", "'' or a colour such as '#186285'", "of the ninja; empty: as the palette has it"
+    )
     fullscreen: bool = _flag(False, "look", "the whole screen instead of a window")
     smooth: bool = _flag(True, "look", "positions between two ticks are drawn")
     reduced_motion: bool = _flag(

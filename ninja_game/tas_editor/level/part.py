@@ -89,7 +89,8 @@ class LevelPart(TasPart):
         playing, taken = self.playing, self.take_over
         shared: Commands = {
             "faster": lambda: playing.change_speed(1), "slower": lambda: playing.change_speed(-1),
-            "ghosts": self._toggle_ghosts, "whole_level": self.picture.camera.show_all, **self.others.commands(),
+            "ghosts": lambda: setattr(self.editor, "ghosts", not self.editor.ghosts),
+            "whole_level": self.picture.camera.show_all, **self.others.commands(),
             **{name: partial(self.picture.overlays.toggle, name) for name in OVERLAY_ACTIONS},
         }  # fmt: skip
         if taken.on:
@@ -108,9 +109,6 @@ class LevelPart(TasPart):
     def ghosts(self) -> list[RunGhost]:
         """Those that were drawn last."""
         return list(self._ghosts.values())
-
-    def _toggle_ghosts(self) -> None:
-        self.editor.ghosts = not self.editor.ghosts
 
     def update(self, real_ms: int) -> None:
         self.playing.update(real_ms)
