@@ -20,7 +20,7 @@ READS = re.compile(
 
 OURS = {
     "__main__": "opens what was closed, to lead nowhere", "runtime": "asks what the system can do",
-    "cli/desktop": "starts programs of the system, and reads nothing of what they say",
+    "cli/machine": "starts programs of the system, and reads nothing of what they say",
     "files/locking": "holds locks", "files/writing": "writes", "ui/audio/player": "silences a library",
     "play/lab/figure": "the program's own figures", "play/menus/help": "its own help",
     "play/menus/good_levels": "its own levels",

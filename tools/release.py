@@ -35,7 +35,7 @@ FROZEN = f"ninja-game-{__version__}-{sys.platform}"
 KERNELS = """
 from ninja_game.backend.kernel_cache import GENERIC
 from ninja_game.backend.numba_import import FIXED
-from ninja_game.cli.compile import compile_everything
+from ninja_game.cli.machine import compile_everything
 FIXED.update(zip(("NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES"), GENERIC))
 compile_everything(1, quiet=False)
 """

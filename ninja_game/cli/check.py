@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ninja_game.cli import solver_options as options
-from ninja_game.cli.run_options import LevelPath
+from ninja_game.cli import options
+from ninja_game.cli.options import NEW_FOLDER, LevelPath
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.shown_text import counted, name_key, shown_text
 from ninja_game.files.tree import Tree
@@ -51,18 +51,15 @@ class GoldGoals(options.GoldCount):
 @options.work_option
 @options.seed_option
 @click.option("--first", "first_only", is_flag=True, help="Stop each search at the first run that it finds.")
-@click.option("--jobs", type=click.IntRange(1, 1024), help="Levels at the same time. [default: one per core]")
+@click.option("--jobs", type=options.JOBS, help="Levels at the same time. [default: one per core]")
 @options.body_option
 @click.option(
-    "--replays", metavar="FOLDER", type=click.Path(file_okay=False, path_type=Path),
+    "--replays", metavar="FOLDER", type=NEW_FOLDER,
     help="Keep the runs in this folder. One that is there and still right is not searched again.",
 )  # fmt: skip
 @click.option("--improve", is_flag=True, help="Shorten the runs that are kept, too.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per level, for programs.")
-@click.pass_context
 def check(
-    ctx: click.Context,
-    /,
     levels: Sequence[Path],
     goals: dict[str, int],
     replays: Path | None,
@@ -70,7 +67,7 @@ def check(
     jobs: int | None,
     improve: bool,
     **task_options: Any,
-) -> None:
+) -> int:
     """Certify levels: whether they can be passed, how fast, and what is odd.
 
     LEVEL is a file of levels or a folder. A level is solvable if a run to the exit was found; not finding one in the
@@ -110,12 +107,10 @@ def check(
                 click.echo(json.dumps(_facts(level, found, files)) if as_json else _rows(level, found))
     if not as_json:
         click.echo("\n".join(tally.lines(goals)))
-    ctx.exit(BAD_INPUT if tally.broken else options.NOT_FOUND if tally.without[next(iter(goals))] else 0)
+    return BAD_INPUT if tally.broken else options.NOT_FOUND if tally.without[next(iter(goals))] else 0
 
 
 class _Tally:
-    """Counts levels by what was found of them."""
-
     def __init__(self) -> None:
         self.levels = 0
         self.broken = 0
@@ -161,7 +156,6 @@ def _files(levels: Sequence[NamedLevel], goals: Iterable[str], folder: Path | No
 
 
 def _rows(level: NamedLevel, found: Mapping[str, Certified]) -> str:
-    """A level's runs in a line each, and a line for each warning."""
     rows = [_row(goal, certified, level) for goal, certified in found.items()]
     rows[0] += f"  {shown_text(level.name)}  {shown_text(level.file)}:{level.record}"
     best = next(iter(found.values())).run
@@ -183,7 +177,6 @@ def _row(goal: str, certified: Certified, level: NamedLevel) -> str:
 
 
 def _facts(level: NamedLevel, found: Mapping[str, Certified], files: Mapping[str, Path]) -> dict[str, Any]:
-    """A level's certificate for programs."""
     from ninja_game.formats.n14.level_string import level_digest
 
     run = next(iter(found.values())).run

@@ -1,4 +1,4 @@
-"""`ninja-game convert`: levels and recordings of N to readable ones and back."""
+"""Commands that turn what is in files into other forms: convert, record, link."""
 
 from __future__ import annotations
 
@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ninja_game.cli.run_options import LevelPath, budget_option, level_given, level_option, with_progress
+from ninja_game.cli import options
 from ninja_game.cli.terminal import data_output
 from ninja_game.errors import FileError, LevelError
-from ninja_game.files.shown_text import counted
+from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.tree import Tree
+from ninja_game.files.user_folder import free_path
 from ninja_game.formats.links.fragment import is_link
+from ninja_game.formats.run_time import seconds_text
 
 if TYPE_CHECKING:
     from ninja_game.formats.named_level import NamedLevel
@@ -34,12 +36,12 @@ FORM_OF_NAME = {
 
 
 @click.command()
-@click.argument("sources", metavar="IN...", nargs=-1, required=True, type=LevelPath())
+@click.argument("sources", metavar="IN...", nargs=-1, required=True, type=options.LevelPath())
 @click.argument("target", metavar="OUT", type=click.Path(allow_dash=True))
 @click.option("--to", "form", type=click.Choice(FORMS), help="The form to write, whatever OUT is called.")
 @click.option("--legend", is_flag=True, help="End readable levels with the meaning of all characters, as comments.")
-@level_option
-@budget_option
+@options.level_option
+@options.budget_option
 @click.option("--force", is_flag=True, help="Replace files that exist. IN is never replaced.")
 def convert(
     sources: Sequence[Path], target: str, form: str | None, legend: bool, level_path: Path | None, budget: int,
@@ -77,7 +79,7 @@ def convert(
 
     output = Output(target, sources, force=force)
     texts = [named for source in sources for named in texts_of(source)]
-    level = level_given(level_path)
+    level = options.level_given(level_path)
     form = form or next((form for suffix, form in FORM_OF_NAME.items() if target.lower().endswith(suffix)), "")
     if level and form in ("ascii", "string"):
         raise click.UsageError("--level is for recordings: add --to replay or --to file")
@@ -87,7 +89,7 @@ def convert(
         form = form or "file"
         if form in RUN_FORMS:
             written = replay_texts(recordings, budget) if form == "replay" else input_texts(recordings, form)
-            output.write_each(list(with_progress(written, "recording")), recordings, RUN_FORMS[form])
+            output.write_each(list(options.with_progress(written, "recording")), recordings, RUN_FORMS[form])
         elif form == "episode":
             output.write(episode_text(recordings, budget))
     else:
@@ -159,7 +161,6 @@ def _ascii_text(level: NamedLevel, legend: bool) -> str:
 
 
 def _strings_text(levels: Sequence[NamedLevel | Recording]) -> str:
-    """All levels as in-game strings, one a line."""
     from ninja_game.formats.n14.level_string import write_level_string
 
     return "".join(write_level_string(level.level, exact=True) + "\n" for level in levels)
@@ -176,3 +177,91 @@ def _file_names(found: Sequence[NamedLevel | Recording], suffix: str) -> Iterato
     for number, (each, own) in enumerate(zip(found, names, strict=True)):
         name = file_stem(each.name)
         yield own if alone else f"{number:0{digits}d}{'-' * bool(name)}{name}{suffix}"
+
+
+@click.command()
+@click.argument("inputs", metavar="FILE", type=options.OLD_FILE)
+@click.option(
+    "-o",
+    "--output",
+    type=options.NEW_FILE,
+    help="The replay. [default: FILE's name and .replay.txt, in the current folder]",
+)
+@click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")
+@options.other_level_option
+@options.budget_option
+@click.option("--force", is_flag=True, help="Replace a file that exists. FILE is never replaced.")
+def record(
+    inputs: Path, output: Path | None, record: int | None, level_path: Path | None, budget: int, force: bool
+) -> None:
+    """Run inputs that a person wrote, and write the result.
+
+    FILE is a replay text with or without claims (docs/replay-format.md), or any other recording. Its inputs run until
+    the exit, death or their end; outcome, gold, digest and waypoints of that run are written with them. Comments,
+    blocks and files that are included become plain inputs; markers, names and authors stay. So does a replay whose
+    level was changed after the recording: its inputs run on the level as it is now.
+
+    \b
+    Examples:
+      ninja-game record idea.inputs.txt
+      ninja-game record idea.inputs.txt -o best.replay.txt --force
+      ninja-game record celeste.tas --level level.txt
+      ninja-game record old.replay.txt --level changed.txt
+    """
+    from ninja_game.formats.load import load_replays
+    from ninja_game.formats.replay.text import parse_replay
+    from ninja_game.runs.conversion import on_level, replay_texts
+
+    level = options.level_given(level_path)
+    recording = options.choose(load_replays(inputs, level=level, changed=True), "recordings", inputs, record)
+    with options.heartbeat(lambda: "running the inputs"):
+        (text,) = replay_texts([on_level(recording, level)], budget)
+    path = output or free_path(Path(), inputs.name.partition(".")[0], ".replay.txt")
+    Output(str(path), [inputs], force=force).write(text)
+    new = parse_replay(text)
+    length = new.length
+    when = f"{'in tick' if new.end_tick >= 0 else 'after ticks:'} {length} ({seconds_text(length)} s)"
+    click.echo(f"{shown_text(str(path))}: {new.outcome} {when}, {new.gold} gold")
+
+
+@click.command()
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=options.LevelPath())
+@click.option("--record", type=click.IntRange(min=0), help="This level or recording of the file, counted from 0.")
+@click.option("--base", metavar="URL", default="", help="Address of a page with the game, which opens the link.")
+def link(files: Sequence[Path], record: int | None, base: str) -> None:
+    """Make a link that carries a level, a pack or replays.
+
+    FILE is a level, a pack (a folder or zip with pack.toml) or a replay, in any format; several replays of one level
+    run side by side. The link holds the whole text, compressed: whoever opens it needs nothing else, and a link
+    without --base is opened with `ninja-game play LINK`. How links are written: docs/links.md.
+
+    \b
+    Examples:
+      ninja-game link 00-0-first-steps --base https://example.org/game/
+      ninja-game link my-pack.zip
+      ninja-game link mine.replay.txt yours.replay.txt
+      ninja-game play '#level=1.…'
+    """
+    click.echo(base.partition("#")[0] + link_of(files, record))
+
+
+def link_of(files: Sequence[Path], record: int | None = None) -> str:
+    """The link of what files hold: one pack, one level, or all the recordings. Raises NinjaGameError."""
+    from ninja_game.formats.ascii.writer import headers_of
+    from ninja_game.formats.links.making import level_link, recording_link
+    from ninja_game.formats.load import load_levels, load_replays, texts_of
+    from ninja_game.formats.pack.files import PackFiles, is_pack
+    from ninja_game.formats.recording import holds_recordings
+
+    first = files[0]
+    if is_pack(first):
+        if len(files) > 1 or record is not None:
+            raise click.UsageError("a link carries one pack, whole")
+        return PackFiles(first).link()
+    if all(holds_recordings(text) for file in files for _, text in texts_of(file)):
+        found = [each for file in files for each in load_replays(file)]
+        return recording_link(found if record is None else [options.choose(found, "recordings", first, record)])
+    if len(files) > 1:
+        raise click.UsageError("a link carries one level; make a pack of several, or give replays only")
+    named = options.choose(load_levels(first), "levels", first, record)
+    return level_link(named.level, **headers_of(named))

@@ -9,14 +9,14 @@ from typing import Any
 import click
 
 from ninja_game.budget import DATASET_MIB
-from ninja_game.cli.run_options import level_given, level_option, memory_option, with_progress
+from ninja_game.cli.options import NEW_FILE, OLD_PATH, level_given, level_option, memory_option, with_progress
 from ninja_game.cli.terminal import complain
 from ninja_game.sim.rules import LIFETIME
 
 
 @click.command(name="demonstrations")
-@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path))
-@click.option("-o", "--output", type=click.Path(dir_okay=False, path_type=Path), help="Write arrays to this .npz file.")
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=OLD_PATH)
+@click.option("-o", "--output", type=NEW_FILE, help="Write arrays to this .npz file.")
 @click.option("--minari", "dataset", metavar="NAME", help="Write a Minari data set of this name, such as ninja/set-v0.")
 @click.option(
     "--observation", "parts", metavar="PART", multiple=True, default=("state",), show_default=True,

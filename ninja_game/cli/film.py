@@ -10,7 +10,7 @@ from pathlib import Path
 
 import click
 
-from ninja_game.cli.run_options import InputPath, Pixels, choose, heartbeat, level_given, level_option
+from ninja_game.cli.options import InputPath, Pixels, choose, heartbeat, level_given, level_option
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ninja_game.cli.run_options import LevelPath, level_given, level_option
+from ninja_game.cli.options import LevelPath, level_given, level_option
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.run_time import seconds_text
@@ -95,7 +95,6 @@ def _recordings(file: Path, level: Level | None) -> list[Recording]:
 
 
 def _counts(level: NamedLevel) -> Counter[str]:
-    """How many objects of each kind."""
     from ninja_game.sim.kinds import KIND_NAMES
 
     return Counter(KIND_NAMES[spec.kind] for spec in filter(makes_object, level.level.objects))
@@ -117,7 +116,6 @@ def _sorts(level: NamedLevel) -> Counter[str]:
 
 
 def _facts(level: NamedLevel, run: Recording | None) -> dict[str, Any]:
-    """Everything about a level, for programs."""
     from ninja_game.formats.n14.level_string import level_digest
     from ninja_game.levels.warnings import level_warnings
 

@@ -1,15 +1,17 @@
-"""Commands for whole packs of levels."""
+"""Commands that make levels: a new one by rules of composition, and whole packs of them."""
 
 from __future__ import annotations
 
 from pathlib import Path
+from random import SystemRandom
 from typing import TYPE_CHECKING
 
 import click
 
-from ninja_game.cli import solver_options as options
-from ninja_game.cli.run_options import with_progress
+from ninja_game.cli import options
+from ninja_game.cli.options import NEW_FILE, OLD_FOLDER, OLD_PATH, with_progress
 from ninja_game.files.shown_text import counted, shown_text
+from ninja_game.files.user_folder import free_path
 from ninja_game.formats.run_time import seconds_text
 
 if TYPE_CHECKING:
@@ -18,10 +20,9 @@ if TYPE_CHECKING:
 
 
 @click.command(name="lint")
-@click.argument("pack", type=click.Path(exists=True, path_type=Path))
+@click.argument("pack", type=OLD_PATH)
 @click.option("--design", is_flag=True, help="Report what levels lack that good ones have, too.")
-@click.pass_context
-def lint(ctx: click.Context, pack: Path, design: bool) -> None:
+def lint(pack: Path, design: bool) -> int:
     """Report what is odd about a pack: its index, its levels, its certificates, its table of pars.
 
     A line says how to mend what was found, and ends in its code (docs/findings.md).
@@ -41,7 +42,7 @@ def lint(ctx: click.Context, pack: Path, design: bool) -> None:
     found = list(lint(opened, with_design=design))
     _show(found)
     click.echo(_summary(opened, len(found)))
-    ctx.exit(1 if found else 0)
+    return 1 if found else 0
 
 
 def _show(found: list[PackFinding]) -> None:
@@ -50,7 +51,6 @@ def _show(found: list[PackFinding]) -> None:
 
 
 def _summary(pack: Pack, found: int) -> str:
-    """What a pack holds, and how much of it is odd."""
     parts = [counted(len(pack.episodes), "episode"), counted(len(pack.levels), "level")]
     parts.append(counted(found, "finding") if found else "nothing odd")
     accepted = len(pack.index.accepted)
@@ -58,7 +58,7 @@ def _summary(pack: Pack, found: int) -> str:
 
 
 @click.command(name="pars")
-@click.argument("pack", type=click.Path(exists=True, file_okay=False, path_type=Path))
+@click.argument("pack", type=OLD_FOLDER)
 def pars(pack: Path) -> None:
     """Write par times and difficulties of a pack's levels into its pars.toml.
 
@@ -88,14 +88,11 @@ def pars(pack: Path) -> None:
 
 
 @click.command(name="pack")
-@click.argument("pack", type=click.Path(exists=True, file_okay=False, path_type=Path))
+@click.argument("pack", type=OLD_FOLDER)
 @options.seconds_option(20.0)
-@click.option("--jobs", type=click.IntRange(1, 1024), help="Levels at the same time. [default: one per core]")
-@click.option(
-    "--zip", "zip_path", type=click.Path(dir_okay=False, path_type=Path), help="[default: PACK.zip beside it]"
-)
-@click.pass_context
-def pack_up(ctx: click.Context, pack: Path, seconds: float, jobs: int | None, zip_path: Path | None) -> None:
+@click.option("--jobs", type=options.JOBS, help="Levels at the same time. [default: one per core]")
+@click.option("--zip", "zip_path", type=NEW_FILE, help="[default: PACK.zip beside it]")
+def pack_up(pack: Path, seconds: float, jobs: int | None, zip_path: Path | None) -> int:
     """Make a pack ready to share: certificates, par times, difficulties, a list of what is odd, a zip and a link.
 
     Each level is certified to the exit and with all gold, --seconds each. What is there and still right is not done
@@ -108,7 +105,7 @@ def pack_up(ctx: click.Context, pack: Path, seconds: float, jobs: int | None, zi
       ninja-game levels pack my-pack/
       ninja-game levels pack my-pack/ --seconds 60 --zip shared.zip
     """
-    from ninja_game.editor.packing import make_ready
+    from ninja_game.editor.packs import make_ready
     from ninja_game.files.writing import check_output, write_atomically
 
     path = zip_path or pack.resolve().with_name(f"{pack.resolve().name}.zip")
@@ -120,7 +117,7 @@ def pack_up(ctx: click.Context, pack: Path, seconds: float, jobs: int | None, zi
     click.echo(
         "\n".join([*ready.notes, _summary(ready.pack, len(ready.findings)), f"wrote {path}", ready.link]).strip()
     )
-    ctx.exit(1 if ready.findings else 0)
+    return 1 if ready.findings else 0
 
 
 @click.group(commands={"pack": pack_up, "pars": pars, "lint": lint})
@@ -135,3 +132,56 @@ def levels() -> None:
       ninja-game levels lint my-pack/
       ninja-game levels pars my-pack/
     """
+
+
+@click.command()
+@click.option("--seed", type=options.SEED, metavar="N", help="The same seed gives the same level. [default: any]")
+@click.option(
+    "--difficulty", type=click.IntRange(1, 10), default=4, show_default=True, metavar="D",
+    help="Difficulty, 1 to 10, on the scale that the game shows.",
+)  # fmt: skip
+@click.option(
+    "-o", "--output", metavar="FILE", type=NEW_FILE,
+    help="Where to write the level. [default: a new file in the current folder, named after the level]",
+)  # fmt: skip
+@click.option(
+    "--replay", metavar="FILE", type=NEW_FILE, help="Write the certificate too, the solver's run to the exit."
+)
+def generate(seed: int | None, difficulty: int, output: Path | None, replay: Path | None) -> int:
+    """Make a new level, certified by the solver.
+
+    Seed, difficulty and version of ninja-game make the level, on every machine the same. Every level has been passed
+    by the solver, and its difficulty measured as that of the game's own levels. It needs Numba (the extra `fast`).
+
+    Exit code 0: it is written; 1: this seed gives no level that can be passed; 2: bad input.
+
+    \b
+    Examples:
+      ninja-game generate --seed 7 --difficulty 3 -o seven.txt
+      ninja-game generate --difficulty 9 --replay its-run.replay.txt
+    """
+    from ninja_game.errors import FileError
+    from ninja_game.files.writing import check_output, write_atomically
+    from ninja_game.generator.generate import generate
+    from ninja_game.search.certificate import named_run, save_replay
+
+    for path in filter(None, (output, replay)):
+        check_output(path)
+    if output and replay and output.resolve() == replay.resolve():
+        raise FileError("level and replay would be one file", str(output), hint="choose another name for one of them")
+    seed = SystemRandom().randrange(10**6) if seed is None else seed
+    with options.progress_line() as progress:
+        made = generate(seed, difficulty, report=progress.say)
+    if made is None:
+        click.echo(f"seed {seed} gives no level of difficulty {difficulty} that can be passed; try another one")
+        return options.NOT_FOUND
+    output = output or free_path(Path(), made.name.lower().replace(" ", "-"), ".txt")
+    write_atomically(output, made.text)
+    if replay:
+        run = named_run(made.run, "generate", name=made.name, author=made.author, level_author=made.author)
+        save_replay(replay, run)
+    click.echo(
+        f"{output}: {made.name}, seed {seed}, difficulty {made.difficulty:.1f}, "
+        f"certified in {options.time_text(made.run.end_tick)}"
+    )
+    return 0

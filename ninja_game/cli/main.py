@@ -63,7 +63,10 @@ MODULES = {
     **dict.fromkeys(("play", "edit", "tas", "lab"), "windows"),
     **dict.fromkeys(("solve", "improve"), "search"),
     **dict.fromkeys(("site", "board"), "web"),
+    **dict.fromkeys(("record", "link"), "convert"),
+    **dict.fromkeys(("player", "desktop", "compile"), "machine"),
     "compare": "splits",
+    "generate": "levels",
 }
 """Modules of ``ninja_game.cli`` that hold several commands; any other command is in a module of its name."""
 
@@ -90,11 +93,9 @@ class Commands(click.Group):
     """A group that imports a command when it is asked for, and turns every expected error into one line and a code."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """All commands, in the order of the table."""
         return list(COMMANDS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        """The command of that name, None if there is none."""
         if cmd_name not in COMMANDS:
             return None
         command = getattr(import_module(f"ninja_game.cli.{MODULES.get(cmd_name, cmd_name)}"), cmd_name)
@@ -116,7 +117,6 @@ class Commands(click.Group):
         return found
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """The table of commands, without importing them."""
         width = max(map(len, COMMANDS))
         for title, group in GROUPS.items():
             with formatter.section(title.capitalize()):
@@ -174,7 +174,6 @@ def _stopped(error: BaseException | None) -> int:
 
 
 def _failed(error: BaseException) -> int:
-    """Report what a command has raised; its exit code."""
     match error:
         case click.exceptions.NoArgsIsHelpError():
             say(error.format_message())

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ninja_game.cli import solver_options as options
-from ninja_game.cli.run_options import InputPath, LevelPath, choose, choose_level, level_given, level_option
+from ninja_game.cli import options
 from ninja_game.files.reading import keep_inputs
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
@@ -21,7 +20,7 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.argument("level", type=LevelPath(dir_okay=False))
+@click.argument("level", type=options.LevelPath(dir_okay=False))
 @click.option("--record", type=click.IntRange(min=0), help="Which of a file's levels, counted from 0.")
 @options.gold_option
 @options.seconds_option(60.0)
@@ -31,20 +30,12 @@ if TYPE_CHECKING:
 @options.smooth_option
 @options.body_option
 @click.option(
-    "-o", "--output", metavar="REPLAY", type=click.Path(dir_okay=False, path_type=Path),
+    "-o", "--output", metavar="REPLAY", type=options.NEW_FILE,
     help="Where to keep the best run so far. [default: LEVEL's name and .replay.txt, in the current folder]",
 )  # fmt: skip
-@click.pass_context
 def solve(
-    ctx: click.Context,
-    /,
-    level: Path,
-    record: int | None,
-    output: Path | None,
-    jobs: int | None,
-    smooth: int | None,
-    **task_options: Any,
-) -> None:
+    level: Path, record: int | None, output: Path | None, jobs: int | None, smooth: int | None, **task_options: Any
+) -> int:
     """Find a run to the exit, then shorten it.
 
     The best run so far is always in REPLAY, so that the search can be stopped at any time (Ctrl-C). Every run is played
@@ -59,7 +50,7 @@ def solve(
     """
     from ninja_game.search.solve import Task, solve
 
-    chosen = choose_level(level, record)
+    chosen = options.choose_level(level, record)
     output = output or free_path(Path(), level.stem, ".replay.txt")
     task = Task(chosen.level, jobs=options.default_threads(jobs), **task_options)
     options.check_gold(task)
@@ -68,17 +59,18 @@ def solve(
         run = solve(task, report=report, on_better=save)
     if run is None:
         click.echo(options.not_found_text(task, report.last))
-        ctx.exit(options.NOT_FOUND)
+        return options.NOT_FOUND
     if smooth is not None:
         run = options.smoothed_run(task.level, run, smooth)
         save(run)
     click.echo(f"{shown_text(str(output))}: {options.time_text(run.end_tick)}, {run.gold} gold")
+    return 0
 
 
 @click.command()
-@click.argument("replay", type=click.Path(exists=True, dir_okay=False, path_type=Path))
+@click.argument("replay", type=options.OLD_FILE)
 @click.option("--record", type=click.IntRange(min=0), help="Which of a file's recordings, counted from 0.")
-@level_option
+@options.level_option
 @options.gold_option
 @options.seconds_option(60.0)
 @options.work_option
@@ -86,17 +78,13 @@ def solve(
 @options.search_jobs_option
 @options.smooth_option
 @click.option(
-    "--resume", metavar="LOG", type=click.Path(dir_okay=False, path_type=Path),
+    "--resume", metavar="LOG", type=options.NEW_FILE,
     help="Log better runs in this file; where it is there, go on from the best one, for what is left of the time.",
 )  # fmt: skip
 @click.option(
-    "-o", "--output", metavar="REPLAY", required=True, type=click.Path(dir_okay=False, path_type=Path),
-    help="Where to keep the best run so far.",
-)  # fmt: skip
-@click.pass_context
+    "-o", "--output", metavar="REPLAY", required=True, type=options.NEW_FILE, help="Where to keep the best run so far."
+)
 def improve(
-    ctx: click.Context,
-    /,
     replay: Path,
     record: int | None,
     level_path: Path | None,
@@ -105,7 +93,7 @@ def improve(
     smooth: int | None,
     resume: Path | None,
     **task_options: Any,
-) -> None:
+) -> int:
     """Shorten a run that exists.
 
     REPLAY is a replay of ours or a recording $name#author#comment#level#demo#. One that ends before the exit is first
@@ -128,7 +116,9 @@ def improve(
 
     earlier = load_replays(output) if resume and output.exists() else []
     keep_inputs(on=True)  # what was read of the output may be replaced
-    recording = choose(load_replays(replay, level=level_given(level_path)), "recordings", replay, record)
+    recording = options.choose(
+        load_replays(replay, level=options.level_given(level_path)), "recordings", replay, record
+    )
     threads = options.default_threads(jobs)
     task = Task(recording.level, body=recording.body, first=recording.inputs, jobs=threads, **task_options)
     options.check_gold(task)
@@ -146,7 +136,7 @@ def improve(
         )
         if first is None:
             click.echo(f"{played.outcome} after {played.ticks} ticks, and no way to the exit found from there")
-            ctx.exit(options.NOT_FOUND)
+            return options.NOT_FOUND
         task = replace(task, first=first, others=(), seconds=task.seconds if known else task.seconds / 2)
     before: list[int] = []
 
@@ -167,10 +157,11 @@ def improve(
     gain = before[0] - run.end_tick
     change = f"{abs(gain)} ticks {'shorter' if gain > 0 else 'longer'}" if gain else "no shorter run was found"
     click.echo(f"{output}: {options.time_text(run.end_tick)}, {change}, {run.gold} gold")
+    return 0
 
 
 @click.command()
-@click.argument("replay", metavar="RUN", type=InputPath(dir_okay=False))
+@click.argument("replay", metavar="RUN", type=options.InputPath(dir_okay=False))
 @click.option("--from", "first", required=True, type=click.IntRange(min=0), help="First tick whose keys may change.")
 @click.option("--to", "last", required=True, type=click.IntRange(min=1), help="First tick after the span.")
 @click.option("--goal", default="", metavar="FORMULA", help="Formula that must be true after a tick of the span.")
@@ -189,17 +180,19 @@ def improve(
 @options.seed_option
 @options.search_jobs_option
 @click.option("--record", type=click.IntRange(min=0), help="Which of a file's recordings, counted from 0.")
-@level_option
+@options.level_option
 @click.option(
-    "-o", "--output", metavar="REPLAY", type=click.Path(dir_okay=False, path_type=Path),
+    "-o",
+    "--output",
+    metavar="REPLAY",
+    type=options.NEW_FILE,
     help="Where to keep the best run so far. [default: nowhere]",
-)  # fmt: skip
-@click.pass_context
+)
 def search(
-    ctx: click.Context, replay: Path, first: int, last: int, goal: str, maximise: str, minimise: str, rest: bool,
+    replay: Path, first: int, last: int, goal: str, maximise: str, minimise: str, rest: bool,
     method: str, every: int, seconds: float, seed: int, jobs: int | None, record: int | None, level_path: Path | None,
     output: Path | None,
-) -> None:  # fmt: skip
+) -> int:  # fmt: skip
     """Find other keys for a span of a run.
 
     RUN is a recording of any format; the keys of the ticks from --from on, up to but without --to, are searched.
@@ -227,7 +220,9 @@ def search(
         raise click.UsageError("nothing to search for; give --goal, --maximise, --minimise or --rest")
     if every > 1 and method != "exhaustive":
         raise click.UsageError("--every is for --method exhaustive")
-    recording = choose(load_replays(replay, level=level_given(level_path)), "recordings", replay, record)
+    recording = options.choose(
+        load_replays(replay, level=options.level_given(level_path)), "recordings", replay, record
+    )
     save = options.saver_of_better(output, recording, "search") if output else None
     task = SpanTask(
         recording.level, recording.inputs, first, last, goal=goal, measure=maximise or minimise,
@@ -255,11 +250,10 @@ def search(
         click.echo("the goal was not reached; more time, a longer span or another --method may reach it")
     elif output:
         click.echo(f"{output}: the first of them")
-    ctx.exit(0 if found else options.NOT_FOUND)
+    return 0 if found else options.NOT_FOUND
 
 
 def _keys(found: Found) -> str:
-    """The keys in a line, as replays have them."""
     from ninja_game.formats.replay.input_runs import write_inputs
     from ninja_game.sim.inputs import with_press_bits
 

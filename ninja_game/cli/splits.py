@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ninja_game.cli.run_options import budget_option, choose, heartbeat, level_given, level_option, with_progress
+from ninja_game.cli import options
 from ninja_game.cli.terminal import BAD_INPUT, complain, data_output
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.run_time import seconds_text
@@ -34,27 +34,28 @@ format_option = click.option(
 )  # fmt: skip
 
 picture_option = click.option(
-    "--picture", metavar="OUT.png", type=click.Path(dir_okay=False, path_type=Path),
+    "--picture",
+    metavar="OUT.png",
+    type=options.NEW_FILE,
     help="Draw the paths over the level, and the speeds, into this file.",
-)  # fmt: skip
+)
 
 
 @click.command()
-@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path))
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=options.OLD_PATH)
 @click.option(
-    "--against", metavar="BEST", type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    "--against", metavar="BEST", type=options.OLD_FILE,
     help="The run that the others are measured against. [default: the fastest to the exit]",
 )  # fmt: skip
 @click.option("--gold/--no-gold", default=True, help="A split for each piece of gold, or for none.")
-@level_option
+@options.level_option
 @format_option
 @picture_option
-@budget_option
-@click.pass_context
+@options.budget_option
 def splits(
-    ctx: click.Context, files: Sequence[Path], against: Path | None, gold: bool, level_path: Path | None, form: str,
+    files: Sequence[Path], against: Path | None, gold: bool, level_path: Path | None, form: str,
     picture: Path | None, budget: int,
-) -> None:  # fmt: skip
+) -> int:  # fmt: skip
     """Show when runs take gold, open doors and the exit, and end.
 
     FILE is a replay of ours, a file of $name#author#comment#level#demo# records, or a folder of them. Each level has a
@@ -72,11 +73,11 @@ def splits(
     """
     from ninja_game.runs.compare import SPLIT_EVENTS, run_splits
 
-    level, events = level_given(level_path), [name for name in SPLIT_EVENTS if gold or name != "gold-taken"]
+    level, events = options.level_given(level_path), [name for name in SPLIT_EVENTS if gold or name != "gold-taken"]
     found, unreadable = readable(files, level)
     best = readable([against], level)[0][:1] if against else []
     # A run that costs too much ends the command: a table without it would be wrong.
-    all_runs = list(with_progress((run_splits(each, events, budget) for each in [*best, *found]), "run"))
+    all_runs = list(options.with_progress((run_splits(each, events, budget) for each in [*best, *found]), "run"))
     bests, runs = all_runs[: len(best)], all_runs[len(best) :]
     groups: dict[str, list[RunSplits]] = {}
     for run in runs:
@@ -96,7 +97,7 @@ def splits(
         drawn = tables[0][0]
         paths = list(zip(titles([run.recording for run in drawn]), (run.positions for run in drawn), strict=True))
         draw(picture, drawn[0].recording.level, paths, [*files, *filter(None, [level_path, against])])
-    ctx.exit(BAD_INPUT if unreadable else 0)
+    return BAD_INPUT if unreadable else 0
 
 
 def readable(files: Iterable[Path], level: Any) -> tuple[list[Recording], int]:
@@ -138,7 +139,6 @@ def titles(recordings: Sequence[Recording]) -> list[str]:
 
 
 def show(tables: Sequence[Table]) -> None:
-    """Print tables of splits."""
     from rich.console import Console
     from rich.table import Table as RichTable
 
@@ -168,14 +168,12 @@ def _number(count: int | None) -> str:
 
 
 def _behind(tick: int | None, best: int | None) -> str:
-    """A run's tick beside the best one's: the difference; the tick itself where only this run gets there."""
     if tick is None:
         return "-"
     return f"{tick - best:+d}" if best is not None else str(tick)
 
 
 def as_json(runs: Sequence[RunSplits], rows: Sequence[SplitRow]) -> dict[str, Any]:
-    """A table for programs."""
     from ninja_game.runs.compare import sum_of_best
 
     return {
@@ -228,14 +226,14 @@ COMPARED = ("at", "x", "y", "tick", "other", "ahead")
 
 
 @click.command()
-@click.argument("first", metavar="A", type=click.Path(exists=True, dir_okay=False, path_type=Path))
-@click.argument("second", metavar="B", type=click.Path(exists=True, dir_okay=False, path_type=Path))
+@click.argument("first", metavar="A", type=options.OLD_FILE)
+@click.argument("second", metavar="B", type=options.OLD_FILE)
 @click.option("--record", type=click.IntRange(min=0), help="Which recording of A, counted from 0.")
 @click.option("--against-record", type=click.IntRange(min=0), help="Which recording of B, counted from 0.")
-@level_option
+@options.level_option
 @format_option
 @picture_option
-@budget_option
+@options.budget_option
 def compare(
     first: Path, second: Path, record: int | None, against_record: int | None, level_path: Path | None, form: str,
     picture: Path | None, budget: int,
@@ -254,10 +252,10 @@ def compare(
     from ninja_game.formats.load import load_replays
     from ninja_game.runs.compare import compare_runs
 
-    level = level_given(level_path)
-    ours = choose(load_replays(first, level=level), "recordings", first, record)
-    theirs = choose(load_replays(second, level=level), "recordings", second, against_record)
-    with heartbeat(lambda: "running both"):
+    level = options.level_given(level_path)
+    ours = options.choose(load_replays(first, level=level), "recordings", first, record)
+    theirs = options.choose(load_replays(second, level=level), "recordings", second, against_record)
+    with options.heartbeat(lambda: "running both"):
         found = compare_runs(ours, theirs, budget)
     if form == "json":
         parts = {"first_keys": found.first_keys, "first_place": found.first_place}

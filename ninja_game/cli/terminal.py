@@ -37,7 +37,6 @@ class Terminal(io.TextIOWrapper):
         self.ours = ours
 
     def write(self, text: str) -> int:
-        """Write it; the number of characters in ``text``."""
         for place, part in enumerate(self.ours.split(text)):
             super().write(part if place % 2 or part.isprintable() else "".join(map(shown_character, part)))
         return len(text)

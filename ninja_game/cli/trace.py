@@ -13,15 +13,7 @@ from typing import IO, TYPE_CHECKING, Any
 
 import click
 
-from ninja_game.cli.run_options import (
-    InputPath,
-    budget_option,
-    jobs_option,
-    level_given,
-    level_option,
-    memory_option,
-    with_progress,
-)
+from ninja_game.cli import options
 from ninja_game.cli.terminal import BAD_INPUT, complain, data_output
 from ninja_game.files.shown_text import shown_text
 
@@ -38,27 +30,20 @@ SECTION = re.compile(r"(world|objects|ninja|game) [0-9.]+")
 
 
 @click.command()
-@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=InputPath())
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=options.InputPath())
 @click.option("--record", type=click.IntRange(min=0), help="Only this one of a file's recordings, counted from 0.")
 @click.option("--ticks", type=click.IntRange(1, MOST_TICKS), help="Run exactly this many ticks, whatever happens.")
 @click.option("--after", type=click.IntRange(0, MOST_TICKS), help="Run this many ticks more than `verify` does.")
 @click.option("--objects", is_flag=True, help="Rows for the objects too, not only for the ninja.")
 @click.option("--digests", is_flag=True, help="One JSON object per recording with digests of everything, instead.")
-@click.option(
-    "--against", type=click.Path(exists=True, dir_okay=False, path_type=Path),
-    help="Compare with this trace, or with this file of recordings.",
-)  # fmt: skip
+@click.option("--against", type=options.OLD_FILE, help="Compare with this trace, or with this file of recordings.")
 @click.option("--against-record", type=click.IntRange(min=0), help="Compare every run with this record of --against.")
-@level_option
-@click.option(
-    "-o", "--output", type=click.Path(dir_okay=False, path_type=Path), help="Write to this .csv or .npz file."
-)
-@memory_option
-@jobs_option
-@budget_option
-@click.pass_context
+@options.level_option
+@click.option("-o", "--output", type=options.NEW_FILE, help="Write to this .csv or .npz file.")
+@options.memory_option
+@options.jobs_option
+@options.budget_option
 def trace(
-    ctx: click.Context,
     files: Sequence[Path],
     record: int | None,
     ticks: int | None,
@@ -72,7 +57,7 @@ def trace(
     memory: str,
     jobs: int | None,
     budget: int,
-) -> None:
+) -> int:
     """Show every tick of recordings: position, velocity, state, events.
 
     FILE is a replay of ours, a file of $name#author#comment#level#demo# records, or a folder of them. Each runs as
@@ -95,33 +80,33 @@ def trace(
         raise click.UsageError("--against-record needs --against")
     if digests + bool(against) + bool(output) > 1:
         raise click.UsageError("--digests, --against and --output cannot be used together")
-    options = {
-        "level": level_given(level_path), "jobs": jobs, "ticks": ticks, "after": after or 0, "memory": memory,
+    how = {
+        "level": options.level_given(level_path), "jobs": jobs, "ticks": ticks, "after": after or 0, "memory": memory,
         "objects": objects or digests or against is not None, "events": not digests and not against,
         "budget": budget,
     }  # fmt: skip
-    traces = Traces(files, record=record, **options)
+    traces = Traces(files, record=record, **how)
     different = 0
     if digests:
         for traced in traces:
             click.echo(json.dumps(_digests(traced)))
     elif against:
-        different = _compare(traces, _expected(against, against_record, options), against, against_record)
+        different = _compare(traces, _expected(against, against_record, how), against, against_record)
     else:
         _write(traces, output, [*files, level_path] if level_path else files)
     if not traces.count and not traces.unreadable:
         there_is_no = "recordings here" if record is None else f"record {record}"
         raise click.UsageError(f"{', '.join(map(str, files))}: no {there_is_no}")
-    ctx.exit(BAD_INPUT if traces.unreadable else 1 if different else 0)
+    return BAD_INPUT if traces.unreadable else 1 if different else 0
 
 
 class Traces:
     """The traces of all recordings, one after the other; what cannot be read is reported on stderr and counted."""
 
-    def __init__(self, files: Sequence[Path], **options: Any) -> None:
+    def __init__(self, files: Sequence[Path], **how: Any) -> None:
         from ninja_game.runs.archive import trace_all
 
-        self.items = with_progress(trace_all(files, **options), "trace")
+        self.items = options.with_progress(trace_all(files, **how), "trace")
         self.count = 0
         self.unreadable = 0
 
@@ -138,7 +123,6 @@ class Traces:
 
 
 def _digests(traced: Traced) -> dict[str, Any]:
-    """The digests of a run, for programs."""
     from ninja_game.runs.trace import trace_digests
 
     file, record, name, run = traced.file, traced.trace.record, traced.trace.name, traced.trace.run
@@ -149,13 +133,13 @@ def _digests(traced: Traced) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _expected(against: Path, record: int | None, options: dict[str, Any]) -> Iterator[FiledTrace]:
+def _expected(against: Path, record: int | None, how: dict[str, Any]) -> Iterator[FiledTrace]:
     """The traces of a file, or of the recordings in it. Raises NinjaGameError, OSError."""
     from ninja_game.runs.trace_files import is_trace, read_traces
 
     if is_trace(against):
         return (trace for trace in read_traces(against) if record is None or trace.record == record)
-    return (traced.trace for traced in Traces([against], record=record, **options))
+    return (traced.trace for traced in Traces([against], record=record, **how))
 
 
 def _compare(traces: Traces, expected: Iterator[FiledTrace], against: Path, record: int | None) -> int:

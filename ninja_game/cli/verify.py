@@ -10,7 +10,7 @@ from typing import IO, TYPE_CHECKING, Any
 
 import click
 
-from ninja_game.cli.run_options import InputPath, budget_option, jobs_option, with_progress
+from ninja_game.cli.options import NEW_FILE, InputPath, budget_option, jobs_option, with_progress
 from ninja_game.cli.terminal import BAD_INPUT, complain
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.run_time import seconds_text
@@ -45,19 +45,16 @@ FAILED = 1
 )  # fmt: skip
 @click.option("--cluster", metavar="ADDRESS", default="", help="Run on the Dask cluster with this scheduler.")
 @click.option(
-    "--resume", metavar="LOG", type=click.Path(dir_okay=False, path_type=Path),
+    "--resume", metavar="LOG", type=NEW_FILE,
     help="Log finished work in this file; what it already has is not run again.",
 )  # fmt: skip
 @click.option(
-    "--report", metavar="OUT", type=click.Path(dir_okay=False, path_type=Path),
+    "--report", metavar="OUT", type=NEW_FILE,
     help="Write all results and their sums to this file: JSON if it ends in .json, else a table.",
 )  # fmt: skip
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per recording, for programs.")
 @click.option("-q", "--quiet", is_flag=True, help="Only recordings that fail, and the summary.")
-@click.pass_context
 def verify(
-    ctx: click.Context,
-    /,
     files: Sequence[Path],
     level: Path | None,
     workers: str | None,
@@ -65,7 +62,7 @@ def verify(
     as_json: bool,
     quiet: bool,
     **options: Any,
-) -> None:
+) -> int:
     """Run recordings again and judge them.
 
     FILE is a replay of ours, a file of $name#author#comment#level#demo# records, a folder of them, or a link. Every
@@ -109,7 +106,7 @@ def verify(
         raise click.UsageError(f"{', '.join(map(str, files))}: no record {options['record']}")
     if not as_json:
         click.echo(_summary(totals))
-    ctx.exit(BAD_INPUT if totals.unreadable else FAILED if totals.failed else 0)
+    return BAD_INPUT if totals.unreadable else FAILED if totals.failed else 0
 
 
 def _reported(results: Iterable[Result], report: Path, files: Sequence[Path], stack: ExitStack) -> Iterator[Result]:
@@ -123,7 +120,6 @@ def _reported(results: Iterable[Result], report: Path, files: Sequence[Path], st
 
 
 def _write_table(results: Iterable[Result], out: IO[bytes]) -> Iterator[Result]:
-    """Results, written as a table as they pass."""
     from ninja_game.runs.archive import Totals
     from ninja_game.runs.recording_reader import Unreadable
 

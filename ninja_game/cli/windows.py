@@ -7,21 +7,14 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from ninja_game.cli.run_options import (
-    InputPath,
-    LevelPath,
-    level_given,
-    level_option,
-    other_level_option,
-    window_options,
-)
+from ninja_game.cli import options
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App, Screen
 
 
 @click.command()
-@click.argument("level", required=False, type=LevelPath())
+@click.argument("level", required=False, type=options.LevelPath())
 @click.option(
     "--record", type=click.IntRange(0, 10**6), default=0, help="Begin with this level of the file, counted from 0."
 )
@@ -30,13 +23,10 @@ if TYPE_CHECKING:
     help="The ninja's body: the circle of the classic rules, or a box of the same size.",
 )  # fmt: skip
 @click.option("--practice", is_flag=True, help="No time limit, nothing counts.")
-@click.option("--replay", type=InputPath(dir_okay=False), help="Watch the recordings of this file or link.")
-@level_option
-@window_options
-@click.pass_context
+@click.option("--replay", type=options.InputPath(dir_okay=False), help="Watch the recordings of this file or link.")
+@options.level_option
+@options.window_options
 def play(
-    ctx: click.Context,
-    /,
     level: Path | None,
     record: int,
     body: Literal["circle", "box"],
@@ -44,7 +34,7 @@ def play(
     replay: Path | None,
     level_path: Path | None,
     **window: Any,
-) -> None:
+) -> int:
     """Play a level in a window.
 
     LEVEL is a file of levels, the name of one of the game's own, or a link; without it the game begins at its menu.
@@ -76,20 +66,17 @@ def play(
     from ninja_game.tas_editor.opening import open_tas_editor
 
     replay_path = str(replay) if replay is not None else None
-    ctx.exit(
-        main(
-            path, body=body, replay_path=replay_path, practice=practice, record=record, tas_editor=open_tas_editor,
-            **window, window=opened,
-        )
+    return main(
+        path, body=body, replay_path=replay_path, practice=practice, record=record, tas_editor=open_tas_editor,
+        window=opened, **window,
     )  # fmt: skip
 
 
 @click.command()
-@click.argument("level", required=False, type=LevelPath())
+@click.argument("level", required=False, type=options.LevelPath())
 @click.option("--record", type=click.IntRange(0, 10**6), default=0, help="This level of the file, counted from 0.")
-@window_options
-@click.pass_context
-def edit(ctx: click.Context, /, level: Path | None, record: int, **window: Any) -> None:
+@options.window_options
+def edit(level: Path | None, record: int, **window: Any) -> int:
     """Make a level, or change one, in a window.
 
     LEVEL is a file of levels, or the name of one of the game's own; without it an empty level. A readable level is
@@ -111,24 +98,22 @@ def edit(ctx: click.Context, /, level: Path | None, record: int, **window: Any) 
     from ninja_game.play.main import run_app
     from ninja_game.tas_editor.opening import open_tas_editor
 
-    ctx.exit(run_app(lambda app: EditorScreen(app, source), tas_editor=open_tas_editor, **window))
+    return run_app(lambda app: EditorScreen(app, source), tas_editor=open_tas_editor, **window)
 
 
 @click.command()
-@click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path))
+@click.argument("file", type=options.OLD_FILE)
 @click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")
-@other_level_option
+@options.other_level_option
 @click.option(
-    "--against", multiple=True, type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    "--against", multiple=True, type=options.OLD_FILE,
     help="Compare with the runs of the same level in this file; may be given several times.",
 )  # fmt: skip
 @click.option("--tick", type=click.IntRange(0, 10**6), default=0, help="Put the cursor on this tick.")
-@window_options
-@click.pass_context
+@options.window_options
 def tas(
-    ctx: click.Context, /, file: Path, record: int | None, level_path: Path | None, against: tuple[Path, ...],
-    tick: int, **window: Any,
-) -> None:  # fmt: skip
+    file: Path, record: int | None, level_path: Path | None, against: tuple[Path, ...], tick: int, **window: Any
+) -> int:
     """Edit a run tick by tick, in a window.
 
     FILE is a recording of any format. On one side the level, on the other a row for each tick: its keys, and what the
@@ -145,7 +130,7 @@ def tas(
     """
     from ninja_game.tas.files import open_run, runs_of_level
 
-    opened = open_run(file, record=record, level=level_given(level_path))
+    opened = open_run(file, record=record, level=options.level_given(level_path))
     others = [run for path in against for run in runs_of_level(path, opened.recording)]
     from ninja_game.play.main import run_app
     from ninja_game.tas_editor.opening import OpeningScreen, open_tas_editor
@@ -160,7 +145,7 @@ def tas(
         # So many pictures are pictures of the TAS editor.
         return editor(app) if window["frames"] else OpeningScreen(app, opened.recording, lambda: editor(app))
 
-    ctx.exit(run_app(opening, tas_editor=open_tas_editor, **window))
+    return run_app(opening, tas_editor=open_tas_editor, **window)
 
 
 FIGURES = (
@@ -171,13 +156,12 @@ FIGURES = (
 
 @click.command()
 @click.argument("figure", metavar="[FIGURE]", required=False, type=click.Choice(FIGURES))
-@window_options
+@options.window_options
 @click.option(
-    "-o", "--output", type=click.Path(dir_okay=False, path_type=Path),
+    "-o", "--output", type=options.NEW_FILE,
     help="Open no window: write the figure to this .png file, or its demonstration to this .gif file.",
 )  # fmt: skip
-@click.pass_context
-def lab(ctx: click.Context, /, figure: str | None, output: Path | None, **window: Any) -> None:
+def lab(figure: str | None, output: Path | None, **window: Any) -> int:
     """Drag, paint and watch: fourteen figures about how the world works.
 
     FIGURE is the one that is shown first: grid, bodies, cells, projection, edges, doors, response, grids, nine-cells,
@@ -195,8 +179,8 @@ def lab(ctx: click.Context, /, figure: str | None, output: Path | None, **window
         from ninja_game.play.lab.screen import export_figure
 
         export_figure(figure, output)
-        return
+        return 0
     from ninja_game.play.lab.screen import LabScreen
     from ninja_game.play.main import run_app
 
-    ctx.exit(run_app(lambda app: LabScreen(app, figure or ""), **window))
+    return run_app(lambda app: LabScreen(app, figure or ""), **window)

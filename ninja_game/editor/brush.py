@@ -48,7 +48,6 @@ def tile_name(tile: int) -> str:
 
 
 def tile_key(tile: int) -> str:
-    """What to press for a tile."""
     if tile in (EMPTY, FULL):
         return "DE"[tile]
     return next((f"{f.key} {QUARTERS[f.tiles.index(tile)].upper()}" for f in FAMILIES if tile in f.tiles), "")
@@ -63,7 +62,6 @@ class ObjectType(NamedTuple):
 
     @property
     def spec(self) -> ObjectSpec:
-        """An object of it, at the first cell."""
         listed = read_object_line(self.line)[0]
         assert isinstance(listed, Listed)  # noqa: S101 - the table below holds objects only
         return listed.record
@@ -102,7 +100,6 @@ def object_of_type(name: str) -> ObjectSpec:
 
 
 def object_type_of(spec: ObjectSpec) -> str:
-    """The type in the palette that a spec belongs to."""
     name = object_type_name(spec)
     return {"one-way platform": "one-way"}.get(name, name)
 
@@ -147,7 +144,6 @@ def _placed_door(spec: ObjectSpec, x: float, y: float, switch: tuple[float, floa
 
 
 def with_switch(spec: ObjectSpec, x: float, y: float, snap: str) -> ObjectSpec:
-    """An exit or a door with its switch at a point."""
     px, py = snapped(x, y, snap)
     old = points(spec)[SWITCH] if has_switch(spec) else (px, py)
     return carried(spec, Motion(dx=px - old[0], dy=py - old[1]), (SWITCH,))

@@ -1,26 +1,32 @@
-"""Routes through a level while it is edited: those of tests, and what the solver finds in its own thread."""
+"""What is found out about a level under edit: routes of tests, what the solver finds, what can be reached."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import lru_cache
+from itertools import takewhile
 from math import isfinite
 from struct import iter_unpack
 from time import monotonic
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ninja_game.backend.memories import compiled_available
-from ninja_game.editor.draft import Cell, cell_of, is_inside
-from ninja_game.errors import BudgetError, LevelError
+from ninja_game.backend.memories import compiled_available, open_worlds
+from ninja_game.editor.brush import object_of_type, placed
+from ninja_game.editor.draft import Cell, Draft, cell_of, is_inside
+from ninja_game.editor.stamp import Stamp, put
+from ninja_game.errors import BudgetError, LevelError, NinjaGameError
 from ninja_game.files.user_folder import how_to_install
 from ninja_game.levels.findings import Finding
 from ninja_game.runs.run import RunResult, run_level
 from ninja_game.runtime import NewestJob
+from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEY_LEFT, KEY_RIGHT
+from ninja_game.sim.kinds import MOVING_ENEMIES
 from ninja_game.sim.level import Level
-from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.sim.rules import TICKS_PER_SECOND, TOP_SPEED, WORLD_HEIGHT, WORLD_WIDTH
+from ninja_game.sim.states import FALLING, JUMPING, OUTCOME_DEAD
 
 if TYPE_CHECKING:
     from ninja_game.formats.replay.text import Replay
@@ -102,7 +108,6 @@ class Search:
 
     @property
     def share(self) -> float:
-        """The share of the time that is over."""
         return min(1.0, self.progress.seconds / self.seconds) if self.progress else 0.0
 
 
@@ -132,7 +137,6 @@ class Certifier:
 
     @property
     def busy(self) -> bool:
-        """Whether the solver is at work on the newest search."""
         return self.search.level is not None and not (self.search.end or self._job.idle)
 
     def is_stale(self, level: Level) -> bool:
@@ -160,7 +164,6 @@ class Certifier:
         self.search, self._job.problem = Search(), ""
 
     def close(self) -> None:
-        """Stop, and give the thread a moment to end."""
         self.stop()
         self._job.finish(CLOSING_SECONDS)
 
@@ -186,3 +189,142 @@ class Certifier:
                 search.obstacles = (obstacle(search.level, 0, search.progress),)
         nothing = f"No run in {search.seconds:.0f} s: the first problem says why. F7 looks twice as long"
         search.end = search.end or ("Done" if search.run else nothing)
+
+
+TICKS = TICKS_PER_SECOND
+"""How far the overlay looks ahead: a second."""
+
+STARTS = {"off": None, "standing": 0.0, "running right": TOP_SPEED, "running left": -TOP_SPEED}
+"""Speeds at the start to the right, px/tick; "off": nothing is shown."""
+
+SQUARE = 4.0
+"""Px: what is reached is shown in squares of this side."""
+
+Span = tuple[float, float, float]
+"""Squares side by side: left edge, top, width, px."""
+
+
+class Ask(NamedTuple):
+    """From where: a point, px, and the speed to the right, px/tick."""
+
+    draft: Draft
+    place: tuple[float, float]
+    speed: float
+
+
+class Reach(NamedTuple):
+    """``spans``: what the ninja's middle can reach; ``deaths``: where it dies there. ``arcs``: some of the jumps.
+
+    ``latest``: the last places from where a runner can jump before the floor ends under it.
+    ``dangers``: the routes of drones, guards, thwumps and rockets while the ninja presses nothing.
+    """
+
+    ask: Ask
+    spans: tuple[Span, ...]
+    deaths: tuple[Span, ...]
+    arcs: tuple[Route, ...]
+    latest: Route
+    dangers: tuple[Route, ...]
+
+
+LANDED = 4
+"""The first tick in which a ninja that is put on the floor stands there and can jump."""
+
+_BOUNCE = 9
+"""Ticks for which the jump key is held by those who jump at walls."""
+
+
+class _Plan(NamedTuple):
+    """The keys of one run: ``run`` until it jumps at tick ``jump`` and holds that key ``hold`` ticks, ``steer`` then.
+
+    Directions are -1, 0 or 1. ``wall``: jump again at each wall that it touches in the air, away from it if 1, up it
+    if 2; 0: slide.
+    """
+
+    run: int
+    jump: int = TICKS
+    hold: int = 0
+    steer: int = 0
+    wall: int = 0
+
+
+def _fan() -> Iterator[_Plan]:
+    """All runs that are tried; the first presses nothing, the last ones jump at walls."""
+    yield from (_Plan(side, steer=side) for side in (0, -1, 1))
+    for steer in (-1, 0, 1):
+        yield from (_Plan(0, jump, hold, steer) for jump in (LANDED, 20) for hold in (1, 3, 6, 10, 16, TICKS))
+        for side in (-1, 1):
+            yield from (_Plan(side, jump, TICKS, steer) for jump in range(1, TICKS))
+            yield from (_Plan(side, jump, hold, steer) for jump in range(1, TICKS, 3) for hold in (1, 4, 9))
+    for side in (-1, 1):
+        yield from (_Plan(side, jump, _BOUNCE, side, wall) for jump in range(1, TICKS, 4) for wall in (1, 2))
+
+
+FAN = tuple(_fan())
+_FIRST_WALL = next(number for number, plan in enumerate(FAN) if plan.wall)
+
+
+def find_reach(ask: Ask) -> Reach:
+    """Run the fan. Raises LevelError for a level that cannot be played, NinjaGameError without Numba."""
+    if not compiled_available():
+        raise NinjaGameError(f"What can be reached needs Numba: {how_to_install('fast')}")
+    level = put(ask.draft, Stamp({}, (placed(object_of_type("ninja"), *ask.place, "px"),))).level
+    worlds = open_worlds("compiled", level, len(FAN), box=False)
+    import numpy as np
+
+    ninja = worlds.records["ninja"]
+    ninja["prev_x"] -= ask.speed
+    going, jump, hold, steer, wall = np.array(FAN, np.int16).T
+    climbers, climbing = ninja[_FIRST_WALL:], wall[_FIRST_WALL:]
+    places, states = np.empty((TICKS + 1, len(FAN), 2)), np.empty((TICKS + 1, len(FAN)), np.uint8)
+    objects = worlds.records["objects"][0, : int(worlds.records["slots_used"][0])]
+    dangers = np.flatnonzero(np.isin(objects["kind"], MOVING_ENEMIES))
+    clock = np.empty((TICKS + 1, len(dangers), 2))
+    until, bounces = np.zeros(len(FAN), np.int16), np.zeros(len(FAN), bool)
+    for tick in range(TICKS + 1):
+        places[tick, :, 0], places[tick, :, 1], states[tick] = ninja["x"], ninja["y"], ninja["state"]
+        clock[tick, :, 0], clock[tick, :, 1] = objects["x"][dangers], objects["y"][dangers]
+        there = (climbers["near_wall"] > 0) & (climbers["in_air"] > 0) & (tick > jump[_FIRST_WALL:] + 4)
+        bounces[_FIRST_WALL:] = there & (until[_FIRST_WALL:] < tick)
+        going = np.where(jump == tick, steer, going)
+        going[_FIRST_WALL:] = np.where(there & (climbing == 1), np.sign(climbers["wall_x"]), going[_FIRST_WALL:])
+        begins = (jump == tick) | bounces
+        until = np.where(begins, tick + np.where(bounces, _BOUNCE, hold), until)
+        down = until > tick
+        keys = np.select([going < 0, going > 0], [KEY_LEFT, KEY_RIGHT], 0)
+        keys += down * JUMP_HELD + begins * JUMP_PRESSED
+        worlds.run_rows(np.require(keys[np.newaxis], np.uint8, ["C", "W"]), 0, len(FAN), stop=True)
+    latest: list[tuple[float, float]] = []
+    shown = [*(FAN.index(_Plan(0, LANDED, hold, steer)) for steer in (-1, 0, 1) for hold in (1, TICKS))]
+    for side in (-1, 1):
+        walks = FAN.index(_Plan(side, steer=side))
+        jumps = [FAN.index(_Plan(side, tick, TICKS, side)) for tick in range(1, TICKS)]
+        shown.append(walks)
+        gone = states[:, walks] == FALLING
+        falls = [t for t in range(1, TICKS - 3) if gone[t : t + 4].all() and not gone[t - 1]]
+        before = [n for n in jumps if falls and FAN[n].jump <= falls[0] and states[FAN[n].jump + 1, n] == JUMPING]
+        if before:
+            late = FAN[before[-1]].jump
+            latest += _route(places[late : late + 1, walks])
+            shown.append(before[-1])
+    ends = places[-1][worlds.records["outcome"] == OUTCOME_DEAD]
+    return Reach(
+        ask, _spans(places.reshape(-1, 2)), _spans(ends), tuple(_route(places[:, n]) for n in shown), tuple(latest),
+        tuple(_route(clock[:, n]) for n in range(len(dangers))),
+    )  # fmt: skip
+
+
+def _route(places: Any) -> Route:
+    """The points of an array (ticks, 2) up to the first that is not a number."""
+    return tuple(takewhile(lambda point: isfinite(sum(point)), map(tuple, places.tolist())))
+
+
+def _spans(places: Any) -> tuple[Span, ...]:
+    """The squares in which any of these points (points, 2) in the level lie, side by side where they touch."""
+    import numpy as np
+
+    columns = int(WORLD_WIDTH // SQUARE) + 1
+    inside = places[((places >= 0) & (places < (WORLD_WIDTH, WORLD_HEIGHT))).all(axis=1)]
+    cells = np.unique((inside // SQUARE).astype(np.intp) @ (1, columns))
+    rows = np.split(cells, np.flatnonzero(np.diff(cells) > 1) + 1) if len(cells) else []
+    return tuple((SQUARE * (row[0] % columns), SQUARE * (row[0] // columns), SQUARE * len(row)) for row in rows)

@@ -10,7 +10,6 @@ Cell = tuple[int, int]
 """Column 1…31, row 1…23."""
 
 Tiles = dict[Cell, int]
-"""Tile ids by cell."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +44,6 @@ class Draft:
 
 
 def changed_cells(before: Draft, after: Draft) -> list[Cell]:
-    """The cells that have another tile."""
     old, new = before.level.tiles, after.level.tiles
     changed = (index for index in range(COLUMNS * ROWS) if old[index] != new[index]) if old != new else ()
     return [(index // ROWS + 1, index % ROWS + 1) for index in changed]

@@ -32,11 +32,9 @@ class Motion(NamedTuple):
 
     @property
     def turns(self) -> bool:
-        """Whether it is more than a move."""
         return self[:4] != (1, 0, 0, 1)
 
     def vector(self, x: float, y: float) -> tuple[float, float]:
-        """Where a vector points then."""
         return self.xx * x + self.xy * y + 0.0, self.yx * x + self.yy * y + 0.0
 
     def point(self, x: float, y: float) -> tuple[float, float]:

@@ -7,24 +7,26 @@ what order, is written into the index.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ninja_game.editor.ascii_text import ascii_text
+from ninja_game.backend.memories import compiled_available
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.files import SUFFIX, draft_of, open_source, save
-from ninja_game.errors import PackError
+from ninja_game.editor.files import SUFFIX, ascii_text, draft_of, open_source, save
+from ninja_game.errors import LinkError, NinjaGameError, PackError
 from ninja_game.files.reading import read_bytes, read_utf8
 from ninja_game.files.shown_text import file_stem, name_problem
 from ninja_game.files.tree import Tree
-from ninja_game.files.user_folder import free_path
+from ninja_game.files.user_folder import free_path, how_to_install
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.formats.pack.files import INDEX, MOST_FILES, certificate_name
+from ninja_game.formats.pack.files import INDEX, MOST_FILES, PARS, certificate_name
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, MOST_EPISODES, parse_index
 from ninja_game.formats.pack.pack import Pack
-from ninja_game.runs.packs import KINDS
+from ninja_game.formats.pack.pars import write_pars
+from ninja_game.levels.findings import Finding, PackFinding
+from ninja_game.runs.packs import KINDS, file_of, is_certified, level_of, lint, make_pars
 from ninja_game.sim.level import Level
 
 if TYPE_CHECKING:
@@ -34,7 +36,6 @@ Values = Mapping[str, str | int | Sequence[str]]
 
 
 def _change_index(path: Path, change: Callable[[TOMLDocument], object]) -> None:
-    """Write an index that ``change`` has changed."""
     import tomlkit
     from tomlkit.exceptions import TOMLKitError
 
@@ -125,7 +126,6 @@ def bin_pack(path: Path, folder: Path) -> Path:
 
 
 def same_pack(pack: Pack, other: Pack) -> bool:
-    """Whether two packs have the same files."""
     names = pack.files.own_names
     return names == other.files.own_names and all(pack.files.text(name) == other.files.text(name) for name in names)
 
@@ -134,8 +134,6 @@ def same_pack(pack: Pack, other: Pack) -> bool:
 
 
 def _change_episodes(path: Path, changes: Mapping[int, Values]) -> None:
-    """Change entries of episodes by their numbers."""
-
     def change(document: TOMLDocument) -> None:
         for table in document.get("episode", ()):
             table.update(changes.get(table["number"], {}))
@@ -206,7 +204,6 @@ def place(path: Path, file: str, number: int | None, before: str = "") -> None:
 
 
 def new_level(path: Path, name: str, author: str) -> str:
-    """An empty level in the folder; its file's name."""
     return _write(path, Draft(Level(), name, author))
 
 
@@ -244,3 +241,100 @@ def transfer(level: NamedLevel, path: Path, *, keep: bool) -> str:
     for name in [] if keep else there:
         Tree(old.parent).remove(name)
     return new
+
+
+Obstacles = dict[tuple[Level, str], Finding]
+"""By level and kind of certificate ("exit", "gold"): what kept the solver from such a run."""
+
+_MISSING = {"no-certificate": "exit", "certificate": "exit", "no-gold-run": "gold"}
+"""Findings that a run is not there, by code: of which kind."""
+
+
+@dataclass(frozen=True)
+class ReadyPack:
+    """``findings``: what is odd; ``zipped``: its bytes; ``link``: "" where it is too large; ``notes``: what is not."""
+
+    pack: Pack
+    findings: list[PackFinding]
+    zipped: bytes
+    link: str
+    notes: list[str]
+
+
+def make_ready(
+    path: Path, *, seconds: float, jobs: int, say: Callable[[str], object], obstacles: Obstacles | None = None
+) -> ReadyPack:
+    """Certify each level to the exit and with all gold, write the par times, lint; the zip and the link.
+
+    ``seconds``: for each search; ``jobs``: levels at a time; ``say`` gets what is being done, and may raise to end it.
+    ``obstacles``: of earlier searches, which are not done again; those of the new ones are put there.
+    Raises NinjaGameError, OSError.
+    """
+    pack, notes, obstacles = Pack(path), list[str](), {} if obstacles is None else obstacles
+    if compiled_available():
+        _certify(pack, path, seconds, jobs, say, obstacles)
+    else:
+        notes.append(f"Certifying needs Numba: {how_to_install('fast')}")
+    pack, made = Pack(path), {}
+    try:
+        for file, pars in make_pars(pack):
+            made[file] = pars
+            say(f"Par times: {len(made)} of {len(pack.levels)} levels")
+        Tree(path).write(PARS, write_pars(made))
+    except NinjaGameError as error:
+        notes.append(f"No par times: {error}")
+    say("Looking for problems")
+    pack, link = Pack(path), ""
+    findings = problems_of(pack, obstacles)
+    try:
+        link = pack.files.link()
+    except LinkError as error:
+        notes.append(f"No link: {error}")
+    return ReadyPack(pack, findings, pack.files.zipped(), link, notes)
+
+
+def problems_of(pack: Pack, obstacles: Obstacles) -> list[PackFinding]:
+    """What is odd about a pack; where a run is missing, with what kept the solver from it."""
+    return [finding._replace(text=_with_obstacle(pack, finding, obstacles)) for finding in lint(pack, with_gold=True)]
+
+
+def obstacle_of(pack: Pack, finding: PackFinding, obstacles: Obstacles) -> Finding | None:
+    kind = _MISSING.get(finding.code)
+    level = pack.levels.get(level_of(pack, file_of(pack, finding))) if kind else None
+    return obstacles.get((level.level, kind)) if kind and level else None
+
+
+def _with_obstacle(pack: Pack, finding: PackFinding, obstacles: Obstacles) -> str:
+    why = obstacle_of(pack, finding, obstacles)
+    return f"{finding.text}. The search found none: {why.sentence}" if why else finding.text
+
+
+def _certify(
+    pack: Pack, path: Path, seconds: float, jobs: int, say: Callable[[str], object], obstacles: Obstacles
+) -> None:
+    """Certify the levels of which anything is not known yet, nor accepted."""
+    from ninja_game.search.certify import Wanted, certify_all
+    from ninja_game.search.task import Progress, obstacle
+
+    accepted = {(each.file, _MISSING.get(each.code)) for each in pack.index.accepted}
+
+    def is_open(file: str, kind: str) -> bool:
+        known = (pack.levels[file].level, kind) in obstacles or (file, kind) in accepted
+        return not (known or is_certified(pack, file, kind))
+
+    levels = {file: named for file, named in pack.levels.items() if any(is_open(file, kind) for kind in KINDS)}
+    wanted = Wanted({"exit": 0, "gold": -1}, {"seconds": seconds})
+    files = [{kind: path / certificate_name(file, kind) for kind in KINDS} for file in levels]
+    done = 0
+
+    def report(name: str, progress: Progress) -> None:
+        say(f"Certifying, {done} of {len(files)} levels done. {name}: {progress.seconds:.0f} s")
+
+    say("Certifying; the first time the solver is compiled, for a minute")
+    all_found = certify_all(list(levels.values()), files, wanted, jobs=jobs, report=report)
+    for named, found in zip(levels.values(), all_found, strict=True):
+        for kind, each in found.items() if isinstance(found, dict) else ():
+            if not each.run and each.progress:
+                obstacles[named.level, kind] = obstacle(named.level, each.gold, each.progress)
+        done += 1
+        say(f"Certifying, {done} of {len(files)} levels done")

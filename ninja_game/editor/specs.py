@@ -44,7 +44,6 @@ PROPERTIES: dict[int, dict[str, Property]] = {
     },
     DOOR: {"type": Property((3, 6), DOORS), "side": Property((2, 7, 8), SIDES)},
 }
-"""The properties of each kind that has any."""
 
 _SIDES = ("right", "bottom", "left", "top")
 """By the numbers of their directions."""

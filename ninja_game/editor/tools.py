@@ -6,38 +6,10 @@ They know no window: points are px of the level.
 from __future__ import annotations
 
 from ninja_game.document import History
-from ninja_game.editor.brush import (
-    EMPTY,
-    FULL,
-    OBJECT_TYPE_NAMES,
-    SNAPS,
-    object_of_type,
-    object_type_of,
-    placed,
-    snapped,
-    with_switch,
-)
+from ninja_game.editor import brush, stamp as stamps
 from ninja_game.editor.draft import Cell, Draft, Tiles, cell_of, changed_cells, is_inside
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.specs import has_switch, points, properties, with_word
-from ninja_game.editor.stamp import (
-    ObjectPart,
-    Selection,
-    Stamp,
-    area_between,
-    cells_of,
-    chosen_in,
-    copied,
-    filled,
-    middle_of,
-    moved,
-    nearest,
-    pasted,
-    put,
-    removed,
-    reordered,
-)
-from ninja_game.editor.strokes import covered, curve, sloped, spread
 from ninja_game.sim.kinds import GOLD, MINE, NINJA
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import WORLD_HEIGHT, WORLD_WIDTH
@@ -66,7 +38,7 @@ class EditorTools:
         self.history = History(draft)
         self.objects = False
         self.tile = 1
-        self.spec: ObjectSpec = object_of_type("gold")
+        self.spec: ObjectSpec = brush.object_of_type("gold")
         self.snap = "cell"
         self.symmetry = "off"
         self.spacing, self.slopes = 24.0, False
@@ -75,11 +47,11 @@ class EditorTools:
         self._pressed_at = self.pointer
         self._switchless: ObjectSpec | None = None
         self.tool = "brush"
-        self.selection = Selection()
-        self.clipboard: Stamp | None = None
+        self.selection = stamps.Selection()
+        self.clipboard: stamps.Stamp | None = None
         self.marquee: tuple[Cell, Cell] | None = None
         self._doing = ""
-        self._chosen_before = Selection()
+        self._chosen_before = stamps.Selection()
 
     @property
     def draft(self) -> Draft:
@@ -87,7 +59,6 @@ class EditorTools:
 
     @property
     def cell(self) -> Cell:
-        """The cell under the pointer."""
         return cell_of(*self.pointer)
 
     @property
@@ -113,7 +84,7 @@ class EditorTools:
     def load(self, draft: Draft) -> None:
         """Work on another level, with the same tool in hand."""
         self.finish()
-        self.history, self.selection = History(draft), Selection()
+        self.history, self.selection = History(draft), stamps.Selection()
 
     def move(self, x: float, y: float) -> None:
         """The pointer is somewhere else; what is being dragged follows."""
@@ -131,7 +102,7 @@ class EditorTools:
             self._drag()
         elif self._doing == "choose":
             self.marquee = cell_of(*self._pressed_at), self.cell
-            self.selection = self._joined(chosen_in(self.draft, area_between(*self.marquee)))
+            self.selection = self._joined(stamps.chosen_in(self.draft, stamps.area_between(*self.marquee)))
 
     def press(self, *, erase: bool = False, pick: bool = False, add: bool = False) -> None:
         """The button goes down at the pointer. ``add``: to what is chosen already."""
@@ -148,15 +119,15 @@ class EditorTools:
             self._choose(add=add)
         else:
             self.history.begin()
-            self.selection = Selection()
+            self.selection = stamps.Selection()
             self._begin_to_draw(erase=erase)
 
     def _begin_to_draw(self, *, erase: bool) -> None:
         if self.effective_tool == "fill" and not erase:
-            cells = filled(self.draft, self.cell)
+            cells = stamps.filled(self.draft, self.cell)
             middles = [(24.0 * column + 12, 24.0 * row + 12) for column, row in cells if self.objects]
-            objects = tuple(placed(self.spec, *middle, "cell") for middle in middles)
-            self._change(Stamp({} if self.objects else dict.fromkeys(cells, self.tile), objects))
+            objects = tuple(brush.placed(self.spec, *middle, "cell") for middle in middles)
+            self._change(stamps.Stamp({} if self.objects else dict.fromkeys(cells, self.tile), objects))
             return
         many = not self.objects or self.spec.kind in (GOLD, MINE)
         drawn = self.tool if self.effective_tool in SHAPES else "draw" if many else "drop"
@@ -165,7 +136,7 @@ class EditorTools:
 
     def release(self) -> None:
         if self._doing == "drop" and has_switch(self._dropped()):
-            self._switchless = placed(self.spec, *self._pressed_at, self.snap)
+            self._switchless = brush.placed(self.spec, *self._pressed_at, self.snap)
             self._doing = ""
             far = max(abs(a - b) for a, b in zip(self.pointer, self._pressed_at, strict=True)) > DRAGGED
             if far:
@@ -173,12 +144,11 @@ class EditorTools:
                 self.finish()
             return
         if self._doing == "choose" and self.marquee is None and not self._chosen_before:
-            self.selection = Selection()
+            self.selection = stamps.Selection()
         self._doing, self.marquee = "", None
         self.history.end()
 
     def finish(self) -> None:
-        """Whatever is half done is done now."""
         self._switchless = None
         self._doing, self.marquee = "", None
         self.history.end()
@@ -189,67 +159,70 @@ class EditorTools:
         if self._doing or self.placing_switch:
             self.history.abandon()
         self._switchless = None
-        self._doing, self.marquee, self.selection = "", None, Selection()
+        self._doing, self.marquee, self.selection = "", None, stamps.Selection()
         return busy
 
     def pick(self) -> None:
-        found = nearest(self.draft, *self.pointer, PICK_REACH)
+        found = stamps.nearest(self.draft, *self.pointer, PICK_REACH)
         if found:
             self.pick_up(self.draft.objects[found[0]])
         else:
             self.pick_up(self.draft.tile(self.cell))
 
     def pick_up(self, what: int | ObjectSpec) -> None:
-        """Draw with a tile or with objects such as this one."""
         self.finish()
         if isinstance(what, int):
             self.tile, self.objects = what, False
-        elif object_type_of(what) in OBJECT_TYPE_NAMES:
+        elif brush.object_type_of(what) in brush.OBJECT_TYPE_NAMES:
             self.spec, self.objects = what, True
         if self.tool in ("select", "pick"):
             self.tool = "brush"
 
     # --- drawing ---
 
-    def _change(self, stamp: Stamp, draft: Draft | None = None) -> None:
+    def _change(self, stamp: stamps.Stamp, draft: Draft | None = None) -> None:
         self.history.change(self._with(stamp, draft or self.draft))
 
-    def _with(self, stamp: Stamp, draft: Draft) -> Draft:
+    def _with(self, stamp: stamps.Stamp, draft: Draft) -> Draft:
         """The draft with a stamp on it, in all images of the symmetry, and with slopes where they set themselves."""
-        after = put(draft, stamp, SYMMETRIES[self.symmetry])
-        return sloped(draft, after) if self.slopes and set(stamp.tiles.values()) <= {EMPTY, FULL} else after
+        after = stamps.put(draft, stamp, SYMMETRIES[self.symmetry])
+        return (
+            stamps.sloped(draft, after)
+            if self.slopes and set(stamp.tiles.values()) <= {brush.EMPTY, brush.FULL}
+            else after
+        )
 
     @property
     def preview(self) -> Tiles:
-        """The tiles that a press of the brush would change."""
-        after = self._with(Stamp({self.cell: self.tile}), self.draft)
+        after = self._with(stamps.Stamp({self.cell: self.tile}), self.draft)
         return {cell: after.tile(cell) for cell in changed_cells(self.draft, after)}
 
     def _draw_line(self, before: Cell, *, erasing: bool) -> None:
-        """Tiles from the last cell to this one, or objects where the pointer goes."""
         if not self.objects:
             tile = 0 if erasing else self.tile
-            self._change(Stamp(dict.fromkeys(covered("line", before, self.cell, 0.0), tile)))
+            self._change(stamps.Stamp(dict.fromkeys(stamps.covered("line", before, self.cell, 0.0), tile)))
         elif erasing:
             self.delete_nearest()
         else:
-            self._change(Stamp({}, (placed(self.spec, *self.pointer, self.snap),)))
+            self._change(stamps.Stamp({}, (brush.placed(self.spec, *self.pointer, self.snap),)))
 
     def _draw_shape(self) -> None:
         """Tiles that fill it, or objects: a box is full of them, a line or an ellipse has them along it."""
         if not self.objects:
-            cells = covered(self._doing, cell_of(*self._pressed_at), self.cell, self._bend)
-            self._change(Stamp(dict.fromkeys(cells, self.tile)), self.history.began)
+            cells = stamps.covered(self._doing, cell_of(*self._pressed_at), self.cell, self._bend)
+            self._change(stamps.Stamp(dict.fromkeys(cells, self.tile)), self.history.began)
             return
-        ends = snapped(*self._pressed_at, self.snap), snapped(*self.pointer, self.snap)
+        ends = brush.snapped(*self._pressed_at, self.snap), brush.snapped(*self.pointer, self.snap)
         if self._doing in CURVES:
-            places, snap = spread(curve(self._doing, *ends, self._bend), self.spacing), "px"
+            places, snap = stamps.spread(stamps.curve(self._doing, *ends, self._bend), self.spacing), "px"
         else:
-            step, snap = max(SNAPS[self.snap], 12.0), self.snap
+            step, snap = max(brush.SNAPS[self.snap], 12.0), self.snap
             (x, right), (y, bottom) = (sorted(along) for along in zip(*ends, strict=True))
             rows, columns = (range(int(length // step) + 1) for length in (bottom - y, right - x))
             places = [(x + step * i, y + step * j) for j in rows for i in columns]
-        self._change(Stamp({}, tuple(placed(self.spec, *place, snap) for place in places)), self.history.began)
+        self._change(
+            stamps.Stamp({}, tuple(brush.placed(self.spec, *place, snap) for place in places)), self.history.began
+        )
 
     def bend(self, steps: int) -> bool:
         """Bend the line that is being drawn to its right; whether anything is being drawn or dragged."""
@@ -259,50 +232,47 @@ class EditorTools:
         return bool(self._doing)
 
     def _dropped(self) -> ObjectSpec:
-        """The brush's object as it would be placed now."""
-        return placed(self.spec, *self.pointer, self.snap)
+        return brush.placed(self.spec, *self.pointer, self.snap)
 
     def _drop(self) -> None:
-        """One object under the pointer, until the button goes up; a switch is dragged out of its door."""
         spec = self._dropped()
         if has_switch(spec):
-            spec = with_switch(placed(self.spec, *self._pressed_at, self.snap), *self.pointer, self.snap)
-        self._change(Stamp({}, (spec,)), self.history.began)
+            spec = brush.with_switch(brush.placed(self.spec, *self._pressed_at, self.snap), *self.pointer, self.snap)
+        self._change(stamps.Stamp({}, (spec,)), self.history.began)
 
     def _put_switch(self) -> None:
         if self._switchless is not None:
-            spec = with_switch(self._switchless, *self.pointer, self.snap)
-            self._change(Stamp({}, (spec,)), self.history.began)
+            spec = brush.with_switch(self._switchless, *self.pointer, self.snap)
+            self._change(stamps.Stamp({}, (spec,)), self.history.began)
 
     def delete_nearest(self) -> None:
         """Delete the object nearest to the pointer, and its images in the symmetry."""
         places = [self.pointer, *(motion.point(*self.pointer) for motion in SYMMETRIES[self.symmetry])]
-        found = [nearest(self.draft, *place, REACH) for place in places]
-        self.history.change(removed(self.draft, Selection(parts=frozenset(filter(None, found)))))
+        found = [stamps.nearest(self.draft, *place, REACH) for place in places]
+        self.history.change(stamps.removed(self.draft, stamps.Selection(parts=frozenset(filter(None, found)))))
 
     # --- choosing ---
 
-    def _joined(self, selection: Selection) -> Selection:
+    def _joined(self, selection: stamps.Selection) -> stamps.Selection:
         before = self._chosen_before
-        return Selection(selection.area or before.area, selection.parts | before.parts)
+        return stamps.Selection(selection.area or before.area, selection.parts | before.parts)
 
     def _choose(self, *, add: bool) -> None:
-        """Drag what is chosen, or choose what is under the pointer, or begin to draw a frame around what to choose."""
-        found = nearest(self.draft, *self.pointer, PICK_REACH)
+        found = stamps.nearest(self.draft, *self.pointer, PICK_REACH)
         if not add and (found in self.selection.parts or self._in_area()):
             self._begin_drag()
             return
-        self._chosen_before = self.selection if add else Selection()
+        self._chosen_before = self.selection if add else stamps.Selection()
         if found is None:
             self._doing = "choose"
         elif add and found in self.selection.parts:
-            self.selection = Selection(self.selection.area, self.selection.parts - {found})
+            self.selection = stamps.Selection(self.selection.area, self.selection.parts - {found})
         else:
-            self.selection = self._joined(Selection(parts=frozenset({found})))
+            self.selection = self._joined(stamps.Selection(parts=frozenset({found})))
             self._begin_drag()
 
     def _in_area(self) -> bool:
-        return self.selection.area is not None and self.cell in cells_of(self.selection.area)
+        return self.selection.area is not None and self.cell in stamps.cells_of(self.selection.area)
 
     def _begin_drag(self) -> None:
         self.history.begin()
@@ -311,36 +281,35 @@ class EditorTools:
 
     def _drag(self) -> None:
         snap = "cell" if self._chosen_before.area else self.snap
-        (ax, ay), (bx, by) = snapped(*self._pressed_at, snap), snapped(*self.pointer, snap)
-        draft, self.selection = moved(self.history.began, self._chosen_before, Motion(dx=bx - ax, dy=by - ay))
+        (ax, ay), (bx, by) = brush.snapped(*self._pressed_at, snap), brush.snapped(*self.pointer, snap)
+        draft, self.selection = stamps.moved(self.history.began, self._chosen_before, Motion(dx=bx - ax, dy=by - ay))
         self.history.change(draft)
 
-    def choose(self, parts: frozenset[ObjectPart]) -> None:
+    def choose(self, parts: frozenset[stamps.ObjectPart]) -> None:
         self.finish()
-        self.selection = Selection(parts=parts)
+        self.selection = stamps.Selection(parts=parts)
 
     def undo(self) -> bool:
         self.finish()
-        self.selection = Selection()
+        self.selection = stamps.Selection()
         return self.history.undo()
 
     def redo(self) -> bool:
         self.finish()
-        self.selection = Selection()
+        self.selection = stamps.Selection()
         return self.history.redo()
 
     # --- what is chosen ---
 
     def nudge(self, dx: float, dy: float) -> None:
         """Move what is chosen by steps of the snap, or of cells."""
-        step = 24.0 if self.selection.area else SNAPS[self.snap]
-        draft, self.selection = moved(self.draft, self.selection, Motion(dx=dx * step, dy=dy * step))
+        step = 24.0 if self.selection.area else brush.SNAPS[self.snap]
+        draft, self.selection = stamps.moved(self.draft, self.selection, Motion(dx=dx * step, dy=dy * step))
         self.history.change(draft)
 
     def reorder(self, by: int) -> None:
-        """Put the chosen objects so many places later in the order."""
         if self.selection.parts:
-            draft, self.selection = reordered(self.draft, self.selection, by)
+            draft, self.selection = stamps.reordered(self.draft, self.selection, by)
             self.history.change(draft)
 
     def turn(self, motion: Motion) -> bool:
@@ -350,15 +319,15 @@ class EditorTools:
         """
         self.finish()
         if self.selection:
-            about = motion.about(*middle_of(self.draft, self.selection, quarter=bool(motion.xy)))
-            cells = list(cells_of(self.selection.area)) if self.selection.area else []
+            about = motion.about(*stamps.middle_of(self.draft, self.selection, quarter=bool(motion.xy)))
+            cells = list(stamps.cells_of(self.selection.area)) if self.selection.area else []
             cells += [cell_of(*points(self.draft.objects[number])[part]) for number, part in self.selection.parts]
             if not all(is_inside(about.cell(cell)) for cell in cells if is_inside(cell)):
                 return False
-            draft, self.selection = moved(self.draft, self.selection, about)
+            draft, self.selection = stamps.moved(self.draft, self.selection, about)
             self.history.change(draft)
         elif self.objects:
-            self.spec = Stamp({}, (self.spec,)).carried(motion.about(36.0, 36.0)).objects[0]
+            self.spec = stamps.Stamp({}, (self.spec,)).carried(motion.about(36.0, 36.0)).objects[0]
         else:
             self.tile = motion.tile(self.tile)
         return True
@@ -366,11 +335,10 @@ class EditorTools:
     def copy(self) -> bool:
         """Remember what is chosen; whether anything is."""
         if self.selection:
-            self.clipboard = copied(self.draft, self.selection)
+            self.clipboard = stamps.copied(self.draft, self.selection)
         return bool(self.selection)
 
     def cut(self) -> None:
-        """Remember what is chosen, and delete it."""
         if self.copy():
             self.delete()
 
@@ -378,8 +346,8 @@ class EditorTools:
         """Delete what is chosen, or else the object nearest to the pointer."""
         self.finish()
         if self.selection:
-            self.history.change(removed(self.draft, self.selection))
-            self.selection = Selection()
+            self.history.change(stamps.removed(self.draft, self.selection))
+            self.selection = stamps.Selection()
         else:
             self.delete_nearest()
 
@@ -391,16 +359,15 @@ class EditorTools:
         tiles = self.clipboard.tiles
         places = [point for spec in self.clipboard.objects for point in points(spec).values()]
         corner = (24.0 * min(c for c, _ in tiles), 24.0 * min(r for _, r in tiles)) if tiles else min(places)
-        there = (24.0 * self.cell[0], 24.0 * self.cell[1]) if tiles else snapped(*self.pointer, self.snap)
+        there = (24.0 * self.cell[0], 24.0 * self.cell[1]) if tiles else brush.snapped(*self.pointer, self.snap)
         motion = Motion(dx=there[0] - corner[0], dy=there[1] - corner[1])
-        draft, self.selection = pasted(self.draft, self.clipboard.carried(motion))
+        draft, self.selection = stamps.pasted(self.draft, self.clipboard.carried(motion))
         self.tool = "select"
         self.history.change(draft)
         return True
 
     @property
     def chosen(self) -> ObjectSpec | None:
-        """The only object that is selected."""
         numbers = self.selection.numbers
         number = next(iter(numbers)) if len(numbers) == 1 and self.selection.area is None else -1
         return self.draft.objects[number] if 0 <= number < len(self.draft.objects) else None
@@ -427,14 +394,13 @@ class EditorTools:
                 objects[number] = with_word(objects[number], name, text)
         parts = frozenset((number, part) for number in self.selection.numbers for part in points(objects[number]))
         self.history.change(self.draft.with_objects(tuple(objects)))
-        self.selection = Selection(self.selection.area, parts)
+        self.selection = stamps.Selection(self.selection.area, parts)
 
     def put_subject(self, spec: ObjectSpec) -> None:
-        """Put another object in the place of the subject."""
         if self.chosen is None:
             self.spec = spec
             return
         number = next(iter(self.selection.numbers))
         objects = (*self.draft.objects[:number], spec, *self.draft.objects[number + 1 :])
         self.history.change(self.draft.with_objects(objects))
-        self.selection = Selection(None, frozenset((number, part) for part in points(spec)))
+        self.selection = stamps.Selection(None, frozenset((number, part) for part in points(spec)))

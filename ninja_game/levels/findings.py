@@ -87,7 +87,6 @@ LEVEL_RULES = {
     "unreached-exit": Rule("open, it was reached in no try of the solver", _EASIER),
     "gold-left": Rule("{most} at most were collected at once, {never}", _EASIER),
 }
-"""What may be odd about a level, by code."""
 
 _MAKE_PARS = "Make it with `ninja-game levels pars`."
 PACK_RULES = {

@@ -64,7 +64,6 @@ def level_picture(level: Level) -> Text:
 
 
 def _block(tiles: TileMap, column: int, row: int) -> str:
-    """The quarter block for half a cell: each quarter is solid if the middle of it is."""
     x, y = CELL + HALF * column, CELL + CELL * row
     quarters = ((3.0, 6.0), (9.0, 6.0), (3.0, 18.0), (9.0, 18.0))
     return QUARTERS[sum(1 << k for k, (dx, dy) in enumerate(quarters) if solid_at(tiles, x + dx, y + dy))]

@@ -1,20 +1,119 @@
-"""What is legal in a level but odd: each warning names the objects and says what the game will do."""
+"""What is legal in a level but odd: each finding names the objects and says what the game will do.
+
+Where the ninja could ever get is a flood fill over cells that is generous, so that its "no" is certain.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from math import dist
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from math import dist, isnan, sqrt
 
 from ninja_game.formats.ascii.places import place_text
 from ninja_game.formats.ascii.writer import best_form
 from ninja_game.levels.findings import Finding, found
-from ninja_game.levels.object_checks import oddities
-from ninja_game.levels.reach import Ground
-from ninja_game.sim import kinds
-from ninja_game.sim.kinds import KIND_NAMES
-from ninja_game.sim.level import ROWS, Level, ObjectSpec, makes_object, well_formed
-from ninja_game.sim.memory.schema import CAPACITY
-from ninja_game.sim.rules import MINE_RADIUS, RADIUS, THINK_PAUSE, TICKS_PER_SECOND
+from ninja_game.sim import kinds, rules
+from ninja_game.sim.arithmetic import is_set
+from ninja_game.sim.collision import tiles
+from ninja_game.sim.collision.rays import solid_at
+from ninja_game.sim.collision.tiles import COLUMN, FULL, ROW, SHAPE
+from ninja_game.sim.grid import cell_at, grid_remove
+from ninja_game.sim.kinds import DOOR, KIND_NAMES, NINJA, VALUE_COUNTS
+from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec, makes_object, well_formed
+from ninja_game.sim.loader import grid_tiles
+from ninja_game.sim.memory.object_fields import Object
+from ninja_game.sim.memory.schema import CAPACITY, TileMap, World
+from ninja_game.sim.objects.door import create_door
+from ninja_game.sim.states import LOCKED, TRAP
+
+
+def _made_door(world: World, record: ObjectSpec) -> Object:
+    """The door that the game makes of a well-formed record."""
+    door = Object()
+    door.kind, (door.x, door.y) = DOOR, record.values[:2]
+    create_door(world, door, record.values)
+    grid_remove(world, door)
+    return door
+
+
+def edges_of(door: Object) -> tuple[int, int]:
+    """The two edge indices that a door writes; 0 for one that does not exist (objects.md §8.6)."""
+    return door.edge_1, door.edge_2
+
+
+class Ground:
+    """The tiles and edges of a level, its doors, and the cells that the ninja's centre could reach.
+
+    Passable is every cell that is not full, across every side that no face closes; nothing is asked of jumps. A locked
+    door opens once its switch can be touched; automatic and trap doors never stop the fill.
+    """
+
+    def __init__(self, level: Level) -> None:
+        self.level = TileMap()
+        self.level.tiles = grid_tiles(level)
+        world = World()
+        tiles.set_edges(self.level, world)
+        self.edges: list[int] = list(world.edges)
+        specs = [spec for spec in level.objects if spec.kind == DOOR and well_formed(spec)]
+        self.doors = {spec: _made_door(world, spec) for spec in set(specs)}
+        self.doors_on_side = Counter(edges_of(self.doors[spec]) for spec in specs)
+        self.closed_edges = {edge for door in self.doors.values() if door.mechanism != TRAP for edge in edges_of(door)}
+        ninjas = [record for record in level.objects if record.kind == NINJA]
+        start = cell_at(*ninjas[-1].values) if ninjas and well_formed(ninjas[-1]) else 0
+        # A ninja that starts in a tile may be pushed out on any side: nothing is certain then.
+        self.certain = bool(start) and tiles.SHAPE[self.level.tiles[start]] == tiles.EMPTY
+        self.cells: set[int] = set()
+        if self.certain:
+            self._fill(start)
+
+    def touchable(self, x: float, y: float, radius: float) -> bool:
+        """Whether a ninja in a reached cell could touch a disc (radius at most 14 px); True if nothing is certain."""
+        near = (cell for cell in _around(cell_at(x, y)) if cell in self.cells)
+        return not self.certain or any(_touches(cell, x, y, radius) for cell in near)
+
+    def _fill(self, start: int) -> None:
+        """Reach cell after cell. A locked door is looked at once for each cell around its switch, as it is reached."""
+        locked = [door for door in self.doors.values() if door.mechanism == LOCKED]
+        waiting: dict[int, list[Object]] = {}
+        for door in locked:
+            waiting.setdefault(cell_at(door.x, door.y), []).append(door)
+        # Where doors share a side, one that is open or opens counts for all.
+        closed = {edge for door in locked for edge in edges_of(door)}
+        closed -= {edge for door in self.doors.values() if door.mechanism != LOCKED for edge in edges_of(door)}
+        frontier = [start]
+        while frontier:
+            cell = frontier.pop()
+            if cell not in self.cells:
+                self.cells.add(cell)
+                touched = (
+                    door
+                    for place in _around(cell)
+                    for door in waiting.get(place, ())
+                    if _touches(cell, door.x, door.y, rules.DOOR_SWITCH_RADIUS)
+                )
+                opened = closed.intersection(edge for door in touched for edge in edges_of(door))
+                closed -= opened
+                frontier += [edge // 4 for edge in opened if edge // 4 in self.cells]
+            frontier += [there for there in self._ways(cell, closed) if there not in self.cells]
+
+    def _ways(self, cell: int, closed: set[int]) -> Iterator[int]:
+        for side, step in enumerate(tiles.NEIGHBOUR_OFFSET):
+            there, here = 4 * cell + side, 4 * (cell + step) + (side ^ 2)
+            if tiles.EXISTS[cell + step] and tiles.SHAPE[self.level.tiles[cell + step]] != tiles.FULL:
+                tiles_open = self.edges[there] != rules.SOLID and self.edges[here] != rules.SOLID
+                if tiles_open and there not in closed and here not in closed:
+                    yield cell + step
+
+
+def _around(cell: int) -> list[int]:
+    return [cell + row + column for row in (-rules.STRIDE, 0, rules.STRIDE) for column in (-1, 0, 1)] if cell else []
+
+
+def _touches(cell: int, x: float, y: float, radius: float) -> bool:
+    dx = max(abs(x - tiles.CENTRE_X[cell]) - rules.CELL / 2, 0.0)
+    dy = max(abs(y - tiles.CENTRE_Y[cell]) - rules.CELL / 2, 0.0)
+    return dx * dx + dy * dy < (radius + rules.RADIUS) ** 2
+
 
 MANY_OBJECTS = 2000
 MANY_THINKERS = 30
@@ -73,7 +172,6 @@ def _some(names: Sequence[str], count: int) -> str:
 
 
 def _odd_tiles(level: Level) -> Iterator[Finding]:
-    """A finding for each sort of odd tile, with its first places by name."""
     odd: dict[str, list[int]] = {}
     for cell, tile in enumerate(level.tiles):
         if not 0 <= tile <= 33:
@@ -100,7 +198,7 @@ def _level_oddities(level: Level, objects: Sequence[ObjectSpec]) -> Iterator[Fin
         yield found("many-objects", count=len(objects), most=MANY_OBJECTS)
     waiting = [id_ for id_, record in enumerate(objects) if _waits_for_its_turn(record)]
     if len(waiting) > MANY_THINKERS:
-        seconds = len(waiting) * (THINK_PAUSE + 1) / TICKS_PER_SECOND
+        seconds = len(waiting) * (rules.THINK_PAUSE + 1) / rules.TICKS_PER_SECOND
         yield found("slow-thinkers", tuple(waiting), count=len(waiting), seconds=seconds)
     ignored = [record.text or str(record.kind) for record in level.objects if not makes_object(record)]
     if ignored:
@@ -115,7 +213,6 @@ def _waits_for_its_turn(record: ObjectSpec) -> bool:
 
 
 def _mines_over_gold(objects: Sequence[ObjectSpec]) -> set[ObjectSpec]:
-    """The mines that cover a piece of gold."""
     gold: dict[tuple[float, float], list[tuple[float, ...]]] = {}
     for record in objects:
         if record.kind == kinds.GOLD and well_formed(record):
@@ -132,10 +229,157 @@ def _mines_over_gold(objects: Sequence[ObjectSpec]) -> set[ObjectSpec]:
 
 
 def _deadly_start(objects: Sequence[ObjectSpec]) -> Iterator[Finding]:
-    """The mine that the ninja touches where it starts."""
     starts = [record.values for record in objects if record.kind == kinds.NINJA and well_formed(record)]
     for id_, record in enumerate(objects):
         mine = record.kind == kinds.MINE and well_formed(record)
-        if mine and starts and dist(record.values, starts[-1]) < MINE_RADIUS + RADIUS:
+        if mine and starts and dist(record.values, starts[-1]) < rules.MINE_RADIUS + rules.RADIUS:
             yield found("deadly-start", (id_,), mine=object_name(record, id_))
             return
+
+
+_DIRECTIONS = (0, 1, 2, 3)
+_SAMPLES = (-1.0, -0.5, 0.0, 0.5, 1.0)
+"""Where a piece of gold is looked at, across and down, as parts of its radius."""
+_HIDDEN = 2 / 3
+"""The share of gold in the rock from which on nobody sees it: tiles are drawn over it."""
+_UNIT_TOLERANCE = 0.02  # pads of other editors have 0.7 for both parts of a diagonal
+
+
+def oddities(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
+    """What is odd about an object of the level that ``ground`` describes; nothing for a proper one."""
+    if not well_formed(record):
+        count, needed = len(record.values), VALUE_COUNTS[record.kind]
+        does = "starts at 45,70px" if record.kind == kinds.NINJA else "does nothing"
+        yield found("value-count", count=count, needed=needed, does=does)
+        return
+    if any(map(isnan, record.values)):
+        yield found("not-a-number")
+    if record.kind != kinds.DOOR:
+        yield from _place_oddities(record, ground)
+    if record.kind in _CHECKS:
+        yield from _CHECKS[record.kind](record, ground)
+
+
+def _place_oddities(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
+    x, y = record.values[:2]
+    if isnan(x) or isnan(y):
+        return
+    cell = cell_at(x, y)
+    if record.kind == kinds.FLOOR_GUARD:
+        return
+    if not cell:
+        yield found("outside-grid")
+    elif record.kind in _IN_TILE and _deep(ground, x, y):
+        border = COLUMN[cell] in (0, COLUMNS + 1) or ROW[cell] in (0, ROWS + 1)
+        yield found("in-border") if border else found("in-tile", what=_IN_TILE[record.kind])
+    elif record.kind in (kinds.DRONE, kinds.THWUMP) and SHAPE[ground.level.tiles[cell]] == FULL:
+        yield found("in-full-tile")
+
+
+_IN_TILE = {
+    kinds.NINJA: "starts inside a tile",
+    kinds.TURRET: "is inside a tile: what it sees and hits is odd",
+    kinds.MINE: "is inside a tile",
+    kinds.LAUNCH_PAD: "is inside a tile",
+    kinds.LAUNCHER: "is inside a tile: its rockets explode at once",
+}
+
+
+def _deep(ground: Ground, x: float, y: float) -> bool:
+    """Whether a point is inside a tile and not just on its surface, where turrets and launchers are often put."""
+    return all(solid_at(ground.level, x + dx, y + dy) for dx in (-0.5, 0.5) for dy in (-0.5, 0.5))
+
+
+def _exit(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
+    x, y, switch_x, switch_y = record.values
+    if cell_at(x, y) and not ground.touchable(x, y, rules.EXIT_RADIUS):
+        yield found("unreachable")
+    if not ground.touchable(switch_x, switch_y, rules.SWITCH_RADIUS):
+        yield found("unreachable-switch", place=place_text(switch_x, switch_y))
+
+
+def _gold(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
+    x, y = record.values
+    if not cell_at(x, y):
+        return
+    places = [(x + a * rules.GOLD_RADIUS, y + b * rules.GOLD_RADIUS) for a in _SAMPLES for b in _SAMPLES]
+    if not ground.touchable(x, y, rules.GOLD_RADIUS):
+        yield found("unreachable")
+    elif sum(solid_at(ground.level, *place) for place in places) >= _HIDDEN * len(places):
+        yield found("hidden-gold")
+
+
+def _launch_pad(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:  # noqa: ARG001 - all checks have one signature
+    _, _, a, b = record.values
+    length = sqrt(a * a + b * b)
+    if abs(length - 1.0) > _UNIT_TOLERANCE:
+        yield found("pad-normal", length=length)
+
+
+def _one_way(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:  # noqa: ARG001
+    if record.values[2] not in _DIRECTIONS:
+        yield found("direction", but=": it faces down")
+
+
+def _thwump(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:  # noqa: ARG001
+    if record.values[2] not in _DIRECTIONS:
+        yield found("direction", but=": it never moves, its right side kills")
+
+
+def _floor_guard(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
+    cell = cell_at(*record.values[:2])
+    if COLUMN[cell] in (0, COLUMNS + 1):
+        yield found("guard-in-border")
+    elif SHAPE[ground.level.tiles[cell]] == FULL:
+        yield found("in-full-tile")
+    elif ground.edges[4 * cell + 1] != rules.SOLID:
+        yield found("guard-without-floor")
+
+
+def _drone(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
+    x, y, movement, seeker, weapon, direction = record.values
+    if weapon not in (0, 1, 2):
+        yield found("weapon")
+    if movement not in range(6):
+        yield found("movement")
+    if direction not in _DIRECTIONS:
+        yield found("direction", but="")
+    if seeker not in (0, 1):
+        yield found("seeker-flag")
+    elif seeker and weapon != 0:
+        yield found("seeker-with-weapon")
+    cell = cell_at(x, y)
+    sides = range(4 * cell, 4 * cell + 4)
+    if cell and all(ground.edges[side] != rules.OFF or side in ground.closed_edges for side in sides):
+        yield found("closed-in")
+
+
+def _door(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
+    x, y, vertical, trap, _, _, locked, _, _ = record.values
+    edges = edges_of(ground.doors[record])
+    if vertical not in (0, 1):
+        yield found("vertical-flag")
+    if trap not in (0, 1) or locked not in (0, 1):
+        yield found("door-flags")
+    elif trap and locked:
+        yield found("locked-trap")
+    if 0 in edges:
+        yield found("door-outside")
+    elif ground.doors_on_side[edges] > 1:
+        yield found("doors-on-one-side")
+    elif any(ground.edges[edge] == rules.SOLID or SHAPE[ground.level.tiles[edge // 4]] == FULL for edge in edges):
+        yield found("closed-anyway")
+    if (is_set(trap) or is_set(locked)) and not ground.touchable(x, y, rules.DOOR_SWITCH_RADIUS):
+        yield found("unreachable-switch", place=place_text(x, y))
+
+
+_CHECKS: dict[int, Callable[[ObjectSpec, Ground], Iterator[Finding]]] = {
+    kinds.DOOR: _door,
+    kinds.DRONE: _drone,
+    kinds.EXIT: _exit,
+    kinds.FLOOR_GUARD: _floor_guard,
+    kinds.GOLD: _gold,
+    kinds.LAUNCH_PAD: _launch_pad,
+    kinds.ONE_WAY: _one_way,
+    kinds.THWUMP: _thwump,
+}

@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable, Sequence
 from operator import attrgetter
 from pathlib import Path
+from random import Random
 
 import pygame
 
@@ -14,8 +15,7 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import data_folder, export_path
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
-from ninja_game.play.window import TITLE, Window, save_picture
-from ninja_game.play.wipe import Wipe
+from ninja_game.play.window import TITLE, Window, Wipe, save_picture
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import FASTEST_TICK_GAIN
 from ninja_game.player.settings import BY_COLUMN, Settings
@@ -24,7 +24,6 @@ from ninja_game.sim.rules import TICK_MS
 from ninja_game.ui.audio.player import AudioOutput, AudioPlayer
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.input.bindings import Bindings, InputEvent
-from ninja_game.ui.spreadsheet import draw_spreadsheet
 from ninja_game.ui.theme import PALETTES, Palette, Theme, palette_named, wrapped
 
 
@@ -82,8 +81,6 @@ class Screen:
 
 
 class ScreenStack:
-    """Screens on top of each other; only the top one gets events."""
-
     def __init__(self) -> None:
         self._screens: list[Screen] = []
 
@@ -107,7 +104,6 @@ class ScreenStack:
         return self._screens[-2] if len(self) > 1 else None
 
     def push(self, screen: Screen) -> None:
-        """Cover the top screen by another."""
         if self._screens:
             self.top.leave()
         self._screens.append(screen)
@@ -119,7 +115,6 @@ class ScreenStack:
         self._uncover()
 
     def replace(self, screen: Screen) -> None:
-        """Put another screen in the top one's place."""
         self._screens.pop().leave()
         self._screens.append(screen)
         self._uncover()
@@ -134,7 +129,6 @@ class ScreenStack:
             self.top.enter()
 
     def redraw_all(self) -> None:
-        """Have every screen draw everything again."""
         for screen in self._screens:
             screen.redraw = True
 
@@ -225,7 +219,6 @@ class App:
 
     @property
     def settings(self) -> Settings:
-        """What the player has chosen."""
         return self.player.settings
 
     @property
@@ -234,7 +227,6 @@ class App:
 
     @property
     def tick_ms(self) -> int:
-        """Length of a tick in real ms."""
         return TICK_MS - min(FASTEST_TICK_GAIN, max(0, self.overclock))
 
     def change_settings(self, **values: object) -> None:
@@ -245,7 +237,7 @@ class App:
         self.controls.bind(after.keys, after.pad)
         self.controls.pads.dead_zone = after.dead_zone
         self.controls.tap_to_run = after.tap_to_run
-        self.audio_output.set_volumes(after.volume, after.effects_volume, after.loop_volume, after.music_volume)
+        self.audio_output.set_volumes(*after.volumes)
         self.window.set_fullscreen(wanted=after.fullscreen)
         look = attrgetter("palette", "fullscreen", "text_size")
         if look(after) != look(before):
@@ -271,14 +263,12 @@ class App:
             self.notify(text, ms=WARNING_MS)
 
     def _lay_out(self) -> None:
-        """Draw everything again, at the window's present size and in the present palette."""
         self.canvas = Canvas(self.surface.get_size())
         self.theme = Theme(self.palette_in(self.mood), self.canvas, self.settings.text_size)
         self.menu_theme = Theme(self.palette_in(CALM), self.canvas, self.settings.text_size)
         self.stack.redraw_all()
 
     def palette_in(self, mood: int) -> Palette:
-        """The palette that the player has chosen, as it is in a mood."""
         return palette_named(self.settings.palette, mood)
 
     def follow_mood(self, mood: int) -> None:
@@ -388,7 +378,6 @@ class App:
             self.top.handle(event)
 
     def _dispatch(self, event: InputEvent) -> bool:
-        """Do what a key means on every screen; whether it means anything."""
         if "fullscreen" in event.pressed:
             self.change_settings(fullscreen=not self.settings.fullscreen)
         elif "screenshot" in event.pressed:
@@ -404,7 +393,6 @@ class App:
     # --- the picture ---
 
     def draw(self) -> None:
-        """Draw the screens that are seen and show what changed."""
         self.follow_mood(self.top.mood)
         changed = self.stack.draw(self.surface)
         self.wipe.draw(self.surface, self.theme)
@@ -471,13 +459,7 @@ def build_app(
     settings = player.settings
     bindings = controls or Bindings(settings.keys, settings.pad, dead_zone=settings.dead_zone)
     bindings.tap_to_run = settings.tap_to_run
-    sound = audio_output or AudioPlayer(
-        data_folder("assets") / "sounds",
-        volume=settings.volume,
-        effects_volume=settings.effects_volume,
-        loop_volume=settings.loop_volume,
-        music_volume=settings.music_volume,
-    )
+    sound = audio_output or AudioPlayer(data_folder("assets") / "sounds", *settings.volumes)
     app = App(player, bindings, sound, size=size, tas_editor=tas_editor, window=window)
     player.open_records()
     if bindings.unknown:
@@ -492,7 +474,6 @@ class BossScreen(Screen):
     """The key that hides the game comes back to it, and so does Esc; the key for leaving ends the program."""
 
     def enter(self) -> None:
-        """Give the window a dull title too."""
         pygame.display.set_caption("Budget")
 
     def leave(self) -> None:
@@ -505,8 +486,35 @@ class BossScreen(Screen):
             self.app.quit()
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
-        """The sheet; it never changes."""
         if not self.redraw:
             return []
         draw_spreadsheet(surface, self.theme)
         return None
+
+
+_PAPER, _LINE, _HEAD, _INK = "#ffffff", "#d0d4da", "#eef0f3", "#3a3f47"
+_ROWS, _ROW_HEIGHT, _TOP = 24, 22.0, 48.0
+_COLUMNS = (("", 40.0), ("Item", 210.0), ("Q1", 100.0), ("Q2", 100.0), ("Q3", 100.0), ("Q4", 100.0), ("Total", 142.0))
+_ITEMS = ("Paper", "Toner", "Postage", "Travel", "Training", "Licences", "Furniture", "Coffee", "Cleaning", "Repairs")
+
+
+def draw_spreadsheet(surface: pygame.Surface, theme: Theme) -> None:
+    """Draw all of it; it never changes."""
+    surface.fill(_PAPER)
+    canvas, text = theme.canvas, theme.text
+    rng = Random(2)  # noqa: S311 - figures that mean nothing
+    canvas.fill_rect(surface, _HEAD, 0, _TOP - _ROW_HEIGHT, 792, _ROW_HEIGHT)
+    text(surface, "Budget, second draft", 12, 6, size=11, colour=_INK)
+    for row in range(_ROWS + 1):
+        y = _TOP + _ROW_HEIGHT * row
+        canvas.line(surface, _LINE, (0, y), (792, y), 0.5)
+        figures = [rng.randrange(40, 3000) for _ in range(4)]
+        cells = [str(row + 1), _ITEMS[row % len(_ITEMS)], *map(str, figures), str(sum(figures))]
+        x = 0.0
+        for (head, width), cell in zip(_COLUMNS, cells, strict=True):
+            if row == 0:
+                text(surface, head, x + 8, _TOP - 16, size=9, colour=_INK)
+                canvas.line(surface, _LINE, (x, _TOP - _ROW_HEIGHT), (x, 600), 0.5)
+            if row < _ROWS:
+                text(surface, cell, x + 8, y + 6, size=9, colour=_INK)
+            x += width

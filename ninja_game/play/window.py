@@ -18,7 +18,6 @@ from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.ui.theme import PALETTES, Theme, palette_named
 
 TITLE = "ninja-game"
-"""What the window is called."""
 LOGO = "NINJA"
 """What stands over the main menu, and on the first picture."""
 
@@ -113,12 +112,10 @@ def open_at_once(size: tuple[int, int] | None) -> Window:
 
 
 def save_picture(surface: pygame.Surface, path: Path) -> None:
-    """Write a picture as a PNG file. Raises OSError, FileError."""
     write_atomically(path, png_of(surface))
 
 
 def png_of(surface: pygame.Surface) -> bytes:
-    """A picture as what is in a PNG file."""
     png = io.BytesIO()
     pygame.image.save(surface, png, "picture.png")
     return png.getvalue()
@@ -191,3 +188,37 @@ def icon(size: int, *, corner: float = 1 / 6) -> pygame.Surface:
     sprite = ninja_sprite(scale, palette, run_pose(0.1, 5.0), 1, (5, 0), colour=palette.ninja)
     sprite.blit(picture, (size // 2, size // 2))
     return picture
+
+
+WIPE_MS = 300
+EDGE = 5
+"""Width of the curtain's edge, logical px."""
+
+
+class Wipe:
+    """A change that is going on, or none. It only covers: the new screen already takes keys and lets time pass."""
+
+    def __init__(self) -> None:
+        self._before: pygame.Surface | None = None
+        self._left = 0
+
+    @property
+    def going_on(self) -> bool:
+        return self._before is not None
+
+    def begin(self, surface: pygame.Surface) -> None:
+        self._before, self._left = surface.copy(), WIPE_MS
+
+    def update(self, real_ms: int) -> None:
+        self._left -= real_ms
+        if self._left <= 0:
+            self._before = None
+
+    def draw(self, surface: pygame.Surface, theme: Theme) -> None:
+        if self._before is None:
+            return
+        width, height = surface.get_size()
+        share = self._left / WIPE_MS
+        left = width - round(width * share * share)
+        surface.blit(self._before, (left, 0), (left, 0, width - left, height))
+        surface.fill(theme.palette.accent, (left, 0, theme.canvas.px(EDGE), height))

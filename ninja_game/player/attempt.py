@@ -8,8 +8,7 @@ from typing import Any
 from ninja_game.budget import NO_LIMIT
 from ninja_game.formats.replay.made import Made
 from ninja_game.formats.replay.text import Replay
-from ninja_game.player.records import level_score
-from ninja_game.player.statistics import SELF, killer_of
+from ninja_game.player.records import SELF, killer_of, level_score
 from ninja_game.runs.run import record_replay
 from ninja_game.sim.events import DIED
 from ninja_game.sim.inputs import pressed
@@ -60,7 +59,6 @@ class Attempt:
 
     @property
     def outcome(self) -> str:
-        """The outcome: "exit", "dead" or, so far, "running"."""
         return self.simulation.outcome
 
     @property
@@ -91,7 +89,6 @@ class Attempt:
             self._count(world, gold)
 
     def _count(self, world: Any, gold: int) -> None:
-        """Gold, score and lifetime of a tick."""
         self.lifetime += GOLD_BONUS * (world.gold - gold)
         if world.outcome != 0:
             self.ended_tick = world.tick - 1
@@ -115,8 +112,6 @@ class Attempt:
         self.simulation.kill(cause, dx, dy)
         self.ended_tick = self.simulation.tick
 
-    # --- practice ---
-
     def save(self) -> Moment:
         return self.simulation.save(), bytes(self.inputs), self.lifetime, self.ended_tick, self.own_hand
 
@@ -138,8 +133,6 @@ class Attempt:
             self.inputs.extend(bytes(tick - len(self.inputs)))
             self.ended_tick, self.score, self.own_hand = -1, 0, False
         self.assists.add("rewind")
-
-    # --- recordings ---
 
     def replay(self, name: str = "", author: str = "") -> Replay:
         """The recording in our form: run again from its inputs, so that it holds what really comes of them."""

@@ -31,14 +31,12 @@ from ninja_game.files.zips import open_zip, unpacked
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
-from ninja_game.player.marks import WITH_HELP
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.progress import is_place
-from ninja_game.player.records import Records, level_score
+from ninja_game.player.progress import WITH_HELP, is_place
+from ninja_game.player.records import KILLERS, Records, level_score
+from ninja_game.player.schema import SCHEMA, TABLES, VERSION, OtherVersionError, bounded
 from ninja_game.player.settings import read_settings
-from ninja_game.player.statistics import KILLERS
 from ninja_game.player.store import Store
-from ninja_game.player.store.schema import SCHEMA, TABLES, VERSION, OtherVersionError, bounded
 from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.memory.interface import BODIES
 
@@ -113,7 +111,6 @@ def write_backup(player: PlayerData, path: Path) -> list[str]:
 
 
 def _own_files(folder: Path) -> Iterator[str]:
-    """The names of the files that go along, but the records."""
     yield from (name for name in files_in(folder) if name == SETTINGS)
     for part in FOLDERS:
         yield from (f"{part}/{name}" for name in files_in(folder / part))
@@ -220,7 +217,6 @@ def _opened(path: Path) -> Store:
 
 @cache
 def _our_schema() -> set[tuple[str, ...]]:
-    """The tables and indices that the game itself makes."""
     with closing(sqlite3.connect(":memory:")) as db:
         for statement in SCHEMA:
             db.execute(statement)
@@ -316,7 +312,6 @@ def _replay(theirs: Records, number: int, memory: str) -> Replay | None:
 
 
 def _sound(column: str, value: str | int) -> bool:
-    """Whether records hold such a value in a column."""
     if isinstance(value, int):
         return 0 <= value < _COUNT_LIMIT
     words = {"killer": KILLERS, "body": (*BODIES, WITH_HELP)}.get(column)

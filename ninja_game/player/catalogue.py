@@ -45,12 +45,10 @@ class Entry:
 
     @cached_property
     def digest(self) -> str:
-        """The level's digest, its key in the records."""
         return level_digest(self.named.level)
 
     @cached_property
     def all_gold(self) -> int:
-        """How many pieces of gold the level has."""
         return self.named.level.gold
 
     @property
@@ -68,7 +66,6 @@ class Entry:
 
     @property
     def title(self) -> str:
-        """What the level is called in lists."""
         return self.named.name or Path(self.named.file).stem or "nameless"
 
 
@@ -83,7 +80,6 @@ class Episode:
 
     @cached_property
     def key(self) -> str:
-        """Its key in the records."""
         return episode_key(entry.named.level for entry in self.levels)
 
     @property
@@ -92,11 +88,9 @@ class Episode:
 
     @property
     def code(self) -> str:
-        """How players count it."""
         return episode_code(self.number)
 
     def title(self, level: int) -> str:
-        """How a level of it is announced."""
         return f"Episode {self.code}, level {level + 1}: {self.levels[level].title}"
 
 
@@ -115,12 +109,10 @@ class EpisodeSet(NamedTuple):
 
     @property
     def files(self) -> PackFiles | None:
-        """Where its texts are."""
         return self.pack.files if self.pack else None
 
     @property
     def path(self) -> Path | None:
-        """Its folder or zip."""
         return self.pack.files.path if self.pack else None
 
     @property
@@ -237,7 +229,6 @@ class Catalogue:
         return replace(replay, level=entry.named.level) if replay and own else None
 
     def episode_of(self, entry: Entry) -> Episode | None:
-        """The episode that a level belongs to, if any."""
         pack = self.ours if entry.source == "game" else self._known.get(entry.source)
         return pack.episodes.get(int(entry.episode.partition("-")[0])) if pack and entry.episode else None
 
@@ -256,12 +247,10 @@ class Catalogue:
         return max(earlier, key=lambda each: each.number, default=None)
 
     def _column(self, episode: Episode) -> list[Episode]:
-        """The episodes of its pack in its column."""
         episodes = self._known[episode.pack].episodes if episode.pack in self._known else self.episodes
         return [each for each in episodes.values() if each.column == episode.column]
 
     def _pack_paths(self) -> Iterator[Path]:
-        """The folders and zips in the player's folder that are packs."""
         try:
             inside = sorted(self.folder.iterdir()) if self.folder else []
         except OSError:
@@ -311,7 +300,6 @@ class Catalogue:
         return entries
 
     def _entries_of(self, file: Path) -> list[Entry]:
-        """The levels of one file of the player's."""
         stamp = stamp_of(file)
         known = self._read.get(file)
         if known is None or known.stamp != stamp:

@@ -24,10 +24,8 @@ from ninja_game.formats.replay.text import Replay, parse_replay, write_replay
 from ninja_game.formats.sayings import Saying, read_sayings
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry, Episode
-from ninja_game.player.marks import next_par
-from ninja_game.player.player_data import PlayerData
-from ninja_game.player.progress import LOCKED, UNLOCKED, new_unlocks
-from ninja_game.player.saving import EPISODE_BEST, count_of, replay_of, save_best, told
+from ninja_game.player.player_data import EPISODE_BEST, PlayerData, count_of, replay_of, save_best, told
+from ninja_game.player.progress import LOCKED, UNLOCKED, new_unlocks, next_par
 from ninja_game.player.store import Store, Work
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import LIFETIME
@@ -135,7 +133,6 @@ class LevelContext:
         return self.data.settings.level_texts and not marks.is_passed(level) and marks.of(level, self.body) is None
 
     def sayings(self) -> tuple[Saying, ...]:
-        """What the level says, where it ``helps``."""
         if not self.helps:
             return ()
         with suppress(LevelError):
@@ -349,7 +346,6 @@ class EpisodeRun(LevelContext):
         return notices
 
     def restart(self) -> bool:
-        """The level starts again: as if it had not been passed."""
         self._passed = None
         return False
 
@@ -393,12 +389,8 @@ def move_on(
     """
     following = data.catalogue.following(episode)
     levels = len(episode.levels)
-    data.progress_in(episode.pack).level_passed(
-        (episode.number, position),
-        levels=levels,
-        following=following.number if following else None,
-        legitimate=legitimate,
-    )
+    progress, goal = data.progress_in(episode.pack), following.number if following else None
+    progress.level_passed((episode.number, position), levels=levels, following=goal, legitimate=legitimate)
     if legitimate and kept and position < levels - 1:
         keep_place(data.store, episode.key, replays)
     elif legitimate and kept:

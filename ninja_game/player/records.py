@@ -1,4 +1,4 @@
-"""Personal bests and replays (game.md §2.1). Keys are digests of levels, so that a changed level starts afresh."""
+"""Personal bests, replays, counts (game.md §2.1). Keys are digests of levels, so that a changed level starts afresh."""
 
 from __future__ import annotations
 
@@ -13,8 +13,12 @@ from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.replay.made import names_of_text, parse_made
 from ninja_game.formats.replay.text import OUTCOMES, Replay
 from ninja_game.player.store import Store
+from ninja_game.sim.events import DIED
+from ninja_game.sim.kinds import DRONE, KIND_OF, KINDS
 from ninja_game.sim.memory.interface import BODIES
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
+from ninja_game.sim.states import NO_CAUSE, WEAPON_CHAINGUN, WEAPON_LASER, WEAPON_ZAP
 
 NEWEST_SHOWN = 500
 """Replays listed at most, the newest first."""
@@ -71,7 +75,6 @@ def has_words(words: Iterable[str], *texts: str) -> bool:
 
 
 def now_text() -> str:
-    """The time, UTC, as the records have it."""
     return datetime.now(UTC).isoformat(timespec="seconds")
 
 
@@ -122,7 +125,6 @@ class Records:
             return db.execute(f"DELETE FROM replay WHERE id = ? AND {_UNNEEDED}", (number,)).rowcount > 0
 
     def _saved(self, condition: str, *values: object) -> list[SavedReplay]:
-        """Replays that meet a condition in SQL, but for those with an unknown outcome or body."""
         query = f"SELECT {_SAVED} FROM replay {condition}"
         found = (SavedReplay(*row) for row in self.store.rows(query, values, _SAVED_KINDS))
         return [saved for saved in found if saved.outcome in OUTCOMES and saved.body in BODIES]
@@ -130,12 +132,10 @@ class Records:
     # --- levels ---
 
     def level_best(self, digest: str, body: str = "circle") -> SavedReplay | None:
-        """The personal best of a level, by the level's digest."""
         found = self._saved(f"{_BEST} AND level_best.level = ?", body, digest)
         return found[0] if found else None
 
     def level_bests(self, body: str = "circle") -> dict[str, SavedReplay]:
-        """All personal bests by level digest."""
         return {saved.level: saved for saved in self._saved(_BEST, body)}
 
     def level_passed(self, replay: Replay) -> bool:
@@ -153,7 +153,6 @@ class Records:
     # --- episodes ---
 
     def episode_best(self, key: str, body: str = "circle") -> EpisodeBest | None:
-        """The personal best of an episode, by its key."""
         which, where = (key, body), "WHERE episode = ? AND body = ?"
         ids = self.store.rows(f"SELECT replay FROM episode_replay {where} ORDER BY place", which, [int])
         rows = self.store.rows(f"SELECT score, made_at FROM episode_best {where}", which, [int, str])
@@ -225,3 +224,68 @@ def level_score(gold: int, exit_tick: int) -> int:
     3240
     """
     return LIFETIME + GOLD_BONUS * gold - exit_tick
+
+
+SELF = "player"
+"""Falls, being crushed, suicide, time."""
+
+_DRONES = {WEAPON_ZAP: "zap drone", WEAPON_LASER: "laser drone", WEAPON_CHAINGUN: "chaingun drone"}
+KILLERS = (*_DRONES.values(), *(kind.killer for kind in KINDS if kind.killer and kind.number != DRONE), SELF)
+
+
+def cause_of(world: World) -> int:
+    """The cause of the ninja's death in the world's last tick, as in ``sim.states``; NO_CAUSE where it did not die."""
+    return next((event.cause for event in world.events[: world.event_count] if event.kind == DIED), NO_CAUSE)
+
+
+def killer_of(world: World) -> str:
+    """What killed the ninja in the world's last tick, one of KILLERS."""
+    slot = next((event.slot for event in world.events[: world.event_count] if event.kind == DIED), 0)
+    if not slot:
+        return SELF
+    killer = world.objects[slot]
+    return _DRONES[killer.weapon] if killer.kind == DRONE else KIND_OF[killer.kind].killer
+
+
+class Played(NamedTuple):
+    """How much was played, in all or of a level: attempts, passes, deaths, ticks in play, pieces of gold."""
+
+    attempts: int = 0
+    passes: int = 0
+    deaths: int = 0
+    ticks: int = 0
+    gold: int = 0
+
+
+class Statistics:
+    def __init__(self, store: Store) -> None:
+        self.store = store
+
+    def attempt_ended(self, level: str, *, killer: str | None, passed: bool, ticks: int, gold: int) -> None:
+        """Count an attempt at a level (its digest) that ended: passed, killed by ``killer``, or given up.
+
+        Raises sqlite3.Error.
+        """
+        with self.store.change() as db:
+            db.execute(
+                "INSERT INTO played (level, attempts, passes, deaths, ticks, gold) VALUES (?, 1, ?, ?, ?, ?)"
+                " ON CONFLICT (level) DO UPDATE SET"
+                " attempts = attempts + 1, passes = passes + excluded.passes, deaths = deaths + excluded.deaths,"
+                " ticks = ticks + excluded.ticks, gold = gold + excluded.gold",
+                (level, int(passed), int(killer is not None), ticks, gold),
+            )
+            if killer is not None:
+                db.execute(
+                    "INSERT INTO death (killer, times) VALUES (?, 1)"
+                    " ON CONFLICT (killer) DO UPDATE SET times = times + 1",
+                    (killer,),
+                )
+
+    def deaths(self) -> dict[str, int]:
+        """Deaths by killer, every killer present, in the order of KILLERS."""
+        found = dict(self.store.rows("SELECT killer, times FROM death", (), [str, int]))
+        return {killer: found.get(killer, 0) for killer in KILLERS}
+
+    def played(self, level: str | None = None) -> Played:
+        query = "SELECT attempts, passes, deaths, ticks, gold FROM played WHERE ?1 IS NULL OR level = ?1"
+        return Played(*map(sum, zip(*self.store.rows(query, (level,), [int] * 5), strict=True)))

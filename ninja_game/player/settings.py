@@ -32,9 +32,6 @@ LOCK_SECONDS = 1.0
 
 BY_COLUMN = "by-column"
 """The palette that is another one in each column of episodes."""
-DEFAULT_PALETTE = BY_COLUMN
-DEFAULT_COLOUR = ""
-"""The ninja's colour that comes with the palette."""
 
 GHOSTS = ("best", "next", "silver", "gold", "author")
 """What may play along: the player's best run, or the pace of the next medal or of one."""
@@ -56,7 +53,6 @@ class SettingRule(NamedTuple):
 
 
 def _setting(default: Any, table: str, fits: Callable[[Any], bool], expected: str, meaning: str) -> Any:
-    """A field with its rule."""
     return field(default=default, metadata={"rule": SettingRule(table, fits, expected, meaning)})
 
 
@@ -106,13 +102,12 @@ class Settings:
 
     # Which palettes there are is known where they are drawn.
     palette: str = _text(
-        DEFAULT_PALETTE, "look", "[a-z-]{1,24}", "the name of a palette, such as 'classic'",
+        BY_COLUMN, "look", "[a-z-]{1,24}", "the name of a palette, such as 'classic'",
         "colours; by-column: each column has its own",
     )  # fmt: skip
     ninja_colour: str = _text(
-        DEFAULT_COLOUR, "look", "|#[0-9a-fA-F]{6}", "'' or a colour such as '#186285'",
-        "of the ninja; empty: as the palette has it",
-    )  # fmt: skip
+        "", "look", "|#[0-9a-fA-F]{6}", "'' or a colour such as '#186285'", "of the ninja; empty: as the palette has it"
+    )
     fullscreen: bool = _flag(False, "look", "the whole screen instead of a window")
     smooth: bool = _flag(True, "look", "positions between two ticks are drawn")
     reduced_motion: bool = _flag(
@@ -161,6 +156,10 @@ class Settings:
     )
     keys: InputNames = field(default_factory=dict, metadata=_bindings("keys", "['z', 'lshift']"))
     pad: InputNames = field(default_factory=dict, metadata=_bindings("buttons", "['a']"))
+
+    @property
+    def volumes(self) -> tuple[int, int, int, int]:
+        return self.volume, self.effects_volume, self.loop_volume, self.music_volume
 
     def changed(self, **values: Any) -> Settings:
         """These settings with some of them changed. Raises ValueError for a value that a setting cannot have."""
@@ -226,7 +225,6 @@ def _put_aside(path: Path, why: str) -> str:
 
 
 def _settings_of(data: Mapping[str, Any]) -> tuple[Settings, list[str]]:
-    """The settings in a parsed file, value by value."""
     values: dict[str, Any] = {}
     messages = []
     for name, rule in RULES.items():
@@ -252,7 +250,6 @@ def _settings_of(data: Mapping[str, Any]) -> tuple[Settings, list[str]]:
 
 
 def _shown(value: object) -> str:
-    """A wrong value for a message."""
     try:
         return shown_text(repr(value), 60)
     except ValueError:
@@ -260,7 +257,6 @@ def _shown(value: object) -> str:
 
 
 def key_of(name: str) -> str:
-    """What a setting is called in the file."""
     return name.replace("_", "-")
 
 

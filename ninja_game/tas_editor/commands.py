@@ -1,4 +1,4 @@
-"""The commands that concern the file of a run: its menu, saving, what was not saved last time."""
+"""The TAS editor's commands: what they are called and which keys mean them; those that concern the file of a run."""
 
 from __future__ import annotations
 
@@ -16,15 +16,90 @@ from ninja_game.formats.links.making import replay_link
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.panels import Action, FormPanel, Menu, Row, nothing
+from ninja_game.play.menus.menu_screen import Action, Menu, Row, ask_text, nothing
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.play.workspace.document import DocumentCommands
-from ninja_game.play.workspace.part import Commands
-from ninja_game.player.saving import keep_replay
+from ninja_game.play.workspace import Command, Commands, CommandTable, DocumentCommands
+from ninja_game.player.player_data import keep_replay
 from ninja_game.tas.files import SUFFIX, branches_path, replay_of_track, same_level
 from ninja_game.tas.journal import RecoveredRun, recovered
-from ninja_game.tas_editor.controls import COMMANDS
 from ninja_game.tas_editor.editor import TasEditor
+from ninja_game.ui.input.bindings import ACTIONS
+from ninja_game.view.overlays import OVERLAY_ACTIONS
+
+COMMANDS = (
+    Command("help", "This page", ("f1",)),
+    Command("menu", "File menu; ends playing, and a search that is shown", ("escape",)),
+    Command("save", "Save", ("ctrl+s",)),
+    Command("save_as", "Save under another name", ("ctrl+shift+s",)),
+    Command("open_other", "Open another run beside this one", ("ctrl+o",)),
+    Command("undo", "Undo", ("ctrl+z",)),
+    Command("redo", "Redo", ("ctrl+y", "ctrl+shift+z")),
+    Command("up", "A tick up", ("up",)),
+    Command("down", "A tick down", ("down",)),
+    Command("page_up", "A page up", ("pageup",)),
+    Command("page_down", "A page down", ("pagedown",)),
+    Command("first", "First tick", ("home",)),
+    Command("last", "Exit or death, then the last tick", ("end",)),
+    Command("select_up", "Select upwards", ("shift+up",)),
+    Command("select_down", "Select downwards", ("shift+down",)),
+    Command("select_page_up", "Select a page upwards", ("shift+pageup",)),
+    Command("select_page_down", "Select a page downwards", ("shift+pagedown",)),
+    Command("select_first", "Select up to the first tick", ("shift+home",)),
+    Command("select_last", "Select to the last tick", ("shift+end",)),
+    Command("select_all", "Select everything", ("ctrl+a",)),
+    Command("go_to", "Go to a tick or marker", ("ctrl+g",)),
+    Command("key_left", "Left: down or up in the selected ticks", ("left", "a")),
+    Command("key_right", "Right: down or up in the selected ticks", ("right", "d")),
+    Command("key_jump", "Jump: down or up in the selected ticks", ("z", "w")),
+    Command("clear", "All keys up in the selected ticks", ("delete",)),
+    Command("insert", "Insert ticks without a key, as many as are selected", ("insert", "i")),
+    Command("remove", "Take the selected ticks out", ("backspace", "ctrl+delete")),
+    Command("copy", "Copy", ("ctrl+c",)),
+    Command("cut", "Copy and take out", ("ctrl+x",)),
+    Command("paste", "Paste over what is there", ("ctrl+v",)),
+    Command("paste_insert", "Paste between", ("ctrl+shift+v",)),
+    Command("cut_end", "Take out everything behind the exit or death", ("ctrl+e",)),
+    Command("marker", "Set or rename a marker", ("m",)),
+    Command("next_marker", "Next marker", ("n",)),
+    Command("previous_marker", "Previous marker", ("shift+n",)),
+    Command("next_difference", "Next difference to the other run", ("k",)),
+    Command("previous_difference", "Previous difference to the other run", ("shift+k",)),
+    Command("play", "Play and stop", ("space",)),
+    Command("step_back", "A tick back", ("comma",)),
+    Command("step", "A tick on; taken over: with the keys that are down", ("period",)),
+    Command("faster", "Faster", ("equals", "kp_plus")),
+    Command("slower", "Slower", ("minus", "kp_minus")),
+    Command("take_over", "Take over: play on yourself from here", ("return", "kp_enter")),
+    Command("ghosts", "Other runs, on or off", ("g",)),
+    Command("whole_level", "All of the level, after the wheel has zoomed", ("0", "kp_0")),
+    *(Command(name, ACTIONS[name].label, ACTIONS[name].keys) for name in OVERLAY_ACTIONS),
+    Command("splice", "The selected ticks from the other run", ("ctrl+p",)),
+    Command("splice_here", "The rest from the other run, from its nearest tick", ("ctrl+shift+p",)),
+    Command("next_other", "Next other run", ("o",)),
+    Command("zoom_in", "Zoom in", ("ctrl+equals", "ctrl+kp_plus")),
+    Command("zoom_out", "Zoom out", ("ctrl+minus", "ctrl+kp_minus")),
+    Command("reset_layout", "Reset layout", ("ctrl+0", "ctrl+kp_0")),
+    Command("next_tab", "Next tab", ("f6",)),
+    Command("watch", "Watch another value", ("v",)),
+    Command("branch", "Keep this run as a branch", ("b",)),
+    Command("search", "Search the selected ticks for something better", ("f",)),
+)
+"""Everything that a key does, unless the run is taken over: then the keys of the game play."""
+
+REPEATING = {
+    **dict.fromkeys(("up", "down", "select_up", "select_down", "step", "step_back"), 25),
+    **dict.fromkeys(("page_up", "page_down", "select_page_up", "select_page_down", "undo", "redo"), 100),
+}
+"""The commands that are repeated, and then how often, ms. 25: as the run goes."""
+
+BY_PAD = {
+    "start": "take_over", "y": "play", "leftshoulder": "step_back", "rightshoulder": "step", "x": "undo",
+    "dpad-up": "up", "dpad-down": "down",
+}  # fmt: skip
+"""Commands by buttons of a pad; of a run that is taken over, only those that step."""
+
+TABLE = CommandTable(COMMANDS, repeating=REPEATING, pads=BY_PAD)
+
 
 HELP = """\
 A row of the roll is a tick: click L, R or J to change a key, drag to paint, click the number of a tick to go there. \
@@ -32,7 +107,6 @@ The level shows the world after that tick. Enter takes over: play on yourself, E
 Select some ticks and press F to search for better keys there; a click on a result puts it into the run.
 The wheel scrolls the roll, and shows the level or a plot larger; the right button moves the level, the left one \
 a plot. With Ctrl the wheel goes tick by tick. Drag what is between the parts to give one of them more room."""
-"""What one has to know to begin."""
 
 
 class RunCommands(DocumentCommands):
@@ -67,10 +141,7 @@ class RunCommands(DocumentCommands):
         ]  # fmt: skip
         self.app.push(Menu(self.app, "Run", rows))
 
-    # --- saving ---
-
     def own_path(self) -> Path | None:
-        """The run's file, if it has one."""
         return self.session.file.path
 
     @property
@@ -83,26 +154,20 @@ class RunCommands(DocumentCommands):
         return self.app.player.folder / REPLAYS
 
     def save_as(self, then: Action = nothing) -> None:
-        """Ask for the name of the file, write the run, and do ``then``."""
         path, folder = self.session.file.path, self._folder
         free = free_path(folder, file_stem(self.session.name, "run"), SUFFIX)
         name = (path or free).name.removesuffix(SUFFIX)
 
-        def on_accept(texts: list[str]) -> None:
-            path = folder / Path(texts[0].strip()).expanduser()
+        def on_accept(text: str) -> None:
+            path = folder / Path(text.strip()).expanduser()
             if path.parent.is_dir():
                 self.save_to(path.with_name(f"{file_stem(path.name.removesuffix(SUFFIX), 'run')}{SUFFIX}"), then)
             else:
                 self.app.notify(f"Not saved: there is no folder {path.parent}")
 
-        self.app.push(
-            FormPanel(
-                self.app, f"Save in {folder.absolute()}", [("Name or path of the file", name, 300)], "Save", on_accept
-            )
-        )
+        ask_text(self.app, f"Save in {folder.absolute()}", "Name or path of the file", name, "Save", on_accept, 300)
 
     def saved_text(self, path: Path) -> str:
-        """Where it is, and what else was saved."""
         tail = ", with what is behind its end (Ctrl+E takes that out)" if self.session.has_tail else ""
         branches = " and its branches beside it" * branches_path(path).exists()
         replay = self.session.about.replay
@@ -110,7 +175,6 @@ class RunCommands(DocumentCommands):
         return f"Saved{tail}: {path}{branches}{nobody * (not (replay.author or replay.co_authors))}"
 
     def keep(self) -> None:
-        """Put the run among the player's replays."""
         if self.session.has_tail:
             self.app.notify("Keys are pressed behind the end: take them out first, with Ctrl+E")
             return
@@ -123,8 +187,6 @@ class RunCommands(DocumentCommands):
 
     def watch(self) -> None:
         self.app.push(ReplayScreen(self.app, [self.session.recording()], editable=False))
-
-    # --- what was not saved ---
 
     def offer_recovered(self) -> None:
         """Ask what to do with this run, if it was being edited when the program died; tell of others.
@@ -151,7 +213,6 @@ class RunCommands(DocumentCommands):
         return opened.track == session.track and same_level(opened.recording, session.about)
 
     def list_recovered(self) -> None:
-        """All runs that were being edited when the program died, or was closed."""
         rows: list[Row] = [
             (_name_of(found), partial(self._offer, found), _when(found))
             for found in islice(recovered(self.app.player.folder), 8)
@@ -172,7 +233,6 @@ def _name_of(found: RecoveredRun) -> str:
 
 
 def _when(found: RecoveredRun) -> str:
-    """How many edits, and when the last one was."""
     count = len(found.tracks)
     last = strftime("%Y-%m-%d %H:%M", localtime(found.file.stat().st_mtime)) if found.file.exists() else "gone"
     return f"{counted(count, 'edit')}, the last {last}"

@@ -49,7 +49,6 @@ def open_tas_editor(app: App, recording: Recording, others: Sequence[Recording],
 
 
 def is_prepared() -> bool:
-    """Whether the TAS editor opens at once."""
     from ninja_game.sim.memory.kernels import trace_world
 
     return not compiled_available() or is_compiled(trace_world) or begins_plain()
@@ -105,7 +104,6 @@ class OpeningScreen(Screen):
         return True
 
     def update(self, real_ms: int) -> None:
-        """Wait for the rules, at least for one picture."""
         self._waited_ms += real_ms
         if self._thread.is_alive() or not self._shown:
             return

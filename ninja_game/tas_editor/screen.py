@@ -5,20 +5,18 @@ from __future__ import annotations
 import gc
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pygame
 
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
-from ninja_game.play.workspace.part import Commands
-from ninja_game.play.workspace.screen import WorkspaceScreen
+from ninja_game.play.workspace import Commands, WorkspaceScreen
+from ninja_game.tas.files import OpenedRun
+from ninja_game.tas.journal import RecoveredRun
 from ninja_game.tas.session import Session
-from ninja_game.tas_editor.commands import RunCommands
-from ninja_game.tas_editor.controls import TABLE
-from ninja_game.tas_editor.editor import TasEditor, TasPart
-from ninja_game.tas_editor.layout import Splitters
+from ninja_game.tas_editor.commands import TABLE, RunCommands
+from ninja_game.tas_editor.editor import Splitters, TasEditor, TasPart
 from ninja_game.tas_editor.level.part import LevelPart
 from ninja_game.tas_editor.roll.part import Roll
 from ninja_game.tas_editor.tabs.branches_tab import BranchesTab
@@ -29,10 +27,6 @@ from ninja_game.tas_editor.tabs.text_tab import TextTab
 from ninja_game.tas_editor.tabs.values_tab import ValuesTab
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.theme import Theme
-
-if TYPE_CHECKING:
-    from ninja_game.tas.files import OpenedRun
-    from ninja_game.tas.journal import RecoveredRun
 
 
 class TasScreen(WorkspaceScreen):
@@ -95,7 +89,6 @@ class TasScreen(WorkspaceScreen):
         self.app.replace(TasScreen(self.app, found.opened, found=found))
 
     def enter(self) -> None:
-        """The first time, ask about what was not saved."""
         self.editor.theme = self.theme  # all parts are in their places before the first of them looks around
         super().enter()
         # All that there is now (compiled code has much) is left out when memory is cleared up: that took 80 ms.
@@ -105,7 +98,6 @@ class TasScreen(WorkspaceScreen):
             self.files.offer_recovered()
 
     def leave(self) -> None:
-        """Covered or closed: what is going on ends."""
         super().leave()
         gc.unfreeze()
         self.level.stop()
@@ -116,7 +108,6 @@ class TasScreen(WorkspaceScreen):
             self.session.close(keep=True)  # what is not saved is offered again
 
     def meaning(self, event: InputEvent) -> str:
-        """The command that an event means, which is another one while the run is taken over; '' for none."""
         return self.level.meaning(event)
 
     def capture(self, event: InputEvent) -> bool:
@@ -129,7 +120,6 @@ class TasScreen(WorkspaceScreen):
         return taken or (event.source == ("keys", "escape") and not hides and self.tab.stop())
 
     def update(self, real_ms: int) -> None:
-        """Simulate what is not simulated yet; parts go on."""
         super().update(real_ms)
         if not self.level.take_over.on:
             self.session.timeline.simulate(self.session.ticks_per_frame)
@@ -139,19 +129,12 @@ class TasScreen(WorkspaceScreen):
 
 
 class Head(TasPart):
-    """The run's name and file, and whether it is saved."""
-
     slot = "head"
 
     def render_key(self) -> tuple[object, ...]:
         session = self.editor.session
-        return (
-            session.about.replay.credit,
-            session.file.path,
-            session.is_saved,
-            session.timeline.end,
-            session.journal.problem,
-        )
+        run = session.about.replay.credit, session.timeline.end
+        return *run, session.file.path, session.is_saved, session.journal.problem
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         session, palette, right = self.editor.session, theme.palette, self.area[2] - 8
@@ -174,12 +157,9 @@ class Head(TasPart):
 
 
 class Foot(TasPart):
-    """Where the cursor is, what is selected, and a hint."""
-
     slot = "foot"
 
     def render_key(self) -> tuple[object, ...]:
-        """Cursor, selection, the run's length, the hint."""
         editor = self.editor
         beside = editor.chosen, len(editor.others), editor.ghosts
         run = len(editor.track), editor.session.timeline.simulated_until

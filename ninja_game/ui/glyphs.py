@@ -7,7 +7,6 @@ ellipse, ``A x y rx ry from to`` arc in degrees (0 right, 90 down; a line leads 
 from __future__ import annotations
 
 CAP = 7.0
-"""Height of capitals."""
 
 GLYPHS: dict[str, tuple[float, str]] = {
     " ": (0.9, ""),
@@ -123,7 +122,6 @@ GLYPHS: dict[str, tuple[float, str]] = {
     "\u2191": (3.6, "M1.8 7 L1.8 0.6 M0 2.4 L1.8 0.6 L3.6 2.4"),
     "\u2193": (3.6, "M1.8 0.4 L1.8 6.8 M0 5 L1.8 6.8 L3.6 5"),
 }
-"""By character."""
 
 MARKS: dict[str, str] = {
     "\u0300": "M-0.8 -1.4 L0.5 0", "\u0301": "M0.8 -1.4 L-0.5 0", "\u0302": "M-1.1 0 L0 -1.3 L1.1 0",

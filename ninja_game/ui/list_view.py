@@ -50,7 +50,6 @@ class ListView(Widget):
 
     @property
     def visible_lines(self) -> int:
-        """How many lines of cells fit."""
         return max(1, int(self.area[3] // self.cell_height))
 
     @property
@@ -141,7 +140,6 @@ class ListView(Widget):
         return True
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
-        """The cells that are visible, and a bar if there are more."""
         x, y, w, h = self.area
         start = self.first * self.columns
         for index in range(start, min(self.count, start + self.visible_lines * self.columns)):

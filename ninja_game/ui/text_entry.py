@@ -30,16 +30,9 @@ class TextEntry(Widget):
     """
 
     def __init__(
-        self,
-        area: Area,
-        prompt: str,
-        text: str,
-        put: Callable[[str], object],
-        *,
-        longest: int = MAX_ENTRY,
-        hint: str = "",
-        proposed: bool = False,
-    ) -> None:
+        self, area: Area, prompt: str, text: str, put: Callable[[str], object], *,
+        longest: int = MAX_ENTRY, hint: str = "", proposed: bool = False,
+    ) -> None:  # fmt: skip
         super().__init__(area, hint=hint)
         self.prompt = prompt
         self.put = put
@@ -57,10 +50,7 @@ class TextEntry(Widget):
     def show(self, text: str) -> None:
         self.edited = EditedText(text, self.edited.longest)
 
-    # --- keys ---
-
     def text_event(self, event: pygame.Event) -> bool:
-        """Type, move, select, erase, copy and paste."""
         if event.type not in (pygame.TEXTINPUT, pygame.KEYDOWN):
             return False
         before = self.text
@@ -74,7 +64,6 @@ class TextEntry(Widget):
         return True
 
     def _press(self, event: pygame.Event) -> bool:
-        """A key; whether it is one for a text."""
         *modifiers, key = chord(event).split("+")
         select, ctrl, edited = "shift" in modifiers, "ctrl" in modifiers, self.edited
         if key in ("left", "right"):
@@ -106,8 +95,6 @@ class TextEntry(Widget):
                 edited.put(pygame.scrap.get_text())
         return letter in ("a", "z", "c", "x", "v")
 
-    # --- mouse ---
-
     def click(self, x: float, y: float) -> bool:
         """Put the cursor there; twice: select the word, three times: everything. With Shift select up to there."""
         now, place = pygame.time.get_ticks(), self._place_at(x)
@@ -136,10 +123,7 @@ class TextEntry(Widget):
             return self._first + len(stops)
         return self._first + min(range(len(stops)), key=lambda k: abs(stops[k] - x))
 
-    # --- picture ---
-
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
-        """The text with its cursor and what is selected, or the prompt."""
         self.draw_base(surface, theme, focused=focused)
         x, y, w, h = self.area
         left, top, room = x + PAD, y + (h - TEXT) / 2, w - 2 * PAD - 4
@@ -158,7 +142,6 @@ class TextEntry(Widget):
             fill(surface, palette.accent, place - 1, top - 2, 1.5, TEXT + 4)
 
     def _scroll(self, theme: Theme, room: float) -> None:
-        """Show the part of the text with the cursor, and as much as there is room for."""
         text, cursor = self.text, self.edited.cursor
         self._first = min(self._first, cursor)
         while theme.width(text[self._first : cursor], TEXT) > room:
@@ -240,7 +223,6 @@ class EditedText:
         self.go(first + len(line))
 
     def undo(self) -> None:
-        """Take back what was typed or taken out last."""
         if self._past:
             self.text, self.cursor, self.anchor = self._past.pop()
 

@@ -21,7 +21,6 @@ Area = tuple[float, float, float, float]
 
 
 def inside(area: Area, x: float, y: float) -> bool:
-    """Whether a point lies in an area."""
     left, top, w, h = area
     return left <= x < left + w and top <= y < top + h
 
@@ -218,7 +217,6 @@ class Palette:
 
 
 ROLES = tuple(entry.name for entry in fields(Palette) if entry.name not in {"name", "danger_by_shape", "scenery"})
-"""All colour roles."""
 
 _CLASSIC = dict(  # noqa: C408 - one form for all palettes
     background="#cacad0", tile="#787887", text="#17171c", faint="#5f5f6b", on_tile="#e4e4ea", panel="#dcdce1",
@@ -235,7 +233,6 @@ _CLASSIC = dict(  # noqa: C408 - one form for all palettes
 def _palette(
     name: str, base: Palette | None = None, *, danger_by_shape: bool = False, scenery: str = "", **colours: str
 ) -> Palette:
-    """A palette: another one, or the classic one, with some colours changed."""
     before = _CLASSIC if base is None else {role: getattr(base, role) for role in ROLES}
     horizon = colours.get("background", _CLASSIC["background"])
     changed = {"sky": horizon, "far": horizon, "near": horizon} | colours

@@ -64,7 +64,6 @@ class Widget:
         return False
 
     def wheel(self, steps: int) -> bool:
-        """The mouse wheel over it, positive: up."""
         return False
 
     def text_event(self, event: pygame.Event) -> bool:
@@ -169,7 +168,6 @@ class Choice(Widget, Generic[T]):
         return self._step(-1 if action == "left" else 1) if action in ("left", "right") else False
 
     def click(self, x: float, y: float) -> bool:
-        """On the left arrow the value before, else the next."""
         left, _ = self._values()
         return self._step(-1 if left <= x < left + 24 else 1)
 
@@ -228,7 +226,6 @@ class Slider(Widget):
         return x + w * 0.5 + 10, w * 0.5 - 80
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
-        """The text left, a track with a knob and the number right."""
         self.draw_base(surface, theme, focused=focused)
         canvas, palette = theme.canvas, theme.palette
         x, y, w, h = self.area
@@ -247,7 +244,6 @@ _INK = pygame.Color("#1d1d22")
 _LARGE = 30.0
 """Size from which a medal shows its relief, px."""
 MEDALS = tuple(reversed(pars.MEDALS))
-"""All of them, the easiest first."""
 
 
 def draw_medal(

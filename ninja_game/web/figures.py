@@ -8,9 +8,9 @@ from typing import Any
 from pygame import display
 from pygame.host import LINK  # type: ignore[import-not-found]
 
-from ninja_game.play.clock import RunClock
 from ninja_game.play.lab.figure import FIGURE
 from ninja_game.play.lab.screen import FigurePicture
+from ninja_game.play.replay.playback import RunClock
 from ninja_game.ui.widgets import Choice, Slider
 
 

@@ -14,7 +14,7 @@ import pygame
 import pytest
 from click.testing import CliRunner
 
-from ninja_game.cli.desktop import LEVEL, REPLAY, desktop_files, program_words
+from ninja_game.cli.machine import LEVEL_TYPE, REPLAY_TYPE, desktop_files, program_words
 from ninja_game.cli.main import cli
 
 
@@ -47,14 +47,15 @@ def test_a_program_in_any_folder_is_found(file: str, words: str) -> None:
     )
     entry = menu["Desktop Entry"]
     assert entry["Exec"].replace("\\\\", "\\") == f'"/my \\$5 \\"50%%\\" \\\\ games/run" {words}'
-    assert entry["MimeType"] == f"{REPLAY if 'replay' in file else LEVEL};"
+    assert entry["MimeType"] == f"{REPLAY_TYPE if 'replay' in file else LEVEL_TYPE};"
 
 
 @pytest.mark.skipif(
     not all(map(shutil.which, ("update-mime-database", "gio"))), reason="needs shared-mime-info and gio"
 )
 @pytest.mark.parametrize(
-    "name, kind", [("a.level", LEVEL), ("a.nlevel", LEVEL), ("a.replay.txt", REPLAY), ("plain.txt", "text/plain")]
+    "name, kind",
+    [("a.level", LEVEL_TYPE), ("a.nlevel", LEVEL_TYPE), ("a.replay.txt", REPLAY_TYPE), ("plain.txt", "text/plain")],
 )
 def test_a_system_knows_levels_and_replays(name: str, kind: str, data: Path, tmp_path: Path) -> None:
     assert CliRunner().invoke(cli, ["desktop"]).exit_code == 0

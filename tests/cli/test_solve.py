@@ -11,9 +11,9 @@ import pytest
 from click.testing import CliRunner, Result
 
 from ninja_game.backend.memories import compiled_available
-from ninja_game.cli import run_options
+from ninja_game.cli import options
 from ninja_game.cli.main import cli
-from ninja_game.cli.solver_options import default_threads, progress_text
+from ninja_game.cli.options import default_threads, progress_text
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.ascii.reader import write_ascii_level
 from ninja_game.formats.load import load_levels, load_replays
@@ -333,8 +333,8 @@ def test_the_line_of_progress_fits_eighty_columns() -> None:
 def test_progress_is_told_now_and_then_where_nobody_watches(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(run_options, "LONG", 0.001)
-    monkeypatch.setattr(run_options, "EVERY", 0.001)
+    monkeypatch.setattr(options, "LONG", 0.001)
+    monkeypatch.setattr(options, "EVERY", 0.001)
     told = []
 
     def items() -> Iterator[int]:
@@ -346,4 +346,4 @@ def test_progress_is_told_now_and_then_where_nobody_watches(
             told.append(item)
             yield item
 
-    assert list(run_options.with_progress(items(), "run")) == told == [0, 1]
+    assert list(options.with_progress(items(), "run")) == told == [0, 1]

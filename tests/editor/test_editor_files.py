@@ -12,9 +12,19 @@ from pathlib import Path
 import pytest
 
 from ninja_game.document import History, OccupiedError, digest_of_file
-from ninja_game.editor.ascii_text import ascii_text, reads_as, updated_text
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.files import Autosave, draft_of, draft_of_text, new_source, open_source, recovered, save
+from ninja_game.editor.files import (
+    Autosave,
+    ascii_text,
+    draft_of,
+    draft_of_text,
+    new_source,
+    open_source,
+    reads_as,
+    recovered,
+    save,
+    updated_text,
+)
 from ninja_game.editor.motion import Motion
 from ninja_game.editor.stamp import Selection, Stamp, everything, moved, put, removed
 from ninja_game.errors import LevelError, NinjaGameError

@@ -10,7 +10,7 @@ from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
 from ninja_game.editor import packs
-from ninja_game.editor.packing import Obstacles, make_ready
+from ninja_game.editor.packs import Obstacles, make_ready
 from ninja_game.errors import NinjaGameError, PackError
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.files import PackFiles

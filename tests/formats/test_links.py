@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given, strategies as st
 
-from ninja_game.cli.link import link_of
+from ninja_game.cli.convert import link_of
 from ninja_game.errors import FormatError, LinkError, NinjaGameError
 from ninja_game.files.beside import PLACE, has_folder
 from ninja_game.files.user_folder import bundled_levels, bundled_replays, data_folder

@@ -12,8 +12,7 @@ import pytest
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.levels.findings import DESIGN_RULES, LEVEL_RULES, PACK_RULES, RUN_RULES, Rule
-from ninja_game.levels.reach import Ground
-from ninja_game.levels.warnings import level_findings, level_warnings, object_name
+from ninja_game.levels.warnings import Ground, level_findings, level_warnings, object_name
 from ninja_game.sim import kinds
 from ninja_game.sim.level import ROWS, TILES, Level, ObjectSpec
 from tests.support.recorded import hold_against

@@ -12,7 +12,7 @@ from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.help import Page, read_pages
 from ninja_game.play.rooms import room_level
 from ninja_game.player.attempt import Attempt
-from ninja_game.player.marks import HELPED
+from ninja_game.player.progress import HELPED
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.level import Level
 from ninja_game.ui.audio.table import warning_of

@@ -129,7 +129,7 @@ def test_runs_that_cannot_be_compared_say_why(tmp_path: Path, why: str, monkeypa
     monkeypatch.setattr(lead_tab, "lead_table", raising(why))
     at = TasDriver(tmp_path, RUN)
     try:
-        at.editor.show_tab("Lead")
+        at.editor.tab = "Lead"
         at.wait(lambda: at.screen.tabs[2].summary not in ("", "comparing ..."))  # type: ignore[attr-defined]
         assert at.screen.tabs[2].summary == why  # type: ignore[attr-defined]
     finally:

@@ -15,7 +15,7 @@ from ninja_game.play.app import App, Screen
 from ninja_game.play.level.hud import hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, LATE_JUMP, Phase
 from ninja_game.play.level.screen import LevelScreen, PausePanel
-from ninja_game.play.menus.panels import Menu
+from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.player.playthrough import EpisodeRun, FileRun
 from ninja_game.ui.input.bindings import ACTIONS
 from tests.support.scripted import (

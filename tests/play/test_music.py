@@ -11,7 +11,7 @@ import pygame
 import pytest
 
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.play.editor.trying import TryScreen
+from ninja_game.play.editor.commands import TryScreen
 from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.sim import states

@@ -6,7 +6,7 @@ import pygame
 import pytest
 
 from ninja_game.play.level.hud import trough
-from ninja_game.player.settings import BY_COLUMN, DEFAULT_PALETTE, Settings
+from ninja_game.player.settings import BY_COLUMN, Settings
 from ninja_game.ui.scenery import SCENERIES
 from ninja_game.ui.theme import MOODS, NINJA_COLOURS, PALETTES, ROLES, Palette, palette_named
 from ninja_game.view.effects import particles
@@ -38,7 +38,7 @@ def contrast(a: pygame.Color, b: pygame.Color) -> float:
 def test_settings_accept_every_palette_and_an_unknown_one_is_the_default() -> None:
     for name in (BY_COLUMN, *PALETTES):
         assert Settings().changed(palette=name).palette == name
-    assert palette_named(DEFAULT_PALETTE) is palette_named("of-another-version") is MOODS[0]
+    assert palette_named(BY_COLUMN) is palette_named("of-another-version") is MOODS[0]
 
 
 def test_each_column_has_its_own_mood_and_a_chosen_palette_stays() -> None:

@@ -16,16 +16,13 @@ import pytest
 from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
-from ninja_game.editor.ascii_text import ascii_text
-from ninja_game.editor.files import recovered
+from ninja_game.editor.files import ascii_text, recovered
 from ninja_game.errors import FileError
 from ninja_game.files.tree import Tree
-from ninja_game.player import backup
+from ninja_game.player import backup, schema
 from ninja_game.player.backup import MOST_REPLAYS, MOST_ROWS, _Folder, read_backup, write_backup
-from ninja_game.player.player_data import PlayerData
+from ninja_game.player.player_data import PlayerData, keep_replay
 from ninja_game.player.playthrough import LevelRun
-from ninja_game.player.saving import keep_replay
-from ninja_game.player.store import schema
 from tests.support.level_maker import ROOM
 from tests.support.players import deadly_level, entry, episode, played, player_data, short_level
 

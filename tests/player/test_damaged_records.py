@@ -11,12 +11,12 @@ from pathlib import Path
 import pytest
 
 from ninja_game.formats.run_time import seconds_text
+from ninja_game.player.player_data import keep_replay
 from ninja_game.player.playthrough import EpisodeRun, LevelRun
 from ninja_game.player.progress import LOCKED, UNLOCKED
 from ninja_game.player.records import Records
-from ninja_game.player.saving import keep_replay
+from ninja_game.player.schema import open_database
 from ninja_game.player.store import Store
-from ninja_game.player.store.schema import open_database
 from tests.support.players import deadly_level, entry, episode, played, player_data, short_level
 
 

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from ninja_game.player.catalogue import Episode
-from ninja_game.player.marks import HELPED
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.playthrough import EpisodeRun, LevelRun, Navigation, next_run
+from ninja_game.player.progress import HELPED
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from tests.support.players import EXIT_TICK, entry, played, player_data, short_level

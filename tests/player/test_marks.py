@@ -9,8 +9,8 @@ import pytest
 
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.marks import Mark, has_all_gold, medal_of, tally, worst_medal
 from ninja_game.player.playthrough import LevelRun
+from ninja_game.player.progress import Mark, has_all_gold, medal_of, tally, worst_medal
 from ninja_game.sim.memory.interface import Body
 from tests.support.players import EXIT_TICK, deadly_level, entry, played, player_data, short_level
 

@@ -12,11 +12,12 @@ import pytest
 
 from ninja_game.formats.replay.made import Made
 from ninja_game.formats.replay.text import parse_replay, write_replay
+from ninja_game.player import schema
+from ninja_game.player.player_data import keep_replay
 from ninja_game.player.playthrough import EpisodeRun, LevelRun
 from ninja_game.player.progress import UNLOCKED
-from ninja_game.player.saving import keep_replay
-from ninja_game.player.store import Store, schema
-from ninja_game.player.store.schema import VERSION
+from ninja_game.player.schema import VERSION
+from ninja_game.player.store import Store
 from tests.support.players import deadly_level, entry, episode, played, player_data, short_level
 
 

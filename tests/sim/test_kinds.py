@@ -19,7 +19,7 @@ from ninja_game.formats.ascii.object_lines import FORMS
 from ninja_game.learn.observations.pixels import SHADES
 from ninja_game.levels.picture import COLOURS
 from ninja_game.play.level.sayings import WHY
-from ninja_game.player.statistics import KILLERS, SELF
+from ninja_game.player.records import KILLERS, SELF
 from ninja_game.sim import events, kinds
 from ninja_game.sim.death import idle_event
 from ninja_game.sim.digest import replay_digest

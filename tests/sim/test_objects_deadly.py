@@ -6,7 +6,7 @@ from math import hypot
 
 import pytest
 
-from ninja_game.player.statistics import SELF, killer_of
+from ninja_game.player.records import SELF, killer_of
 from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCH_PAD, LAUNCHER, MINE, THWUMP, TURRET
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.simulation import EventView, Simulation

@@ -14,7 +14,7 @@ from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.play.app import Screen, build_app
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.panels import FormPanel
+from ninja_game.play.menus.menu_screen import FormPanel
 from ninja_game.play.menus.settings import PAGES, SettingsScreen
 from ninja_game.player.player_data import PlayerData
 from ninja_game.tas_editor.opening import open_tas_editor

@@ -20,7 +20,7 @@ from ninja_game.play.level.screen import LevelScreen, PausePanel
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.help import HelpScreen
-from ninja_game.play.menus.records import RecordsScreen
+from ninja_game.play.menus.replays import RecordsScreen
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.catalogue import Entry

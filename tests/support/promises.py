@@ -16,8 +16,7 @@ from ninja_game.errors import FormatError
 from ninja_game.formats.ascii import writer
 from ninja_game.formats.links import fragment
 from ninja_game.formats.replay import text
-from ninja_game.player import settings
-from ninja_game.player.store import schema
+from ninja_game.player import schema, settings
 from ninja_game.web.board import report
 from tests.support.samples import WALK
 

@@ -249,7 +249,7 @@ def _tabs(at: TasDriver) -> Iterator[str]:
         values._toggle(0)  # type: ignore[attr-defined]
     at.frames()
     yield "tas-values-fewer"
-    at.editor.show_tab(branches.name)
+    at.editor.tab = branches.name
     at.frames()
     yield "tas-branches-empty"
     for name in ("first try", "second try"):
@@ -273,12 +273,12 @@ def _tabs(at: TasDriver) -> Iterator[str]:
             at.editor.edit(lambda _, first=first: first)  # type: ignore[misc]
             at.session.keep_branch("third try")
             at.editor.against = at.session.branches.all[1].track
-        at.editor.show_tab(lead.name)
+        at.editor.tab = lead.name
         at.frames(20)
         lead._job.finish()
         at.frames(2)
         yield f"tas-lead-{name}"
-    at.editor.show_tab(search.name)
+    at.editor.tab = search.name
     at.frames(2)
     yield "tas-search-empty"
     at.editor.select(100, 130)
@@ -298,7 +298,7 @@ def _tabs(at: TasDriver) -> Iterator[str]:
     at.editor.edit(lambda track: track.replaced(10, 12, [4, 4]))
     at.frames(2)
     yield "tas-search-run-changed"
-    at.editor.show_tab(text.name)
+    at.editor.tab = text.name
     at.frames(2)
     yield "tas-text"
 

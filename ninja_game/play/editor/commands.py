@@ -1,4 +1,4 @@
-"""What each command of the editor does: tools, files, tests, views; the choice of a level, and the help page."""
+"""The editor's commands: what they are called, which keys mean them, and what each does. The help page is the table."""
 
 from __future__ import annotations
 
@@ -6,8 +6,9 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import Protocol
 
-from ninja_game.editor.brush import SNAPS
+from ninja_game.editor.brush import FAMILIES, OBJECT_TYPES, QUARTERS, SNAPS
 from ninja_game.editor.draft import Cell, cell_of
 from ninja_game.editor.files import SUFFIX, Source, draft_of, new_source, open_source, recovered
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
@@ -18,23 +19,99 @@ from ninja_game.errors import LevelError, NinjaGameError, reason
 from ninja_game.files.shown_text import counted, file_stem
 from ninja_game.files.user_folder import LEVELS, free_path
 from ninja_game.formats.ascii.writer import headers_of
+from ninja_game.formats.named_level import NamedLevel
+from ninja_game.formats.sayings import Saying, read_sayings
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
-from ninja_game.play.editor.controls import COMMANDS
 from ninja_game.play.editor.messages import MessagesScreen
 from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.sheet import finding_points
-from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.editor.view import EditorView
+from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.panels import CANCEL, Action, FormPanel, Menu, Row, nothing
-from ninja_game.play.workspace.document import DocumentCommands
+from ninja_game.play.menus.menu_screen import CANCEL, Action, FormPanel, Menu, Row, ask_text, nothing
+from ninja_game.play.workspace import Command, CommandTable, DocumentCommands
+from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
-from ninja_game.sim.level import COLUMNS, ROWS
+from ninja_game.player.player_data import PlayerData
+from ninja_game.player.playthrough import LevelContext, Navigation, PacedRun
+from ninja_game.sim.level import COLUMNS, ROWS, Level
+from ninja_game.ui.audio.music import SILENCE
 from ninja_game.ui.widgets import following
+
+COMMANDS = (
+    Command("help", "This page", ("f1",)),
+    Command("menu", "File menu; gives up what is half done", ("escape",), "b"),
+    Command("test", "Test: play it; Esc comes back", ("f5",), "start"),
+    Command("test_here", "Test with the ninja at the pointer", ("f6",)),
+    Command("certify", "Certify: the solver looks for a run", ("f7",)),
+    Command("save", "Save", ("ctrl+s",)),
+    Command("save_as", "Save under another name", ("ctrl+shift+s",)),
+    Command("open", "Open a level", ("ctrl+o",)),
+    Command("new", "New level", ("ctrl+n",)),
+    Command("about", "Name, author, comment, teaches", ("f2",)),
+    Command("messages", "Messages to the player", ("shift+m",)),
+    Command("undo", "Undo", ("ctrl+z",), "lefttrigger+"),
+    Command("redo", "Redo", ("ctrl+y", "ctrl+shift+z"), "righttrigger+"),
+    Command("copy", "Copy", ("ctrl+c",)),
+    Command("cut", "Cut", ("ctrl+x",)),
+    Command("paste", "Paste at the pointer", ("ctrl+v",)),
+    Command("choose_all", "Select everything", ("ctrl+a",)),
+    Command("delete", "Delete what is selected, or nearest", ("delete", "backspace"), "x"),
+    Command("brush", "Brush", ("b",)),
+    Command("rectangle", "Box: fill a rectangle", ("r",)),
+    Command("line", "Line; the wheel bends it", ("shift+l",)),
+    Command("ellipse", "Ellipse", ("shift+e",)),
+    Command("fill", "Fill with a tile or objects", ("f",)),
+    Command("select", "Select and move", ("v",)),
+    Command("pick", "Pick: draw with what is there", ("k",), "y"),
+    Command("next_tool", "Next tool", (), "rightstick"),
+    Command("swap", "Tiles or objects", ("grave", "insert"), "leftstick"),
+    Command("mirror", "Mirror left-right", ("h",)),
+    Command("flip", "Flip up-down", ("j",)),
+    Command("turn", "Turn by a quarter", ("u",)),
+    Command("symmetry", "Mirror: next symmetry", ("m",)),
+    Command("grid", "Next grid", ("g",)),
+    Command("snap_next", "Next snap for objects"),
+    Command("snap_cell", "Snap to cells", ("l",)),
+    Command("snap_half", "Snap to half cells", ("x",)),
+    Command("snap_quarter", "Snap to quarter cells", ("c",)),
+    Command("snap_px", "Snap to px", ("z",)),
+    Command("slopes", "Slopes set themselves, on or off", ("shift+s",)),
+    Command("list", "List of objects, or the palette", ("f3",)),
+    Command("lines", "Lines from switches, on or off", ("t",)),
+    Command("paths", "Paths of the last test and of the solver", ("f8",)),
+    Command("tests", "Map of tests: where they went and died", ("f9",)),
+    Command("reach", "What can be reached from the pointer", ("y",)),
+    Command("next_finding", "Go to the next problem", ("f4",)),
+    Command("next_entry", "Next tile or object", ("pagedown",), "rightshoulder"),
+    Command("previous_entry", "Tile or object before", ("pageup",), "leftshoulder"),
+)
+"""Everything that a key does by itself. Other keys choose tiles and objects."""
+
+TABLE = CommandTable(COMMANDS, repeating=dict.fromkeys(("undo", "redo"), 100))
+
+DIRECTION_KEYS = {"w": "up", "a": "left", "s": "down", "d": "right"}
+"""Directions of objects, as in Ned."""
+
+OBJECT_TYPE_OF_KEY = {object_type.key: object_type for object_type in OBJECT_TYPES}
+
+_FAMILY_OF_KEY = {family.key: family for family in FAMILIES}
+
+
+def tile_of_key(name: str, present: int) -> int | None:
+    """The tile that a key chooses in tile mode, beside the one in hand: a digit its family, a letter its quarter."""
+    if name in ("e", "d"):
+        return int(name == "e")
+    family = next((each for each in FAMILIES if present in each.tiles), FAMILIES[0])
+    place = family.tiles.index(present) if present in family.tiles else 0
+    if name in _FAMILY_OF_KEY:
+        return _FAMILY_OF_KEY[name].tiles[place]
+    return family.tiles[QUARTERS.index(name)] if name in QUARTERS else None
+
 
 HELP = """\
 A first level: draw a floor with the left mouse button. Take the ninja from the objects at the right and click where \
@@ -104,12 +181,10 @@ class EditorCommands(DocumentCommands):
         tools.symmetry = following(names, tools.symmetry)
 
     def switch_slopes(self) -> None:
-        """Have corners of drawn rock cut, or not."""
         tools = self.session.tools
         tools.slopes = not tools.slopes
-        self.view.hint = (
-            f"Slopes {'set themselves where full tiles are drawn or erased' if tools.slopes else 'stay as drawn'}"
-        )
+        how = "set themselves where full tiles are drawn or erased" if tools.slopes else "stay as drawn"
+        self.view.hint = f"Slopes {how}"
 
     def switch_tests(self) -> None:
         """Show where all tests of this session came and died, or no more."""
@@ -129,7 +204,6 @@ class EditorCommands(DocumentCommands):
         self.view.hint = f"What can be reached within a second from the pointer: {self.session.start}. Y: the next"
 
     def go_to_finding(self, index: int) -> None:
-        """Show one of the problems."""
         findings = self.session.findings
         if not findings:
             self.app.notify("No problems found")
@@ -138,7 +212,6 @@ class EditorCommands(DocumentCommands):
         self.show_finding(findings[self._finding])
 
     def show_finding(self, finding: Finding) -> None:
-        """Put the pointer at a problem and select what it is about."""
         tools = self.session.tools
         places = finding_points(tools.draft.level, finding)
         records = [number for number in finding.records if number < len(tools.draft.objects)]
@@ -164,7 +237,6 @@ class EditorCommands(DocumentCommands):
         self.app.push(screen)
 
     def certify(self) -> None:
-        """Start the solver, or stop it."""
         certifier = self.session.certifier
         self.session.tools.finish()
         if certifier.busy and not certifier.is_stale(self.session.draft.level):
@@ -219,7 +291,6 @@ class EditorCommands(DocumentCommands):
         return self.session.source.path or free_path(self._levels, file_stem(self.session.draft.name, "level"), SUFFIX)
 
     def reload_rows(self, path: Path) -> list[Row]:
-        """Load the file again."""
         if path != self.session.source.path or not path.exists():
             return []
         return [("Load it again", lambda: self._load(lambda: self.session.take(open_source(path))), _UNDO)]
@@ -246,24 +317,22 @@ class EditorCommands(DocumentCommands):
         self._load(follow)
 
     def saved_text(self, path: Path) -> str:
-        """Where it is, and whether the menu shows it."""
         return f"Saved{', and in the menu Levels' * path.is_relative_to(self._levels)}: {path}"
 
     def save_as(self, then: Action = nothing) -> None:
         """Ask for the level's name, write it into a file of that name, and do ``then``."""
         session = self.session
-        fields = [(f"Name of the level, or else {NAMELESS}", session.draft.name, 60)]
 
-        def on_accept(texts: list[str]) -> None:
-            name = texts[0].strip() or NAMELESS
+        def on_accept(text: str) -> None:
+            name = text.strip() or NAMELESS
             folder = session.source.path.parent if session.source.path else self._levels
             save = partial(session.save, name=name)
             self.save_to(folder / f"{file_stem(name, 'level')}{SUFFIX}", then, save=save)
 
-        self.app.push(FormPanel(self.app, "Save as", fields, "Save", on_accept))
+        prompt = f"Name of the level, or else {NAMELESS}"
+        ask_text(self.app, "Save as", prompt, session.draft.name, "Save", on_accept, 60)
 
     def about(self) -> None:
-        """Name, author, comment, what the level teaches."""
         prompts = {"teaches": "What it teaches"}
         about = headers_of(self.session.draft)
         del about["says"]  # which has a screen of its own
@@ -312,7 +381,6 @@ class EditorCommands(DocumentCommands):
             self.session.begin(Source(draft_of(entry.named)))
 
     def open_file(self, path: Path) -> None:
-        """Edit the level of a file."""
         self._load(lambda: self.session.begin(open_source(path)))
 
     def _load(self, action: Action) -> None:
@@ -338,3 +406,64 @@ class EditorCommands(DocumentCommands):
             CANCEL,
         ]
         self.unless_unsaved(lambda: self.app.push(Menu(self.app, "New level from", rows)))
+
+
+class Tried(Protocol):
+    def __call__(self, inputs: bytes, *, over: bool) -> object:
+        """Called with the inputs of a try when it is left, or is ``over``."""
+
+
+class TryContext(LevelContext):
+    """A level that is only tried out: with practice tools and without a clock; nothing counts."""
+
+    def __init__(self, data: PlayerData, entry: Entry, tried: Tried) -> None:
+        super().__init__(data, entry, practice_mode=True)
+        self._tried = tried
+
+    def ghosts(self) -> list[PacedRun]:
+        """None: nobody has a best on a level that is being made."""
+        return []
+
+    def sayings(self) -> tuple[Saying, ...]:
+        """All of them, however often the level was passed."""
+        return read_sayings(self.entry.named.says)
+
+    def passed(self, attempt: Attempt) -> list[str]:
+        self._tried(bytes(attempt.inputs), over=True)
+        return ["It can be passed"]
+
+    def died(self, attempt: Attempt) -> None:
+        self._tried(bytes(attempt.inputs), over=True)
+
+    def gave_up(self, attempt: Attempt) -> None:
+        self.left(attempt, over=True)
+
+    def left(self, attempt: Attempt, *, over: bool = False) -> None:
+        """Tell of a try that has not ended by itself."""
+        if attempt.outcome == "running":
+            self._tried(bytes(attempt.inputs), over=over)
+
+    def advance(self) -> Navigation:
+        return Navigation.BACK
+
+
+class TryScreen(LevelScreen):
+    """Plays a level; the back key leaves at once, whatever is going on. Raises LevelError for one without a ninja."""
+
+    music = SILENCE
+
+    def __init__(self, app: App, name: str, level: Level, tried: Tried, *, says: str = "") -> None:
+        title = f"{name} ({app.controls.name('back')}: back to the editor)"
+        named = NamedLevel(title, "", "", level, "", says=says)
+        self._trying = TryContext(app.player, Entry(named, "yours"), tried)
+        super().__init__(app, self._trying)
+
+    def leave(self) -> None:
+        super().leave()
+        self._trying.left(self.attempt)
+
+    def _dispatch_action(self, pressed: tuple[str, ...]) -> None:
+        if "back" in pressed or "quit" in pressed:
+            self.app.pop()
+        else:
+            super()._dispatch_action(pressed)

@@ -13,8 +13,7 @@ from ninja_game.errors import LevelError
 from ninja_game.formats.sayings import BAR, KEYS, MOST_LETTERS, MOST_SAYINGS, THINGS, named_keys, read_sayings
 from ninja_game.play.app import App
 from ninja_game.play.level.hud import Hud
-from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.panels import CANCEL, Menu, Row
+from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuScreen, Row
 from ninja_game.sim.level import Level
 from ninja_game.ui.canvas import WIDTH
 from ninja_game.ui.text_entry import TextEntry
@@ -44,7 +43,6 @@ class Message:
 
     @property
     def source(self) -> str:
-        """As the header has it."""
         return f"{self.when} {self.detail.replace(' ', '')}".strip() + f": {self.text.strip()}"
 
     @property
@@ -70,7 +68,6 @@ def _fits(source: str) -> bool:
 
 
 def messages_of(says: str) -> list[Message]:
-    """The messages of a header's value, which is sound."""
     details = {"death": "{0.deaths}", "at": "{0.cell[0]},{0.cell[1]}"}
     return [Message(each.when, details.get(each.when, "").format(each), each.text) for each in read_sayings(says)]
 
@@ -97,7 +94,6 @@ class MessagesScreen(MenuScreen):
 
     @property
     def source(self) -> str:
-        """The header's value as it is here."""
         return f" {BAR} ".join(message.source for message in self.messages)
 
     def enter(self) -> None:
@@ -116,7 +112,6 @@ class MessagesScreen(MenuScreen):
         return [*rows, add, *end]
 
     def _row(self, number: int) -> list[Widget]:
-        """The widgets of a message: its moment first, its text last; between them what the moment needs."""
         message, y = self.messages[number], TOP + ROW * number
         text = TextEntry(
             (36, y + 34, 720, 30), "What is said", message.text, partial(setattr, message, "text"),
@@ -187,7 +182,6 @@ class MessagesScreen(MenuScreen):
             super().act(action, held=held)
 
     def draw_frame(self, surface: pygame.Surface) -> None:
-        """How long the texts are, the selected one as the level says it, and what a text may name."""
         super().draw_frame(surface)
         theme = self.theme
         for number, message in enumerate(self.messages):

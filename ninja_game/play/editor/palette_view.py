@@ -1,34 +1,149 @@
-"""The palette: all tiles and all types of objects as they look; a click takes one in hand."""
+"""The palette: all tiles and all types of objects as they look; a click takes one in hand. How objects look at rest."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import lru_cache
+from math import dist
+from typing import NamedTuple
 
 import pygame
 
-from ninja_game.editor.brush import (
-    EMPTY,
-    FAMILIES,
-    FULL,
-    OBJECT_TYPE_NAMES,
-    OBJECT_TYPES,
-    ObjectType,
-    object_type_of,
-    tile_key,
-    tile_name,
-    with_switch,
-)
+from ninja_game.editor import brush
+from ninja_game.editor.draft import Cell, cell_of
 from ninja_game.editor.motion import TILE_IDS
-from ninja_game.editor.specs import BODY, points
+from ninja_game.editor.specs import BODY, points, word
 from ninja_game.editor.tools import EditorTools
-from ninja_game.play.editor.object_pictures import ObjectPictures
-from ninja_game.sim.level import ObjectSpec
+from ninja_game.errors import LevelError
+from ninja_game.sim import kinds
+from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec, well_formed
+from ninja_game.sim.states import TRAP
+from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.input.keys import key_label_of
-from ninja_game.ui.theme import PALETTES, Area, Theme, inside
+from ninja_game.ui.theme import PALETTES, Area, Palette, Theme, inside
 from ninja_game.ui.widgets import Widget
-from ninja_game.view.sprites.drawing import DrawTarget, SpriteBook
+from ninja_game.view.ninja.figure import REACH, STAND, paint_figure
+from ninja_game.view.sprites import static_sprites
+from ninja_game.view.sprites.drawing import DrawTarget, SpriteBook, SpriteKey, drawing, is_near
+from ninja_game.view.sprites.moving_sprites import draw_moving
+from ninja_game.view.sprites.object_animation import ObjectAnimation
+from ninja_game.view.sprites.sketch import Sketch
+from ninja_game.view.sprites.static_sprites import PlacedSprite, door_place, static_sprites_of
 from ninja_game.view.sprites.tile_sheet import tile_picture
+
+_NINJA = ObjectSpec(kinds.NINJA, (36.0, 36.0))
+_TOGETHER = 1000
+"""Objects that are asked for at once: a world holds a few thousand."""
+_KEPT = 4000
+
+_HIDDEN = 4
+"""Eighths as solid as others are the doors that a player cannot see yet."""
+
+
+@drawing(REACH)
+def _standing(s: Sketch, p: Palette) -> None:
+    paint_figure(s, p, STAND, 1, (0.0, 0.0), colour=p.ninja)
+
+
+class ObjectSprites(NamedTuple):
+    """The sprites of an object, the px that they cover (an empty rectangle for what is not drawn), and its cells."""
+
+    sprites: list[PlacedSprite]
+    rect: pygame.Rect
+    cells: list[Cell]
+
+    def draw(self, target: DrawTarget, *, alpha: int = 8) -> None:
+        for key, x, y in self.sprites:
+            target.sprite(key if alpha == 8 else key.faded(min(alpha, key.alpha)), x, y)
+
+
+def _model(spec: ObjectSpec) -> ObjectSpec:
+    """The object that looks the same, in the place in which it is asked for; a switch is far from its door."""
+    kind, values = spec.kind, spec.values
+    if not well_formed(spec):
+        return spec
+    if kind == kinds.EXIT:
+        return spec._replace(values=(300.0, 300.0, 100.0, 100.0))
+    if kind == kinds.DOOR:
+        column, row = values[4] + values[7], values[5] + values[8]
+        nowhere = not (0 <= column <= COLUMNS + 1 and 0 <= row <= ROWS + 1) or column == row == 0
+        if not (word(spec, "side") and column.is_integer() and row.is_integer()):
+            return spec
+        return spec._replace(values=(100.0, 100.0, *values[2:4], *([-50.0 if nowhere else 12.0] * 2), *values[6:]))
+    return spec._replace(values=(300.0, 306.0 if kind == kinds.FLOOR_GUARD else 300.0, *values[2:]))
+
+
+class _Noted(DrawTarget):
+    def __init__(self, canvas: Canvas, palette: Palette, book: SpriteBook) -> None:
+        super().__init__(canvas, palette, book)
+        self.sprites: list[PlacedSprite] = []
+
+    def sprite(self, key: SpriteKey, x: float, y: float) -> None:
+        self.sprites.append((key, x, y))
+
+
+class ObjectPictures:
+    """The sprites of objects, for drawing at the scale and in the palette of ``target``.
+
+    What is kept of each model: to which of its parts a sprite belongs, the sprite, and its place from there.
+    """
+
+    def __init__(self, target: DrawTarget) -> None:
+        self.target = target
+        self._kept: dict[ObjectSpec, list[tuple[int, SpriteKey, float, float]]] = {}
+
+    def sprites_of(self, specs: Iterable[ObjectSpec]) -> dict[ObjectSpec, ObjectSprites]:
+        """The sprites of each. What looks alike everywhere is asked for once, in one place."""
+        models = {spec: _model(spec) for spec in specs}
+        if len(self._kept) > _KEPT:
+            self._kept.clear()
+        asked = [model for model in dict.fromkeys(models.values()) if model not in self._kept]
+        self._kept |= {model: [(BODY, _standing(), 0.0, 0.0)] if model.kind == kinds.NINJA else [] for model in asked}
+        drawn = [model for model in asked if well_formed(model) and model.kind != kinds.NINJA]
+        for start in range(0, len(drawn), _TOGETHER):
+            self._learn(drawn[start : start + _TOGETHER])
+        return {spec: self._look(spec, model) for spec, model in models.items()}
+
+    def _look(self, spec: ObjectSpec, model: ObjectSpec) -> ObjectSprites:
+        places = points(spec)
+        if spec.kind == kinds.FLOOR_GUARD and places:
+            # It sinks to the floor of its cell.
+            x, y = places[BODY]
+            places = {BODY: (x, 24.0 * cell_of(x, y)[1] + 18.0)}
+        sprites = [(key, places[at][0] + x, places[at][1] + y) for at, key, x, y in self._kept[model] if at in places]
+        canvas, book = self.target.canvas, self.target.book
+        rects, cells = [], [cell_of(*place) for place in places.values()]
+        for key, x, y in sprites:
+            if is_near(x, y):
+                sprite, (px, py) = book.sprite(key), canvas.point(x, y)
+                rects.append(sprite.surface.get_rect(topleft=(px - sprite.ax, py - sprite.ay)))
+        return ObjectSprites(sprites, rects[0].unionall(rects[1:]) if rects else pygame.Rect(0, 0, 0, 0), cells)
+
+    def _learn(self, specs: list[ObjectSpec]) -> None:
+        try:
+            world = Simulation(Level(objects=(_NINJA, *specs))).world
+        except LevelError:
+            return
+        animation = ObjectAnimation(world)
+        moving, target = set(animation.moving_slots), self.target
+        noted = _Noted(target.canvas, target.palette, target.book)
+        for number, spec in enumerate(specs):
+            slot = number + 2
+            o = world.objects[slot]
+            noted.sprites = static_sprites_of(world, slot, animation, 1.0)
+            if spec.kind == kinds.EXIT:
+                noted.sprites += static_sprites_of(world, o.partner, animation, 1.0)
+            elif spec.kind == kinds.DOOR and o.mechanism == TRAP and (place := door_place(o)):
+                noted.sprite(static_sprites.door(TRAP, 0).turned(place[2]).faded(_HIDDEN), place[0], place[1])
+            elif slot in moving:
+                animation.moving_slots = [slot]
+                draw_moving(noted, world, animation, 1.0)
+            places = points(spec)
+            for key, x, y in noted.sprites if places else ():
+                part = min(places, key=lambda part: dist(places[part], (x, y)))
+                self._kept[spec].append((part, key, x - places[part][0], y - places[part][1]))
+
 
 TILE, OBJECT, KEY = 16.0, 28.0, 8.0
 """Sides of the squares, and the height of the key below an object, px."""
@@ -38,9 +153,9 @@ _OBJECTS = 104.0
 """From the top to the objects, px."""
 OBJECTS_PER_ROW = 6
 
-TILE_ORDER = (EMPTY, FULL, *(tile for family in FAMILIES for tile in family.tiles))
+TILE_ORDER = (brush.EMPTY, brush.FULL, *(tile for family in brush.FAMILIES for tile in family.tiles))
 
-_TILE_KEYS = {family.key for family in FAMILIES}
+_TILE_KEYS = {family.key for family in brush.FAMILIES}
 """Keys that choose tiles, where tiles are drawn; the other ones choose objects there too."""
 
 
@@ -50,36 +165,40 @@ class PaletteView(Widget):
     def __init__(self, area: Area, tools: EditorTools) -> None:
         super().__init__(area)
         self.tools = tools
-        self.hovered: int | ObjectType | None = None
+        self.hovered: int | brush.ObjectType | None = None
 
-    def places(self) -> list[tuple[int | ObjectType, Area]]:
+    def places(self) -> list[tuple[int | brush.ObjectType, Area]]:
         """Every entry with its square; the four tiles of a family stand as their keys Q W A S do."""
         x, y, _, _ = self.area
-        found: list[tuple[int | ObjectType, Area]] = []
-        for number, tile in enumerate((EMPTY, FULL)):
+        found: list[tuple[int | brush.ObjectType, Area]] = []
+        for number, tile in enumerate((brush.EMPTY, brush.FULL)):
             found.append((tile, (x + 34 + number * (TILE + 3), y + 1, TILE, TILE)))
-        for number, family in enumerate(FAMILIES):
+        for number, family in enumerate(brush.FAMILIES):
             row, column = divmod(number, 4)
             left, top = x + 11 + column * BLOCK, y + 21 + row * BLOCK_ROW
             for k, tile in enumerate(family.tiles):
                 found.append((tile, (left + k % 2 * TILE, top + k // 2 * TILE, TILE, TILE)))
-        for number, object_type in enumerate(OBJECT_TYPES):
+        for number, object_type in enumerate(brush.OBJECT_TYPES):
             row, column = divmod(number, OBJECTS_PER_ROW)
             top = y + _OBJECTS + row * (OBJECT + KEY)
             found.append((object_type, (x + column * (OBJECT + 0.6), top, OBJECT, OBJECT)))
         return found
 
     @property
-    def _in_hand(self) -> int | ObjectType:
+    def _in_hand(self) -> int | brush.ObjectType:
         tools = self.tools
-        return OBJECT_TYPES[OBJECT_TYPE_NAMES.index(object_type_of(tools.spec))] if tools.objects else tools.tile
+        return (
+            brush.OBJECT_TYPES[brush.OBJECT_TYPE_NAMES.index(brush.object_type_of(tools.spec))]
+            if tools.objects
+            else tools.tile
+        )
 
     @property
     def said(self) -> str:
         """What is under the mouse, or else in hand, and its keys."""
         return _said(self._in_hand if self.hovered is None else self.hovered)
 
-    def _at(self, x: float, y: float) -> int | ObjectType | None:
+    def _at(self, x: float, y: float) -> int | brush.ObjectType | None:
         return next((what for what, area in self.places() if inside(area, x, y)), None)
 
     def contains(self, x: float, y: float) -> bool:
@@ -89,7 +208,7 @@ class PaletteView(Widget):
     def click(self, x: float, y: float) -> bool:
         what = self._at(x, y)
         if what is not None:
-            self.tools.pick_up(what.spec if isinstance(what, ObjectType) else what)
+            self.tools.pick_up(what.spec if isinstance(what, brush.ObjectType) else what)
         return True
 
     def hover(self, x: float, y: float) -> str:
@@ -97,7 +216,7 @@ class PaletteView(Widget):
         self.hovered = self._at(x, y)
         if self.hovered is None:
             return ""
-        return f"{_said(self.hovered)} among the {'objects' if isinstance(self.hovered, ObjectType) else 'tiles'}"
+        return f"{_said(self.hovered)} among the {'objects' if isinstance(self.hovered, brush.ObjectType) else 'tiles'}"
 
     def step(self, by: int) -> None:
         """The entry before or after the one in hand; while something is drawn only a line bends."""
@@ -105,8 +224,8 @@ class PaletteView(Widget):
         if tools.bend(by):
             return
         if tools.objects:
-            names = [object_type.name for object_type in OBJECT_TYPES]
-            tools.pick_up(OBJECT_TYPES[(names.index(object_type_of(tools.spec)) + by) % len(OBJECT_TYPES)].spec)
+            place = brush.OBJECT_TYPE_NAMES.index(brush.object_type_of(tools.spec))
+            tools.pick_up(brush.OBJECT_TYPES[(place + by) % len(brush.OBJECT_TYPES)].spec)
         else:
             place = TILE_ORDER.index(tools.tile) if tools.tile in TILE_ORDER else 0
             tools.pick_up(TILE_ORDER[(place + by) % len(TILE_ORDER)])
@@ -118,7 +237,7 @@ class PaletteView(Widget):
         for text, top, lit in (("Tiles", y + 4, not tools.objects), ("Objects", y + 91, tools.objects)):
             colour = palette.accent if lit else palette.text
             theme.text(surface, text, x + 1, top, size=10, colour=colour, bold=lit)
-        for number, family in enumerate(FAMILIES):
+        for number, family in enumerate(brush.FAMILIES):
             row, column = divmod(number, 4)
             at = x + 3 + column * BLOCK, y + 32 + row * BLOCK_ROW
             if not tools.objects:
@@ -127,29 +246,28 @@ class PaletteView(Widget):
             canvas.fill_rect(surface, palette.background, *area)
             at = canvas.point(area[0], area[1])
             surface.blit(self._icon(theme, what, area), at, special_flags=pygame.BLEND_PREMULTIPLIED)
-            if isinstance(what, ObjectType) and (tools.objects or what.key not in _TILE_KEYS):
+            if isinstance(what, brush.ObjectType) and (tools.objects or what.key not in _TILE_KEYS):
                 middle, top = area[0] + OBJECT / 2, area[1] + OBJECT
                 theme.text(surface, key_label_of(what.key), middle, top, size=7.5, align="centre", height=KEY)
-            if what in (EMPTY, FULL):
+            if what in (brush.EMPTY, brush.FULL):
                 canvas.frame_rect(surface, palette.panel_edge, *area)
             if what == self._in_hand:
                 canvas.frame_rect(surface, palette.accent, *area, 2)
 
-    def _icon(self, theme: Theme, what: int | ObjectType, area: Area) -> pygame.Surface:
+    def _icon(self, theme: Theme, what: int | brush.ObjectType, area: Area) -> pygame.Surface:
         size = theme.canvas.rect(*area).size
-        if not isinstance(what, ObjectType):
+        if not isinstance(what, brush.ObjectType):
             return tile_icon(what, size, theme.palette.base.name)
         # The one in hand as it is drawn now.
-        in_hand = self.tools.objects and object_type_of(self.tools.spec) == what.name
+        in_hand = self.tools.objects and brush.object_type_of(self.tools.spec) == what.name
         return object_icon(self.tools.spec if in_hand else what.spec, size, theme.canvas.scale, theme.palette.base.name)
 
 
-def _said(what: int | ObjectType) -> str:
-    """What an entry is called, and its keys."""
-    if isinstance(what, ObjectType):
+def _said(what: int | brush.ObjectType) -> str:
+    if isinstance(what, brush.ObjectType):
         return f"{what.name.capitalize()}: {key_label_of(what.key)}"
-    name = tile_name(what)
-    return f"{name[0].upper()}{name[1:]}: {tile_key(what)}"
+    name = brush.tile_name(what)
+    return f"{name[0].upper()}{name[1:]}: {brush.tile_key(what)}"
 
 
 @lru_cache(maxsize=200)
@@ -165,7 +283,7 @@ def tile_icon(tile: int, size: tuple[int, int], palette: str, alpha: int = 255) 
 def object_icon(spec: ObjectSpec, size: tuple[int, int], scale: float, palette: str) -> pygame.Surface:
     """An object in the middle of a small picture; of a door or an exit without its switch."""
     canvas = Canvas((round(792 * scale), round(600 * scale)))
-    far = with_switch(spec, 700.0, 500.0, "half")
+    far = brush.with_switch(spec, 700.0, 500.0, "half")
     x, y = points(far)[BODY]
     px, py = canvas.point(x, y)
     canvas.origin = size[0] // 2 - px, size[1] // 2 - py

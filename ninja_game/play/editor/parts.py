@@ -1,10 +1,9 @@
-"""The parts around the level: toolbar, palette, properties, findings, the file with the solver, the status line."""
+"""The parts around the level: toolbar, palette or list of objects, properties, findings, the file, the status line."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import partial
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Sequence
+from functools import lru_cache, partial
 
 import pygame
 
@@ -14,21 +13,18 @@ from ninja_game.editor.specs import SWITCH, carried, has_switch, object_type_nam
 from ninja_game.editor.tools import CURVES, SPACINGS, EditorTools
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.places import place_text, read_place
-from ninja_game.play.editor.controls import TABLE
+from ninja_game.formats.ascii.writer import best_form
+from ninja_game.levels.findings import Finding
+from ninja_game.play.editor.commands import TABLE
 from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.view import LAYOUT, EditorView
-from ninja_game.play.workspace.part import Part
+from ninja_game.play.workspace import Part
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme, wrapped
 from ninja_game.ui.widgets import Button, Choice, Label, Widget
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from ninja_game.levels.findings import Finding
 
 ROW = 23.0
 
@@ -92,7 +88,6 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
 
 
 def _setting(area: Area, tools: EditorTools, name: str, words: Sequence[tuple[str, object]], hint: str) -> Widget:
-    """A setting of the tools by its words."""
     return Choice(area, "", words, lambda: getattr(tools, name), partial(setattr, tools, name), hint=hint)
 
 
@@ -173,8 +168,6 @@ class ToolButton(Button):
 
 
 class EditorPart(Part):
-    """A part beside the level, on the window's ground."""
-
     def __init__(self, view: EditorView) -> None:
         self.view = view
         self.session: EditorSession = view.session
@@ -212,8 +205,6 @@ class Toolbar(EditorPart):
 
 
 class PalettePart(EditorPart):
-    """All tiles and objects."""
-
     area = LAYOUT.palette
 
     def __init__(self, view: EditorView, palette: PaletteView, run: Callable[[str], object]) -> None:
@@ -227,7 +218,6 @@ class PalettePart(EditorPart):
         return tools.objects, tools.tile, tools.spec, self._palette.hovered
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        """What is under the mouse or in hand is named below the palette."""
         super().paint(surface, theme)
         x, y, w, h = self.area
         theme.canvas.fill_rect(surface, theme.palette.panel, x + 2, y, w - 4, h, 3)
@@ -235,7 +225,6 @@ class PalettePart(EditorPart):
         theme.text(surface, said, x + 7, y + h - 13, size=8.5, width=w - 48, height=13, bold=True)
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
-        """What an entry is called is said here and in the status line."""
         used = super().mouse(event, x, y)
         if used:
             self.view.hint = self._palette.hover(x, y) or self.view.hint
@@ -246,8 +235,6 @@ class PalettePart(EditorPart):
 
 
 class Properties(EditorPart):
-    """Those of what is selected, or of what is drawn with."""
-
     area = LAYOUT.properties
 
     def __init__(self, view: EditorView) -> None:
@@ -309,8 +296,6 @@ class Findings(EditorPart):
 
 
 class FilePart(EditorPart):
-    """The level's name and file, and how far the solver is."""
-
     area = LAYOUT.file
 
     def render_key(self) -> tuple[object, ...]:
@@ -344,8 +329,6 @@ class FilePart(EditorPart):
 
 
 class StatusLine(EditorPart):
-    """Where the pointer is, and what to do."""
-
     area = LAYOUT.status
 
     def _text(self) -> str:
@@ -375,3 +358,93 @@ _TOOL_HINTS = {
     "select": "Click or drag a frame; drag what is selected; Shift adds. Ctrl+C, Ctrl+V, H, J, U. F1: help",
     "pick": "Click what to draw with. F1: help",
 }
+
+
+@lru_cache(maxsize=2000)
+def object_text(spec: ObjectSpec) -> str:
+    return " ".join(filter(None, best_form(spec))) or object_type_name(spec)
+
+
+_MOVES = (
+    ("Earlier", -1, "Earlier in the order; with Shift the first of all"),
+    ("Later", 1, "Later in the order; with Shift the last of all"),
+)
+"""Texts and hints of the buttons that move what is selected so many places."""
+
+
+def _shift() -> bool:
+    return bool(pygame.key.get_mods() & pygame.KMOD_SHIFT)
+
+
+class ObjectList(EditorPart):
+    """``shown``: the numbers of the objects whose texts have all the words that are looked for."""
+
+    area = LAYOUT.palette
+
+    def __init__(self, view: EditorView, run: Callable[[str], object]) -> None:
+        super().__init__(view)
+        x, y, w, h = self.area
+        self.shown: list[int] = []
+        self._words = ""
+        self._state: tuple[object, ...] = ()
+        hint = "A click selects it, with Shift too; what comes first is made first, and moves first"
+        self.list = ListView((x + 2, y + 26, w - 6, h - 50), 15, self._draw_row, self._choose, empty="None", hint=hint)
+        find = TextEntry((x + 4, y + 3, w - 60, 18), "Find: drone left", "", self._find)
+        find.hint = "Objects whose lines have all these words"
+        moves = [
+            Button((x + 2 + 52 * k, y + h - 22, 49, 19), text, partial(self._move, by), size=9, hint=hint)
+            for k, (text, by, hint) in enumerate(_MOVES)
+        ]
+        every = Button((x + 106, y + h - 22, 70, 19), "Select all", self._choose_shown, size=9)
+        every.hint = "Select all that are shown; a property that all of them have is changed at once, below"
+        palette = ToolButton((x + w - 54, y + 3, 46, 17), "list", "Palette", run, view)
+        self.widgets = [find, palette, self.list, *moves, every]
+
+    def _move(self, by: int) -> None:
+        self.session.tools.reorder(by * len(self.session.draft.objects) if _shift() else by)
+
+    def _find(self, text: str) -> None:
+        self._words = text
+
+    def update(self, real_ms: int) -> None:
+        tools = self.session.tools
+        state = self._words, tools.draft.objects, tools.selection
+        if len(state) == len(self._state) and all(a is b for a, b in zip(state, self._state, strict=True)):
+            return
+        self._state = state
+        words = self._words.lower().split()
+        texts = map(object_text, tools.draft.objects)
+        self.shown = [number for number, text in enumerate(texts) if all(word in text for word in words)]
+        chosen = next((place for place, number in enumerate(self.shown) if number in tools.selection.numbers), None)
+        self.list.index = self.list.index if chosen is None else chosen
+        self.list.fill(self.shown)
+
+    def render_key(self) -> tuple[object, ...]:
+        return self._state, self.list.first
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        super().paint(surface, theme)
+        x, y, w, h = self.area
+        theme.canvas.fill_rect(surface, theme.palette.panel, x + 2, y, w - 6, h - 1, 3)
+
+    def _choose(self, place: int) -> None:
+        tools = self.session.tools
+        number = self.shown[place]
+        parts = frozenset((number, part) for part in points(tools.draft.objects[number]))
+        tools.choose(parts ^ tools.selection.parts if _shift() else parts)
+        tools.tool = "select"
+
+    def _choose_shown(self) -> None:
+        tools = self.session.tools
+        tools.choose(frozenset((n, part) for n in self.shown for part in points(tools.draft.objects[n])))
+        tools.tool = "select"
+
+    def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        tools, number, (x, y, w, h) = self.session.tools, self.shown[index], area
+        chosen = number in tools.selection.numbers
+        if chosen:
+            theme.row(surface, (x, y, w, h), chosen=True, focused=False, radius=2)
+        faint = theme.palette.faint
+        theme.text(surface, str(number), x + 22, y + 3, size=8.5, colour=faint, align="right", width=20)
+        text = object_text(tools.draft.objects[number])
+        theme.text(surface, text, x + 28, y + 3, size=9, bold=chosen, width=w - 30)

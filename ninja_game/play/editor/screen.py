@@ -11,16 +11,13 @@ from ninja_game.editor.files import Source
 from ninja_game.editor.specs import PROPERTIES, properties, word
 from ninja_game.editor.stamp import Selection
 from ninja_game.play.app import App
-from ninja_game.play.editor.commands import EditorCommands
-from ninja_game.play.editor.controls import DIRECTION_KEYS, OBJECT_TYPE_OF_KEY, TABLE, tile_of_key
-from ninja_game.play.editor.object_list import ObjectList
+from ninja_game.play.editor.commands import DIRECTION_KEYS, OBJECT_TYPE_OF_KEY, TABLE, EditorCommands, tile_of_key
 from ninja_game.play.editor.palette_view import PaletteView
-from ninja_game.play.editor.parts import FilePart, Findings, PalettePart, Properties, StatusLine, Toolbar
+from ninja_game.play.editor.parts import FilePart, Findings, ObjectList, PalettePart, Properties, StatusLine, Toolbar
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.view import LAYOUT, EditorView
 from ninja_game.play.menus.menu_screen import DIRECTIONS
-from ninja_game.play.workspace.part import Part
-from ninja_game.play.workspace.screen import WorkspaceScreen
+from ninja_game.play.workspace import Part, WorkspaceScreen
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.input.keys import chord
 from ninja_game.ui.text_entry import TextEntry
@@ -79,12 +76,9 @@ class EditorScreen(WorkspaceScreen):
             self.commands.offer_recovered()
 
     def leave(self) -> None:
-        """Covered or closed: what is edited is kept safe at once."""
         super().leave()
         self.session.certify_file()
         self.session.autosave.flush(self.session.draft, self.session.source)
-
-    # --- keys, pads, the mouse ---
 
     def capture(self, event: InputEvent) -> bool:
         """Enter ends what is typed, too."""
@@ -119,7 +113,6 @@ class EditorScreen(WorkspaceScreen):
         return event.menu_released == "confirm" and self.view.release()
 
     def act(self, action: str, *, held: bool = False) -> None:
-        """Arrows move the pointer by the snap."""
         if action not in DIRECTIONS:
             return
         tools, (dx, dy) = self.session.tools, DIRECTIONS[action]
@@ -156,7 +149,6 @@ class EditorScreen(WorkspaceScreen):
         return key == "n" and self._next_word("seeker", 1)
 
     def _direct(self, direction: str) -> bool:
-        """Turn the object in hand, or those that are selected; doors have sides instead."""
         tools, side = self.session.tools, {"up": "top", "down": "bottom"}.get(direction, direction)
         words = {"direction": direction, "side": side}
         has = [name for name in words if any(name in properties(spec) for spec in tools.subjects)]
@@ -174,7 +166,6 @@ class EditorScreen(WorkspaceScreen):
         return True
 
     def update(self, real_ms: int) -> None:
-        """Keep the level safe, examine it, and follow what comes of that."""
         super().update(real_ms)
         self._drag_on()
         self.session.update()

@@ -5,13 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 from time import monotonic
-from typing import TYPE_CHECKING
 
 from ninja_game.editor.brush import object_of_type, placed
-from ninja_game.editor.certify import Certifier, Route, TestMap, Try, map_of, route_of
+from ninja_game.editor.certify import STARTS, Ask, Certifier, Reach, Route, TestMap, Try, find_reach, map_of, route_of
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Autosave, RecoveredDraft, Source, draft_of_text, new_source, open_source, save
-from ninja_game.editor.reach import STARTS, Ask, Reach, find_reach
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import NinjaGameError, reason
@@ -20,19 +18,17 @@ from ninja_game.files.user_folder import LEVELS
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.pack.files import is_pack
+from ninja_game.formats.replay.text import Replay
 from ninja_game.levels.findings import Finding
 from ninja_game.levels.warnings import level_findings
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link, copy_text, pasted_text
 from ninja_game.play.window import save_picture
-from ninja_game.player.saving import keep_replay
+from ninja_game.player.player_data import keep_replay
 from ninja_game.runtime import NewestJob
 from ninja_game.sim.level import Level
 from ninja_game.ui.widgets import following
 from ninja_game.view.sprites.thumbnail import thumbnail
-
-if TYPE_CHECKING:
-    from ninja_game.formats.replay.text import Replay
 
 LOOK_SPACING = 0.5
 """Seconds from one look at the level's file to the next."""
@@ -99,7 +95,6 @@ class EditorSession:
 
     @property
     def is_saved(self) -> bool:
-        """Whether the file is as the level is now."""
         return self.draft == self.source.draft
 
     @property
@@ -113,7 +108,6 @@ class EditorSession:
 
     @property
     def examined(self) -> Level | None:
-        """The level to which the findings belong."""
         return self._checks.result[0] if self._checks.result else None
 
     @property
@@ -122,7 +116,6 @@ class EditorSession:
         return self._reaches.result if self.start != "off" else None
 
     def next_start(self) -> None:
-        """Show what can be reached from the next of STARTS."""
         self.start = following(list(STARTS), self.start)
         self._start_asked = None
 
@@ -139,7 +132,6 @@ class EditorSession:
                 self._reaches.ask(ask)
 
     def update(self) -> None:
-        """Keep the level safe, examine it, look for what can be reached: all in the background."""
         self._follow_pointer()
         if not self.certifier.busy:
             self.certify_file()
@@ -161,7 +153,6 @@ class EditorSession:
 
     @property
     def test_map(self) -> TestMap | None:
-        """Where the tests came and died, None until that is known."""
         return self._maps.result if self.tries else None
 
     def changed_source(self) -> Source | None:
@@ -215,10 +206,7 @@ class EditorSession:
         self.certify_file()
         self.autosave.close()
 
-    # --- files ---
-
     def end(self) -> None:
-        """Whatever is half done is done now."""
         self.tools.finish()
 
     def save(self, path: Path, *, replacing: bool = False, name: str | None = None) -> None:
@@ -232,7 +220,6 @@ class EditorSession:
         self.tools.history.change(named)
 
     def export_picture(self) -> None:
-        """A picture of the level among the player's exports."""
         surface = thumbnail(self.draft.level, self.app.theme.palette, PICTURE_WIDTH)
         self.app.write_export(self.name, ".png", lambda path: save_picture(surface, path))
 
@@ -258,10 +245,7 @@ class EditorSession:
         except NinjaGameError:
             self.app.notify("There is no level in the clipboard: copy its text first")
 
-    # --- tests and certificates ---
-
     def level_to_test(self, *, here: bool) -> Level:
-        """The level to try; ``here``: with the ninja at the pointer."""
         self.tools.finish()
         if not here:
             return self.draft.level
@@ -279,7 +263,6 @@ class EditorSession:
         self._maps.ask(self.tries)
 
     def keep_certificate(self) -> None:
-        """Put the solver's run among the player's replays."""
         run = self.certifier.search.run
         if run is None or self.certifier.is_stale(self.draft.level):
             self.app.notify("Certify the level first (F7)")

@@ -18,7 +18,7 @@ from ninja_game.editor.draft import Cell, Draft, changed_cells
 from ninja_game.editor.specs import BODY, SWITCH, has_switch, points
 from ninja_game.formats.sayings import read_sayings
 from ninja_game.levels.findings import Finding
-from ninja_game.play.editor.object_pictures import ObjectPictures, ObjectSprites
+from ninja_game.play.editor.palette_view import ObjectPictures, ObjectSprites
 from ninja_game.sim import kinds
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.loader import grid_tiles
@@ -185,7 +185,6 @@ GRIDS = (
     Grid("4 cells", 96), Grid("cells + 1/2", 24, 12), Grid("2 cells + 1/2", 48, 12), Grid("4 cells + 1/2", 96, 12),
     Grid("level / 4", -1),
 )  # fmt: skip
-"""The ten grids (game.md §6)."""
 
 
 class LevelMark(NamedTuple):
@@ -260,7 +259,6 @@ def said_places(says: str) -> list[Point]:
 
 
 def visit_mark(canvas: Canvas, palette: Palette, cell: Cell, share: float) -> LevelMark:
-    """A cell in which this share of the tests came."""
     rect = canvas.rect(24.0 * cell[0], 24.0 * cell[1], 24, 24)
     veil = pygame.Surface(rect.size, pygame.SRCALPHA)
     veil.fill((*palette.accent[:3], round(40 + 140 * share)))
@@ -268,7 +266,6 @@ def visit_mark(canvas: Canvas, palette: Palette, cell: Cell, share: float) -> Le
 
 
 def death_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
-    """A cross where the ninja died in a test."""
     (x, y), size = at, 5.0
 
     def draw(target: DrawTarget) -> None:

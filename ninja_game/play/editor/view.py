@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import pygame
 
 from ninja_game.editor.brush import placed
-from ninja_game.editor.certify import NO_TESTS
+from ninja_game.editor.certify import NO_TESTS, SQUARE, Reach, Route
 from ninja_game.editor.draft import Cell, Draft, cell_of, is_inside
 from ninja_game.editor.motion import SYMMETRIES, Motion
-from ninja_game.editor.reach import SQUARE, Reach
 from ninja_game.editor.specs import BODY, SWITCH, carried, points
 from ninja_game.editor.stamp import CellArea, area_between, nearest
 from ninja_game.editor.tools import PICK_REACH, EditorTools
@@ -28,7 +27,7 @@ from ninja_game.play.editor.sheet import (
     level_marks,
     said_places,
 )
-from ninja_game.play.workspace.part import Part
+from ninja_game.play.workspace import Part
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.ui.canvas import Canvas, Colour, Point
 from ninja_game.ui.text_entry import DOUBLE_MS
@@ -36,9 +35,6 @@ from ninja_game.ui.theme import Area, Palette, Theme
 from ninja_game.ui.widgets import Widget, following
 from ninja_game.view.sprites.drawing import DrawTarget, drawing, is_near
 from ninja_game.view.sprites.sketch import Sketch
-
-if TYPE_CHECKING:
-    from ninja_game.editor.certify import Route
 
 GHOST = 5
 """Eighths as solid as what is there is what would be drawn."""
@@ -80,7 +76,6 @@ class Overlay:
     def draw(
         self, surface: pygame.Surface, tools: EditorTools, reach: Reach | None, *, hovering: bool
     ) -> list[pygame.Rect]:
-        """Draw it; the px of the window that it covers."""
         self.target.begin(surface)
         surface.set_clip(self.area)
         if reach:
@@ -171,8 +166,6 @@ class Overlay:
 
 
 class EditorLayout(NamedTuple):
-    """Where the parts are, px of the stage."""
-
     toolbar: Area = (0, 0, 792, 26)
     level: Area = (6, 30, 602, 456)
     palette: Area = (610, 26, 182, 231)
@@ -228,8 +221,6 @@ class EditorView(Part):
         self.grid = following(GRIDS, self.grid)
         self.sheet.show_grid(self.grid.lines())
 
-    # --- the mouse ---
-
     def press(self, *, erase: bool = False, pick: bool = False, add: bool = False) -> None:
         cell = self.session.tools.cell
         if is_inside(cell) and self.take(cell):
@@ -249,7 +240,6 @@ class EditorView(Part):
         self.session.tools.press(erase=erase, pick=pick, add=add)
 
     def turn(self, motion: Motion) -> None:
-        """Flip or turn what is selected or in hand, or say why not."""
         if not self.session.tools.turn(motion):
             self.app.notify("Not turned: a part of it would leave the level. Move it away from the border first")
 
@@ -268,7 +258,6 @@ class EditorView(Part):
         return held
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
-        """Drawing, dragging; the wheel goes on in the palette."""
         if event.type == pygame.MOUSEWHEEL:
             self._step_palette(-event.y)
             return True
@@ -285,8 +274,6 @@ class EditorView(Part):
 
     def mouse_left(self) -> None:
         self.hovering = False
-
-    # --- drawing ---
 
     def render_key(self) -> tuple[object, ...]:
         """All that the overlay depends on; the sheet knows what has changed of the level."""
@@ -317,7 +304,6 @@ class EditorView(Part):
         return [*changed, *self.overlay.draw(surface, tools, self.session.reach, hovering=self.hovering)]
 
     def _follow_marks(self) -> None:
-        """The marks over the level as they should be now."""
         session, palette = self.session, self.app.theme.palette
         certifier = session.certifier
         stale = certifier.is_stale(session.draft.level)
@@ -339,7 +325,6 @@ class EditorView(Part):
         self.sheet.show_marks(marks)
 
     def _signs(self) -> list[Point]:
-        """Where the findings are, in the level that was examined."""
         examined = self.session.examined
         found = [p for each in self.session.findings for p in finding_points(examined, each)] if examined else []
         return list(dict.fromkeys(found))

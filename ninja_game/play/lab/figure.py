@@ -117,8 +117,6 @@ FIELD = View(CELL, CELL, 0.75)
 
 
 class _ViewCanvas(Canvas):
-    """A canvas whose logical px are those of the world, as a figure shows it."""
-
     def __init__(self, canvas: Canvas, view: View) -> None:
         super().__init__(canvas.window)
         x, y = canvas.exact(FIGURE[0], FIGURE[1])
@@ -186,7 +184,6 @@ class Sheet:
                 )
 
     def circle(self, colour: Colour, x: float, y: float, radius: float, width: float = 0) -> None:
-        """A disc, or a ring of some ``width``, logical px."""
         self.canvas.circle(self.surface, colour, (x, y), radius, width / self.view.zoom)
 
     def body(self, colour: Colour, x: float, y: float, half: float, *, box: bool, width: float = 2) -> None:
@@ -197,7 +194,6 @@ class Sheet:
             self.circle(colour, x, y, half, width)
 
     def line(self, colour: Colour, a: Point, b: Point, width: float = 1) -> None:
-        """A straight line; ``width``: logical px."""
         self.canvas.line(self.surface, colour, a, b, width / self.view.zoom)
 
     def arrow(self, colour: Colour, a: Point, b: Point, width: float = 2) -> None:
@@ -223,13 +219,11 @@ class Stage:
         self._look: tuple[object, ...] = ()
 
     def step(self, keys: int = 0) -> None:
-        """One tick, watched."""
         _, self.calls = watch(self.simulation.step_keys, keys)
         if self._view is not None:
             self._view.on_tick()
 
     def draw(self, sheet: Sheet) -> None:
-        """The part of the world that the figure shows."""
         scale = sheet.theme.canvas.scale * sheet.view.zoom
         look = scale, sheet.palette.name
         if self._view is None or look != self._look:
@@ -245,7 +239,6 @@ class Stage:
 
 
 Control = Callable[[Area], Widget]
-"""Makes a widget in an area."""
 
 Span = tuple[float, float, float]
 
@@ -254,7 +247,6 @@ Value = TypeVar("Value")
 
 @cache
 def figure_texts() -> dict[str, dict[str, Any]]:
-    """What the bundled file says of each figure, by name."""
     return tomllib.loads((data_folder("assets") / "lab" / "figures.toml").read_text("utf-8"))
 
 
@@ -307,7 +299,6 @@ class Figure:
         return ()
 
     def choice(self, text: str, options: Sequence[tuple[str, object]], name: str) -> Control:
-        """A control that sets an attribute to one of several values."""
         return lambda area: Choice(area, text, options, partial(getattr, self, name), partial(setattr, self, name))
 
     def slider(self, text: str, span: Span, name: str, show: Callable[[float], str] = "{:.0f}".format) -> Control:
@@ -326,7 +317,6 @@ class Figure:
         self.drag(x, y)
 
     def nudge(self, dx: int, dy: int) -> None:
-        """An arrow key: the handle moves by a px."""
         self.drag(self.x + dx, self.y + dy)
 
     def demonstrate(self, tick: int) -> None:

@@ -9,17 +9,15 @@ import pygame
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.app import App
-from ninja_game.play.clock import RunClock
+from ninja_game.play.lab.cells import CellsTouched, GridOfCells, NineCells, RayCast
+from ninja_game.play.lab.edges import Doors, EdgeStates, WalkingEnemies
 from ninja_game.play.lab.figure import FIGURE, Figure, Sheet
-from ninja_game.play.lab.figures.cells import CellsTouched, GridOfCells, NineCells
-from ninja_game.play.lab.figures.drones import WalkingEnemies
-from ninja_game.play.lab.figures.edges import Doors, EdgeStates
-from ninja_game.play.lab.figures.grids import Bullets, FiveCells, LooseGrid
-from ninja_game.play.lab.figures.one_tick import OneTick
-from ninja_game.play.lab.figures.projection import Bodies, Projection, Response
-from ninja_game.play.lab.figures.rays import RayCast
+from ninja_game.play.lab.grids import Bullets, FiveCells, LooseGrid
+from ninja_game.play.lab.one_tick import OneTick
+from ninja_game.play.lab.projection import Bodies, Projection, Response
 from ninja_game.play.menus.menu_screen import DIRECTIONS, MenuScreen
 from ninja_game.play.replay.film import write_gif
+from ninja_game.play.replay.playback import RunClock
 from ninja_game.play.window import save_picture
 from ninja_game.player.settings import Settings
 from ninja_game.ui.canvas import HEIGHT, WIDTH
@@ -42,9 +40,7 @@ class LabScreen(MenuScreen):
     def __init__(self, app: App, name: str = "") -> None:
         super().__init__(app)
         self.figures = [make() for make in FIGURES.values()]
-        self.list = ListView(
-            (44, 62, 158, 20 * len(self.figures)), 20, self._draw_row, self._choose, selected=self._show
-        )
+        self.list = ListView((44, 62, 158, 20 * len(FIGURES)), 20, self._draw_row, self._choose, selected=self._show)
         self.list.hint = "Up and down choose a figure, right goes to it"
         self.list.index = list(FIGURES).index(name) if name else 0
         self.clock = RunClock()
@@ -57,7 +53,6 @@ class LabScreen(MenuScreen):
         return self.figures[self.list.index]
 
     def build(self) -> Sequence[Widget]:
-        """The list, the figure, its controls, what one can do with it."""
         x, y, w, h = CONTROLS
         controls = [make((x, y + (h + 4) * k, w, h)) for k, make in enumerate(self.figure.controls())]
         buttons = [
@@ -68,7 +63,6 @@ class LabScreen(MenuScreen):
         return [self.list, FigureArea(self), *controls, *buttons]
 
     def _show(self, index: int) -> None:
-        """Another figure is chosen: it shows itself until somebody touches it."""
         self.demonstrate()
         if self.widgets:
             self.enter()
@@ -85,7 +79,6 @@ class LabScreen(MenuScreen):
         self.handle_press()
 
     def act(self, action: str, *, held: bool = False) -> None:
-        """A control that is touched ends the demonstration."""
         if action in ("left", "right", "confirm") and isinstance(self.focus, (FigureArea, Slider, Choice)):
             self.shows = False
         super().act(action, held=held)
@@ -95,12 +88,10 @@ class LabScreen(MenuScreen):
         self.focus_on(self.widgets[self.widgets.index(self.list) + 2])
 
     def handle_press(self) -> None:
-        """The figure was touched: no demonstration any more."""
         self.shows = False
         self.redraw = True
 
     def update(self, real_ms: int) -> None:
-        """Time passes in the figure, 40 ticks a second."""
         super().update(real_ms)
         for _ in range(min(4, self.clock.ticks_due(real_ms))):
             if self.shows:
@@ -193,34 +184,30 @@ class FigurePicture:
         self.area = context.canvas.rect(*FIGURE)
 
     def draw(self) -> None:
-        """Put the figure as it is now into ``area`` of the surface."""
         sheet = Sheet(self.surface, self.theme, self.figure.view)
         self.figure.draw(sheet)
         sheet.close()
-
-    def drawn(self) -> pygame.Surface:
-        self.draw()
-        return self.surface.subsurface(self.area)
 
     def demonstrate(self, tick: int) -> None:
         self.figure.demonstrate(tick)
         self.figure.tick()
 
 
-def figure_pictures(name: str, *, scale: float = 1.0, ticks: int = FILM_TICKS) -> Iterator[pygame.Surface]:
-    """The figure after each tick of its demonstration."""
-    picture = FigurePicture(name, scale)
+def figure_pictures(
+    name: str, *, scale: float = 1.0, ticks: int = FILM_TICKS, palette: str = "classic"
+) -> Iterator[pygame.Surface]:
+    """The figure after each tick of its demonstration, always on the same surface."""
+    picture = FigurePicture(name, scale, palette)
     for tick in range(ticks):
         picture.demonstrate(tick)
-        yield picture.drawn()
+        picture.draw()
+        yield picture.surface.subsurface(picture.area)
 
 
 def figure_picture(name: str, *, scale: float = 1.0, palette: str = "classic") -> pygame.Surface:
     """The figure at one moment of its demonstration."""
-    picture = FigurePicture(name, scale, palette)
-    for tick in range(PICTURE_TICK):
-        picture.demonstrate(tick)
-    return picture.drawn()
+    *_, last = figure_pictures(name, scale=scale, ticks=PICTURE_TICK, palette=palette)
+    return last
 
 
 def export_figure(name: str, path: Path, *, scale: float = 1.0) -> None:
@@ -243,4 +230,3 @@ FIGURES: dict[str, type[Figure]] = {
         Bullets, RayCast, WalkingEnemies, OneTick,
     )
 }  # fmt: skip
-"""By the name that the command line has for each."""

@@ -14,10 +14,10 @@ from ninja_game.formats.run_time import rounded_text, seconds_text
 from ninja_game.formats.sayings import named_keys
 from ninja_game.play.level.play import MUST, STAMP_TICKS, TAG_ROOM, LevelPlay, Phase, Things, tag_top
 from ninja_game.play.level.sayings import FALL_HELP, WHY
-from ninja_game.player.marks import NO_MEDAL, Mark, next_par
+from ninja_game.player.player_data import FIRST_PASS, NEW_ALL_GOLD, OF_A_LEVEL
 from ninja_game.player.playthrough import Navigation
-from ninja_game.player.saving import FIRST_PASS, NEW_ALL_GOLD, OF_A_LEVEL
-from ninja_game.player.statistics import SELF
+from ninja_game.player.progress import NO_MEDAL, Mark, next_par
+from ninja_game.player.records import SELF
 from ninja_game.sim.collision.tiles import FULL, SHAPE
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.kinds import EXIT, SWITCH

@@ -7,13 +7,12 @@ from enum import Enum
 from random import Random
 
 from ninja_game.play.app import App
-from ninja_game.play.clock import RunClock
 from ninja_game.play.level.sayings import Sayings
-from ninja_game.play.replay.playback import Ghost, Playback
+from ninja_game.play.replay.playback import Ghost, Playback, RunClock
 from ninja_game.player.attempt import Attempt, Moment
-from ninja_game.player.marks import HELPED
 from ninja_game.player.playthrough import LevelContext
-from ninja_game.player.statistics import cause_of
+from ninja_game.player.progress import HELPED
+from ninja_game.player.records import cause_of
 from ninja_game.sim.kinds import EXIT, GOLD, SWITCH
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.states import CRUSHED
@@ -78,8 +77,6 @@ def tag_top(y: float) -> float:
 
 
 class Phase(Enum):
-    """Where in its life a level is."""
-
     READY = "ready"
     PLAY = "play"
     PAUSED = "paused"
@@ -334,13 +331,11 @@ class LevelPlay:
 
     @property
     def medal(self) -> str:
-        """The medal of a passed run, "" for none."""
         counts = self.phase is Phase.PASSED and not self.attempt.assisted
         return self.context.pars.medal(self.attempt.ended_tick) if self.context.pars and counts else ""
 
     @property
     def stamp(self) -> float:
-        """How far the stamp of the medal has come, 0…1."""
         return 1.0 if self.app.settings.reduced_motion else min(1.0, (self.after_end + self.fraction) / STAMP_TICKS)
 
 
@@ -361,7 +356,6 @@ class PracticeTools:
         self.rewinding = self.stepping = False
 
     def on_tick(self) -> None:
-        """Call it after every tick."""
         self.playback.note()
 
     def quick_save(self) -> None:

@@ -73,11 +73,9 @@ class Sayings:
         self._jumped_at = self._wall = 0.0
 
     def _say(self, text: str, ticks: int, then: str = "") -> None:
-        """Have a text read for so many ticks, then another one."""
         self.text, self._left, self._then = text, ticks, then
 
     def _start(self) -> str:
-        """How the level begins, until that is done."""
         return next((each.text for each in self._sayings if each.when == "start" and each not in self._said), "")
 
     @property

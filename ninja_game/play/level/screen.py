@@ -16,16 +16,16 @@ from ninja_game.play.clipboard import copy_level_link, copy_link
 from ninja_game.play.level.hud import Hud, hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, LATE_JUMP, STUCK_AFTER, LevelPlay, Phase
 from ninja_game.play.menus.help import HelpScreen
-from ninja_game.play.menus.panels import Menu, Panel, Row, nothing
+from ninja_game.play.menus.menu_screen import Menu, Panel, Row, nothing
 from ninja_game.play.menus.passed import EpisodePassed
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.marks import opens_author
+from ninja_game.player.player_data import keep_replay
 from ninja_game.player.playthrough import EpisodeRun, LevelContext, LevelRun, Navigation
-from ninja_game.player.saving import keep_replay
+from ninja_game.player.progress import opens_author
 from ninja_game.sim.inputs import JUMP_HELD
 from ninja_game.ui.audio.music import BY_COLUMN, SILENCE
 from ninja_game.ui.input.bindings import InputEvent
@@ -51,7 +51,6 @@ class LevelScreen(Screen):
         self._start_level()
 
     def _start_level(self) -> None:
-        """The context's present level."""
         self.app.audio_output.quiet()
         self.app.follow_mood(self.mood)
         self.play = LevelPlay(self.app, self.context)
@@ -59,7 +58,6 @@ class LevelScreen(Screen):
 
     @property
     def mood(self) -> int:
-        """That of the level."""
         return self.context.entry.mood
 
     @property
@@ -73,7 +71,6 @@ class LevelScreen(Screen):
 
     @property
     def phase(self) -> Phase:
-        """Where in its life the level is."""
         return self.play.phase
 
     @property
@@ -88,7 +85,6 @@ class LevelScreen(Screen):
         pygame.key.stop_text_input()
 
     def leave(self) -> None:
-        """No sound from a covered level."""
         self.app.audio_output.quiet()
 
     # --- what keys and the pause panel do ---
@@ -100,7 +96,6 @@ class LevelScreen(Screen):
         self.play.begin(ignored=0 if controls.pad_used else controls.choosing())
 
     def pause(self, row: int = 0) -> None:
-        """Pause, with a row of the panel chosen."""
         self.play.pause()
         panel = PausePanel(self.app, self)
         self.app.push(panel)

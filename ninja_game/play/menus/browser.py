@@ -19,13 +19,13 @@ from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.episodes import draw_look
-from ninja_game.play.menus.panels import Action
+from ninja_game.play.menus.menu_screen import Action
 from ninja_game.play.menus.problems import Problem, of_files, problems_button
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text, where_from
 from ninja_game.player.catalogue import Entry, author_name
-from ninja_game.player.marks import Mark, opens_author
+from ninja_game.player.progress import Mark, opens_author
 from ninja_game.player.records import SavedReplay
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import ListView
@@ -79,7 +79,6 @@ class Browser(ThumbnailScreen):
         self.entry_field = TextEntry((44, 66, 194, 32), "Search name or author", "", self._search)
 
     def enter(self) -> None:
-        """Read the player's folder as it is now."""
         catalogue = self.player.catalogue
         catalogue.problems.clear()
         self.entries = catalogue.singles()
@@ -91,13 +90,11 @@ class Browser(ThumbnailScreen):
         super().enter()
 
     def choosers(self) -> list[Widget]:
-        """What a level is found and selected with."""
         sort = Choice((244, 66, 118, 32), "", SORT_ORDERS, lambda: self.sort, self._sort, hint="Sort the list")
         problems = problems_button(self.app, (150, 546, 270, 18), lambda: self.problems)
         return [self.list, self.entry_field, sort, *problems]
 
     def build(self) -> Sequence[Widget]:
-        """The list first, then what can be done with the selected level."""
         change = Button((SIDE + 208, 510, 46, 32), "Edit", self._change, hint="Open it in the editor")
         link = Button((SIDE + 260, 510, 60, 32), "Link", self._copy_link, hint="Copy a link that opens this level")
         watch = self.watch_best, self.watch_author
@@ -123,7 +120,6 @@ class Browser(ThumbnailScreen):
             super().handle(event)
 
     def _take_in(self, file: Path) -> None:
-        """Copy a file of levels into the player's folder, unless it is none."""
         folder = self.player.catalogue.folder
         try:
             load_levels(file)
@@ -139,8 +135,6 @@ class Browser(ThumbnailScreen):
             self.message = reason(error)
         self.redraw = True
 
-    # --- which ---
-
     def _search(self, text: str) -> None:
         self.search = text
         self._arrange()
@@ -150,7 +144,6 @@ class Browser(ThumbnailScreen):
         self._arrange()
 
     def _arrange(self) -> None:
-        """Search and sort; the selection goes to the first."""
         words = self.search.casefold().split()
         found = [e for e in self.entries if all(word in _words(e) for word in words)]
         keys: dict[object, Callable[[Entry], object]] = {
@@ -190,14 +183,10 @@ class Browser(ThumbnailScreen):
         self.watch_author.hint = "" if self.watch_author.enabled else closed
         self.watch_best.hint = "Your best run" if self.watch_best.enabled else "You have not passed this level yet"
 
-    # --- go ---
-
     def play(self, index: int, *, practice: bool = False) -> None:
         if index < len(self.shown):
-            entry, *following = self.shown[index:]
-            self.message = self.player.lock_of(entry) or play_level(
-                self.app, entry, practice=practice, following=following
-            )
+            entry, *rest = self.shown[index:]
+            self.message = self.player.lock_of(entry) or play_level(self.app, entry, practice=practice, following=rest)
 
     def _change(self) -> None:
         if self._edit is not None and self.selected is not None:
@@ -216,10 +205,7 @@ class Browser(ThumbnailScreen):
         if best is not None:
             watch(self.app, [self.player.records.replay(best.id)])
 
-    # --- picture ---
-
     def draw_frame(self, surface: pygame.Surface) -> None:
-        """The selected level, large, with what is known about it."""
         super().draw_frame(surface)
         theme, palette = self.app.theme, self.app.theme.palette
         entry = self.selected
@@ -268,8 +254,6 @@ class Browser(ThumbnailScreen):
 
 
 class LevelChoice(Browser):
-    """The browser of levels, to choose one for the editor."""
-
     title = "Open a level"
 
     def __init__(self, app: App, choose: Callable[[Entry], object]) -> None:
@@ -281,7 +265,6 @@ class LevelChoice(Browser):
         return [*self.choosers(), Button((SIDE, 470, SIDE_WIDTH, 32), "Edit", lambda: self.play(self.list.index))]
 
     def act(self, action: str, *, held: bool = False) -> None:
-        """Enter in the search opens the only level that is found."""
         if action == "confirm" and self.focus is self.entry_field and len(self.shown) == 1:
             self.play(0)
         else:

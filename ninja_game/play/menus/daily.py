@@ -19,7 +19,7 @@ from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.marks import next_par
+from ninja_game.player.progress import next_par
 from ninja_game.runtime import require_desktop, run_in_background
 from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.ui.theme import Theme, wrapped
@@ -77,16 +77,14 @@ class DailyScreen(ThumbnailScreen):
         self._rng = Random(self.day.toordinal())  # noqa: S311 - a picture
         self._dug, self._way, self._dig_ms = [(16, 12)], (1, 0), 0
         self.play = Button((SIDE, 390, SIDE_WIDTH, 36), "Play", self._play)
-        self.practice = Button(
-            (SIDE, 436, SIDE_WIDTH, 36), "Practice", lambda: self._play(practice=True), hint=PRACTICE_HINT
-        )
+        self.practice = Button((SIDE, 436, SIDE_WIDTH, 36), "Practice", lambda: self._play(practice=True))
+        self.practice.hint = PRACTICE_HINT
 
     @property
     def file(self) -> Path:
         return daily.daily_file(self.player.folder / LEVELS, self.day)
 
     def enter(self) -> None:
-        """Show the day's level; make it if it is not there."""
         self._find()
         super().enter()
         if self.entry is None and not self.message:
@@ -103,7 +101,6 @@ class DailyScreen(ThumbnailScreen):
         return [self.play, self.practice] if self.entry else []
 
     def _find(self) -> None:
-        """Look for the day's level in the player's folder; a message says why it cannot be read."""
         catalogue = self.player.catalogue
         catalogue.problems.clear()
         files = ((Path(each.named.file), each) for each in catalogue.singles())
@@ -128,7 +125,6 @@ class DailyScreen(ThumbnailScreen):
         return count
 
     def update(self, real_ms: int) -> None:
-        """See whether the level is there, and how its making stands."""
         super().update(real_ms)
         maker = self._maker
         if maker is None:
@@ -145,7 +141,6 @@ class DailyScreen(ThumbnailScreen):
             self.redraw = True
 
     def _dig(self, real_ms: int) -> None:
-        """Something to look at while the level is made: a cave grows, cell by cell."""
         self._dig_ms += real_ms
         for _ in range(self._dig_ms // DIG_MS):
             self._way = self._rng.choice([self._way] * 3 + [(1, 0), (-1, 0), (0, 1), (0, -1)])
@@ -175,15 +170,9 @@ class DailyScreen(ThumbnailScreen):
         else:
             self._draw_entry(surface, entry)
         if self.message:
+            colour = palette.bad if entry else palette.on_tile
             for number, line in enumerate(wrapped(theme, self.message, WIDE - 40, 11)):
-                theme.text(
-                    surface,
-                    line,
-                    LEFT + 20,
-                    TOP + 150 + 18 * number,
-                    size=11,
-                    colour=palette.bad if entry else palette.on_tile,
-                )
+                theme.text(surface, line, LEFT + 20, TOP + 150 + 18 * number, size=11, colour=colour)
 
     def _draw_entry(self, surface: pygame.Surface, entry: Entry) -> None:
         theme = self.app.theme
@@ -206,7 +195,6 @@ class DailyScreen(ThumbnailScreen):
         draw_pars(surface, theme, entry.pars, mark and mark.fastest, LEFT, TOP + WIDE * 25 / 33 + 12)
 
     def _draw_week(self, surface: pygame.Surface, theme: Theme) -> None:
-        """The days of this week, and what was reached on each."""
         for place in range(7):
             day = self.day + timedelta(place - self.day.weekday())
             entry = self.days.get(day.isoformat())

@@ -11,14 +11,13 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.level.screen import LevelScreen, play_level
-from ninja_game.play.menus.panels import CANCEL, Menu, Row
+from ninja_game.play.menus.menu_screen import CANCEL, Menu, Row
 from ninja_game.play.menus.problems import of_files, problems_button
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, tries_text
 from ninja_game.player.catalogue import Episode, EpisodeSet
-from ninja_game.player.marks import WITH_HELP, Mark, has_all_gold, next_par, tally, worst_medal
 from ninja_game.player.playthrough import EpisodeRun, left_half_way
-from ninja_game.player.progress import CHEATED, LOCKED
+from ninja_game.player.progress import CHEATED, LOCKED, WITH_HELP, Mark, has_all_gold, next_par, tally, worst_medal
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import BAR, ListView
 from ninja_game.ui.theme import Area, Theme, mixed
@@ -44,7 +43,6 @@ class Cells(ListView):
     heads: list[int]
 
     def arrange(self, episodes: Iterable[int]) -> None:
-        """Columns and lines as far as there are episodes."""
         numbers = set(episodes)
         self.heads = sorted({number // EPISODES_PER_COLUMN for number in numbers})
         lines = max((number % EPISODES_PER_COLUMN for number in numbers), default=0) + 1
@@ -83,7 +81,6 @@ class Cells(ListView):
         return used
 
     def _index_at(self, x: float, y: float) -> int | None:
-        """The cell at a point that holds an episode."""
         index = super()._index_at(x, y)
         return index if index is not None and self.numbers[index] >= 0 else None
 
@@ -135,14 +132,11 @@ class EpisodeGrid(ThumbnailScreen):
         self.grid.arrange(self.pack.episodes)
 
     def _look_for_packs(self, key: str) -> None:
-        """The packs as they are now, that with the key chosen if it is still there."""
         catalogue = self.player.catalogue
         catalogue.problems.clear()
         self.packs = [pack for pack in catalogue.packs() if pack.episodes]
         self.problems = of_files(catalogue.told)
         self.pack = next((pack for pack in self.packs if pack.key == key), catalogue.ours)
-
-    # --- which ---
 
     @property
     def number(self) -> int:
@@ -176,11 +170,9 @@ class EpisodeGrid(ThumbnailScreen):
 
     @property
     def _below(self) -> float:
-        """Where what stands below the grid begins."""
         return TOP + self.grid.area[3] + 14
 
     def build(self) -> Sequence[Widget]:
-        """The grid, the levels of the selected episode, practice; the choice of a pack where there are several."""
         before = self.pack
         self._look_for_packs(before.key)
         if self.pack is not before:
@@ -217,8 +209,6 @@ class EpisodeGrid(ThumbnailScreen):
         else:
             super().handle(event)
 
-    # --- go ---
-
     def _play(self, _index: int) -> None:
         """Play the episode; one that was left half-way goes on there, or begins again."""
         if self.episode is None or self._state(self.number) == LOCKED:
@@ -242,10 +232,7 @@ class EpisodeGrid(ThumbnailScreen):
             if problem := play_level(self.app, entry, following=following):
                 self.app.notify(problem)
 
-    # --- picture ---
-
     def draw_frame(self, surface: pygame.Surface) -> None:
-        """What the grid's looks mean, the total, and the head of the selected episode."""
         super().draw_frame(surface)
         theme, palette = self.app.theme, self.app.theme.palette
         if len(self.packs) < 2:
@@ -272,7 +259,6 @@ class EpisodeGrid(ThumbnailScreen):
                    colour=palette.good if best else palette.faint)  # fmt: skip
 
     def _draw_total(self, surface: pygame.Surface, theme: Theme, y: float) -> None:
-        """How much of the pack has been passed, with which medals, with all gold."""
         levels = self.pack.levels
         total = tally(levels, self.marks, self.passed)
         theme.text(surface, f"{total.passed} of {total.levels} levels passed", LEFT, y, size=11, bold=True)
@@ -296,22 +282,14 @@ class EpisodeGrid(ThumbnailScreen):
         if look != "locked":
             colour = theme.palette.on_tile if look == "beaten" else theme.palette.text
             size = min(16.0, h / 2)
-            theme.text(
-                surface,
-                self.pack.episodes[number].code,
-                x + w / 2,
-                y + (h - size) / 2,
-                size=size,
-                colour=colour,
-                align="centre",
-            )
+            code, top = self.pack.episodes[number].code, y + (h - size) / 2
+            theme.text(surface, code, x + w / 2, top, size=size, colour=colour, align="centre")
             self._draw_reached(surface, theme, number, area)
         if index == self.grid.index:
             width = 2.5 if focused else 1.2
             theme.canvas.frame_rect(surface, theme.palette.accent, x, y, w, h, width, 4)
 
     def _draw_reached(self, surface: pygame.Surface, theme: Theme, number: int, area: Area) -> None:
-        """The medal that all of an episode's levels have, at the upper left; at the right the mark for all gold."""
         x, y, w, _ = area
         levels = self.pack.episodes[number].levels
         medal = worst_medal(levels, self.marks)
@@ -336,14 +314,12 @@ class EpisodeGrid(ThumbnailScreen):
         theme.row(surface, (x, y + 2, w, h - 4), chosen=focused, focused=focused)
         self.thumbnails.draw(surface, entry, x + 6, y + 5, SMALL_PICTURE)
         left = x + SMALL_PICTURE + 18
-        theme.text(
-            surface, f"{index + 1}  {entry.title}", left, y + 12, size=13, bold=True, width=w - SMALL_PICTURE - 70
-        )
+        room = w - SMALL_PICTURE - 24
+        theme.text(surface, f"{index + 1}  {entry.title}", left, y + 12, size=13, bold=True, width=room - 46)
         mark = self.marks.get(entry.digest)
         all_gold_and_medal(surface, theme, entry, mark, x + w - 14, y + 19)
         played = self.player.statistics.played(entry.digest)
         colour = theme.palette.good if mark else theme.palette.faint
-        room = w - SMALL_PICTURE - 24
         theme.text(surface, self.player.reached(entry, mark), left, y + 32, size=11, colour=colour, width=room)
         following = next_par(entry.pars, mark) if entry.pars and mark else ""
         theme.text(surface, following, left, y + 48, size=10, width=room)

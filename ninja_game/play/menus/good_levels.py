@@ -32,12 +32,10 @@ class GoodLevel(NamedTuple):
 
     @property
     def texts(self) -> list[str]:
-        """All that is said, the notes with their numbers."""
         return [self.about, *(f"{number}  {text}" for number, (_, _, text) in enumerate(self.notes, 1))]
 
 
 def read_good_levels() -> list[GoodLevel]:
-    """Those of the bundled file, with the game's levels."""
     tables = tomllib.loads((data_folder("assets") / FILE).read_text("utf-8"))["level"]
     files = [data_folder("levels") / f"{each['file']}.txt" for each in tables]
     entries = [Entry(load_levels(file)[0], "game") for file in files]
@@ -72,7 +70,6 @@ class GoodLevelsScreen(ThumbnailScreen):
         self._edit(self.level.entry)
 
     def draw_frame(self, surface: pygame.Surface) -> None:
-        """The level with numbers at the places, and the texts below."""
         super().draw_frame(surface)
         theme, palette, (left, top, width, height) = self.theme, self.theme.palette, PICTURE
         self.thumbnails.draw(surface, self.level.entry, left, top, width)

@@ -13,11 +13,10 @@ from ninja_game import __version__
 from ninja_game.errors import LevelError
 from ninja_game.files.user_folder import data_folder
 from ninja_game.play.app import App
-from ninja_game.play.clock import RunClock
 from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.replay.playback import Playback
+from ninja_game.play.replay.playback import Playback, RunClock
 from ninja_game.play.rooms import room_level, strokes
-from ninja_game.play.workspace.commands import Command, key_text
+from ninja_game.play.workspace import Command, key_text
 from ninja_game.sim.level import Level
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
@@ -146,7 +145,6 @@ class HelpScreen(MenuScreen):
 
     @property
     def page(self) -> Page | None:
-        """The selected page; None for the table of keys."""
         return self.demonstration.page if self.demonstration else None
 
     def update(self, real_ms: int) -> None:
@@ -182,7 +180,6 @@ class HelpScreen(MenuScreen):
         theme.text(surface, self.topics[index], x + 8, y + 7, size=11.5, bold=chosen, width=w - 10, height=high)
 
     def _draw_keys_pressed(self, surface: pygame.Surface, keys: int) -> pygame.Rect:
-        """The three keys of a demonstration, lit while they are down."""
         canvas, theme, palette = self.app.canvas, self.app.theme, self.app.theme.palette
         x, y, w, h = WINDOW
         row = canvas.rect(x, y + h + 10, w, 32)
@@ -208,7 +205,6 @@ class HelpScreen(MenuScreen):
             theme.text(surface, text, x + left, y + 34, size=10.5, colour=theme.palette.faint)
 
     def _draw_action(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
-        """What an action is called, and all that it is bound to now."""
         x, y, w, h = area
         action = list(ACTIONS)[index]
         texts = (ACTIONS[action].label, *self.app.controls.all_names(action))
@@ -252,7 +248,6 @@ class Demonstration:
             self.view.on_tick()
 
     def draw(self, surface: pygame.Surface) -> pygame.Rect:
-        """Draw the stage on the sheet, and show the part of it that matters; the px it covers."""
         canvas = self.app.canvas
         if self._sheet is None or self._canvas is not canvas:
             self._sheet, self._canvas, self._whole = pygame.Surface(surface.get_size()), canvas, True

@@ -15,19 +15,16 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App, Screen
-from ninja_game.play.clock import RunClock
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.help import HelpScreen
-from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.panels import Action, Question
-from ninja_game.play.menus.records import RecordsScreen
-from ninja_game.play.menus.replays import ReplaysScreen
+from ninja_game.play.menus.menu_screen import Action, MenuScreen, Question
+from ninja_game.play.menus.replays import RecordsScreen, ReplaysScreen
 from ninja_game.play.menus.settings import SettingsScreen
-from ninja_game.play.replay.playback import Playback
+from ninja_game.play.replay.playback import Playback, RunClock
 from ninja_game.play.window import LOGO
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import EpisodeRun, next_run
@@ -69,7 +66,6 @@ class MainMenu(MenuScreen):
         return self.app.menu_theme
 
     def enter(self) -> None:
-        """Look where play goes on, and whether a level waits that was not saved."""
         found = next(recovered(self.player.folder), None)
         self._lost = f"Not saved last time: {shown_text(found.draft.name, 40)}" if found else ""
         self.run = next_run(self.player, practice_mode=self.player.settings.practice)
@@ -80,7 +76,6 @@ class MainMenu(MenuScreen):
         return self.player.statistics.played().attempts > 0
 
     def _where(self) -> str:
-        """With which level play goes on."""
         if self.run is None:
             return "There are no levels"
         return f"{'Go on with' if self.begun else 'Begin with'} {shown_text(self.run.entry.named.name)}"
@@ -108,8 +103,6 @@ class MainMenu(MenuScreen):
         ]
 
     def _browser(self, app: App) -> Browser:
-        """The levels, which can be opened in the editor from there."""
-
         def edit(entry: Entry, finding: Finding | None = None) -> None:
             screen = EditorScreen(app, offers_recovered=False)
             app.push(screen)
@@ -166,7 +159,6 @@ class MainMenu(MenuScreen):
         return None if changed is None else changed + written
 
     def _draw_title(self, surface: pygame.Surface) -> None:
-        """The name, over a headband whose ends fly."""
         theme, (x, y, w, _) = self.theme, PANEL
         for part in BAND:
             corners = [(x + across, y + down) for across, down in part]
@@ -200,7 +192,6 @@ class Attract:
         self.name = ""
 
     def _shuffled(self) -> Iterator[Callable[[], Recording]]:
-        """Readers of all recordings, again and again, each round in another order."""
         while True:
             files = bundled_replays()
             self._rng.shuffle(files)
@@ -245,7 +236,6 @@ class Attract:
                 self._until = 0
 
     def draw(self, surface: pygame.Surface, *, whole: bool = False) -> list[pygame.Rect] | None:
-        """Draw the replay as it is now; the px that changed, None for all."""
         if self.view is None:
             surface.fill(self.app.theme.palette.background)
             return None

@@ -1,24 +1,21 @@
-"""A screen of widgets: focus by keyboard, gamepad and mouse; the same frame around all menus."""
+"""Screens of widgets: focus by keyboard, gamepad and mouse; the frame around all menus; panels over other screens."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Sequence
 
 import pygame
 
 from ninja_game.play.app import CALM, App, Screen
+from ninja_game.player.player_data import PlayerData
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.input.keys import HeldKey, scancode_of
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.scenery import lay_ground
 from ninja_game.ui.text_entry import TextEntry
-from ninja_game.ui.theme import Area, inside
-from ninja_game.ui.widgets import Widget
-
-if TYPE_CHECKING:
-    from ninja_game.player.player_data import PlayerData
+from ninja_game.ui.theme import Area, Theme, inside, wrapped
+from ninja_game.ui.widgets import Button, Widget
 
 FIRST_REPEAT_MS, REPEAT_MS, TEXT_REPEAT_MS = 350, 70, 40
 """A direction that is held repeats, or a key in a text: when first, and then how often."""
@@ -90,8 +87,6 @@ class MenuScreen(Screen):
         """What a widget shows has changed, or which one has the focus."""
         self.redraw = True
 
-    # --- input ---
-
     def capture(self, event: InputEvent) -> bool:
         """While a text is typed, a key is a letter before it is anything else; Tab leads to the next widget.
 
@@ -146,7 +141,6 @@ class MenuScreen(Screen):
         self.close()
 
     def close(self) -> None:
-        """Go to the screen below."""
         self.app.pop()
 
     def chime(self, name: str) -> None:
@@ -159,7 +153,6 @@ class MenuScreen(Screen):
             self.widgets_changed()
 
     def _next(self, step: int = 1) -> None:
-        """The focus goes to the next widget in their order, or to the one before."""
         able = [widget for widget in self.widgets if widget.focusable]
         if able:
             place = able.index(self.focus) if self.focus in able else -1
@@ -223,10 +216,7 @@ class MenuScreen(Screen):
     def _at(self, x: float, y: float) -> Widget | None:
         return next((widget for widget in self.widgets if widget.focusable and widget.contains(x, y)), None)
 
-    # --- time and picture ---
-
     def update(self, real_ms: int) -> None:
-        """Repeat a direction, or a key in a text, that is held."""
         for typed in self._typed.due(real_ms):
             if self.focus is not None and self.focus.text_event(typed):
                 self.widgets_changed()
@@ -240,7 +230,6 @@ class MenuScreen(Screen):
         self._dragged = None
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
-        """All of it, if anything has changed."""
         if not self.redraw:
             return []
         self.draw_frame(surface)
@@ -248,7 +237,6 @@ class MenuScreen(Screen):
         return None
 
     def draw_frame(self, surface: pygame.Surface) -> None:
-        """The background: a room in the stage's colours, the title above, the hint below."""
         theme, canvas, palette = self.theme, self.theme.canvas, self.theme.palette
         surface.fill(palette.tile)
         lay_ground(surface, palette, canvas.stage, canvas.rect(24, 52, WIDTH - 48, HEIGHT - 52 - 36))
@@ -284,3 +272,153 @@ def _aside(start: Widget, goal: Widget, dx: int) -> float:
     low, high = start.area[side], start.area[side] + start.area[side + 2]
     other_low, other_high = goal.area[side], goal.area[side] + goal.area[side + 2]
     return max(0.0, other_low - high, low - other_high)
+
+
+PANEL_WIDTH = 300
+ROW = 40
+
+Action = Callable[[], object]
+Row = tuple[str, Action | None, str]
+"""Text, action, hint; without an action it is seen, but cannot be chosen: the hint says why."""
+
+
+def nothing() -> None:
+    """The action of a button that does nothing but close; what is done behind saving, as a rule."""
+
+
+CANCEL: Row = ("Cancel", nothing, "")
+
+
+class Panel(MenuScreen):
+    see_through = True
+    offers_back = False
+
+    def __init__(self, app: App, title: str) -> None:
+        super().__init__(app)
+        self.title = title
+        self._mood = app.mood
+
+    @property
+    def mood(self) -> int:
+        """That of the screen below, which is seen; the panel itself looks like all menus."""
+        return self._mood
+
+    @property
+    def theme(self) -> Theme:
+        return self.app.menu_theme
+
+    def rows(self) -> list[Row]:
+        raise NotImplementedError
+
+    @property
+    def _box(self) -> tuple[float, float, float, float]:
+        height = 64 + ROW * len(self.rows())
+        return (WIDTH - PANEL_WIDTH) / 2, (HEIGHT - height) / 2, PANEL_WIDTH, height
+
+    def build(self) -> Sequence[Widget]:
+        x, y, w, _ = self._box
+        return [
+            Button((x + 30, y + 48 + ROW * k, w - 60, 32), text, action, hint=hint, size=12)
+            for k, (text, action, hint) in enumerate(self.rows())
+        ]
+
+    def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
+        if not self.redraw:
+            return []
+        canvas, theme, palette = self.app.canvas, self.theme, self.theme.palette
+        veil = pygame.Color(palette.tile.r, palette.tile.g, palette.tile.b, 130)
+        (left, top), (right, bottom) = canvas.logical((0, 0)), canvas.logical(canvas.window)
+        canvas.fill_rect(surface, veil, left, top, right - left, bottom - top)
+        x, y, w, h = self._box
+        theme.window(surface, x, y, w, h)
+        if theme.width(self.title, 17, bold=True) < w - 24:
+            theme.text(surface, self.title, x + w / 2, y + 17, size=17, align="centre", bold=True)
+        else:
+            lines = wrapped(theme, self.title, w - 40, 12)
+            for line, text in enumerate([*lines[:1], " ".join(lines[1:])]):
+                top = y + (10 if len(lines) > 1 else 17) + 16 * line
+                theme.text(surface, text, x + w / 2, top, size=12, align="centre", bold=True, width=w - 24)
+        hint = self.focus.hint if self.focus is not None else ""
+        theme.text(surface, hint, x + w / 2, y + h - 17, size=9.5, colour=palette.faint, align="centre", width=w - 16)
+        self.draw_widgets(surface)
+        return None
+
+
+class Menu(Panel):
+    """Some actions; each of them closes the panel first. ``then``: done when it is left by the key for back."""
+
+    def __init__(self, app: App, title: str, rows: Sequence[Row], then: Action = nothing) -> None:
+        super().__init__(app, title)
+        self._then = then
+        self._rows: list[Row] = [(text, action and self._closing(action), hint) for text, action, hint in rows]
+
+    def back(self) -> None:
+        super().back()
+        self._then()
+
+    def _closing(self, action: Callable[[], object]) -> Callable[[], object]:
+        def close_and_do() -> None:
+            self.app.pop()
+            action()
+
+        return close_and_do
+
+    def rows(self) -> list[Row]:
+        return self._rows
+
+
+class Question(Menu):
+    """Asks before something is done that cannot be undone. No first, and up stays there: a hasty key does no harm."""
+
+    wraps = False
+
+    def __init__(self, app: App, title: str, yes: str, action: Callable[[], object]) -> None:
+        super().__init__(app, title, [CANCEL, (yes, action, "")])
+
+
+class FormPanel(Menu):
+    """Fields to fill in above two buttons. ``fields``: prompt, text, how many characters fit in.
+
+    The text of a single field is a proposal.
+    """
+
+    def __init__(
+        self, app: App, title: str, fields: Sequence[tuple[str, str, int]], yes: str,
+        action: Callable[[list[str]], object],
+    ) -> None:  # fmt: skip
+        self.texts = [text for _, text, _ in fields]
+        self._fields = fields
+        super().__init__(app, title, [(yes, lambda: action(self.texts), ""), CANCEL])
+
+    def rows(self) -> list[Row]:
+        """The buttons, below as many empty rows as there are fields."""
+        return [("", nothing, "")] * len(self._fields) + self._rows
+
+    def build(self) -> Sequence[Widget]:
+        x, y, w, _ = self._box
+        alone = len(self._fields) == 1
+        places = [(x + 30, y + 48 + ROW * k, w - 60, 30) for k in range(len(self._fields))]
+        entries = [
+            TextEntry(places[k], prompt, text, self._taker(k), longest=longest, proposed=alone)
+            for k, (prompt, text, longest) in enumerate(self._fields)
+        ]
+        return [*entries, *list(super().build())[len(entries) :]]
+
+    def act(self, action: str, *, held: bool = False) -> None:
+        if action == "confirm" and isinstance(self.focus, TextEntry):
+            self.widgets[len(self._fields)].confirm()
+        else:
+            super().act(action, held=held)
+
+    def _taker(self, place: int) -> Callable[[str], None]:
+        def take(text: str) -> None:
+            self.texts[place] = text
+
+        return take
+
+
+def ask_text(
+    app: App, title: str, prompt: str, text: str, yes: str, action: Callable[[str], object], longest: int = 100
+) -> None:
+    """Ask for one text, at most ``longest`` characters, and do something with it."""
+    app.push(FormPanel(app, title, [(prompt, text, longest)], yes, lambda texts: action(texts[0])))

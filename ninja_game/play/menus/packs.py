@@ -12,7 +12,7 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.editor import packs
-from ninja_game.editor.packing import Obstacles, ReadyPack, make_ready, obstacle_of, problems_of
+from ninja_game.editor.packs import Obstacles, ReadyPack, make_ready, obstacle_of, problems_of
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.writing import write_atomically
@@ -27,7 +27,7 @@ from ninja_game.levels.warnings import level_findings
 from ninja_game.play.app import WARNING_MS, App
 from ninja_game.play.clipboard import copy_link, pasted_text
 from ninja_game.play.level.screen import play_level
-from ninja_game.play.menus.panels import CANCEL, FormPanel, Menu, Question, Row
+from ninja_game.play.menus.menu_screen import CANCEL, FormPanel, Menu, Question, Row, ask_text
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
@@ -41,7 +41,6 @@ from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Choice, Widget, draw_all_gold
 
 WIDE, HIGH = 93, 106
-"""Size of a cell, px."""
 
 SECONDS = 20.0
 """For each search of a run."""
@@ -116,7 +115,6 @@ class Rack(ListView):
             self.choose(self.index)
 
     def at(self, x: float, y: float) -> int | None:
-        """The cell at a point of the list."""
         return self._index_at(x, y) if self.contains(x, y) else None
 
 
@@ -154,18 +152,15 @@ class PackScreen(ThumbnailScreen):
 
     @property
     def path(self) -> Path:
-        """The folder of the pack on the shelves."""
         return (self.pack and self.pack.path) or self.folder
 
     @property
     def folder(self) -> Path:
-        """That of the player's levels."""
         return self.player.folder / "levels"
 
     # --- what there is ---
 
     def _read(self, shown: Path | None = None) -> None:
-        """All packs as they are now; this one on the shelves, or the one before."""
         before, catalogue = shown or self.path, self.player.catalogue
         catalogue.problems.clear()
         self.sets = catalogue.packs()
@@ -173,7 +168,6 @@ class PackScreen(ThumbnailScreen):
         self._show(next((each for each in self.mine if each.path == before), None))
 
     def _show(self, pack: EpisodeSet | None) -> None:
-        """Put a pack on the shelves, else the first one."""
         self.pack = pack = pack or next(iter(self.mine), None)
         self.cells = []
         self.states.clear()
@@ -238,9 +232,7 @@ class PackScreen(ThumbnailScreen):
         self.app.top.enter()
 
     def ask(self, title: str, text: str, action: Callable[[str], object]) -> None:
-        """Do something with a text that is typed."""
-        fields = [("", text, 60)]
-        self.app.push(FormPanel(self.app, title, fields, "OK", lambda texts: self.do(lambda: action(texts[0]))))
+        ask_text(self.app, title, "", text, "OK", lambda typed: self.do(lambda: action(typed)), 60)
 
     def _new_pack(self) -> None:
         def make(name: str) -> None:
@@ -251,8 +243,6 @@ class PackScreen(ThumbnailScreen):
         self.ask("Name of the pack", "My pack", make)
 
     def _paste(self) -> None:
-        """Make the pack whose link is in the clipboard one of the player's."""
-
         def take() -> None:
             text = pasted_text()
             if link_kind(text) != "pack":
@@ -267,7 +257,6 @@ class PackScreen(ThumbnailScreen):
         self.do(take)
 
     def handle(self, event: InputEvent) -> None:
-        """Ctrl+V takes a pack in."""
         if event.raw.type == pygame.KEYDOWN and chord(event.raw) == "ctrl+v":
             self._paste()
         else:
@@ -303,7 +292,6 @@ class PackScreen(ThumbnailScreen):
         self.app.push(Menu(self.app, index.name, rows))
 
     def _delete(self) -> None:
-        """Move the pack away, if that is meant."""
         name, path = self.pack.name if self.pack else "", self.path
 
         def delete() -> None:
@@ -330,7 +318,6 @@ class PackScreen(ThumbnailScreen):
             self._level_menu(self.side[index])
 
     def _column(self) -> int:
-        """The last column that has episodes."""
         return max((cell.episode.number for cell in self.cells if cell.episode), default=0) // EPISODES_PER_COLUMN
 
     def _level_menu(self, cell: Cell) -> None:
@@ -408,14 +395,12 @@ class PackScreen(ThumbnailScreen):
         self.app.notify("Choose its new place; Enter or a click puts it there, Esc leaves it where it is")
 
     def back(self) -> None:
-        """First give up what is being moved."""
         if self.held:
             self.held = self.pointer = None
         else:
             super().back()
 
     def _drop(self, goal: Cell | None) -> None:
-        """Put what is held on a place of the shelves, or beside them (None)."""
         held, self.held, self.pointer = self.held, None, None
         if held and held.level:
             self.do(partial(self._put_level, held.level, goal))
@@ -464,7 +449,6 @@ class PackScreen(ThumbnailScreen):
         return checked.findings if checked and self.pack and checked.pack is self.pack.pack else None
 
     def problems(self) -> list[Problem]:
-        """What is odd about the pack, then what is accepted."""
         pack = self.pack.pack if self.pack else None
         if pack is None:
             return []
@@ -473,7 +457,6 @@ class PackScreen(ThumbnailScreen):
         return [*(self._problem(pack, each) for each in self.findings or ()), *map(self._accepted, pack.index.accepted)]
 
     def _entry(self, file: str) -> Entry | None:
-        """The pack's level in a file."""
         levels = self.pack.levels if self.pack else []
         return next((each for each in levels if each.named.file == str(self.path / file)), None)
 
@@ -546,7 +529,6 @@ class PackScreen(ThumbnailScreen):
             self._checked, self.redraw = self._checks.result, True
 
     def _share(self, ready: ReadyPack) -> None:
-        """Write the zip, and put the link into the clipboard."""
         name = ready.pack.name
         self.app.write_export(name, ".zip", lambda path: write_atomically(path, ready.zipped))
         saved, codes = self.app.notice, dict.fromkeys(each.code.replace("-", " ") for each in ready.findings)
@@ -575,7 +557,6 @@ class PackScreen(ThumbnailScreen):
         theme.text(surface, self.status or self._counts(), 36, 530, size=10, colour=faint, width=720)
 
     def _counts(self) -> str:
-        """What the pack holds."""
         if self.pack is None:
             return ""
         levels, found = self.pack.levels, self.findings
@@ -590,7 +571,6 @@ class PackScreen(ThumbnailScreen):
         return f"{where}; {to_do}; {open_ones}" if levels else where
 
     def draw_widgets(self, surface: pygame.Surface) -> None:
-        """What the mouse takes along lies over all."""
         super().draw_widgets(surface)
         if self.held and self.pointer:
             x, y = self.pointer
@@ -600,7 +580,6 @@ class PackScreen(ThumbnailScreen):
                 self.theme.row(surface, (x + 6, y + 6, 2 * WIDE, HIGH / 4), chosen=True, focused=True)
 
     def draw_cell(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
-        """A level with what is known about it, an episode's name, or a free place."""
         rack = self.tray if area[0] >= self.tray.area[0] else self.shelves
         cell = (self.side if rack is self.tray else self.cells)[index]
         x, y, w, h = area

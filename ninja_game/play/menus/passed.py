@@ -16,10 +16,10 @@ from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal
 from ninja_game.player.catalogue import Episode
-from ninja_game.player.marks import Mark, worst_medal
+from ninja_game.player.player_data import EPISODE_BEST, OF_A_LEVEL
 from ninja_game.player.playthrough import EpisodeRun
+from ninja_game.player.progress import Mark, worst_medal
 from ninja_game.player.records import EpisodeBest
-from ninja_game.player.saving import EPISODE_BEST, OF_A_LEVEL
 from ninja_game.sim.rules import TICK_MS
 from ninja_game.ui.canvas import WIDTH
 from ninja_game.ui.widgets import Button, Widget, draw_stamp
@@ -60,7 +60,6 @@ class EpisodePassed(ThumbnailScreen):
 
     @property
     def _marks_end(self) -> int:
-        """The tick in which all levels have shown their marks."""
         return LEVEL_TICKS * len(self.run.episode.levels)
 
     def update(self, real_ms: int) -> None:
@@ -152,7 +151,6 @@ class EpisodePassed(ThumbnailScreen):
             self.thumbnails.draw(surface, following.levels[0], 170, 435, 58)
 
     def _draw_score(self, surface: pygame.Surface) -> None:
-        """The score between its medal and what it is worth; below it what the episode has brought."""
         theme, palette, run = self.app.theme, self.app.theme.palette, self.run
         score = f"{seconds_text(run.score)} s left"
         half = theme.width(score, 44, bold=True) / 2

@@ -73,7 +73,6 @@ class ProblemsScreen(MenuScreen):
             self.selected.accept()
 
     def draw_frame(self, surface: pygame.Surface) -> None:
-        """The selected one below the list, whole."""
         super().draw_frame(surface)
         theme, problem = self.theme, self.selected
         theme.panel(surface, 44, 418, 704, 104)
@@ -92,7 +91,6 @@ class ProblemsScreen(MenuScreen):
 
 
 def of_files(texts: Sequence[str]) -> list[Problem]:
-    """Problems of files that only a text editor can mend."""
     return [Problem(text, "Mend the file as the message says, or take it out of the folder.") for text in texts]
 
 

@@ -11,7 +11,7 @@ import pygame
 from ninja_game.files.user_folder import LEVELS
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.play.app import App, Screen
-from ninja_game.play.menus.panels import CANCEL, Menu, Row
+from ninja_game.play.menus.menu_screen import CANCEL, Menu, Row
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
 from ninja_game.player.progress import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
 from ninja_game.player.settings import BY_COLUMN, GHOSTS
@@ -41,7 +41,6 @@ def clash(first: str, second: str) -> bool:
 
 
 def input_label(device: str, name: str) -> str:
-    """What an input is called. ``device``: "keys" or "pad"."""
     return key_label(name) if device == "keys" else pad_label(name)
 
 
@@ -57,7 +56,6 @@ class Capture(Screen):
         self.slot = slot
 
     def capture(self, event: InputEvent) -> bool:
-        """Take the press, whatever it means elsewhere."""
         if event.raw.type == pygame.MOUSEBUTTONDOWN:
             self.app.pop()
             return True
@@ -90,7 +88,6 @@ LABEL_SHARE = 0.34
 
 
 def binding_widgets(screen: SettingsScreen, device: str) -> list[Widget]:
-    """The widgets of a page. ``device``: "keys" or "pad"."""
     actions = [name for name in ACTIONS if device == "keys" or ACTIONS[name].pad or name in ("quit", "skip", "boss")]
     # The same one again after a press was taken, so that the selection stays.
     table = screen.tables.setdefault(device, BindingTable(screen, device, actions))
@@ -136,7 +133,6 @@ class BindingTable(ListView):
         self.screen.change(**{self.device: changed})
 
     def nudge(self, action: str) -> bool:
-        """Left and right within the row, Delete."""
         if action in ("left", "right"):
             slot = self.slot + (1 if action == "right" else -1)
             if not 0 <= slot < self.slots:
@@ -198,10 +194,8 @@ class BindingTable(ListView):
         _, y, _, h = area
         action = self.actions[index]
         top = y + (h - TEXT) / 2
-        theme.text(
-            surface, ACTIONS[action].label, area[0] + 2, top, size=TEXT, bold=focused, width=LIST[2] * LABEL_SHARE - 8
-        )
         left, width = self._cells()
+        theme.text(surface, ACTIONS[action].label, area[0] + 2, top, size=TEXT, bold=focused, width=left - area[0] - 8)
         inputs = self.inputs(action)
         for slot in range(self.slots):
             x = left + slot * width
@@ -225,8 +219,6 @@ WIDTH_OF_ROW = WIDTH - 36 - LEFT - 12
 
 
 class SettingsScreen(ThumbnailScreen):
-    """Pages at the left, the widgets of the chosen one at the right."""
-
     title = "Settings"
     music = ""
 
@@ -262,8 +254,6 @@ class SettingsScreen(ThumbnailScreen):
             return binding_widgets(self, "keys" if self.page == "Keyboard" else "pad")
         pages = {"Picture": self._picture, "Sound": self._sound, "Play": self._play}
         return pages.get(self.page, self._accessibility)()
-
-    # --- changing ---
 
     def change(self, **values: object) -> None:
         self.app.change_settings(**values)
@@ -355,8 +345,6 @@ class SettingsScreen(ThumbnailScreen):
             self._slider(7, "Screen shake", "shake", (0, 100, 5)),
             self._slider(8, "Particles", "particles", (0, 100, 5)),
         ]  # fmt: skip
-
-    # --- picture ---
 
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)

@@ -12,8 +12,8 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.marks import Mark, has_all_gold, medal_of
-from ninja_game.player.statistics import Played
+from ninja_game.player.progress import Mark, has_all_gold, medal_of
+from ninja_game.player.records import Played
 from ninja_game.ui.audio.music import MENU
 from ninja_game.ui.theme import Theme
 from ninja_game.ui.widgets import MEDALS, draw_all_gold, draw_medal
@@ -59,7 +59,6 @@ class Thumbnails:
         return made
 
     def draw(self, surface: pygame.Surface, entry: Entry, x: float, y: float, width: float) -> None:
-        """Show a level's picture, or an empty room in its colours until it is made."""
         canvas, palette = self.app.canvas, self.app.theme.palette
         picture = self.get(entry, width)
         height = width * 25 / 33
@@ -73,8 +72,6 @@ class Thumbnails:
 
 
 class ThumbnailScreen(MenuScreen):
-    """A menu that shows pictures of levels."""
-
     music = MENU
 
     def __init__(self, app: App) -> None:
@@ -98,7 +95,6 @@ def all_gold_and_medal(
 
 
 def tries_text(played: Played) -> str:
-    """How often a level was tried, and how often the ninja died in it."""
     return f"{counted(played.attempts, 'try', 'tries')}, {counted(played.deaths, 'death', 'deaths')}"
 
 
@@ -115,7 +111,6 @@ def draw_pars(surface: pygame.Surface, theme: Theme, pars: Pars | None, tick: in
 
 
 def where_from(entry: Entry) -> str:
-    """Where a level comes from, and how hard it is."""
     pack = shown_text(entry.source) if entry.source not in {"game", "yours"} else ""
     place = entry.place or ("Your folder" if entry.source == "yours" else "")
     return "    ".join(filter(None, (pack, place, entry.pars.grade if entry.pars else "")))

@@ -71,13 +71,11 @@ class Film:
 
     @property
     def whole_size(self) -> tuple[int, int]:
-        """Px: two pictures stand side by side, more in two lines."""
         beside, (w, h) = len(self.beside), self.size
         return w * min(2, 1 + beside), h * (1 + beside // 2)
 
     @property
     def length(self) -> int:
-        """How many pictures it has, with those of the films that follow."""
         return len(self.moments) + (self.then.length if self.then else 0)
 
     @cached_property
@@ -145,7 +143,6 @@ class _Panel:
         self.time = world.tick if world.outcome == "running" else self.time
 
     def draw(self, surface: pygame.Surface, *, whole: bool) -> None:
-        """Title, or in an episode the time left; time and the last split below; the keys."""
         self.view.draw(surface, 1.0, whole=whole)
         hud, run, world = self.hud, self.run, self.playback.simulation
         if run.episode:
@@ -169,9 +166,7 @@ class _Panel:
 def _called(runs: Sequence[Recording]) -> list[str]:
     """Whose run each is, in a word; of those by one name the file."""
     names = [run.author or run.name for run in runs]
-    return [
-        (run.place if names.count(name) > 1 and run.place else name)[:20] for run, name in zip(runs, names, strict=True)
-    ]
+    return [(run.place or name if names.count(name) > 1 else name)[:20] for run, name in zip(runs, names, strict=True)]
 
 
 def told_splits(own: RunSplits, others: Sequence[RunSplits]) -> list[tuple[int, str]]:
@@ -365,7 +360,6 @@ class FilmJob:
         self._thread = run_in_background(self._make, self._fail)
 
     def cancel(self) -> None:
-        """Give up, and wait until it is given up."""
         self._wanted = False
         if self._thread.is_alive():
             self._thread.join(5)

@@ -51,7 +51,6 @@ def draw_path(
 
 
 def _draw_speeds(surface: pygame.Surface, theme: Theme, paths: Sequence[Path]) -> None:
-    """The plot, with its axes and the names of the runs."""
     canvas, faint = theme.canvas, theme.palette.faint
     speeds = [np.hypot(*np.diff(positions, axis=0).T) for _, positions in paths]
     seconds = max(1.0, *(len(positions) / TICKS_PER_SECOND for _, positions in paths))

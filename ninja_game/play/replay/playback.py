@@ -1,4 +1,4 @@
-"""Recorded inputs played on a level: tick by tick, or to any of their moments; and as ghosts, beside another run."""
+"""Recorded inputs played on a level, tick by tick or to any of their moments; as ghosts; and real time as ticks."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from ninja_game.budget import TURN_WORK, tick_cost
 from ninja_game.runs.save_states import SPACING, SaveStates
 from ninja_game.sim.inputs import MAX_TICKS
 from ninja_game.sim.level import Level
+from ninja_game.sim.rules import TICK_MS
 from ninja_game.sim.states import CELEBRATING, DEAD
 from ninja_game.simulation import Body, SaveState, Simulation
 from ninja_game.ui.canvas import Point
@@ -25,13 +26,9 @@ class Playback:
     """
 
     def __init__(
-        self,
-        simulation: Simulation,
-        inputs: bytes | bytearray,
-        *,
-        spacing: int = SPACING,
-        states: SaveStates[SaveState] | None = None,
-    ) -> None:
+        self, simulation: Simulation, inputs: bytes | bytearray, *,
+        spacing: int = SPACING, states: SaveStates[SaveState] | None = None,
+    ) -> None:  # fmt: skip
         self.simulation = simulation
         self.inputs = inputs
         # A save-state holds the inputs that led to it too, a byte each.
@@ -40,7 +37,6 @@ class Playback:
 
     @property
     def tick(self) -> int:
-        """How many ticks have been played."""
         return self.simulation.tick
 
     def keys_at(self, tick: int) -> int:
@@ -164,3 +160,38 @@ class Ghost:
 
     def colour(self, palette: Palette) -> pygame.Color:
         return self.shade or palette.ghost
+
+
+LONGEST_MS = 2000
+"""More than this in one picture is a stall: it counts as one tick and is not caught up."""
+
+
+class RunClock:
+    """Counts real time and says how many ticks are due; the remainder is kept.
+
+    >>> clock = RunClock()
+    >>> [clock.ticks_due(ms) for ms in (24, 1, 60, 5000)]
+    [0, 1, 2, 1]
+    """
+
+    def __init__(self) -> None:
+        self.remainder = 0
+        self.tick_ms = TICK_MS
+
+    def reset(self) -> None:
+        """Start afresh: when play starts, on unpausing, on starting a replay."""
+        self.remainder = 0
+
+    def ticks_due(self, real_ms: int, tick_ms: int = TICK_MS) -> int:
+        """How many ticks to run now that ``real_ms`` have passed; ``tick_ms``: real ms a tick."""
+        self.tick_ms = tick_ms
+        time = real_ms + self.remainder
+        if time > LONGEST_MS:
+            time = tick_ms
+        due, self.remainder = divmod(time, tick_ms)
+        return due
+
+    @property
+    def fraction(self) -> float:
+        """How much of the next tick has passed, 0…1: where between two ticks to draw."""
+        return min(1.0, self.remainder / self.tick_ms)

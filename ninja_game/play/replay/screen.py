@@ -15,9 +15,8 @@ from ninja_game.formats.replay.text import Replay
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App, Screen
 from ninja_game.play.clipboard import copy_link
-from ninja_game.play.clock import RunClock
 from ninja_game.play.level.hud import Hud
-from ninja_game.play.replay.playback import Ghost, Playback
+from ninja_game.play.replay.playback import Ghost, Playback, RunClock
 from ninja_game.sim.rules import TICK_MS, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
@@ -61,7 +60,6 @@ class ReplayScreen(Screen):
 
     @property
     def mood(self) -> int:
-        """That of the run's level."""
         return super().mood if self._mood is None else self._mood
 
     def show(self, index: int) -> None:
@@ -103,7 +101,6 @@ class ReplayScreen(Screen):
 
     @property
     def tick(self) -> int:
-        """The moment shown: after this many ticks."""
         return self.playback.simulation.tick
 
     @property
@@ -114,7 +111,6 @@ class ReplayScreen(Screen):
     # --- moving in time ---
 
     def _look_ahead(self, ticks: int) -> None:
-        """Look for the end of the run for this many ticks."""
         end = self._scout.find_end(ticks) if self._scout else None
         if self._scout and end is not None:
             self.end, self.outcome, self.length = end, self._scout.simulation.outcome, end + SHOWN_AFTER_END
@@ -135,7 +131,6 @@ class ReplayScreen(Screen):
         self._go_on()
 
     def _go_on(self) -> None:
-        """Go on towards the moment sought."""
         if self._way is None or not self._left:
             return
         start, tick = self._way
@@ -187,7 +182,6 @@ class ReplayScreen(Screen):
         return bool(late)
 
     def _play(self, real_ms: int) -> None:
-        """Play the ticks that are due, and no more than the work of a turn."""
         if self.paused or self.bar.dragging:
             return
         if self.still_ms > 0:
@@ -241,7 +235,6 @@ class ReplayScreen(Screen):
         self.redraw = True
 
     def step(self, ticks: int) -> None:
-        """A tick back or on, and stop."""
         self.paused = True
         self.app.audio_output.quiet()
         self.seek(self.tick + ticks)
@@ -255,7 +248,6 @@ class ReplayScreen(Screen):
         self.app.change_settings(show_ghost=not self.app.settings.show_ghost)
 
     def start_export(self) -> None:
-        """Make a film of this run among the player's exports."""
         if self.export is None:
             from ninja_game.play.replay.film import FilmJob  # few replays are filmed
 
@@ -326,7 +318,6 @@ class ReplayBar:
         self.dragging = False
 
     def handle(self, event: pygame.Event, canvas: Canvas, length: int) -> int | None:
-        """The tick that the mouse asks for; None if it asks for none."""
         if event.type == pygame.MOUSEBUTTONUP:
             self.dragging = False
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button == 1:
@@ -341,7 +332,6 @@ class ReplayBar:
 
     @staticmethod
     def draw(surface: pygame.Surface, theme: Theme, tick: int, end: int, length: int, outcome: str) -> pygame.Rect:
-        """The bar with a mark at the end, coloured by the outcome; its px rectangle."""
         palette, canvas = theme.palette, theme.canvas
         trough = mixed(palette.tile, palette.outline, 0.35)
         rect = canvas.fill_rect(surface, trough, _LEFT, _Y - 2, _WIDTH, 4, 2)
@@ -355,7 +345,6 @@ class ReplayBar:
 
     @staticmethod
     def write(surface: pygame.Surface, theme: Theme, tick: int, end: int, speed: str, *, still: bool) -> pygame.Rect:
-        """Time and speed; the tick too where it stands still."""
         at = min(tick, end)
         text = f"{seconds_text(at)} / {seconds_text(end)} s    {speed}" + f"    tick {at}" * still
         return theme.text(surface, text, 768, 583, size=9, colour=theme.palette.on_tile, align="right")

@@ -14,10 +14,9 @@ from ninja_game.formats.links.fragment import is_link
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App
-from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.panels import FormPanel
+from ninja_game.play.menus.menu_screen import MenuScreen, ask_text
 from ninja_game.play.menus.replays import FILES_SHOWN, ReplayRow, ReplaysScreen
-from ninja_game.play.workspace.part import Commands
+from ninja_game.play.workspace import Commands
 from ninja_game.player.records import SavedReplay
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.files import runs_of_level, same_level, track_of
@@ -32,8 +31,6 @@ NONE_YET = "No other run is open: Ctrl+O opens one"
 
 
 class OtherRuns:
-    """The commands that concern other runs."""
-
     def __init__(self, editor: TasEditor) -> None:
         self.editor = editor
 
@@ -148,16 +145,13 @@ class OtherRunScreen(ReplaysScreen):
         return (level_digest(source.level) if isinstance(source, Recording) else source.level) == self._digest
 
     def handle(self, event: InputEvent) -> None:
-        """Nothing is written or removed here."""
         MenuScreen.handle(self, event)
 
     def act(self, action: str, *, held: bool = False) -> None:
         MenuScreen.act(self, action, held=held)
 
     def _ask(self) -> None:
-        fields = [("path of a file, or a link", "", 200)]
-        form = FormPanel(self.app, "Runs from a file", fields, "Show them", lambda texts: self.open_file(texts[0]))
-        self.app.push(form)
+        ask_text(self.app, "Runs from a file", "path of a file, or a link", "", "Show them", self.open_file, 200)
 
     def open_file(self, text: str) -> None:
         """Show the runs of a file or a link; a file is looked for beside that of the run in the TAS editor too."""
@@ -169,7 +163,6 @@ class OtherRunScreen(ReplaysScreen):
             self.app.pop()
 
     def choose(self, source: SavedReplay | Recording) -> None:
-        """Show it, and go back to the TAS editor."""
         if not isinstance(source, Recording):
             replay = self.player.records.replay(source.id)
             if replay is None or replay.level is None:
@@ -182,7 +175,6 @@ class OtherRunScreen(ReplaysScreen):
 
 
 def _named(row: ReplayRow) -> ReplayRow:
-    """A row that tells a run from others of its level."""
     if not isinstance(row.source, Recording):
         return row
     text = f"{row.source.place}   {row.source.comment}".rstrip()

@@ -11,26 +11,16 @@ import numpy as np
 import pygame
 
 from ninja_game.play.replay.screen import SPEEDS
-from ninja_game.play.workspace.part import Commands
+from ninja_game.play.workspace import Commands
 from ninja_game.sim.kinds import EXIT, KIND_NAMES, SWITCH
 from ninja_game.simulation import ObjectView, Simulation
-from ninja_game.tas_editor.controls import TABLE
+from ninja_game.tas_editor.commands import TABLE
 from ninja_game.tas_editor.editor import TasEditor, TasPart
+from ninja_game.tas_editor.level import paths
 from ninja_game.tas_editor.level.other_runs import OtherRuns
-from ninja_game.tas_editor.level.paths import (
-    BRIGHT_TICKS,
-    FAINT,
-    LETTERS,
-    LevelPaths,
-    Positions,
-    RunPath,
-    first_other_place,
-    shown_span,
-)
 from ninja_game.tas_editor.level.picture import LevelPicture, RunGhost
 from ninja_game.tas_editor.level.playing import Playing, TakeOver
-from ninja_game.tas_editor.tabs.plot import colour_of
-from ninja_game.tas_editor.tabs.values_tab import proposal
+from ninja_game.tas_editor.tabs.values_tab import colour_of, proposal
 from ninja_game.ui.canvas import Point
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.theme import Theme
@@ -50,9 +40,9 @@ _STILL = 3
 Px = tuple[int, int]
 
 
-def nearest_tick(positions: Positions, x: float, y: float, cursor: int, *, dragged: bool = False) -> int:
+def nearest_tick(positions: paths.Positions, x: float, y: float, cursor: int, *, dragged: bool = False) -> int:
     """The tick, of those whose path is shown, after which the ninja was nearest to a place, px of the level."""
-    first, last = shown_span(cursor)
+    first, last = paths.shown_span(cursor)
     shown = positions[first:last] if first < len(positions) else positions
     first = first if first < len(positions) else 0
     far = np.hypot(shown[:, 0] - x, shown[:, 1] - y)
@@ -88,10 +78,10 @@ class LevelPart(TasPart):
         self.hover: int | None = None
         self.pointed: ObjectView | None = None
         self._hovered_run = editor.track
-        self._paths: LevelPaths | None = None
+        self._paths: paths.LevelPaths | None = None
         self._ghosts: dict[object, RunGhost] = {}
         self._known: tuple[object, ...] = ()
-        self._positions: Positions = np.zeros((0, 2))
+        self._positions: paths.Positions = np.zeros((0, 2))
         self._pointer = LevelPointer(self)
         self._followed: Point = (0.0, 0.0)
 
@@ -99,7 +89,8 @@ class LevelPart(TasPart):
         playing, taken = self.playing, self.take_over
         shared: Commands = {
             "faster": lambda: playing.change_speed(1), "slower": lambda: playing.change_speed(-1),
-            "ghosts": self._toggle_ghosts, "whole_level": self.picture.camera.show_all, **self.others.commands(),
+            "ghosts": lambda: setattr(self.editor, "ghosts", not self.editor.ghosts),
+            "whole_level": self.picture.camera.show_all, **self.others.commands(),
             **{name: partial(self.picture.overlays.toggle, name) for name in OVERLAY_ACTIONS},
         }  # fmt: skip
         if taken.on:
@@ -112,18 +103,12 @@ class LevelPart(TasPart):
         }  # fmt: skip
 
     def meaning(self, event: InputEvent) -> str:
-        """The command that an event means; '' for none."""
         return self.take_over.meaning(event) if self.take_over.on else TABLE.meaning(event)
 
     @property
     def ghosts(self) -> list[RunGhost]:
         """Those that were drawn last."""
         return list(self._ghosts.values())
-
-    def _toggle_ghosts(self) -> None:
-        self.editor.ghosts = not self.editor.ghosts
-
-    # --- time ---
 
     def update(self, real_ms: int) -> None:
         self.playing.update(real_ms)
@@ -137,10 +122,7 @@ class LevelPart(TasPart):
         self.playing.remember()
         self.take_over.end()
 
-    # --- keys and mouse ---
-
     def capture(self, event: InputEvent) -> bool:
-        """Take the keys of the game while the run is taken over; Escape ends playing. Whether it did."""
         taken = self.take_over
         if taken.on:
             if event.raw.type == pygame.WINDOWFOCUSLOST:
@@ -156,15 +138,12 @@ class LevelPart(TasPart):
         return True
 
     def point_at(self, tick: int, found: ObjectView | None) -> None:
-        """Show the tick to which a click goes, and an object."""
         self.hover, self.pointed = tick, found
         self._hovered_run = self.editor.track
 
     def mouse_left(self) -> None:
         self.hover = self.pointed = None
         self._pointer.release()
-
-    # --- picture ---
 
     def render_key(self) -> tuple[object, ...]:
         editor, timeline, playing = self.editor, self.editor.session.timeline, self.playing
@@ -179,7 +158,6 @@ class LevelPart(TasPart):
         )  # fmt: skip
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        """The level, the paths of runs, their ghosts, what goes on."""
         editor, picture = self.editor, self.picture
         rect = theme.canvas.rect(*self.area)
         running = self.playing.on or (self.take_over.on and not (self.take_over.still or self.take_over.waiting))
@@ -191,23 +169,23 @@ class LevelPart(TasPart):
         self._follow_ninja(rect.size, fraction)
         whole = picture.fit(rect.size) or whole
         if whole or self._paths is None or self._paths.theme is not theme:
-            self._paths = LevelPaths(theme, picture.canvas)
+            self._paths = paths.LevelPaths(theme, picture.canvas)
         picture.draw(fraction, whole=whole)
         surface.blit(picture.surface, rect)
         inner = surface.subsurface(rect.clip(surface.get_rect()))
-        paths = self._paths
-        paths.draw_beside(inner, others)
-        paths.draw_flags(inner, positions, editor.track.markers)
+        over = self._paths
+        over.draw_beside(inner, others)
+        over.draw_flags(inner, positions, editor.track.markers)
         for ghost in self.ghosts:
             if ghost.label:
-                paths.draw_name(inner, ghost.label, ghost.place(fraction), ghost.colour(theme.palette))
+                over.draw_name(inner, ghost.label, ghost.place(fraction), ghost.colour(theme.palette))
         if len(positions):
-            paths.draw_present(inner, positions, editor.cursor, editor.selection, shown_span(editor.cursor))
+            over.draw_present(inner, positions, editor.cursor, editor.selection, paths.shown_span(editor.cursor))
         picture.draw_ninja_over(inner, fraction)
         if self.hover is not None and self.hover < len(positions):
-            paths.draw_hover(inner, positions, self.hover)
+            over.draw_hover(inner, positions, self.hover)
         if self.pointed is not None:
-            paths.draw_object(inner, self.pointed)
+            over.draw_object(inner, self.pointed)
         self._write(surface, theme)
 
     def _follow_ninja(self, size: tuple[int, int], fraction: float) -> None:
@@ -217,7 +195,7 @@ class LevelPart(TasPart):
             self.picture.camera.follow(size, *place)
         self._followed = place
 
-    def _present(self) -> Positions:
+    def _present(self) -> paths.Positions:
         """Where the ninja is after each simulated tick."""
         timeline = self.editor.session.timeline
         known = timeline.inputs, timeline.simulated_until
@@ -225,7 +203,7 @@ class LevelPart(TasPart):
             self._known, self._positions = known, timeline.positions
         return self._positions
 
-    def _follow_others(self, positions: Positions) -> list[RunPath]:
+    def _follow_others(self, positions: paths.Positions) -> list[paths.RunPath]:
         """The paths of other runs, and of the run before the last edit where it differs; their ghosts go along."""
         editor = self.editor
         kept, self._ghosts = self._ghosts, {}
@@ -237,19 +215,21 @@ class LevelPart(TasPart):
         if editor.preview is not None:
             runs.append((editor.preview, palette.exit))
         before = editor.session.before
-        at = first_other_place(positions, before.positions)
+        at = paths.first_other_place(positions, before.positions)
         if at <= min(editor.cursor, len(before) - 1, len(positions) - 1):
             self._ghosts[before] = kept.get(before) or RunGhost(before)
         for run, colour in runs:
             self._ghosts[run.trajectory] = kept.get(run.trajectory) or RunGhost(run.trajectory, run.name, colour)
         self.picture.follow(self.ghosts)
         # Not at each tick of a run that is taken over is the other one shorter.
-        first, last = shown_span(editor.cursor)
-        beside = [RunPath(run.trajectory, colour, first, last) for run, colour in runs]
-        return [RunPath(before, palette.ghost, max(first, at - at % BRIGHT_TICKS - 1), last, FAINT), *beside]
+        first, last = paths.shown_span(editor.cursor)
+        beside = [paths.RunPath(run.trajectory, colour, first, last) for run, colour in runs]
+        return [
+            paths.RunPath(before, palette.ghost, max(first, at - at % paths.BRIGHT_TICKS - 1), last, paths.FAINT),
+            *beside,
+        ]
 
     def _write(self, surface: pygame.Surface, theme: Theme) -> None:
-        """What goes on, below the level."""
         take_over = self.take_over
         if take_over.on:
             now = "press a key to begin" if take_over.waiting else "tick by tick" if take_over.still else "your keys"
@@ -264,14 +244,14 @@ class LevelPart(TasPart):
         theme.canvas.fill_rect(surface, palette.tile, x, y, w, LINE)
         zoom = self.picture.camera.zoom
         speed = f"zoom {zoom:.1f}, " * (zoom > 1) + f"speed x {SPEEDS[self.playing.speed]:g}"
-        right = theme.text(surface, speed, x + w - 6, y + 1, size=LETTERS, colour=palette.on_tile, align="right")
+        right = theme.text(surface, speed, x + w - 6, y + 1, size=paths.LETTERS, colour=palette.on_tile, align="right")
         room = right.left / theme.canvas.scale - x - 12
-        theme.text(surface, text, x + 6, y + 1, size=LETTERS, colour=palette.on_tile, bold=take_over.on, width=room)
+        theme.text(
+            surface, text, x + 6, y + 1, size=paths.LETTERS, colour=palette.on_tile, bold=take_over.on, width=room
+        )
 
 
 class LevelPointer:
-    """What the mouse is doing in the level."""
-
     def __init__(self, part: LevelPart) -> None:
         self._part = part
         self._editor = part.editor
@@ -325,7 +305,6 @@ class LevelPointer:
             self._grabbed = at
 
     def _click(self) -> None:
-        """The button that was down, perhaps without a drag, is up again."""
         part, moved = self._part, self._moved
         self.release()
         if moved or part.take_over.on:

@@ -35,7 +35,6 @@ _THIN, _THICK = 0.8, 2.7
 
 
 def shaded(colour: pygame.Color, alpha: int) -> pygame.Color:
-    """A colour that lets shine through what is below."""
     return pygame.Color(colour.r, colour.g, colour.b, alpha)
 
 
@@ -131,7 +130,6 @@ class LevelPaths:
             canvas.circle(surface, palette.accent, _point(positions, tick), self._px(radius))
 
     def draw_flags(self, surface: pygame.Surface, positions: Positions, markers: Sequence[Marker]) -> None:
-        """A flag where each marked tick is, with its name."""
         canvas, palette, px = self.canvas, self.theme.palette, self._px
         for tick, name in markers:
             if tick < len(positions):
@@ -142,17 +140,14 @@ class LevelPaths:
                 self._label(surface, name, at, (8.5, -16), palette.text)
 
     def draw_hover(self, surface: pygame.Surface, positions: Positions, tick: int) -> None:
-        """A ring where the run is after a tick, and its number."""
         at = _point(positions, tick)
         self.canvas.circle(surface, self.theme.palette.text, at, self._px(4.8), self._px(1))
         self._label(surface, str(tick), at, (7, 2), self.theme.palette.text)
 
     def draw_object(self, surface: pygame.Surface, seen: ObjectView) -> None:
-        """What an object is and its id, above it."""
         self._label(surface, f"{seen.kind} {seen.id}", (seen.x, seen.y), (5, -14), self.theme.palette.text)
 
     def draw_name(self, surface: pygame.Surface, name: str, at: Point, colour: pygame.Color) -> None:
-        """The name of a ghost, above it."""
         name = self.theme.fit(name, _LONGEST_NAME, LETTERS)
         self._label(surface, name, at, (-4, -18), colour)
 

@@ -106,7 +106,6 @@ class RunGhost:
         self.on_seek(0)
 
     def _follow(self, tick: int) -> None:
-        """The fields of the ninja after a tick."""
         ninja = self._world.ninja
         ninja.was_in_air = ninja.in_air
         for name, value in self.trajectory.at(max(0, tick)).items():
@@ -119,7 +118,6 @@ class RunGhost:
             self.ninja_animation.on_tick(self._world)
 
     def on_seek(self, tick: int) -> None:
-        """Be where the run is after that many ticks."""
         self._moment = max(0, min(tick, len(self.trajectory)) - _GHOST_WARM)
         self._follow(self._moment - 1)
         self.ninja_animation = NinjaAnimation(self._world, self._random)
@@ -133,7 +131,6 @@ class RunGhost:
         return bx + (x - bx) * fraction, by + (y - by) * fraction
 
     def colour(self, palette: Palette) -> pygame.Color:
-        """Its own colour, or the palette's for ghosts."""
         return self.shade or palette.ghost
 
 
@@ -154,7 +151,6 @@ class CachedWorldSimulation(Simulation):
 
     @property
     def world(self) -> World:
-        """The whole state as plain objects, as it is in this tick."""
         if self._copy is None:
             self._copy = super().world
         return self._copy
@@ -190,7 +186,6 @@ class LevelPicture:
 
     @property
     def canvas(self) -> Canvas:
-        """From px of the level to px of the picture."""
         return self._context.canvas
 
     @property
@@ -277,14 +272,12 @@ class LevelPicture:
         return corpse
 
     def _play(self, inputs: bytes) -> None:
-        """All ticks that are missing."""
         for keys in inputs[self.run.tick :]:
             self.run.step_keys(keys)
             if self._view is not None:
                 self._view.on_tick()
 
     def draw(self, fraction: float, *, whole: bool) -> None:
-        """Draw it, ``fraction`` of a tick after the last but one."""
         if self._view is not None:
             self._view.draw(self.surface, fraction, whole=whole)
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pygame
 
-from ninja_game.play.clock import RunClock
+from ninja_game.play.replay.playback import RunClock
 from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.sim.rules import TICK_MS
 from ninja_game.tas.timeline import AFTERMATH
-from ninja_game.tas_editor.controls import BY_PAD, COMMANDS
+from ninja_game.tas_editor.commands import BY_PAD, COMMANDS
 from ninja_game.tas_editor.editor import TasEditor
 from ninja_game.tas_editor.level.picture import LevelPicture
 from ninja_game.ui.input.bindings import InputEvent
@@ -31,7 +31,6 @@ class Playing:
         return max(1, round(TICK_MS / SPEEDS[self.speed]))
 
     def toggle(self) -> None:
-        """Play, from the start if the cursor is at the end; or stop."""
         self.on = not self.on
         if self.on and self.editor.cursor >= self.editor.last_tick:
             self.editor.go(0)
@@ -43,7 +42,6 @@ class Playing:
             self.toggle()
 
     def change_speed(self, by: int) -> None:
-        """Faster or slower by this many steps."""
         self.speed = min(len(SPEEDS) - 1, max(0, self.speed + by))
         self.clock.reset()
 
@@ -54,7 +52,6 @@ class Playing:
             self.editor.app.change_settings(play_speed=percent)
 
     def step(self, ticks: int) -> None:
-        """Some ticks on, or back, and stop."""
         self.stop()
         self.editor.go(self.editor.cursor + ticks)
 
@@ -119,7 +116,6 @@ class TakeOver:
         self._held_before = editor.app.controls.poll()
 
     def end(self) -> None:
-        """The run is edited as before; all that was played is one edit."""
         if self.on:
             self.on = False
             self.editor.app.audio_output.quiet()
@@ -136,12 +132,10 @@ class TakeOver:
         self.editor.app.audio_output.quiet()
 
     def step(self) -> None:
-        """One tick with the keys that are down; then it stands still."""
         self.stand_still()
         self._play_tick()
 
     def step_back(self) -> None:
-        """A tick back, to go on from there; it stands still."""
         self.stand_still()
         self._go(max(0, self.tick - 1))
 
@@ -151,12 +145,10 @@ class TakeOver:
         self.playing.picture.show(tick, audible=audible)
 
     def _ended(self, tick: int, after: int = 0) -> bool:
-        """Whether the exit or death was so many ticks before."""
         end = self.editor.session.timeline.end[0]
         return 0 <= end <= tick - after
 
     def _play_tick(self) -> None:
-        """The next tick, with the keys that are down right now."""
         editor, tick = self.editor, self.tick + 1
         session = editor.session
         if not self._ended(self.tick):
@@ -185,7 +177,6 @@ class TakeOver:
 
     @staticmethod
     def meaning(event: InputEvent) -> str:
-        """The command that an event means now; '' for none."""
         moves = _MOVES.intersection(event.pressed)
         # A key that jumps and goes on, as Space, is a command here; a button of a pad that does both jumps.
         if event.source is None or (moves and (event.source[0] == "pad" or "confirm" not in event.pressed)):

@@ -10,8 +10,8 @@ from ninja_game.files.shown_text import counted
 from ninja_game.formats.replay.input_runs import Marker, write_inputs
 from ninja_game.formats.replay.input_text import Inputs
 from ninja_game.play.clipboard import copy_text, pasted_text
-from ninja_game.play.menus.panels import FormPanel
-from ninja_game.play.workspace.part import Commands
+from ninja_game.play.menus.menu_screen import ask_text
+from ninja_game.play.workspace import Commands
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.files import inputs_of_text
 from ninja_game.tas.input_track import InputTrack
@@ -35,7 +35,7 @@ class RollCommands:
             **{name: partial(self._move, to) for name, to in moves.items()},
             **{f"select_{name}": partial(self._move, to, select=True) for name, to in moves.items()},
             "select_last": partial(self._move, lambda: max(len(editor.track) - 1, self._last()), select=True),
-            "select_all": self.select_all, "go_to": self.ask_where,
+            "select_all": lambda: editor.select(0, len(editor.track)), "go_to": self.ask_where,
             "next_marker": lambda: self._to_marker(1), "previous_marker": lambda: self._to_marker(-1),
             "next_difference": lambda: self._to_difference(1),
             "previous_difference": lambda: self._to_difference(-1),
@@ -67,14 +67,8 @@ class RollCommands:
         end = self._editor.session.timeline.end[0]
         return end if self._editor.cursor < end else self._editor.last_tick
 
-    def select_all(self) -> None:
-        self._editor.select(0, len(self._editor.track))
-
     def ask_where(self) -> None:
-        editor = self._editor
-        editor.app.push(
-            FormPanel(editor.app, "Go to", [("Tick or name", "", 100)], "Go", lambda texts: self.go_to(texts[0]))
-        )
+        ask_text(self._editor.app, "Go to", "Tick or name", "", "Go", self.go_to)
 
     def go_to(self, text: str) -> None:
         """Go to a tick by its number or its marker's name; a notice tells where there is none."""
@@ -86,7 +80,6 @@ class RollCommands:
             self._editor.app.notify(f"No tick is named {text}")
 
     def _to_marker(self, direction: int) -> None:
-        """The next named tick, or the one before."""
         cursor = self._editor.cursor
         ticks = [tick for tick, _ in self._editor.track.markers if (tick - cursor) * direction > 0]
         if ticks:
@@ -95,7 +88,6 @@ class RollCommands:
             self._editor.app.notify(f"No named tick {'behind' if direction > 0 else 'before'} this one: M names it")
 
     def _to_difference(self, direction: int) -> None:
-        """The next tick in which the keys part from those of the run that is compared, or the one before."""
         editor, other = self._editor, compared(self._editor)
         if other is None:
             editor.app.notify("Other runs are not shown: G shows them")
@@ -112,7 +104,6 @@ class RollCommands:
     # --- changing ---
 
     def _filled(self) -> Span:
-        """The selected ticks that the run has."""
         first, last = self._editor.selection
         return first, min(last, len(self._editor.track))
 
@@ -123,7 +114,6 @@ class RollCommands:
         self._editor.edit_selected(lambda track: track.with_key(first, last, key, down=down))
 
     def clear(self) -> None:
-        """All keys up in the selected ticks."""
         first, last = self._filled()
         if first >= last:
             self._editor.app.notify(BEHIND)
@@ -143,7 +133,6 @@ class RollCommands:
             self._editor.go(first)
 
     def cut_end(self) -> None:
-        """Take out what is behind exit or death."""
         editor = self._editor
         editor.session.timeline.ensure(editor.last_tick)
         end = editor.session.timeline.end[0]
@@ -207,13 +196,10 @@ class RollCommands:
     # --- markers ---
 
     def name_tick(self) -> None:
-        """Ask for the name of the cursor's tick."""
         editor, tick = self._editor, self._editor.cursor
         name = next((name for at, name in editor.track.markers if at == tick), "")
-        fields = [("Marker name (empty removes it)", name, 100)]
-        editor.app.push(
-            FormPanel(editor.app, f"Tick {tick}", fields, "Name it", lambda texts: self._name(tick, texts[0]))
-        )
+        named = partial(self._name, tick)
+        ask_text(editor.app, f"Tick {tick}", "Marker name (empty removes it)", name, "Name it", named)
 
     def _name(self, tick: int, text: str) -> None:
         words = "-".join(text.split())
@@ -238,7 +224,6 @@ def _with_pasted(track: InputTrack, first: int, pasted: Inputs, *, between: bool
 
 
 def _first_change(before: InputTrack, after: InputTrack) -> int:
-    """The first tick whose keys or name differ."""
     if before.inputs != after.inputs:
         return before.first_difference(after)
     return min((tick for tick, _ in set(before.markers) ^ set(after.markers)), default=0)

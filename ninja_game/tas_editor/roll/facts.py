@@ -15,7 +15,7 @@ from ninja_game.sim.states import STATE_NAMES
 from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.watch import exit_distance
 from ninja_game.tas_editor.editor import TasEditor
-from ninja_game.tas_editor.tabs.plot import colour_of
+from ninja_game.tas_editor.tabs.values_tab import colour_of
 from ninja_game.ui.theme import Palette
 
 PREVIEW, BEFORE = -1, -2
@@ -30,7 +30,6 @@ class Compared(NamedTuple):
     number: int
 
     def colour(self, palette: Palette) -> pygame.Color:
-        """The colour of its ghost in the level."""
         if self.number == BEFORE:
             return palette.ghost
         return palette.exit if self.number == PREVIEW else colour_of(self.number, palette)
@@ -121,7 +120,6 @@ class RowFacts(NamedTuple):
 
 
 def row_facts(editor: TasEditor, first: int, last: int) -> list[RowFacts]:
-    """The rows of the ticks ``first`` … ``last`` - 1."""
     track, timeline = editor.track, editor.session.timeline
     values: list[Values | None] = [*_values(editor, first, last)]
     values += [None] * (last - first - len(values))
@@ -153,7 +151,6 @@ def row_facts(editor: TasEditor, first: int, last: int) -> list[RowFacts]:
 
 
 def _values(editor: TasEditor, first: int, last: int) -> list[Values]:
-    """The values of those ticks of them that are simulated."""
     timeline = editor.session.timeline
     span = slice(first, min(last, timeline.simulated_until))
     column = timeline.column

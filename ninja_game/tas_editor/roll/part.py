@@ -6,8 +6,8 @@ from functools import partial
 
 import pygame
 
-from ninja_game.play.menus.panels import Menu, nothing
-from ninja_game.play.workspace.part import Commands
+from ninja_game.play.menus.menu_screen import Menu, nothing
+from ninja_game.play.workspace import Commands
 from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas_editor.editor import TasEditor, TasPart
 from ninja_game.tas_editor.roll.commands import RollCommands
@@ -41,7 +41,6 @@ class Roll(TasPart):
 
     @property
     def layout(self) -> RollLayout:
-        """Where things are in the window as it is now."""
         return layout_of(self.editor.theme.canvas, self.area, self.hidden)
 
     def scroll(self, top: int) -> None:
@@ -80,10 +79,7 @@ class Roll(TasPart):
         ]
         self.editor.app.push(Menu(self.editor.app, "Columns", [*rows, ("Done", nothing, "")]))
 
-    # --- a part of the window ---
-
     def render_key(self) -> tuple[object, ...]:
-        """Runs, cursor, selection, what is simulated and what is seen of it."""
         editor = self.editor
         timeline = editor.session.timeline
         return (
@@ -111,7 +107,6 @@ class Roll(TasPart):
         return self.pointer.handle_mouse(event, *self.editor.theme.canvas.point(x, y))
 
     def update(self, real_ms: int) -> None:
-        """A drag beyond the edge scrolls on; the cursor stays in sight."""
         self.pointer.update(real_ms)
         self.follow()
 
@@ -150,7 +145,6 @@ class RollMouse:
         return True
 
     def stop(self) -> None:
-        """What is going on ends; painting is one edit."""
         if self._doing == "paint":
             self._editor.session.end()
         self._doing = ""
@@ -173,7 +167,6 @@ class RollMouse:
             self._go_on()
 
     def _tick_at(self, y: int) -> int:
-        """The tick whose row is at a px; beyond the edges the first or last one that is seen."""
         layout = self._roll.layout
         row = min(max(0, layout.row_at(y)), layout.rows - 1)
         return min(self._roll.top + row, self._editor.last_tick)
@@ -210,7 +203,6 @@ class RollMouse:
         self._stroke(tick)
 
     def _select(self, column: Column, tick: int) -> None:
-        """Begin to select; a second click names a tick."""
         now = pygame.time.get_ticks()
         twice = self._clicked[0] == tick and now - self._clicked[1] < DOUBLE_MS
         self._clicked = tick, now
@@ -222,7 +214,6 @@ class RollMouse:
         self._doing = "select"
 
     def _go_on(self) -> None:
-        """Paint, select or scroll up to where the pointer is."""
         if self._doing == "scroll":
             self._roll.scroll(self._roll.bar.tick_at(self._at[1], self._roll.layout) - self._roll.layout.rows // 2)
             return
@@ -236,7 +227,6 @@ class RollMouse:
             self._stroke(tick)
 
     def _stroke(self, tick: int) -> None:
-        """Paint from where the stroke is up to a tick."""
         first, last = min(tick, self._tick), max(tick, self._tick) + 1
         if not self._down:
             last = min(last, len(self._editor.track))
@@ -245,7 +235,6 @@ class RollMouse:
         self._tick = tick
 
     def _tell(self, x: int, y: int) -> None:
-        """Say in the line below what is under the pointer, in full."""
         layout = self._roll.layout
         column = layout.column_at(x)
         if layout.heads.collidepoint(x, y):
@@ -270,7 +259,6 @@ class ScrollBar:
         self._marks: list[tuple[int, str]] = []
 
     def _places(self) -> list[tuple[int, str]]:
-        """Ticks with the palette's role of each one's mark."""
         timeline, track = self._editor.session.timeline, self._editor.track
         known = track, timeline.simulated_until
         if known != self._known:
@@ -285,12 +273,10 @@ class ScrollBar:
         return self._marks
 
     def tick_at(self, y: int, layout: RollLayout) -> int:
-        """The tick at a px of the bar."""
         share = (y - layout.bar.top) / layout.bar.height
         return int(min(1.0, max(0.0, share)) * self._editor.last_tick)
 
     def draw(self, surface: pygame.Surface, theme: Theme, layout: RollLayout, top: int) -> None:
-        """The bar; ``top``: the first tick that has its row in the window."""
         palette, bar, editor = theme.palette, layout.bar, self._editor
         ticks = max(1, editor.last_tick + 1)
 

@@ -50,7 +50,6 @@ COLUMNS = (
     Column("exit", "exit", 27, 1, meaning="Px to the exit's disc"),
     Column("events", "events", 0, meaning="Events and markers"),
 )
-"""From left to right."""
 
 
 class Place(NamedTuple):
@@ -100,7 +99,6 @@ def layout_of(canvas: Canvas, area: Area, hidden: Collection[str]) -> RollLayout
 
 
 STATES = ("stand", "run", "skid", "jump", "fall", "slide", "dead", "won")
-"""In the order of the state numbers."""
 
 
 class EventWord(NamedTuple):
@@ -138,7 +136,6 @@ _WORDS = {
     "door-closed": EventWord(9, "door shut"),
 }
 EVENTS = {name: _WORDS.get(name, EventWord(10, name.replace("-", " "))) for name in EVENT_NAMES}
-"""By the names of events."""
 
 
 Blit = tuple[pygame.Surface, tuple[int, int]]
@@ -158,7 +155,6 @@ class Digits:
         self._advance = {each: (widest if each.isdigit() else width) * scale for each, width in widths.items()}
 
     def _of(self, colour: pygame.Color) -> dict[str, tuple[pygame.Surface, float]]:
-        """Every character in a colour, and how wide it is."""
         render = self.theme.lettering.rendered
         return {each: (render(each, self._size, colour), wide) for each, wide in self._advance.items()}
 
@@ -180,7 +176,6 @@ SIZE = 8.0
 SHORTEST = 20.0
 """Room in which a name is worth beginning, logical px."""
 LONGEST = 6
-"""Characters of a number."""
 _KEY_LETTERS = {KEY_LEFT: "L", KEY_RIGHT: "R", JUMP_HELD: "J"}
 
 
@@ -213,7 +208,6 @@ class RowSheet:
         return len(changed)
 
     def _show(self, surface: pygame.Surface, rows: Sequence[RowFacts]) -> None:
-        """The picture in its two parts, and nothing below the last row."""
         body, row = self.layout.body, self.layout.row
         split = (rows[0].tick % self.layout.rows) * row if rows else 0
         surface.blit(self._picture, body, (0, split, body.width, body.height - split))
@@ -223,7 +217,6 @@ class RowSheet:
         surface.fill(self.theme.palette.background, (body.left, below, body.width, body.bottom - below))
 
     def _row(self, row: RowFacts, y: int) -> None:
-        """One row at a px of the picture; its texts are noted."""
         palette, layout, fill = self.theme.palette, self.layout, self._picture.fill
         ground, ink, line = self._ground(row)
         self._picture.blit(ground, (0, y))
@@ -271,7 +264,6 @@ class RowSheet:
         return self._grounds[kind]
 
     def _key(self, row: RowFacts, place: Place, left: int, y: int, line: pygame.Color) -> None:
-        """A cell of a key: a bar that begins where the key goes down."""
         key, palette, height = place.column.key, self.theme.palette, self.layout.row
         if not row.keys & key:
             return
@@ -300,7 +292,6 @@ class RowSheet:
             fill(self.theme.palette.panel, (x + edge, y, wide - 2 * edge, height))
 
     def _value(self, values: Values, place: Place, left: int, y: int, ink: pygame.Color) -> None:
-        """What a column says after the tick."""
         name, theme = place.column.name, self.theme
         if name == "state":
             word = theme.lettering.rendered(STATES[values.state], SIZE, ink)
@@ -316,7 +307,6 @@ class RowSheet:
             self._blits += self._digits.blits(text, left + place.width - self._margin, y + self._lift, ink)
 
     def _contacts(self, contacts: int, place: Place, left: int, y: int, ink: pygame.Color) -> None:
-        """Bars at the sides that touch something."""
         thick, height = max(2, self.theme.canvas.px(2)), self.layout.row
         x, width, fill = left + 1 + thick, place.width - 2 * thick - 1, self._picture.fill
         if contacts & FLOOR:
@@ -359,7 +349,6 @@ def shortened(value: float, decimals: int) -> str:
 
 
 def _inks(palette: Palette, row: RowFacts) -> tuple[pygame.Color, pygame.Color]:
-    """The colours of a row's ground and letters."""
     ground, ink = palette.panel, palette.text
     if row.values is None:
         ground = mixed(ground, palette.tile, 0.45)

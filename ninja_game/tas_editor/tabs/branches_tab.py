@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pygame
 
-from ninja_game.play.menus.panels import FormPanel, Question
-from ninja_game.play.workspace.part import Commands
+from ninja_game.play.menus.menu_screen import Question, ask_text
+from ninja_game.play.workspace import Commands
 from ninja_game.tas.branches import Branch, Branches
 from ninja_game.tas_editor.editor import TasEditor
 from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, Rows, Tab, put_in_a_row
@@ -21,8 +21,6 @@ _COLUMNS = (174, 112, 64)
 
 
 class BranchesTab(Tab):
-    """The tree of branches, and what can be done with the chosen one."""
-
     name = "Branches"
 
     def __init__(self, editor: TasEditor) -> None:
@@ -53,25 +51,20 @@ class BranchesTab(Tab):
 
     @property
     def chosen(self) -> int | None:
-        """The number of the branch that is chosen in the tree."""
         return self.tree[self.list.index][0] if self.list.index < len(self.tree) else None
 
-    # --- what can be done ---
-
     def keep(self) -> None:
-        """Keep the run as a branch, after asking for a name."""
-        self.editor.show_tab(self.name)
+        self.editor.tab = self.name
         session = self.editor.session
         end, outcome = session.timeline.end
         name = f"{outcome} {end}" if end >= 0 else f"branch {len(self.branches) + 1}"
 
-        def kept(texts: list[str]) -> None:
-            number = session.keep_branch(texts[0].strip() or name)
+        def kept(text: str) -> None:
+            number = session.keep_branch(text.strip() or name)
             self.refresh()
             self.list.index = [each for each, _ in self.tree].index(number)
 
-        app = self.editor.app
-        app.push(FormPanel(app, "Keep the run as a branch", [("its name", name, LONGEST)], "Keep", kept))
+        ask_text(self.editor.app, "Keep the run as a branch", "its name", name, "Keep", kept, LONGEST)
 
     def checkout(self) -> None:
         number = self.chosen
@@ -81,7 +74,7 @@ class BranchesTab(Tab):
     def compare(self) -> None:
         if self.chosen is not None:
             self.editor.against = self.branches.all[self.chosen].track
-            self.editor.show_tab("Lead")
+            self.editor.tab = "Lead"
 
     def rename(self) -> None:
         number = self.chosen
@@ -89,20 +82,17 @@ class BranchesTab(Tab):
             return
         app, session, old = self.editor.app, self.editor.session, self.branches.all[number].name
 
-        def renamed(texts: list[str]) -> None:
-            session.rename_branch(number, texts[0].strip() or old)
+        def renamed(text: str) -> None:
+            session.rename_branch(number, text.strip() or old)
 
-        app.push(FormPanel(app, "Rename the branch", [("its name", old, LONGEST)], "Rename", renamed))
+        ask_text(app, "Rename the branch", "its name", old, "Rename", renamed, LONGEST)
 
     def drop(self) -> None:
-        """Forget the chosen branch, after a question."""
         number = self.chosen
         if number is not None:
             app, session = self.editor.app, self.editor.session
             title = f"Drop {self.branches.all[number].name}?"
             app.push(Question(app, title, "Drop it", lambda: session.drop_branch(number)))
-
-    # --- picture ---
 
     def refresh(self) -> None:
         self.tree = list(self.branches.in_tree())
@@ -116,7 +106,6 @@ class BranchesTab(Tab):
         return tree, session.track, session.timeline.end, self.list.over
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        """The names of the columns; the list is a widget."""
         super().paint(surface, theme)
         self.refresh()
         self.list.draw_heads(surface, theme, "Branch", ("Ends in tick", "Gold", "Against the run now"), _COLUMNS)

@@ -36,8 +36,6 @@ def compared(job: Job) -> tuple[Pair, LeadTable | str]:
 
 
 class LeadTab(Tab):
-    """Which run is the other one, and the table."""
-
     name = "Lead"
 
     def __init__(self, editor: TasEditor) -> None:
@@ -55,10 +53,7 @@ class LeadTab(Tab):
         self._choice.area = x + 56, y + 4, w - 60, 18
         self.list.area = x + 4, y + 53, w - 8, h - 55
 
-    # --- which runs ---
-
     def _options(self) -> list[tuple[str, object]]:
-        """The other runs, each once."""
         session, found = self.editor.session, [("the run as it was opened", self._opened)]
         if len(session.saved):
             found.append(("the run as it was saved", session.saved))
@@ -84,7 +79,6 @@ class LeadTab(Tab):
         return self.editor.track, self._against()
 
     def update(self, real_ms: int) -> None:
-        """While it is shown: compare the runs once they stay as they are."""
         if self.editor.tab != self.name:
             return
         self._choice.options = self._options()
@@ -103,20 +97,16 @@ class LeadTab(Tab):
 
     @property
     def table(self) -> LeadTable | None:
-        """The table that was made last."""
         result = self._job.result
         return result[1] if result is not None and isinstance(result[1], LeadTable) else None
 
     @property
     def is_current(self) -> bool:
-        """Whether it is of the runs as they are now."""
         return self._job.result is not None and self._job.result[0] == self._pair
 
     def _go(self, index: int) -> None:
         if self.table is not None:
             self.editor.go(self.table.rows[index].tick)
-
-    # --- picture ---
 
     @property
     def summary(self) -> str:
@@ -141,7 +131,6 @@ class LeadTab(Tab):
         return self._choice.options, self._against(), self.summary, id(self.table), self.editor.cursor, self.list.over
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        """What it comes to, and the names of the columns."""
         super().paint(surface, theme)
         x, y, w, _ = self.area
         theme.text(surface, "Against", x + 6, y + 8, size=11)

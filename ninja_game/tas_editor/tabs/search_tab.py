@@ -13,8 +13,8 @@ import pygame
 from ninja_game.batch.thread_pool import cores
 from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.files.shown_text import counted
-from ninja_game.play.menus.panels import Menu
-from ninja_game.play.workspace.part import Commands
+from ninja_game.play.menus.menu_screen import Menu
+from ninja_game.play.workspace import Commands
 from ninja_game.search.certificate import moved_markers
 from ninja_game.search.formula.background import RunSearch, SpanSearch
 from ninja_game.search.formula.methods import KEPT, fewest_ticks
@@ -86,7 +86,6 @@ class SpanResults:
         self._started = monotonic()
 
     def _whole(self, method: str, jobs: int) -> RunSearch:
-        """The search that shortens the whole run, by the routes of the runs beside it too."""
         gold = int(self.editor.session.timeline.column("gold")[self.task.last - 1]) if method == IMPROVE_GOLD else 0
         return RunSearch(self.task, jobs, gold=gold, others=tuple(other.track.inputs for other in self._others))
 
@@ -95,7 +94,6 @@ class SpanResults:
         return not self.search.done
 
     def stop(self) -> None:
-        """End the search; results stay."""
         self.search.cancel()
 
     def close(self) -> None:
@@ -158,7 +156,6 @@ class SpanResults:
         return InputTrack(track.inputs[:first] + found.inputs[first:], made.markers)
 
     def preview(self, found: Found) -> OtherRun:
-        """The run that a result makes, to be looked at."""
         if self._preview is None or self._preview[0] is not found:
             task = self.task
             timeline = Timeline(task.level, found.inputs, body=task.body, memory=self.editor.session.timeline.memory)
@@ -202,7 +199,6 @@ class SpanResults:
 
     @property
     def status(self) -> str:
-        """How it stands, in a few words."""
         search = self.search
         if search.problem:
             return "cannot be searched"
@@ -213,7 +209,6 @@ class SpanResults:
 
     @property
     def note(self) -> str:
-        """What is to be said where there is no result."""
         search = self.search
         if search.problem or self.better:
             return search.problem
@@ -226,8 +221,6 @@ class SpanResults:
 
 
 class SearchTab(Tab):
-    """Span, goal, measure and method; below them the results."""
-
     name = "Search"
 
     def __init__(self, editor: TasEditor) -> None:
@@ -265,7 +258,6 @@ class SearchTab(Tab):
         ]  # fmt: skip
 
     def arrange(self, x: float, y: float, w: float, h: float) -> None:
-        """What is wanted, in three rows, above the results."""
         areas = (
             (x + w - 182, y + 4, 96, 18), (x + w - 82, y + 4, 78, 18), (x + 40, y + 25, w - 44, 18),
             (x + 4, y + 46, 118, 18), (x + 126, y + 46, w - 280, 18), (x + w - 150, y + 46, 146, 18),
@@ -283,7 +275,7 @@ class SearchTab(Tab):
         """Show this tab for the selected ticks, with the focus on the goal; without new ones it stays as it is."""
         if self.editor.anchor is not None or self.editor.selection != self._taken:
             self.use_selection()
-        self.editor.show_tab(self.name)
+        self.editor.tab = self.name
         self.wants = self.goal
 
     def use_selection(self) -> None:
@@ -304,7 +296,6 @@ class SearchTab(Tab):
             self._fill(self._preset[0] if self.goal.text != "won" else lambda _: SpanGoal())
 
     def propose(self) -> None:
-        """A menu of what people want; it fills the fields."""
         rows = [(name, partial(self._fill, make), hint) for name, hint, make in PRESETS]
         self.editor.app.push(Menu(self.editor.app, "Presets", rows))
 
@@ -397,7 +388,6 @@ class SearchTab(Tab):
         self.list.fill(())
 
     def update(self, real_ms: int) -> None:
-        """Take what was found; where the run has changed, the search ends."""
         if not self.span[1]:
             self.use_selection()
         results = self.results
@@ -418,7 +408,6 @@ class SearchTab(Tab):
     # --- picture ---
 
     def render_key(self) -> tuple[object, ...]:
-        """Span, what is wanted, how the search stands, its results."""
         results, state = self.results, tuple[object, ...]()
         if results:
             state = (results.status, results.running, results.behind, self.editor.track, *map(id, self.found))
@@ -448,12 +437,10 @@ class SearchTab(Tab):
 
     @staticmethod
     def _cells(row: Area) -> tuple[float, ...]:
-        """Where the cells of a row begin."""
         x, _, w, _ = row
         return x + _LEFT, *(x + w - at for at in _COLUMNS)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, _: bool) -> None:
-        """A sign if it is in the run, what a result brings; those that do not fit are faint."""
         if self.results is None or index >= len(self.found):
             return
         x, y, w, _h = area

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import ClassVar
 
 import pygame
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.play.workspace.part import Commands
+from ninja_game.play.workspace import Commands
 from ninja_game.search.formula.language import FormulaError
 from ninja_game.tas_editor.editor import TasEditor, TasPart
 from ninja_game.ui.list_view import ListView
@@ -37,7 +38,6 @@ class Tab(TasPart):
         self.arrange(*area)
 
     def arrange(self, x: float, y: float, w: float, h: float) -> None:
-        """Put the widgets where they belong in this area."""
         raise NotImplementedError
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
@@ -67,10 +67,8 @@ class Tab(TasPart):
 
 
 class TabName(Button):
-    """The name of a tab, to show it; that of the one that is shown stands out."""
-
     def __init__(self, tab: Tab) -> None:
-        super().__init__(UNPLACED, tab.name, lambda: tab.editor.show_tab(tab.name), size=SMALL)
+        super().__init__(UNPLACED, tab.name, partial(setattr, tab.editor, "tab", tab.name), size=SMALL)
         self._editor = tab.editor
 
     def draw_base(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
@@ -78,8 +76,6 @@ class TabName(Button):
 
 
 class TabStrip(TasPart):
-    """The names of all tabs, side by side."""
-
     slot = "strip"
 
     def __init__(self, editor: TasEditor, tabs: Sequence[Tab]) -> None:
@@ -91,7 +87,7 @@ class TabStrip(TasPart):
         return {"next_tab": self.show_next}
 
     def show_next(self) -> None:
-        self.editor.show_tab(following([tab.name for tab in self.tabs], self.editor.tab))
+        self.editor.tab = following([tab.name for tab in self.tabs], self.editor.tab)
 
     @property
     def shown(self) -> Tab:
@@ -136,7 +132,6 @@ class Rows(ListView):
             theme.text(surface, head, at, self.area[1] - 13, size=8, colour=theme.palette.faint)
 
     def hover(self, x: float, y: float) -> bool:
-        """Note what the mouse is over."""
         index = self._index_at(x, y)
         before, self.over = self.over, -1 if index is None else index
         return self.over != before
@@ -151,8 +146,6 @@ class Rows(ListView):
 
 
 class EntryField(TextEntry):
-    """A text field in which Enter does something."""
-
     def __init__(
         self, prompt: str, enter: Callable[[], object], *, longest: int, hint: str = "",
         put: Callable[[str], object] = lambda _: None,

@@ -93,7 +93,6 @@ class TextTab(Tab):
         self.list.area = x + 4, y + 26, w - 8, h - 30
 
     def update(self, real_ms: int) -> None:
-        """While it is shown: have the lines of the run as it is, and the one of the cursor's tick in the field."""
         seen = self.editor.track, self.editor.cursor, self.celeste, self.folded
         if self.editor.tab == self.name and seen != self._seen:
             self._seen, self._track = seen, self.editor.track
@@ -104,11 +103,9 @@ class TextTab(Tab):
             self.field.show(self.text(self.list.index))
 
     def span(self, index: int) -> Span:
-        """The ticks of a line; none of the last one."""
         return int(self.starts[index]), int(self.starts[index + 1 :][:1].sum() or self.starts[index])
 
     def text(self, index: int) -> str:
-        """A line, or how long the section is whose lines are folded."""
         first, last = self.span(index)
         if first < last and self._unfolded and not self._unfolded[0] <= first < self._unfolded[1]:
             name = next((f"#{name}" for tick, name in self._track.markers if tick == first), "the start")

@@ -11,19 +11,130 @@ import pygame
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.app import App
-from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.panels import FormPanel
-from ninja_game.play.workspace.part import Commands
+from ninja_game.play.menus.menu_screen import MenuScreen, ask_text
+from ninja_game.play.workspace import Commands
 from ninja_game.runs.compare import SPLIT_EVENTS
 from ninja_game.search.formula.language import Values
 from ninja_game.sim.kinds import DOOR, EXIT, GOLD, KIND_NAMES, KIND_OF, MINE
 from ninja_game.tas.watch import Watch, parse_watch
 from ninja_game.tas_editor.editor import TasEditor
-from ninja_game.tas_editor.tabs.plot import TickRange, colour_of, draw_lane
 from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, Rows, Tab, put_in_a_row, what_is_wrong
 from ninja_game.ui.list_view import ListView
-from ninja_game.ui.theme import Area, Theme, inside
+from ninja_game.ui.theme import RUN_COLOURS, Area, Palette, Theme, inside
 from ninja_game.ui.widgets import Button, Widget
+
+SHORTEST = 10.0
+"""Ticks that are shown at least."""
+_STEPS = (1, 2, 5, 10, 20, 40, 100, 200, 400, 1000, 2000, 4000, 10_000, 40_000)
+"""Ticks between two numbers of the axis."""
+
+
+@dataclass
+class TickRange:
+    """The ticks ``first`` … ``last`` (with fractions) of a run of ``length`` ticks, from ``left`` over ``width`` px."""
+
+    left: float = 0.0
+    width: float = 1.0
+    length: float = SHORTEST
+    first: float = 0.0
+    last: float = SHORTEST
+
+    @property
+    def is_whole(self) -> bool:
+        return self.first <= 0 and self.last >= self.length
+
+    def x(self, tick: float) -> float:
+        return self.left + self.width * (tick - self.first) / (self.last - self.first)
+
+    def tick(self, x: float) -> float:
+        return self.first + (self.last - self.first) * (x - self.left) / self.width
+
+    def fit(self, length: float) -> None:
+        whole, self.length = self.is_whole, max(length, SHORTEST)
+        if whole:
+            self.show_all()
+        self.move(0.0)
+
+    def show_all(self) -> None:
+        self.first, self.last = 0.0, self.length
+
+    def zoom(self, x: float, steps: int) -> None:
+        """Show fewer ticks (steps > 0) or more, around the one at a place."""
+        shown = min(max((self.last - self.first) * 0.8**steps, SHORTEST), self.length)
+        share = (x - self.left) / self.width
+        self.first = self.tick(x) - share * shown
+        self.last = self.first + shown
+        self.move(0.0)
+
+    def move(self, ticks: float) -> None:
+        shown = self.last - self.first
+        self.first = max(0.0, min(self.first + ticks, self.length - shown))
+        self.last = self.first + shown
+
+    def follow(self, tick: float) -> None:
+        if not self.first <= tick <= self.last:
+            self.move(tick - (self.first + self.last) / 2)
+
+    def axis(self) -> Iterator[int]:
+        step = next((each for each in _STEPS if self.width * each / (self.last - self.first) >= 36), _STEPS[-1])
+        return iter(range(-(-int(self.first) // step) * step, int(self.last) + 1, step))
+
+
+def colour_of(number: int, palette: Palette) -> pygame.Color:
+    """The colour of a plot: on dark panels lighter, on light ones darker."""
+    dark = palette.panel.hsla[2] < 50
+    return RUN_COLOURS[number % len(RUN_COLOURS)].lerp("white" if dark else "black", 0.4 if dark else 0.25)
+
+
+def draw_lane(
+    surface: pygame.Surface, theme: Theme, area: Area, window: TickRange, values: Values, colour: pygame.Color
+) -> None:
+    """A value over ticks, float64 (ticks,), in the window; NaN leaves a gap. Its bounds stand at the left."""
+    canvas, palette = theme.canvas, theme.palette
+    x, y, w, h = area
+    canvas.fill_rect(surface, palette.background, *area)
+    start = max(0, int(window.first))
+    shown = values[start : int(window.last) + 2]
+    known = shown[np.isfinite(shown)]
+    if not len(known):
+        theme.text(surface, "no value here", x + w / 2, y + h / 2 - 5, size=9, colour=palette.faint, align="centre")
+        return
+    low, high = float(known.min()), float(known.max())
+    middle, span = (low + high) / 2, max(high - low, 1e-9)
+    top, room = y + 3, h - 6
+    if low < 0 < high:
+        zero = top + room * (high / span)
+        canvas.fill_rect(surface, palette.panel_edge, x, zero, w, 0.5)
+    ticks = np.arange(start, start + len(shown), dtype=np.float64)
+    most = max(2, canvas.px(w))
+    if len(shown) > 2 * most:
+        ticks, shown = _thinned(ticks, shown, most)
+    share = (high - shown) / span if high > low else np.full(len(shown), 0.5) + 0 * shown
+    left, above = canvas.exact(window.left, top)
+    px = left + (ticks - window.first) * (window.width * canvas.scale / (window.last - window.first))
+    lane = canvas.rect(*area)
+    inner = surface.subsurface(lane.clip(surface.get_rect()))
+    points = np.column_stack([px, above + share * (room * canvas.scale)]) - inner.get_offset()
+    _draw_line(inner, colour, points, canvas.px(1))
+    bounds = ((high, y + 1), (low, y + h - 9)) if high > low else ((middle, y + h / 2 - 4),)
+    for value, at in bounds:
+        theme.text(surface, f"{value:.4g}", x - 3, at, size=8, colour=colour, align="right")
+
+
+def _thinned(ticks: Values, values: Values, columns: int) -> tuple[Values, Values]:
+    """The least and the greatest value in each column of px."""
+    starts = np.unique(np.linspace(0, len(values), columns, endpoint=False).astype(np.intp))
+    pairs = np.column_stack([np.fmin.reduceat(values, starts), np.fmax.reduceat(values, starts)])
+    return np.repeat(ticks[starts], 2), pairs.ravel()
+
+
+def _draw_line(surface: pygame.Surface, colour: pygame.Color, points: Values, width: int) -> None:
+    """A line through points, float64 (n, 2), px; NaN leaves a gap."""
+    known = np.isfinite(points[:, 1])
+    for piece in np.split(points, np.flatnonzero(np.diff(known)) + 1):
+        if len(piece) > 1 and np.isfinite(piece[0, 1]):
+            pygame.draw.lines(surface, colour, False, piece.tolist(), width)
+
 
 WatchableObject = tuple[int, int, float, float]
 """Id, kind, x and y (px) of an object."""
@@ -46,7 +157,6 @@ class ObjectList(MenuScreen):
         return [self.list, Button((640, 530, 112, 24), "Back", self.back, size=10)]
 
     def draw_frame(self, surface: pygame.Surface) -> None:
-        """The names of the columns."""
         super().draw_frame(surface)
         theme = self.app.theme
         for x, text in ((48, "Id"), (100, "What"), (300, "x, y at the start, px"), (500, "To be watched")):
@@ -102,7 +212,6 @@ def watched_values(texts: Sequence[str]) -> Iterator[Watched]:
 
 
 def shown_value(each: Watched, tick: int) -> str:
-    """A value at a tick, as the list has it."""
     value = float(each.values[tick]) if tick < len(each.values) else np.nan
     if not np.isfinite(value):
         return "-"
@@ -119,8 +228,6 @@ _STILL = 3.0
 
 
 class ValuesTab(Tab):
-    """The list of watched values at the left, their plots at the right."""
-
     name = "Values"
 
     def __init__(self, editor: TasEditor) -> None:
@@ -144,7 +251,6 @@ class ValuesTab(Tab):
         self._dragged = False
 
     def arrange(self, x: float, y: float, w: float, h: float) -> None:
-        """The list above the buttons, the plots beside them."""
         listed = 168 + (w - 424) / 5
         self.list.area = x + 4, y + 5, listed, h - 27
         put_in_a_row(x + 4, y + h - 21, self._buttons, (48, 54, 54))
@@ -154,8 +260,6 @@ class ValuesTab(Tab):
 
     def commands(self) -> Commands:
         return {"watch": self.ask}
-
-    # --- the values ---
 
     def refresh(self) -> None:
         timeline = self.editor.session.timeline
@@ -168,11 +272,9 @@ class ValuesTab(Tab):
             self.list.fill(self.watched)
 
     def ask(self, text: str = "") -> None:
-        self.editor.show_tab(self.name)
-        fields = [("speed, x > 400, object_x(12) ...", text, LONGEST)]
-        self.editor.app.push(
-            FormPanel(self.editor.app, "Watch a value", fields, "Watch", lambda texts: self.add(texts[0]))
-        )
+        self.editor.tab = self.name
+        prompt = "speed, x > 400, object_x(12) ..."
+        ask_text(self.editor.app, "Watch a value", prompt, text, "Watch", self.add, LONGEST)
 
     def add(self, text: str) -> None:
         """Watch a formula; what is wrong with it is reported, and the question is put again."""
@@ -194,7 +296,6 @@ class ValuesTab(Tab):
         self._keep()
 
     def _keep(self) -> None:
-        """The run remembers them when it is saved."""
         self.editor.session.watch(each.watch.text for each in self.watched)
         self.list.fill(self.watched)
 
@@ -213,10 +314,7 @@ class ValuesTab(Tab):
         if latest.plotted and len(others) >= LANES:
             others[0].plotted = False
 
-    # --- picture ---
-
     def update(self, real_ms: int) -> None:
-        """While it is shown: follow the run and the cursor."""
         if self.editor.tab != self.name:
             return
         self.refresh()
@@ -226,7 +324,6 @@ class ValuesTab(Tab):
             self.window.follow(self._cursor)
 
     def render_key(self) -> tuple[object, ...]:
-        """Run, cursor, selection, what is watched, what is shown of it."""
         editor = self.editor
         plotted = tuple((each, each.plotted) for each in self.watched)
         shown = self.window.first, self.window.last, self.list.over
@@ -246,7 +343,6 @@ class ValuesTab(Tab):
         self._paint_ticks(surface, theme)
 
     def _paint_ticks(self, surface: pygame.Surface, theme: Theme) -> None:
-        """Selection, events, the cursor, and the numbers of ticks below."""
         canvas, palette, window = theme.canvas, theme.palette, self.window
         x, y, w, h = self._plot
         before = surface.get_clip()
@@ -268,7 +364,6 @@ class ValuesTab(Tab):
             theme.text(surface, str(tick), at, y + h + 7, size=8, colour=palette.faint, align="centre")
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, _: bool) -> None:
-        """A sign of its colour, the formula, the value at the cursor."""
         each, palette = self.watched[index], theme.palette
         x, y, w, h = area
         sign = (x + 4, y + h / 2 - 4, 8, 8)
@@ -281,8 +376,6 @@ class ValuesTab(Tab):
         right = theme.text(surface, value, x + w - 4, y + 3, size=SMALL, bold=True, align="right")
         room = right.left / theme.canvas.scale - theme.canvas.origin[0] / theme.canvas.scale - (x + 16) - 4
         theme.text(surface, each.watch.text, x + 16, y + 3, size=SMALL, width=room)
-
-    # --- mouse ---
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
         """In the plot: the wheel zooms, a drag moves, a click puts the cursor there, the right button shows all."""
@@ -313,7 +406,6 @@ class ValuesTab(Tab):
         return True
 
     def _tell(self, tick: int) -> None:
-        """What is plotted at a tick, and what can be done."""
         tick = min(max(0, tick), self.editor.last_tick)
         values = "  ".join(f"{each.watch.text}: {shown_value(each, tick)}" for each in self.watched if each.plotted)
         self.editor.hint = f"tick {tick}  {values}   (wheel: zoom, drag: move, right: all)"

@@ -19,10 +19,8 @@ from ninja_game.ui.audio.table import warning_of
 
 MENU = "menu"
 BY_COLUMN = ("ground", "machines", "places", "trials", "hardest")
-"""The music of each column of episodes."""
 
 SILENCE = "silence"
-"""A music without layers."""
 
 LAYERS = ("base", "danger", "speed", "exit")
 LAYERS_OF: dict[str, tuple[str, ...]] = {MENU: LAYERS[:1], **dict.fromkeys(BY_COLUMN, LAYERS)}
@@ -128,7 +126,6 @@ class Music:
             channel.set_volume(0)
 
     def _read(self, name: str) -> None:
-        """Read the layers; none where a file is missing or no music."""
         try:
             files = [self.folder / f"{name}-{layer}.ogg" for layer in LAYERS_OF.get(name, ())]
             sounds = [pygame.mixer.Sound(file) for file in files]

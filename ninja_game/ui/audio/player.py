@@ -64,14 +64,9 @@ class AudioPlayer(AudioOutput):
     """
 
     def __init__(
-        self,
-        folder: Path,
-        *,
-        volume: int = LOUDEST,
-        effects_volume: int = LOUDEST,
-        loop_volume: int = LOUDEST,
+        self, folder: Path, volume: int = LOUDEST, effects_volume: int = LOUDEST, loop_volume: int = LOUDEST,
         music_volume: int = 0,
-    ) -> None:
+    ) -> None:  # fmt: skip
         self.folder = folder
         self.volume = volume
         self.effects_volume = effects_volume
@@ -92,8 +87,6 @@ class AudioPlayer(AudioOutput):
             # Reading while the device is closed spoils the memory of the whole program, which then dies anywhere.
             pygame.register_quit(self.close)
         self._reader = run_in_background(self._read_all, lambda _: None) if self.works else None
-
-    # --- what is heard ---
 
     def play_events(self, world: World) -> None:
         """After a tick: its events once each, and the loops of what goes on."""
@@ -151,10 +144,7 @@ class AudioPlayer(AudioOutput):
             level *= self.volume * self.effects_volume / LOUDEST**2
             channel.set_volume(level * (1 - PAN * max(side, 0.0)), level * (1 + PAN * min(side, 0.0)))
 
-    # --- how ---
-
     def set_volumes(self, volume: int, effects: int, loop_volume: int, music_volume: int) -> None:
-        """Take other volumes, 0 to 99."""
         self.volume, self.effects_volume, self.loop_volume = volume, effects, loop_volume
         self.music_volume = music_volume
         if not volume:
@@ -177,7 +167,6 @@ class AudioPlayer(AudioOutput):
         channel.set_volume(level * self.volume * self.effects_volume * self.loop_volume / LOUDEST**3)
 
     def _read_all(self) -> None:
-        """Read every sound before it is wanted."""
         for path in sorted(self.folder.glob("*.ogg")):
             if self._closed:
                 return
@@ -210,7 +199,6 @@ def _quiet_libraries() -> Iterator[None]:
 
 
 def _open_mixer() -> bool:
-    """Whether there is a sound device that can be used."""
     try:
         if not pygame.mixer.get_init():
             with _quiet_libraries():

@@ -16,7 +16,6 @@ Names = tuple[str, ...]
 
 
 def several(name: str, count: int) -> Names:
-    """The names of the variants of a sound."""
     return tuple(f"{name}-{number}" for number in range(1, count + 1))
 
 
@@ -98,7 +97,6 @@ _LASTING = {
 
 
 def has_loop(o: Object) -> bool:
-    """Whether an object makes a lasting sound at times."""
     return o.kind in (LAUNCHER, FLOOR_GUARD) or (o.kind == DRONE and o.weapon == states.WEAPON_LASER)
 
 

@@ -94,12 +94,10 @@ class Gamepads:
             self._open[instance] = pad
 
     def _remove(self, instance: int) -> list[Change]:
-        """Let a pad go; what was held on it is released."""
         self._open.pop(instance, None)
         return [(name, False) for name in self._down.pop(instance, set())]
 
     def _is_plain(self, instance: int) -> bool:
-        """Whether a pad is read as a plain joystick."""
         pad = self._open.get(instance)
         return pad is None or isinstance(pad, pygame.joystick.JoystickType)
 
@@ -125,5 +123,4 @@ class Gamepads:
 
 
 def pad_label(name: str) -> str:
-    """What to call an input of a pad when talking to the player."""
     return LABELS.get(name) or name[:-1].replace("-", " ").capitalize() + name[-1:]

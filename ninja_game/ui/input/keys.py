@@ -52,7 +52,6 @@ def scancode_of(event: pygame.Event) -> int:
 
 
 def key_name(scancode: int) -> str:
-    """The name of a key in files."""
     return _NAMES.get(scancode, f"scancode-{scancode}")
 
 
@@ -75,7 +74,6 @@ def scancode_named(name: str) -> int | None:
 
 
 def learn_label(event: pygame.Event) -> None:
-    """Remember what the layout prints on a key that was pressed."""
     scancode = scancode_of(event)
     if key_name(scancode) not in LABELS and (label := pygame.key.name(event.key)):
         _learnt[scancode] = label.capitalize() if len(label) > 1 else label.upper()
@@ -123,7 +121,6 @@ class HeldKey(Generic[T]):
         self.what = None
 
     def follow(self, event: pygame.Event) -> None:
-        """It ends when its key is released."""
         if event.type == pygame.KEYUP and scancode_of(event) == self._key:
             self.end()
 

@@ -11,8 +11,8 @@ from ninja_game.editor.specs import BODY, points
 from ninja_game.editor.stamp import Selection, Stamp, put
 from ninja_game.files.user_folder import bundled_levels
 from ninja_game.formats.load import load_levels
-from ninja_game.play.editor import object_pictures
-from ninja_game.play.editor.object_pictures import ObjectPictures, ObjectSprites
+from ninja_game.play.editor import palette_view
+from ninja_game.play.editor.palette_view import ObjectPictures, ObjectSprites
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.theme import PALETTES
@@ -42,7 +42,7 @@ def test_what_is_asked_for_in_one_place_looks_as_it_does_in_its_own(monkeypatch:
     ]
     records |= {*CROWD, *(ObjectSpec(9, values) for values in odd_doors), ObjectSpec(9, (1.0, 2.0)), ObjectSpec(77, ())}
     quick = pictures().sprites_of(records)
-    monkeypatch.setattr(object_pictures, "_model", lambda spec: spec)
+    monkeypatch.setattr(palette_view, "_model", lambda spec: spec)
     exact = pictures().sprites_of(sorted(records))
     for spec, look in exact.items():
         assert rounded(quick[spec]) == rounded(look), spec

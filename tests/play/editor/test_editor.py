@@ -14,9 +14,8 @@ import pytest
 from ninja_game.backend.memories import compiled_available
 from ninja_game.editor import packs
 from ninja_game.editor.brush import OBJECT_TYPES, object_of_type, placed
-from ninja_game.editor.certify import Search
+from ninja_game.editor.certify import LANDED, SQUARE, STARTS, Reach, Search
 from ninja_game.editor.files import Source, open_source
-from ninja_game.editor.reach import LANDED, SQUARE, STARTS, Reach
 from ninja_game.editor.specs import SWITCH, points
 from ninja_game.editor.stamp import Selection, Stamp, put
 from ninja_game.formats.ascii.places import place_text
@@ -24,14 +23,12 @@ from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import parse_replay
 from ninja_game.levels.findings import Finding
-from ninja_game.play.editor.controls import COMMANDS
-from ninja_game.play.editor.object_list import ObjectList
-from ninja_game.play.editor.parts import FIRST_STEPS, Findings
+from ninja_game.play.editor.commands import COMMANDS, TryScreen
+from ninja_game.play.editor.parts import FIRST_STEPS, Findings, ObjectList
 from ninja_game.play.editor.screen import EditorScreen
-from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.panels import FormPanel, Menu
+from ninja_game.play.menus.menu_screen import FormPanel, Menu
 from ninja_game.runs.packs import lint
 from ninja_game.runs.run import run_level
 from ninja_game.search.certificate import verified_run

@@ -10,10 +10,10 @@ import pytest
 
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.formats.sayings import MOST_LETTERS, MOST_SAYINGS, read_sayings
+from ninja_game.play.editor.commands import TryScreen
 from ninja_game.play.editor.messages import Message, MessagesScreen, messages_of
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import said_places
-from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.level.sayings import Sayings
 from ninja_game.sim.events import LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.kinds import GOLD

@@ -16,7 +16,7 @@ from ninja_game.formats.pack.pack import Pack
 from ninja_game.generator import daily
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.daily import DailyScreen
-from ninja_game.player.marks import WITH_HELP
+from ninja_game.player.progress import WITH_HELP
 from ninja_game.runs.packs import certificate
 from tests.support.draw_log import drawn
 from tests.support.menu_driver import MenuDriver

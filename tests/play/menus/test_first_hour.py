@@ -15,11 +15,11 @@ from ninja_game.play.level.sayings import CLIMB, CLIMBED, FALL_HELP, QUIET_TICKS
 from ninja_game.play.level.screen import LevelScreen, PausePanel, play_level
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.panels import Menu
+from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.rooms import room_level, strokes
 from ninja_game.player.playthrough import EpisodeRun, LevelRun
-from ninja_game.player.statistics import SELF
+from ninja_game.player.records import SELF
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.level import ROWS
 from ninja_game.sim.rules import CELL

@@ -13,14 +13,12 @@ import pytest
 from PIL import Image
 
 from ninja_game.errors import NinjaGameError
+from ninja_game.play.lab.cells import CellsTouched, GridOfCells, NineCells, RayCast
+from ninja_game.play.lab.edges import STATES, Doors, EdgeStates, WalkingEnemies
 from ninja_game.play.lab.figure import FIGURE, Figure, room_world
-from ninja_game.play.lab.figures.cells import CellsTouched, GridOfCells, NineCells
-from ninja_game.play.lab.figures.drones import WalkingEnemies
-from ninja_game.play.lab.figures.edges import STATES, Doors, EdgeStates
-from ninja_game.play.lab.figures.grids import Bullets, FiveCells, LooseGrid
-from ninja_game.play.lab.figures.one_tick import PHASES, PLAYED, OneTick
-from ninja_game.play.lab.figures.projection import PUSH, Bodies, Projection, Response
-from ninja_game.play.lab.figures.rays import RayCast
+from ninja_game.play.lab.grids import Bullets, FiveCells, LooseGrid
+from ninja_game.play.lab.one_tick import PHASES, PLAYED, OneTick
+from ninja_game.play.lab.projection import PUSH, Bodies, Projection, Response
 from ninja_game.play.lab.screen import FIGURES, FILM_TICKS, FigureArea, LabScreen, export_figure, figure_pictures
 from ninja_game.play.rooms import room_level
 from ninja_game.sim.collision.box import collide_box

@@ -11,8 +11,7 @@ from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import Cells, EpisodeGrid
 from ninja_game.play.menus.main_menu import PANEL, MainMenu
 from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.records import RecordsScreen
-from ninja_game.play.menus.replays import ReplaysScreen
+from ninja_game.play.menus.replays import RecordsScreen, ReplaysScreen
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.list_view import ListView

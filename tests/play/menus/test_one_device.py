@@ -15,10 +15,8 @@ from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.menu_screen import BACK, MenuScreen
-from ninja_game.play.menus.panels import Question
-from ninja_game.play.menus.records import RecordsScreen
-from ninja_game.play.menus.replays import ReplaysScreen
+from ninja_game.play.menus.menu_screen import BACK, MenuScreen, Question
+from ninja_game.play.menus.replays import RecordsScreen, ReplaysScreen
 from ninja_game.play.menus.settings import PAGES, SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.ui.input.gamepad import BUTTONS

@@ -14,16 +14,15 @@ import pygame
 import pytest
 
 from ninja_game.editor import packs
-from ninja_game.editor.packing import ReadyPack
+from ninja_game.editor.packs import ReadyPack
 from ninja_game.formats.links.fragment import write_link
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.levels.findings import in_pack
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
-from ninja_game.play.menus.menu_screen import BACK, MenuScreen
+from ninja_game.play.menus.menu_screen import BACK, FormPanel, MenuScreen
 from ninja_game.play.menus.packs import PackScreen
-from ninja_game.play.menus.panels import FormPanel
 from ninja_game.play.menus.problems import ProblemsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.runs.packs import lint

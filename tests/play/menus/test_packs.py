@@ -20,7 +20,7 @@ from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import NAMED, Cells, EpisodeGrid
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.problems import ProblemsScreen
-from ninja_game.player.marks import Mark, next_par, reached
+from ninja_game.player.progress import Mark, next_par, reached
 from tests.support.draw_log import drawn
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK

@@ -12,11 +12,10 @@ from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.passed import EpisodePassed
-from ninja_game.play.menus.records import RecordsScreen
-from ninja_game.play.menus.replays import ReplaysScreen
+from ninja_game.play.menus.replays import RecordsScreen, ReplaysScreen
 from ninja_game.play.replay.screen import ReplayScreen
+from ninja_game.player.player_data import EPISODE_BEST, OF_A_LEVEL
 from ninja_game.player.progress import UNLOCKED
-from ninja_game.player.saving import EPISODE_BEST, OF_A_LEVEL
 from ninja_game.runs.verify import verify_recording
 from tests.support.draw_log import drawn
 from tests.support.menu_driver import MenuDriver

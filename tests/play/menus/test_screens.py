@@ -21,13 +21,11 @@ from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.panels import Question
-from ninja_game.play.menus.records import RecordsScreen
-from ninja_game.play.menus.replays import ReplaysScreen
+from ninja_game.play.menus.menu_screen import MenuScreen, Question
+from ninja_game.play.menus.replays import RecordsScreen, ReplaysScreen
 from ninja_game.play.menus.settings import PAGES, SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.player.settings import DEFAULT_PALETTE
+from ninja_game.player.settings import BY_COLUMN
 from ninja_game.ui.theme import wrapped
 from ninja_game.ui.widgets import Button
 from tests.support.menu_driver import MenuDriver
@@ -150,7 +148,7 @@ def test_palette_is_changed_shown_and_saved(driver: MenuDriver) -> None:
     driver.press("right", "right")
     driver.shown(SettingsScreen)
     chosen = driver.player.settings.palette
-    assert chosen != DEFAULT_PALETTE
+    assert chosen != BY_COLUMN
     assert driver.app.theme.palette.name == chosen
     assert f'palette = "{chosen}"' in (driver.player.folder / "settings.toml").read_text()
 

@@ -6,7 +6,7 @@ import pygame
 import pytest
 
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.panels import Menu
+from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.play.menus.settings import LEFT, LIST, PAGES, ROW, SLOTS, STEP, TOP, Capture, SettingsScreen, clash
 from ninja_game.ui.input.bindings import ACTIONS, MENU_KEYS, MENU_PAD, bindable
 from ninja_game.ui.theme import PALETTES

@@ -13,7 +13,7 @@ from ninja_game.play.level.play import DEATH_PAUSE, MUST, STAMP_TICKS, TRIES_FRO
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.passed import FEAST_TICKS, EpisodePassed
 from ninja_game.play.rooms import room_level
-from ninja_game.play.wipe import WIPE_MS
+from ninja_game.play.window import WIPE_MS
 from ninja_game.player.playthrough import EpisodeRun, LevelRun
 from ninja_game.sim.events import LANDED, MINE_EXPLODED
 from ninja_game.sim.kinds import EXIT

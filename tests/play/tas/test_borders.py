@@ -9,10 +9,10 @@ from shutil import copy
 import pygame
 import pytest
 
-from ninja_game.play.menus.panels import Menu
+from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.player.settings import read_settings
 from ninja_game.tas.files import open_run
-from ninja_game.tas_editor.layout import NARROWEST_ROLL, LayoutPreferences, tas_canvas, tas_layout
+from ninja_game.tas_editor.editor import NARROWEST_ROLL, LayoutPreferences, tas_canvas, tas_layout
 from ninja_game.tas_editor.screen import TasScreen
 from ninja_game.ui.theme import Area
 from tests.play.tas.conftest import RUN

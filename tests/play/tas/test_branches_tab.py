@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from ninja_game.play.menus.panels import Question
+from ninja_game.play.menus.menu_screen import Question
 from ninja_game.sim.inputs import Input
 from ninja_game.tas_editor.tabs.branches_tab import BranchesTab
 from tests.support.tas_driver import TasDriver

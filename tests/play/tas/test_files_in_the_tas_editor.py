@@ -9,11 +9,11 @@ import pygame
 from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.load import load_replays
 from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.panels import Menu
+from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.sim.inputs import KEY_LEFT
 from ninja_game.tas.journal import FOLDER, recovered
-from ninja_game.tas_editor.controls import COMMANDS
+from ninja_game.tas_editor.commands import COMMANDS
 from ninja_game.tas_editor.opening import open_tas_editor
 from ninja_game.tas_editor.screen import TasScreen
 from tests.play.tas.conftest import RUN

@@ -16,7 +16,7 @@ from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import ReplayError
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
-from ninja_game.play.menus.panels import FormPanel
+from ninja_game.play.menus.menu_screen import FormPanel
 from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.files import open_run, runs_of_level

@@ -6,7 +6,7 @@ import pygame
 import pytest
 
 from ninja_game.formats.replay.input_runs import Marker
-from ninja_game.play.menus.panels import FormPanel, Menu
+from ninja_game.play.menus.menu_screen import FormPanel, Menu
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.input_track import InputTrack
 from tests.support.tas_driver import TasDriver

@@ -12,7 +12,7 @@ import numpy as np
 import pygame
 import pytest
 
-from ninja_game.play.menus.panels import PANEL_WIDTH, Menu
+from ninja_game.play.menus.menu_screen import PANEL_WIDTH, Menu
 from ninja_game.search.formula import background
 from ninja_game.search.formula.methods import fewest_ticks
 from ninja_game.search.formula.task import Found

@@ -78,7 +78,6 @@ class Crowd:
         return Work(loose, loose_tests - len(self.objects)), Work(normal, normal_tests)
 
     def step(self, o: Object) -> None:
-        """Fly on; at the walls turn back."""
         vx, vy = self.velocities[o.slot]
         o.x, o.y = o.x + vx, o.y + vy
         if not LEFT + self.radius < o.x < RIGHT - self.radius:
@@ -88,7 +87,6 @@ class Crowd:
         self.velocities[o.slot] = vx, vy
 
     def meet(self, a: Object, b: Object) -> bool:
-        """Whether two discs overlap."""
         return (a.x - b.x) ** 2 + (a.y - b.y) ** 2 < (2 * self.radius) ** 2
 
     def five_cell_pairs(self) -> Iterator[tuple[Object, Object]]:
@@ -140,7 +138,6 @@ class LooseGrid(Figure):
         self.crowd = Crowd(self.count, self.radius)
 
     def resize(self) -> None:
-        """Give the objects the size that is wanted."""
         self.crowd.radius = self.radius
 
     def controls(self) -> Sequence[Control]:
@@ -212,8 +209,6 @@ class LooseGrid(Figure):
 
 
 class FiveCells(Figure):
-    """The scan for all pairs in slow motion."""
-
     name = "pairs"
     view = FIELD
     count = FigureSetting(60)
@@ -259,7 +254,6 @@ class FiveCells(Figure):
         ]
 
     def draw(self, sheet: Sheet) -> None:
-        """The five cells of the present test, the pairs found."""
         p = sheet.palette
         if self.tested and not self.done:
             cell = self.tested[-1][0].cell
@@ -319,7 +313,6 @@ class Bullets(Figure):
                 self.hits += (o.x - target.x) ** 2 + (o.y - target.y) ** 2 < targets.radius**2
 
     def numbers(self) -> list[tuple[str, str]]:
-        """What a tick costs."""
         return [
             ("bullets, targets", f"{self.count}, {len(self.targets.objects)}"),
             ("hits in this tick", str(self.hits)),

@@ -235,7 +235,6 @@ def _check_tables(connection: sqlite3.Connection) -> None:
 
 
 def _shape(connection: sqlite3.Connection, table: str) -> list[tuple[object, ...]]:
-    """The columns of a table and what they refer to; empty where it is missing."""
     columns = connection.execute("SELECT * FROM pragma_table_info(?)", (table,))
     references = connection.execute("SELECT * FROM pragma_foreign_key_list(?)", (table,))
     return [*columns, *references]

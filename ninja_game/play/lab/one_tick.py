@@ -35,8 +35,6 @@ PLAYED = strokes("10 r30 rj20 r30 l40 lj25 l30 10")
 
 
 class OneTick(Figure):
-    """Every rule that a tick calls, one after the other."""
-
     name = "tick"
     keys = -1
     speed: float = 4
@@ -79,7 +77,6 @@ class OneTick(Figure):
             self._next()
 
     def tick(self) -> None:
-        """Go on to the next call, in its time."""
         self._forward(self.speed / 40)
 
     @property
@@ -89,12 +86,10 @@ class OneTick(Figure):
 
     @property
     def phase(self) -> str:
-        """The phase in which the present call is."""
         names = [call.name for call in self.calls[: int(self.at) + 1]]
         return next((PHASES[name] for name in reversed(names) if name in PHASES), "a tick begins")
 
     def numbers(self) -> list[tuple[str, str]]:
-        """The phase, and the calls about the present one."""
         first = max(0, int(self.at) - SHOWN + 4)
         rows = []
         for number, call in enumerate(self.calls[first : first + SHOWN - 2], first):
@@ -107,7 +102,6 @@ class OneTick(Figure):
         return [(f"tick {world.tick}", self.phase), *rows, ("events", events or "none")]
 
     def draw(self, sheet: Sheet) -> None:
-        """The game's own picture, and what the present call is about."""
         p, w = sheet.palette, self.stage.world
         self.stage.draw(sheet)
         call = self.calls[min(int(self.at), len(self.calls) - 1)]

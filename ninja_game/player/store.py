@@ -15,7 +15,7 @@ from typing import Any
 
 from ninja_game.files.locking import locked
 from ninja_game.files.user_folder import quarantine
-from ninja_game.player.store.schema import OPENING_SECONDS, OtherVersionError, copy_in_memory, open_database
+from ninja_game.player.schema import OPENING_SECONDS, OtherVersionError, copy_in_memory, open_database
 
 GAME_WAIT_MS, LAST_WAIT_MS = 200, 3000
 """How long a save waits for another program that writes: during play, where it holds up the picture, and at the end."""
@@ -166,7 +166,6 @@ class Store:
                 self._save_pending()
 
     def _save_pending(self) -> tuple[Sequence[str], str]:
-        """Do what waits; the notices of the last of it, or why not."""
         notices: Sequence[str] = []
         problem = ""
         while self._pending:
@@ -182,7 +181,6 @@ class Store:
         return notices, problem
 
     def close(self) -> None:
-        """Save what still waits, and close the file."""
         if self._pending:
             self.connection.execute(f"PRAGMA busy_timeout = {LAST_WAIT_MS}")
             self.flush()

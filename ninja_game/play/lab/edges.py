@@ -1,4 +1,4 @@
-"""The figure about edge states: paint tiles and see what every cell says of its four sides."""
+"""The figures about edge states: what every cell says of its four sides, doors, and drones that follow edges."""
 
 from __future__ import annotations
 
@@ -7,24 +7,16 @@ from math import sin
 
 from ninja_game.editor.brush import tile_name
 from ninja_game.formats.ascii.legend import DIRECTION_WORDS, TILE_CHARS
-from ninja_game.play.lab.figure import Control, Figure, FigureSetting, Sheet, room_world
-from ninja_game.play.lab.figures.projection import Push, pushed
+from ninja_game.formats.ascii.object_lines import MOVEMENTS
+from ninja_game.play.lab.figure import ELSEWHERE, Control, Figure, FigureSetting, Sheet, Stage, room_world
+from ninja_game.play.lab.projection import Push, pushed
+from ninja_game.sim.collision import tiles
 from ninja_game.sim.collision.rays import ray_tiles, sees
-from ninja_game.sim.collision.tiles import (
-    CENTRE_X,
-    CENTRE_Y,
-    COLUMN,
-    EXISTS,
-    FACE,
-    NEIGHBOUR_OFFSET,
-    ROW,
-    UNIT_X,
-    UNIT_Y,
-)
 from ninja_game.sim.grid import cell_at
-from ninja_game.sim.kinds import DRONE
+from ninja_game.sim.kinds import DOOR, DRONE
+from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.objects.door import write_edges
-from ninja_game.sim.objects.drone import first_open
+from ninja_game.sim.objects.drone import ROTATIONS, first_open
 from ninja_game.sim.rules import DRONE_RADIUS, RADIUS
 from ninja_game.ui.canvas import Point
 
@@ -53,7 +45,6 @@ class EdgeStates(Figure):
         self.move_door()
 
     def move_door(self) -> None:
-        """Open or close it as is wanted."""
         write_edges(self.world, self.world.objects[self._door], not self.is_open)
 
     @property
@@ -71,7 +62,7 @@ class EdgeStates(Figure):
     def press(self, x: float, y: float) -> None:
         """Paint the cell; one that has the tile already becomes empty."""
         self.drag(x, y)
-        row, column = ROW[self.cell] - 1, COLUMN[self.cell] - 1
+        row, column = tiles.ROW[self.cell] - 1, tiles.COLUMN[self.cell] - 1
         if 0 <= row < len(self.rows) and 0 <= column < len(self.rows[0]) and self.rows[row][column] != "&":
             wanted = TILE_CHARS[int(self.tile)]
             self.rows[row][column] = "." if self.rows[row][column] == wanted else wanted
@@ -90,14 +81,20 @@ class EdgeStates(Figure):
         return cell_at(self.x, self.y)
 
     def numbers(self) -> list[tuple[str, str]]:
-        neighbour = self.cell + NEIGHBOUR_OFFSET[self.side]
-        own = FACE[4 * self.tiles.tiles[self.cell] + self.side]
-        other = FACE[4 * self.tiles.tiles[neighbour] + (self.side ^ 2)]
-        states = [self.world.edges[4 * cell + side] for cell in range(len(EXISTS)) if EXISTS[cell] for side in range(4)]
+        column, row, tile = tiles.COLUMN[self.cell], tiles.ROW[self.cell], self.tiles.tiles[self.cell]
+        neighbour = self.cell + tiles.NEIGHBOUR_OFFSET[self.side]
+        own = tiles.FACE[4 * self.tiles.tiles[self.cell] + self.side]
+        other = tiles.FACE[4 * self.tiles.tiles[neighbour] + (self.side ^ 2)]
+        states = [
+            self.world.edges[4 * cell + side]
+            for cell in range(len(tiles.EXISTS))
+            if tiles.EXISTS[cell]
+            for side in range(4)
+        ]
         return [
-            ("cell", f"column {COLUMN[self.cell]}, row {ROW[self.cell]}: {tile_name(self.tiles.tiles[self.cell])}"),
+            ("cell", f"column {column}, row {row}: {tile_name(tile)}"),
             ("1. its own face there", FACES[own]),
-            ("2. the neighbour's face", FACES[other] if EXISTS[neighbour] else "there is no neighbour"),
+            ("2. the neighbour's face", FACES[other] if tiles.EXISTS[neighbour] else "there is no neighbour"),
             ("3. the state", STATES[self.world.edges[4 * self.cell + self.side]]),
             ("in the level", ", ".join(f"{states.count(state)} {name}" for state, name in enumerate(STATES))),
         ]
@@ -107,12 +104,12 @@ class EdgeStates(Figure):
         sheet.tiles(self.tiles)
         sheet.grid()
         sheet.edges(self.world)
-        x, y = CENTRE_X[self.cell], CENTRE_Y[self.cell]
+        x, y = tiles.CENTRE_X[self.cell], tiles.CENTRE_Y[self.cell]
         sheet.shade(self.cell, p.good, 90)
-        sheet.arrow(p.good, (x, y), (x + 17 * UNIT_X[self.side], y + 17 * UNIT_Y[self.side]), 3)
+        sheet.arrow(p.good, (x, y), (x + 17 * tiles.UNIT_X[self.side], y + 17 * tiles.UNIT_Y[self.side]), 3)
         door = self.world.objects[self._door]
         cell, side = divmod(door.edge_1, 4)
-        middle = CENTRE_X[cell] + 12 * UNIT_X[side], CENTRE_Y[cell] + 12 * UNIT_Y[side]
+        middle = tiles.CENTRE_X[cell] + 12 * tiles.UNIT_X[side], tiles.CENTRE_Y[cell] + 12 * tiles.UNIT_Y[side]
         sheet.text("door", middle[0], middle[1] - 18, colour=p.lock)
 
 
@@ -130,7 +127,6 @@ class Doors(EdgeStates):
     nudge = Figure.nudge
 
     def demonstrate(self, tick: int) -> None:
-        """The door opens and closes, the body goes to and fro."""
         self.is_open = tick // 80 % 2 == 1
         self.drag(self.start[0] + 12 * sin(tick / 20), self.start[1])
 
@@ -163,7 +159,6 @@ class Doors(EdgeStates):
         ]
 
     def draw(self, sheet: Sheet) -> None:
-        """The edges, the body before and after its push, the turret's ray, the drone and its way."""
         p = sheet.palette
         sheet.tiles(self.tiles)
         sheet.grid()
@@ -176,6 +171,98 @@ class Doors(EdgeStates):
         drone = next(o for o in self.world.objects if o.kind == DRONE)
         sheet.circle(p.switch, drone.x, drone.y, DRONE_RADIUS, 2)
         side = DIRECTIONS.index(self.drone_goes())
-        sheet.arrow(p.switch, (drone.x, drone.y), (drone.x + 20 * UNIT_X[side], drone.y + 20 * UNIT_Y[side]), 3)
+        sheet.arrow(
+            p.switch, (drone.x, drone.y), (drone.x + 20 * tiles.UNIT_X[side], drone.y + 20 * tiles.UNIT_Y[side]), 3
+        )
         sheet.text("drone", drone.x - 32, drone.y - 14)
         sheet.text("turret", self.turret[0], self.turret[1] - 12)
+
+
+class WalkingEnemies(Figure):
+    name = "drones"
+    start = (180.0, 90.0)
+    movement = FigureSetting("surface-cw")
+
+    def reset(self) -> None:
+        super().reset()
+        drones = [f"zap drone {place} {self.movement} right" for place in ("3,2", "5,4", "13,7")]
+        self.stage = Stage(self.room, [*self.objects, *drones, ELSEWHERE])
+        self.decided: dict[int, tuple[int, int, int]] = {}
+
+    def controls(self) -> Sequence[Control]:
+        return [self.choice("Movement", [(name.replace("-", " "), name) for name in MOVEMENTS], "movement")]
+
+    def _of_kind(self, kind: int) -> list[Object]:
+        world = self.stage.world
+        return [world.objects[slot] for slot in range(1, world.slots_used) if world.objects[slot].kind == kind]
+
+    def press(self, x: float, y: float) -> None:
+        self.drag(x, y)
+        self.toggle(
+            min(
+                self._of_kind(DOOR),
+                key=lambda o: abs(tiles.CENTRE_X[o.edge_1 // 4] - x) + abs(tiles.CENTRE_Y[o.edge_1 // 4] - y),
+            )
+        )
+
+    def drag(self, x: float, y: float) -> None:
+        """Only a press does something."""
+
+    def toggle(self, door: Object) -> None:
+        door.switched = 1 - door.switched
+        write_edges(self.stage.world, door, not door.switched)
+
+    def demonstrate(self, tick: int) -> None:
+        """A door every two seconds, another movement every eight."""
+        if tick % 320 == 0:
+            self.movement = list(MOVEMENTS)[tick // 320 % len(MOVEMENTS)]
+        elif tick % 80 == 0:
+            self.toggle(self._of_kind(DOOR)[tick // 80 % 2])
+
+    def tick(self) -> None:
+        """One tick; note what the drones that arrived have tried."""
+        before = {o.slot: (o.cell, o.direction) for o in self._of_kind(DRONE)}
+        self.stage.step()
+        for call in self.stage.calls:
+            if call.name == "first_open":
+                slot = int(call.arguments["o"])
+                self.decided[slot] = (*before[slot], int(call.arguments["movement"]))
+
+    def tried(self, o: Object) -> list[tuple[int, int]]:
+        """The directions that a drone tried at its last decision, with the edge states that it read there."""
+        if o.slot not in self.decided:
+            return []
+        cell, direction, movement = self.decided[o.slot]
+        found = []
+        for rotation in ROTATIONS[4 * movement : 4 * movement + 4]:
+            candidate = (max(direction, 0) + rotation) % 4
+            found.append((candidate, self.stage.world.edges[4 * cell + candidate]))
+            if tiles.NEIGHBOUR_OFFSET[candidate] + cell == cell_at(o.goal_x, o.goal_y):
+                break
+        return found
+
+    def numbers(self) -> list[tuple[str, str]]:
+        rows = []
+        for number, o in enumerate(self._of_kind(DRONE), 1):
+            tried = ", ".join(f"{DIRECTIONS[direction]} {STATES[state]}" for direction, state in self.tried(o))
+            rows.append((f"drone {number} tried", tried or "nothing yet"))
+        opened = sum(bool(door.switched) for door in self._of_kind(DOOR))
+        return [
+            *rows,
+            ("doors open", f"{opened} of {len(self._of_kind(DOOR))}"),
+            ("tick", str(self.stage.simulation.tick)),
+        ]
+
+    def draw(self, sheet: Sheet) -> None:
+        p = sheet.palette
+        self.stage.draw(sheet)
+        sheet.grid()
+        sheet.edges(self.stage.world)
+        for number, o in enumerate(self._of_kind(DRONE), 1):
+            sheet.circle(p.switch, o.x, o.y, DRONE_RADIUS, 1.5)
+            sheet.text(str(number), o.x, o.y - 15)
+            if o.slot in self.decided:
+                x, y = tiles.CENTRE_X[self.decided[o.slot][0]], tiles.CENTRE_Y[self.decided[o.slot][0]]
+                for direction, state in self.tried(o):
+                    tip = x + 11 * tiles.UNIT_X[direction], y + 11 * tiles.UNIT_Y[direction]
+                    sheet.arrow(p.bad if state else p.good, (x, y), tip, 1.5)

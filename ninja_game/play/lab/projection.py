@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 from ninja_game.editor.brush import tile_name
 from ninja_game.formats.ascii.legend import TILE_CHARS
+from ninja_game.play.lab.cells import BODIES
 from ninja_game.play.lab.figure import ELSEWHERE, Call, Control, Figure, FigureSetting, Sheet, View, room_world, watch
-from ninja_game.play.lab.figures.cells import BODIES
 from ninja_game.play.rooms import room_level
 from ninja_game.sim.collision.box import collide_box
 from ninja_game.sim.collision.circle import collide_circle
@@ -24,7 +24,6 @@ from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Point
 
 COLUMN, ROW = 8, 5
-"""The cell that holds the tile."""
 
 PUSH = "push_from_tile"
 STAGES = ("collide_circle", "collide_box", "collide_corner")
@@ -47,12 +46,10 @@ class Push(NamedTuple):
 
     @property
     def by_edge(self) -> int:
-        """Pushes by an edge alone."""
         return sum(call.name in (PUSH, "push_from_corner") and call.caller in STAGES for call in self.calls)
 
     @property
     def shape_tests(self) -> int:
-        """Tests against a tile's shape."""
         return sum(call.name in SHAPE_TESTS and call.caller in STAGES for call in self.calls)
 
 
@@ -104,11 +101,9 @@ class Projection(Figure):
         super().demonstrate(tick)
 
     def push(self) -> Push:
-        """Collide the body with the world, which stays as it is."""
         return pushed(self.tiles, self.world, self.x, self.y, box=self.box)
 
     def tick(self) -> None:
-        """Count what this place costs."""
         push = self.push()
         self.by_edge += push.by_edge
         self.shape_tests += push.shape_tests
@@ -129,7 +124,6 @@ class Projection(Figure):
         ]
 
     def draw(self, sheet: Sheet) -> None:
-        """The tile, the body before and after, candidates, pushes."""
         p = sheet.palette
         sheet.tiles(self.tiles)
         sheet.grid()
@@ -156,7 +150,6 @@ class Response(Projection):
     origin: Point = (24 * COLUMN - 12.0, 24 * ROW - 16.0)
 
     def demonstrate(self, tick: int) -> None:
-        """Into the tile and out of it."""
         super().demonstrate(tick)
         self.drag(self.start[0] + 12 * sin(tick / 20), self.start[1] - 5 * cos(tick / 20))
 
@@ -178,7 +171,6 @@ class Response(Projection):
         ]
 
     def draw(self, sheet: Sheet) -> None:
-        """The tile, the body before, in the tile and after; speeds and pushes."""
         p, push = sheet.palette, self.push()
         sheet.tiles(self.tiles)
         sheet.grid()
@@ -207,7 +199,6 @@ class Bodies(Figure):
         self.fly()
 
     def drag(self, x: float, y: float) -> None:
-        """Another place to fly from, left of the ledge."""
         super().drag(min(x, self.start[0] + 30), y)
         self.fly()
 
@@ -236,7 +227,6 @@ class Bodies(Figure):
         ]
 
     def draw(self, sheet: Sheet) -> None:
-        """Both ways, and the bodies at their ends."""
         p = sheet.palette
         sheet.tiles(self.runs[0].tiles)
         sheet.grid()

@@ -1,4 +1,4 @@
-"""What the commands that run recordings have in common: options and a progress bar."""
+"""What commands have in common: options, types of arguments, progress, one result of a search."""
 
 from __future__ import annotations
 
@@ -17,11 +17,14 @@ import click
 from click.shell_completion import CompletionItem
 
 from ninja_game.budget import RUN_BUDGET
-from ninja_game.files.shown_text import counted
+from ninja_game.files.shown_text import counted, shown_text
+from ninja_game.formats.run_time import seconds_text
 
 if TYPE_CHECKING:
     from ninja_game.formats.named_level import NamedLevel
     from ninja_game.formats.recording import Recording
+    from ninja_game.formats.replay.text import Replay
+    from ninja_game.search.solve import Progress, Task
     from ninja_game.sim.level import Level
 
 T = TypeVar("T")
@@ -34,6 +37,16 @@ LONG, EVERY = 5.0, 15.0
 """Seconds until the first line of progress, and between two of them, where no bar tells it."""
 
 
+JOBS = click.IntRange(1, 1024)
+SEED = click.IntRange(0, 10**9)
+OLD_FILE = click.Path(exists=True, dir_okay=False, path_type=Path)
+NEW_FILE = click.Path(dir_okay=False, path_type=Path)
+OLD_FOLDER = click.Path(exists=True, file_okay=False, path_type=Path)
+NEW_FOLDER = click.Path(file_okay=False, path_type=Path)
+OLD_PATH = click.Path(exists=True, path_type=Path)
+"""A file, a folder, or either, that is there already; one that is to be written."""
+
+
 class InputPath(click.Path):
     """A file or folder that is there; or a link, which is kept as a path as it stands."""
 
@@ -41,7 +54,6 @@ class InputPath(click.Path):
         super().__init__(exists=True, dir_okay=dir_okay, path_type=Path)
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """The path; usage error for what is not there."""
         from ninja_game.formats.links.fragment import is_link
 
         return Path(value) if is_link(value) else super().convert(value, param, ctx)
@@ -51,7 +63,6 @@ class LevelPath(InputPath):
     """A file or link; or the name of one of the game's own levels, which stands for its file."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """The path; usage error for what is neither there nor a name."""
         from ninja_game.formats.links.fragment import is_link
 
         if is_link(value):
@@ -64,7 +75,6 @@ class LevelPath(InputPath):
         return super().convert(value if there else own.get(str(value), value), param, ctx)
 
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-        """Files, and the names that begin so."""
         names = [CompletionItem(name) for name in _own_levels() if name.startswith(incomplete)]
         return super().shell_complete(ctx, param, incomplete) + names
 
@@ -80,9 +90,7 @@ memory_option = click.option(
     help="Plain Python, or compiled by Numba; both give the same bits.",
 )  # fmt: skip
 
-jobs_option = click.option(
-    "--jobs", type=click.IntRange(1, 1024), help="How many workers run recordings. [default: one per core]"
-)
+jobs_option = click.option("--jobs", type=JOBS, help="How many workers run recordings. [default: one per core]")
 
 level_option = click.option(
     "--level", "level_path", metavar="FILE", type=LevelPath(dir_okay=False),
@@ -114,7 +122,6 @@ class Pixels(click.ParamType):  # type: ignore[type-arg, unused-ignore]
     name = "WIDTHxHEIGHT"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[int, int]:
-        """Width and height; usage error for anything else."""
         if isinstance(value, tuple):
             return value
         width, _, height = value.lower().partition("x")
@@ -211,7 +218,6 @@ class ProgressLog:
         self.start = self.last = time.monotonic()
 
     def say(self, text: str) -> None:
-        """Write the line if it is time for one."""
         now = time.monotonic()
         if now - self.last >= EVERY:
             self.last = now
@@ -228,3 +234,186 @@ def _counter(label: str, done: int) -> Iterator[Callable[[], object]]:
     stderr, shared = Console(stderr=True), sys.stdout.isatty()
     with Progress(*columns, console=stderr, transient=True, redirect_stdout=shared) as progress:
         yield partial(progress.advance, progress.add_task(label, total=None, completed=done))
+
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+NOT_FOUND = 1
+
+
+class GoldCount(click.ParamType):  # type: ignore[type-arg, unused-ignore]
+    """``all`` (-1) or a number of pieces."""
+
+    name = "all|N"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
+        if isinstance(value, int):
+            return value
+        if str(value).lower() == "all":
+            return -1
+        if not (str(value).isdecimal() and len(str(value)) < 10):
+            self.fail(f"{value!r} is neither 'all' nor a whole number", param, ctx)
+        return int(value)
+
+
+class Seconds(click.FloatRange):
+    """A time in seconds, not "not a number"."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        seconds: float = super().convert(value, param, ctx)
+        if seconds != seconds:  # noqa: PLR0124 - NaN
+            self.fail(f"{value!r} is not a number of seconds", param, ctx)
+        return seconds
+
+
+gold_option = click.option(
+    "--gold", type=GoldCount(), default=0, show_default=True, help="Collect this much gold on the way."
+)
+
+
+def seconds_option(default: float) -> Callable[[F], F]:
+    return click.option(
+        "--seconds", type=Seconds(min=0.1), default=default, show_default=True, help="Stop after this time."
+    )
+
+
+work_option = click.option(
+    "--ticks", "work", type=click.IntRange(0, 10**15), default=0, metavar="N",
+    help="Stop after about N simulated ticks per job instead: with one job, always the same result.",
+)  # fmt: skip
+smooth_option = click.option(
+    "--smooth", type=click.IntRange(0, 10**6), metavar="N",
+    help="In the end make the run look played: few key changes, at most N ticks longer.",
+)  # fmt: skip
+seed_option = click.option(
+    "--seed", type=SEED, default=1, show_default=True,
+    help="With one job, the same seed does the same work in the same order.",
+)  # fmt: skip
+search_jobs_option = click.option("--jobs", type=JOBS, help="Threads. [default: one per core]")
+body_option = click.option(
+    "--body", type=click.Choice(["circle", "box"]), default="circle", show_default=True, help="The ninja's body."
+)
+
+
+def default_threads(jobs: int | None) -> int:
+    from ninja_game.batch.thread_pool import cores
+
+    return jobs or cores()
+
+
+def check_gold(task: Task) -> None:
+    from dataclasses import replace
+
+    there = replace(task, gold=-1).gold_wanted
+    if task.gold > there:
+        raise click.UsageError(f"--gold {task.gold}: the level holds {there} pieces of gold")
+
+
+class SearchLog:
+    """The log of a long search: what it found after how many seconds, a line each, over all commands that went on.
+
+    ``begun``: how many there were; ``spent``: seconds of them. Raises FileError for a file that is something else.
+    """
+
+    HEAD = "# seconds spent, and what improve found"
+
+    def __init__(self, path: Path, keep: Sequence[Path]) -> None:
+        from ninja_game.errors import FileError
+        from ninja_game.files.reading import read_utf8
+        from ninja_game.files.writing import check_output, write_atomically
+
+        check_output(path, keep=keep)
+        if not path.exists():
+            write_atomically(path, f"{self.HEAD}\n")
+        head, *lines = read_utf8(path, 2**20).splitlines() or [""]
+        found = [re.match(r" *(\d{1,9}) s  ", line) for line in lines]
+        if head != self.HEAD or None in found:
+            raise FileError("not the log of a search", str(path), hint="name another file")
+        self._path, self._began = path, time.monotonic()
+        self.begun = sum(line.endswith("begins") for line in lines)
+        self.spent = max((int(match[1]) for match in found if match), default=0)
+        self.note("begins")
+
+    def note(self, what: str) -> None:
+        with self._path.open("a", encoding="utf-8") as out:
+            out.write(f"{self.spent + time.monotonic() - self._began:8.0f} s  {what}\n")
+
+
+class ShownProgress:
+    """What a search is told to report to: shows how it stands, and knows that afterwards."""
+
+    def __init__(self, show: Callable[[str], None]) -> None:
+        self.last: Progress | None = None
+        self._show = show
+
+    def __call__(self, progress: Progress) -> None:
+        self.last = progress
+        self._show(progress_text(progress))
+
+    def say(self, text: str) -> None:
+        self._show(text)
+
+    def of_level(self, name: str, progress: Progress) -> None:
+        self._show(f"{shown_text(name)}: {progress_text(progress)}")
+
+
+@contextmanager
+def progress_line() -> Iterator[ShownProgress]:
+    """A line on stderr that says how the search stands: always the present one, or one now and then in a file."""
+    if not sys.stderr.isatty():
+        yield ShownProgress(ProgressLog().say)
+        return
+    from rich.console import Console
+    from rich.live import Live
+    from rich.text import Text
+
+    starting = Text("starting; the first time it compiles, which takes about a minute")
+    with Live(starting, console=Console(stderr=True), transient=True, refresh_per_second=8) as live:
+        yield ShownProgress(lambda text: live.update(Text(text)))
+
+
+def not_found_text(task: Task, progress: Progress | None) -> str:
+    """What a search that found no run says: what it never came to."""
+    from ninja_game.search.task import obstacle
+
+    gold = f"with {task.gold_wanted} gold " if task.gold_wanted else ""
+    why = f": {obstacle(task.level, task.gold_wanted, progress).sentence}" if progress else ""
+    return f"no run {gold}to the exit found{why}; more time or another --seed may find one"
+
+
+def progress_text(progress: Progress) -> str:
+    best = time_text(progress.best) if progress.best >= 0 else "none yet"
+    speed = progress.ticks / progress.seconds / 1e6 if progress.seconds > 0 else 0.0
+    worlds = progress.worlds / 1e6
+    return f"{progress.doing:<10} {progress.seconds:4.0f} s  best {best}  {worlds:.1f}M worlds  {speed:.1f}M ticks/s"
+
+
+def time_text(end_tick: int) -> str:
+    return f"{end_tick} ticks ({seconds_text(end_tick)} s)"
+
+
+def smoothed_run(level: Level, run: Replay, price: int) -> Replay:
+    """The run with fewer key changes, verified; at most ``price`` ticks longer and with no less gold."""
+    from ninja_game.search.certificate import smoothed, verified_run
+
+    inputs = smoothed(level, run.inputs, body=run.body, gold=run.gold, price=price)
+    return verified_run(level, inputs, body=run.body, gold=run.gold)
+
+
+def saver(path: Path, level: NamedLevel) -> Callable[[Replay], None]:
+    """A function that writes each better run of a level to a file, which must not be the level's own."""
+    from ninja_game.files.writing import check_output
+    from ninja_game.search.certificate import named_run, save_replay
+
+    check_output(path, keep=[Path(level.file)])
+    about = {"name": level.name, "author": "ninja-game solve", "level_author": level.author}
+    return lambda run: save_replay(path, named_run(run, "solve", **about))
+
+
+def saver_of_better(path: Path, recording: Recording, command: str) -> Callable[[Replay], None]:
+    """A function that writes each better run that a command made of a recording, to a file that is not its own."""
+    from ninja_game.files.writing import check_output
+    from ninja_game.search.certificate import better_run, save_replay
+
+    check_output(path, keep=[Path(recording.file)])
+    return lambda run: save_replay(path, better_run(run, recording, command))

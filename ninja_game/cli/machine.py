@@ -1,0 +1,322 @@
+"""Commands about this machine: the menu of programs, compiled rules, the player's data."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sqlite3
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from ninja_game.cli.options import NEW_FILE, OLD_FILE, heartbeat
+from ninja_game.errors import FileError
+from ninja_game.files.shown_text import shown_text
+from ninja_game.player.player_data import PlayerData
+
+if TYPE_CHECKING:
+    from ninja_game.sim.level import Level
+
+ENTRY = """[Desktop Entry]
+Type=Application
+Name={name}
+Comment=A platformer of single screens: play, edit, replay
+Exec={command} {words} %f
+Icon=ninja-game
+Terminal=false
+Categories=Game;ArcadeGame;
+StartupWMClass=ninja-game
+MimeType={kinds};
+NoDisplay={hidden}
+"""
+
+LEVEL_TYPE, REPLAY_TYPE = "text/x-ninja-game-level", "text/x-ninja-game-replay"
+
+ENTRIES = {
+    "ninja-game.desktop": ("ninja-game", "play", LEVEL_TYPE, "false"),
+    "ninja-game-replay.desktop": ("ninja-game: watch", "play --replay", REPLAY_TYPE, "true"),
+}
+"""Files of the menu: name, words after the program, type of file, whether the menu leaves it out."""
+
+TYPES = f"""<?xml version="1.0" encoding="UTF-8"?>
+<mime-info xmlns="http://www.freedesktop.org/standards/shared-mime-info">
+  <mime-type type="{LEVEL_TYPE}">
+    <comment>level of ninja-game</comment>
+    <sub-class-of type="text/plain"/>
+    <icon name="ninja-game"/>
+    <magic priority="60"><match type="string" offset="0" value="ninja-game level "/></magic>
+    <glob pattern="*.level"/>
+    <glob pattern="*.nlevel"/>
+  </mime-type>
+  <mime-type type="{REPLAY_TYPE}">
+    <comment>replay of ninja-game</comment>
+    <sub-class-of type="text/plain"/>
+    <icon name="ninja-game"/>
+    <magic priority="60"><match type="string" offset="0" value="ninja-game replay "/></magic>
+    <glob pattern="*.replay.txt"/>
+    <glob pattern="*.replay"/>
+  </mime-type>
+</mime-info>
+"""
+
+ICON = 256
+"""Width and height of the icon, px."""
+
+UPDATES = (("update-mime-database", "mime"), ("update-desktop-database", "applications"))
+"""Programs that tell desktops of new files, where they are installed, and the folder that each is given."""
+
+
+@click.command()
+@click.option("--remove", is_flag=True, help="Take it out again.")
+def desktop(remove: bool) -> None:
+    """Put the game into your menu of programs, with its icon and types of files.
+
+    Levels (*.level, *.nlevel) and replays (*.replay.txt, *.replay) open by a double click.
+    For Linux and other systems with freedesktop.org's menus; only for you, below ~/.local/share (XDG_DATA_HOME).
+
+    \b
+    Examples:
+      ninja-game desktop
+      ninja-game desktop --remove
+    """
+    from ninja_game.errors import NinjaGameError
+
+    if sys.platform in ("win32", "darwin"):
+        raise NinjaGameError("this system's menu of programs is not known here; `ninja-game play` starts the game")
+    from platformdirs import user_data_path
+
+    folder = user_data_path()
+    for path, content in desktop_files(folder, program_words()).items():
+        if remove:
+            path.unlink(missing_ok=True)
+        else:
+            from ninja_game.files.writing import write_atomically
+
+            path.parent.mkdir(parents=True, exist_ok=True)
+            write_atomically(path, content)
+    for name, part in UPDATES:
+        if (program := shutil.which(name)) and (folder / part).is_dir():
+            subprocess.run([program, str(folder / part)], capture_output=True, check=False)  # noqa: S603
+    click.echo(f"{'Removed from' if remove else 'In'} the menu of programs: {folder / 'applications'}")
+
+
+def program_words() -> list[str]:
+    """How this program is started, from any folder."""
+    if getattr(sys, "frozen", False):
+        return [sys.executable]
+    script = Path(sys.executable).with_name("ninja-game")
+    return [str(script)] if script.exists() else [sys.executable, "-P", "-m", "ninja_game"]
+
+
+def desktop_files(folder: Path, program: list[str]) -> dict[Path, str | bytes]:
+    """The files below a folder of data such as ~/.local/share, with what is in each."""
+    from ninja_game.play.window import icon, png_of
+
+    command = " ".join(map(_quoted, program))
+    files: dict[Path, str | bytes] = {
+        folder / "applications" / file: ENTRY.format(name=name, command=command, words=words, kinds=kind, hidden=hidden)
+        for file, (name, words, kind, hidden) in ENTRIES.items()
+    }
+    files[folder / "mime" / "packages" / "ninja-game.xml"] = TYPES
+    files[folder / "icons" / "hicolor" / f"{ICON}x{ICON}" / "apps" / "ninja-game.png"] = png_of(icon(ICON))
+    return files
+
+
+def _quoted(word: str) -> str:
+    """A word as the key Exec of a menu's file has it."""
+    for sign in ("\\", '"', "`", "$"):
+        word = word.replace(sign, f"\\{sign}")
+    # Texts in such a file have escapes of their own.
+    return f'"{word}"'.replace("\\", "\\\\").replace("%", "%%")
+
+
+LEVEL = "0" * 713 + "|5^100,566!11^160,564,130,564!0^115,566"
+"""The level that is played so that kernels are compiled; machine code does not depend on it."""
+
+MOST_PROCESSES = 2
+"""Each compiles the rules again for what it makes of them; more would only wait for each other."""
+
+EVERY = 0.5
+"""Seconds between two looks whether another process is done."""
+
+
+@click.command(name="compile")
+@click.option("--background", is_flag=True, help="At low priority; nothing where another process is at it.")
+def compile(background: bool) -> None:  # noqa: A001 - the name of the command
+    """Compile the rules for this machine now, so that no other command waits for it.
+
+    What is there already is not compiled again. Commands and the game start the same by themselves, in the background;
+    with NINJA_GAME_BACKGROUND_COMPILER=0 in the environment they do not, and wait where they need it.
+
+    \b
+    Examples:
+      ninja-game compile
+      NINJA_GAME_BACKGROUND_COMPILER=0 ninja-game verify levels/certificates
+    """
+    from ninja_game.backend.background_compiler import hold_work, step_back
+    from ninja_game.backend.kernel_cache import before_compiling
+
+    # This command says itself what it does.
+    before_compiling.clear()
+    handle = hold_work()
+    if background:
+        if handle is None:
+            return
+        step_back()
+    elif handle is None:
+        click.echo("Another process compiles; waiting for it", err=True)
+        while (handle := hold_work()) is None:
+            time.sleep(EVERY)
+    try:
+        compile_everything(min(MOST_PROCESSES, os.cpu_count() or 1), quiet=background)
+    finally:
+        os.close(handle)
+
+
+def compile_everything(processes: int, *, quiet: bool) -> None:
+    """Do a little of all work that needs kernels, most wanted first, in so many processes.
+
+    Raises NinjaGameError where nothing is kept.
+    """
+    from ninja_game.backend.kernel_cache import are_kept, cache_folder
+    from ninja_game.errors import NinjaGameError
+    from ninja_game.runs.workers import in_order, workers
+    from ninja_game.sim.memory.kernels import run_world
+
+    began = time.monotonic()
+    with workers(processes, processes=processes > 1) as pool:
+        for number, (name, lost) in enumerate(in_order(pool, compile_for, WORK), 1):
+            if lost is not None:
+                raise lost
+            if number == 1 and not any(are_kept([run_world], checked) for checked in (False, True)):
+                where = cache_folder()
+                raise NinjaGameError(f"compiled code is not kept in {where}: make room there, or let it be written")
+            if not quiet:
+                click.echo(f"{number} of {len(WORK)} compiled: {name}", err=True)
+    if not quiet:
+        click.echo(f"All is compiled, in {time.monotonic() - began:.0f} s: {cache_folder()}")
+
+
+def compile_for(name: str) -> None:
+    """Do a little work of that name: its kernels are in the cache then."""
+    from ninja_game.formats.n14.level_string import parse_level_string
+
+    WORK[name](parse_level_string(LEVEL))
+
+
+def _runs(level: Level) -> None:
+    from ninja_game.backend.memories import open_worlds
+    from ninja_game.sim.states import NO_CAUSE
+
+    worlds = open_worlds("compiled", level, box=False)
+    worlds.run(b"\0")
+    worlds.trace(b"\0", [worlds.observe(1)[0]], events=True)
+    worlds.step(0)
+    worlds.kill(NO_CAUSE, 0.0, 0.0)
+
+
+def _verdicts(_: Level) -> None:
+    from ninja_game.backend.memories import proven_memory
+
+    proven_memory("compiled")
+
+
+def _many_worlds(level: Level) -> None:
+    from ninja_game.batch.difficulty import difficulty
+
+    difficulty(level, b"\2" * 20, tries=1)
+
+
+def _solver(_: Level) -> None:
+    from ninja_game.search.solve import compile_solver
+
+    compile_solver()
+
+
+def _spans(level: Level) -> None:
+    from ninja_game.search.formula.methods import search_span
+    from ninja_game.search.formula.task import SpanTask
+
+    search_span(SpanTask(level, b"\2" * 9, 0, 9, measure="x"), lambda *_: False)
+
+
+def _observations(level: Level) -> None:
+    if find_spec("gymnasium") is None:
+        return
+    import numpy as np
+
+    from ninja_game.learn.worlds import EnvWorlds
+
+    worlds = EnvWorlds(level, 1)
+    worlds.reset()
+    worlds.step(np.zeros(1, np.uint8))
+
+
+WORK: dict[str, Callable[[Level], None]] = {
+    "runs and traces": _runs,
+    "verdicts": _verdicts,
+    "many worlds": _many_worlds,
+    "the solver": _solver,
+    "searches in spans of runs": _spans,
+    "what agents observe": _observations,
+}
+"""Work by its name, in the order in which it is done."""
+
+
+@click.group()
+def player() -> None:
+    """Export all data of a player to one file, or import such a file.
+
+    Settings, records, own levels and replays. The game in a browser writes and reads the same file (its page menu), so
+    that records move between a page and this machine.
+
+    \b
+    Examples:
+      ninja-game player export my-data.zip
+      ninja-game player import my-data.zip
+    """
+
+
+@player.command("export")
+@click.argument("file", type=NEW_FILE)
+def export(file: Path) -> None:
+    """Write all data of the player into FILE, a zip."""
+    from ninja_game.player.backup import write_backup
+
+    with _player() as player:
+        for line in write_backup(player, file):
+            click.echo(line, err=True)
+
+
+@player.command("import")
+@click.argument("file", type=OLD_FILE)
+def take_in(file: Path) -> None:
+    """Import FILE. Better runs replace worse ones; nothing of yours is overwritten."""
+    from ninja_game.files.reading import read_bytes
+    from ninja_game.player.backup import MOST_BYTES, read_backup
+
+    with _player() as player, heartbeat(lambda: "runs the replays of the backup again"):
+        for line in read_backup(player, read_bytes(file, MOST_BYTES)):
+            click.echo(shown_text(line))
+
+
+@contextmanager
+def _player() -> Iterator[PlayerData]:
+    """The player's data, closed afterwards. Raises FileError for records that cannot be used."""
+    player = PlayerData()
+    try:
+        player.open_records()
+        if player.store.problem:
+            raise FileError(player.store.problem, str(player.folder))
+        yield player
+    except sqlite3.Error as error:
+        raise FileError("the records cannot be used now", str(player.folder), found=str(error)) from None
+    finally:
+        player.close()

@@ -1,0 +1,403 @@
+"""What the level editor and the TAS editor share in the window: a document, its commands, and parts around it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from typing import ClassVar, NamedTuple, Protocol
+
+import pygame
+
+from ninja_game.document import OccupiedError
+from ninja_game.errors import NinjaGameError, reason
+from ninja_game.play.app import App
+from ninja_game.play.menus.menu_screen import CANCEL, MOUSE, Action, Menu, MenuScreen, Row, nothing
+from ninja_game.ui.audio.music import SILENCE
+from ninja_game.ui.input.bindings import InputEvent
+from ninja_game.ui.input.gamepad import Gamepads
+from ninja_game.ui.input.keys import HeldKey, chord, key_label_of, scancode_of
+from ninja_game.ui.text_entry import TextEntry
+from ninja_game.ui.theme import Area, Theme, inside
+from ninja_game.ui.widgets import Widget
+
+FIRST_REPEAT_MS = 300
+"""A command whose key is held is repeated after so long."""
+
+
+class Command(NamedTuple):
+    """``keys``: names of keys, with ``ctrl+`` and ``shift+`` before them; ``pad``: inputs of a standard gamepad."""
+
+    name: str
+    label: str
+    keys: tuple[str, ...] = ()
+    pad: str = ""
+
+
+def key_text(command: Command) -> str:
+    """What to press for a command, for people; '' for nothing."""
+    return "+".join(map(key_label_of, command.keys[0].split("+"))) if command.keys else ""
+
+
+class CommandTable:
+    """All commands of an editor by what means them. The help page shows ``commands``.
+
+    ``pads``: commands by buttons of a pad, besides those in the commands. ``repeating``: the commands that are repeated
+    while they are held, and then how often, ms.
+    """
+
+    def __init__(
+        self, commands: Sequence[Command], *, repeating: Mapping[str, int], pads: Mapping[str, str] | None = None
+    ) -> None:
+        self.commands = commands
+        self.repeating = repeating
+        self.by_name = {command.name: command for command in commands}
+        self._by_key = {key: command.name for command in commands for key in command.keys}
+        self._by_pad = {command.pad: command.name for command in commands if command.pad} | dict(pads or {})
+
+    def meaning(self, event: InputEvent) -> str:
+        """The name of the command that a key or a button of a pad means; '' for none."""
+        if event.source is None:
+            return ""
+        if event.source[0] == "pad":
+            return self._by_pad.get(event.source[1], "")
+        return self._by_key.get(chord(event.raw), "")
+
+    def hint(self, name: str) -> str:
+        command = self.by_name[name]
+        return "    ".join(filter(None, (command.label, key_text(command))))
+
+
+class HeldCommand(HeldKey[str]):
+    """The command whose key, or button of one of these pads, is held, if it is one that repeats."""
+
+    def __init__(self, table: CommandTable, pads: Gamepads) -> None:
+        super().__init__()
+        self._repeating, self._pads = table.repeating, pads
+        self._button = ""
+
+    def hold(self, name: str, event: InputEvent) -> None:
+        if name in self._repeating:
+            kind, button = event.source or ("", "")
+            self._button = button if kind == "pad" else ""
+            key = 0 if kind == "pad" else scancode_of(event.raw)
+            self.begin(name, key, first=FIRST_REPEAT_MS, every=self._repeating[name])
+
+    def follow(self, event: pygame.Event) -> None:
+        super().follow(event)
+        if self._button and self._button not in self._pads.down:
+            self._button = ""
+            self.end()
+
+
+Commands = Mapping[str, Callable[[], object]]
+"""What is done, by the names of the table of commands."""
+
+
+class Part:
+    """``area``: where it is, logical px. ``widgets``: in it; what they show is part of ``render_key``.
+
+    ``wants``: the widget that is to get the focus as soon as the part is shown.
+    """
+
+    area: Area = (0, 0, 0, 0)
+    widgets: Sequence[Widget] = ()
+    wants: Widget | None = None
+    _drawn: tuple[object, ...] | None = None
+
+    def render_key(self) -> tuple[object, ...]:
+        """All that its picture depends on, besides the window's size, the palette and the focus."""
+        raise NotImplementedError
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        """Draw all of it but the widgets; the clip is its area."""
+        raise NotImplementedError
+
+    def commands(self) -> Commands:
+        return {}
+
+    def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
+        """A mouse event in its area, or one that ends or continues with a drag that began there; whether it was used.
+
+        ``x``, ``y``: logical px of the window.
+        """
+        return False
+
+    def mouse_left(self) -> None:
+        """The mouse is elsewhere now."""
+
+    def update(self, real_ms: int) -> None:
+        """Let real time pass."""
+
+    def place(self, area: Area) -> None:
+        """Be there from now on; all is drawn again."""
+        self.area = area
+
+    def contains(self, x: float, y: float) -> bool:
+        return inside(self.area, x, y)
+
+    def draw(self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool) -> list[pygame.Rect]:
+        """Draw it if anything has changed; the px that did."""
+        key = self.render_key()
+        if not whole and key == self._drawn:
+            return []
+        self._drawn = key
+        rect = theme.canvas.rect(*self.area)
+        surface.set_clip(rect)
+        self.paint(surface, theme)
+        for widget in sorted(self.widgets, key=lambda widget: widget is focus):
+            widget.draw(surface, theme, focused=widget is focus)
+        surface.set_clip(None)
+        return [rect]
+
+
+class WorkspaceScreen(MenuScreen):
+    """Parts of a window around a document. A key is a command, unless a text field has the focus.
+
+    ``table``: the commands, which ``run`` does. ``parts``: those that are shown; each is drawn when its ``render_key``
+    changes, or what its widgets show.
+    """
+
+    table: ClassVar[CommandTable]
+    music = SILENCE
+    offers_back = False
+
+    def __init__(self, app: App) -> None:
+        super().__init__(app)
+        self.held = HeldCommand(self.table, app.controls.pads)
+        self._widgets_changed = True
+        self._grabbed: Part | None = None
+        self._pointed: Part | None = None
+
+    @property
+    def parts(self) -> Sequence[Part]:
+        raise NotImplementedError
+
+    def run(self, name: str) -> None:
+        raise NotImplementedError
+
+    def hint(self, text: str) -> None:
+        raise NotImplementedError
+
+    def build(self) -> Sequence[Widget]:
+        return [widget for part in self.parts for widget in part.widgets]
+
+    def follow_parts(self) -> None:
+        """Have the widgets that the parts have now; one that a part wants gets the focus."""
+        self.widgets = list(self.build())
+        wanted = next((part.wants for part in self.parts if part.wants is not None), None)
+        for part in self.parts:
+            part.wants = None
+        focus = wanted or (self.focus if self.focus in self.widgets else None)
+        if focus is not self.focus:
+            self.focus = focus
+            self.widgets_changed()
+            self.await_text()
+
+    def enter(self) -> None:
+        super().enter()
+        self.focus = None
+        self.await_text()
+        self.widgets_changed()
+
+    def leave(self) -> None:
+        super().leave()
+        self.held.end()
+        self._grabbed = None  # its release goes to what covers this
+
+    def chime(self, name: str) -> None:
+        """Editing is silent."""
+
+    def back(self) -> None:
+        """Escape is a command."""
+
+    def widgets_changed(self) -> None:
+        """The parts with widgets are drawn again, not the whole window."""
+        self._widgets_changed = True
+
+    def await_text(self) -> None:
+        """Only while a field has the focus: the letter of a command's key is not typed into what the key opens."""
+        if self.app.top is self:
+            typing = isinstance(self.focus, TextEntry)
+            (pygame.key.start_text_input if typing else pygame.key.stop_text_input)()
+
+    def meaning(self, event: InputEvent) -> str:
+        return self.table.meaning(event)
+
+    def capture(self, event: InputEvent) -> bool:
+        """Keys go to the widget with the focus, typed text to a field, until Escape."""
+        self.held.follow(event.raw)
+        if self.focus is not None and event.source == ("keys", "escape"):
+            self.focus = None
+            self.widgets_changed()
+            self.await_text()
+            return True
+        return super().capture(event)
+
+    def handle(self, event: InputEvent) -> None:
+        command = self.meaning(event)
+        if event.raw.type == pygame.KEYDOWN:
+            self.held.end()
+        typing = self.focus is not None and event.menu in ("confirm", "up", "down", "left", "right", "first", "last")
+        if event.raw.type in MOUSE:
+            self._give_mouse(event.raw)
+        elif command and not typing:
+            self.run(command)
+            self.held.hold(command, event)
+        elif typing or not self.edit_by_key(event):
+            super().handle(event)
+        self.follow_parts()
+        self.await_text()
+
+    def edit_by_key(self, event: InputEvent) -> bool:
+        """Take a key that edits without a command; whether it did."""
+        return False
+
+    def _give_mouse(self, raw: pygame.Event) -> None:
+        pos = pygame.mouse.get_pos() if raw.type == pygame.MOUSEWHEEL else raw.pos
+        x, y = self.theme.canvas.logical(pos)
+        if raw.type == pygame.MOUSEMOTION:
+            self.hint("")
+        part = self._grabbed or next((each for each in self.parts if each.contains(x, y)), None)
+        if self._pointed is not part and self._pointed is not None:
+            self._pointed.mouse_left()
+        self._pointed = part
+        if raw.type == pygame.MOUSEBUTTONDOWN:
+            self._grabbed = part
+        elif raw.type == pygame.MOUSEBUTTONUP:
+            self._grabbed = None
+        if raw.type != pygame.MOUSEMOTION and self.focus is not None and not (part and self.focus in part.widgets):
+            self.focus = None
+            self.widgets_changed()
+        if part is None or not part.mouse(raw, x, y):
+            focus = self.focus
+            self._handle_mouse(raw)
+            # Neither the mouse over a widget nor a click on a button takes keys away from the document.
+            if raw.type == pygame.MOUSEBUTTONDOWN:
+                focus = self.focus if isinstance(self.focus, TextEntry) else None
+            self.focus = focus
+
+    def update(self, real_ms: int) -> None:
+        super().update(real_ms)
+        for command in self.held.due(real_ms):
+            self.run(command)
+
+    def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
+        theme, whole = self.theme, self.redraw
+        if whole:
+            surface.fill(theme.palette.tile)
+        changed = []
+        for part in self.parts:
+            again = whole or (self._widgets_changed and bool(part.widgets))
+            changed += part.draw(surface, theme, self.focus, whole=again)
+        self._widgets_changed = False
+        return None if whole else changed
+
+
+class Document(Protocol):
+    @property
+    def name(self) -> str:
+        """What to call it."""
+
+    @property
+    def is_saved(self) -> bool:
+        """Whether its file holds what is here."""
+
+    def end(self) -> None:
+        """Whatever is half done is done now."""
+
+    def save(self, path: Path, *, replacing: bool = False) -> object:
+        """Write it. Raises OccupiedError where that would replace another file, or one changed by others; OSError."""
+
+    def close(self) -> None:
+        """Leave it; what is not saved is discarded."""
+
+
+class DocumentCommands:
+    """Saving and leaving. Subclasses say where a document is saved, and ask for a name."""
+
+    def __init__(self, app: App, document: Document) -> None:
+        self.app = app
+        self.document = document
+
+    def own_path(self) -> Path | None:
+        """Where the document is saved without a question; None: ask."""
+        raise NotImplementedError
+
+    def save_as(self, then: Action = nothing) -> None:
+        raise NotImplementedError
+
+    def reload_rows(self, path: Path) -> list[Row]:
+        """What else to offer where the document's file was changed by another program."""
+        return []
+
+    def saved_text(self, path: Path) -> str:
+        raise NotImplementedError
+
+    def save(self, then: Action = nothing) -> None:
+        """Write the document into its file, and do ``then``; ask for a name where it has none."""
+        path = self.own_path()
+        if path is None:
+            self.save_as(then)
+        else:
+            self.save_to(path, then)
+
+    def save_to(
+        self, path: Path, then: Action = nothing, *, save: Callable[..., object] | None = None, replacing: bool = False
+    ) -> None:
+        """Write the document, and do ``then``; ask before anything is replaced. ``save``: instead of the document's."""
+        try:
+            (save or self.document.save)(path, replacing=replacing)
+        except OccupiedError as error:
+            text, replace_it = str(error), partial(self.save_to, path, then, save=save, replacing=True)
+            rows: list[Row] = [
+                ("Save under another name", lambda: self.save_as(then), ""),
+                *self.reload_rows(path),
+                ("Replace it", replace_it, "What it holds now is lost"),
+                CANCEL,
+            ]
+            self.app.push(Menu(self.app, text[0].upper() + text[1:], rows))
+        except (NinjaGameError, OSError) as error:
+            self.app.notify(f"Not saved: {reason(error)}")
+        else:
+            self.app.notify(self.saved_text(path), here=True)
+            then()
+
+    def unless_unsaved(self, action: Action) -> None:
+        """Do something after which the present document is gone; ask first if it is not saved."""
+        self.document.end()
+        if self.document.is_saved:
+            action()
+            return
+        rows: list[Row] = [CANCEL, ("Save", lambda: self.save(action), ""), ("Discard changes", action, "")]
+        self.app.push(Menu(self.app, f"{self.document.name} is not saved", rows))
+
+    def leave(self) -> None:
+        self.unless_unsaved(self.close)
+
+    def close(self) -> None:
+        self.document.close()
+        self.app.pop()
+
+    def ask_about_recovered(self, name: str, recover: Action, forget: Callable[[], bool], *, about: str) -> None:
+        """Ask what to do with a document that was being edited when the program died. ``about``: how it was left."""
+
+        def discard() -> None:
+            if not forget():
+                self.app.notify("It stays: another window continues with it")
+
+        def ask() -> None:
+            sure: list[Row] = [("Keep for later", nothing, "It is offered again"), ("Discard", discard, "It is lost")]
+            self.app.push(Menu(self.app, f"Discard {name}?", sure))
+
+        def try_to_recover() -> None:
+            try:
+                recover()
+            except (NinjaGameError, OSError) as error:
+                self.app.notify(reason(error))
+
+        rows: list[Row] = [
+            ("Recover", try_to_recover, about), ("Keep for later", nothing, "It is offered again"),
+            ("Discard...", ask, ""),
+        ]  # fmt: skip
+        self.app.push(Menu(self.app, f"Not saved last time: {name}", rows))
