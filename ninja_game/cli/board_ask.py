@@ -74,7 +74,7 @@ def ask(
     from ninja_game.web.board.report import dates_of, read_board
     from ninja_game.web.board.rules import USUAL, read_categories
     from ninja_game.web.board.runs import ASSISTED, NO_LEDGER, PLAYED, judge
-    from ninja_game.web.pages.published import published_levels
+    from ninja_game.web.pages.gallery import published_levels
 
     if what in ("trace", "film") and not output:
         raise click.UsageError(f"{what}: name the file with -o")

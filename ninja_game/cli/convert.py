@@ -14,7 +14,7 @@ from ninja_game.cli.terminal import data_output
 from ninja_game.errors import FileError, LevelError
 from ninja_game.files.shown_text import counted
 from ninja_game.files.tree import Tree
-from ninja_game.formats.links.fragment import is_link
+from ninja_game.formats.links import is_link
 
 if TYPE_CHECKING:
     from ninja_game.formats.named_level import NamedLevel

@@ -14,7 +14,7 @@ from ninja_game.cli.run_options import InputPath, Pixels, choose, heartbeat, lev
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
-from ninja_game.formats.links.fragment import is_link
+from ninja_game.formats.links import is_link
 
 MOST_BESIDE = 3
 

@@ -42,7 +42,7 @@ class InputPath(click.Path):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """The path; usage error for what is not there."""
-        from ninja_game.formats.links.fragment import is_link
+        from ninja_game.formats.links import is_link
 
         return Path(value) if is_link(value) else super().convert(value, param, ctx)
 
@@ -52,7 +52,7 @@ class LevelPath(InputPath):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """The path; usage error for what is neither there nor a name."""
-        from ninja_game.formats.links.fragment import is_link
+        from ninja_game.formats.links import is_link
 
         if is_link(value):
             return super().convert(value, param, ctx)

@@ -42,8 +42,7 @@ def site(out: Path | None, pyodide: Path | None, serve: bool, port: int, address
     from platformdirs import user_cache_path
 
     from ninja_game.files.user_folder import data_folder
-    from ninja_game.web.pages.gallery import write_gallery
-    from ninja_game.web.pages.published import published_levels
+    from ninja_game.web.pages.gallery import published_levels, write_gallery
     from ninja_game.web.site.build import build_site
 
     cache = user_cache_path("ninja-game", appauthor=False)
@@ -135,7 +134,7 @@ def board(
     from ninja_game.web.board.rules import USUAL, read_categories
     from ninja_game.web.board.runs import NO_LEDGER, judge
     from ninja_game.web.pages.frame import GAME
-    from ninja_game.web.pages.published import published_levels
+    from ninja_game.web.pages.gallery import published_levels
 
     if site:
         check_site(site, folder)

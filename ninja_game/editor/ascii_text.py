@@ -13,7 +13,7 @@ from ninja_game.editor.draft import Draft
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.legend import visible_parts
 from ninja_game.formats.ascii.object_lines import Listed, OddTile, read_object_line
-from ninja_game.formats.ascii.problems import Problems
+from ninja_game.formats.ascii.picture import Problems
 from ninja_game.formats.ascii.reader import parse_ascii_level, sections
 from ninja_game.formats.ascii.writer import (
     drawn_only,

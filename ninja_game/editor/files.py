@@ -18,7 +18,7 @@ from ninja_game.files.reading import read_bytes, read_utf8
 from ninja_game.files.user_folder import EDITING
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.ascii.writer import headers_of
-from ninja_game.formats.links.fragment import is_link
+from ninja_game.formats.links import is_link
 from ninja_game.formats.load import load_levels, texts_of
 from ninja_game.formats.named_level import NamedLevel, parse_levels
 from ninja_game.runtime import NewestJob

@@ -10,8 +10,7 @@ from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import LinkError, NinjaGameError
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import how_to_install
-from ninja_game.formats.pack.files import PARS, certificate_name
-from ninja_game.formats.pack.pack import Pack
+from ninja_game.formats.pack.pack import PARS, Pack, certificate_name
 from ninja_game.formats.pack.pars import write_pars
 from ninja_game.levels.findings import Finding, PackFinding
 from ninja_game.runs.packs import KINDS, file_of, is_certified, level_of, lint, make_pars

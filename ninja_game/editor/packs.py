@@ -21,9 +21,8 @@ from ninja_game.files.shown_text import file_stem, name_problem
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.formats.pack.files import INDEX, MOST_FILES, certificate_name
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, MOST_EPISODES, parse_index
-from ninja_game.formats.pack.pack import Pack
+from ninja_game.formats.pack.pack import INDEX, MOST_FILES, Pack, certificate_name
 from ninja_game.runs.packs import KINDS
 from ninja_game.sim.level import Level
 

@@ -6,18 +6,46 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 from ninja_game.errors import LevelError, ReplayError
-from ninja_game.files.beside import read_beside
+from ninja_game.files.reading import read_beside
 from ninja_game.formats.ascii.places import shown
-from ninja_game.formats.ascii.reader import parse_ascii_level
-from ninja_game.formats.forms import Form, form_of
+from ninja_game.formats.ascii.reader import is_ascii_level, parse_ascii_level
 from ninja_game.formats.lines import numbered_lines
-from ninja_game.formats.n14.level_file import LevelRecord, read_level_file
+from ninja_game.formats.n14.level_file import MARKER, LevelRecord, is_demo, read_level_file
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, tidy_level_string
 from ninja_game.formats.replay.episode import is_episode, parse_episode
+from ninja_game.formats.replay.notations import is_tas_text
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay
 from ninja_game.sim.level import TILES, Level
+
+Form = Literal["replay", "episode", "ascii", "file", "demo", "inputs", "string"]
+"""A replay of ours, several that are an episode, a readable level of ours, a file of N's records, a demo of N alone,
+inputs in another tool's notation, in-game strings of levels or anything else."""
+
+
+def form_of(text: str) -> Form:
+    """The format of a text, sound or not.
+
+    >>> form_of("ninja-game level 1"), form_of("$hill#us##0|5^60,540#"), form_of("3:12|0|1"), form_of("0|5^60,540")
+    ('ascii', 'file', 'demo', 'string')
+    """
+    if is_replay(text):
+        return "replay"
+    if is_episode(text):
+        return "episode"
+    if is_ascii_level(text):
+        return "ascii"
+    if MARKER in text or ("#" in text and "$" in text):
+        return "file"
+    # Labels and comments of CelesteTAS begin with # too; N's own texts have | in them.
+    if text.lstrip().startswith("#") and ("|" in text or not is_tas_text(text)):
+        return "file"
+    if is_demo("".join(text.split())):
+        return "demo"
+    return "inputs" if is_tas_text(text) else "string"
+
 
 # What the object half of an in-game string is made of, numbers that no object can have included.
 _OBJECTS = re.compile(r"[0-9.,^!+\-xeENa \t]+")

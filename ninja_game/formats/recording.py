@@ -8,16 +8,15 @@ from functools import cached_property
 from pathlib import Path
 
 from ninja_game.errors import DemoError, ReplayError
-from ninja_game.formats.forms import Form, form_of
 from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.n14.level_file import LevelRecord, read_level_file
 from ninja_game.formats.n14.level_string import parse_level_string, write_level_string
-from ninja_game.formats.named_level import level_of_replay
+from ninja_game.formats.named_level import Form, form_of, level_of_replay
 from ninja_game.formats.replay.episode import episode_key, lifetimes, parse_episode
 from ninja_game.formats.replay.input_text import included_beside, read_inputs
 from ninja_game.formats.replay.made import with_made, without_made
+from ninja_game.formats.replay.notations import in_our_notation
 from ninja_game.formats.replay.text import Replay, parse_replay
-from ninja_game.formats.tas_lines import in_our_notation
 from ninja_game.sim.inputs import Demo, fitted_demo
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import Body

@@ -17,7 +17,7 @@ from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.formats.pack.files import INDEX, PARS, certificate_name
+from ninja_game.formats.pack.pack import INDEX, PARS, certificate_name
 from ninja_game.formats.pack.pars import DIGITS, Pars, parse_pars, write_pars
 from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay

@@ -16,8 +16,8 @@ from ninja_game.files.reading import read_bytes
 from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.n14.level_string import parse_level_string, write_level_string
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.formats.replay.input_runs import write_inputs
 from ninja_game.formats.replay.input_text import read_inputs
+from ninja_game.formats.replay.notations import write_inputs
 from ninja_game.generator.naming import AUTHOR
 from ninja_game.sim.level import Level
 

@@ -26,9 +26,8 @@ if TYPE_CHECKING:
         write_npz as write_npz,
     )
     from ninja_game.learn.evaluation import Evaluation as Evaluation, LevelResult as LevelResult, evaluate as evaluate
-    from ninja_game.learn.levels.curriculum import Curriculum as Curriculum
     from ninja_game.learn.levels.origins import generated_levels as generated_levels, level_source as level_source
-    from ninja_game.learn.levels.source import LevelSource as LevelSource
+    from ninja_game.learn.levels.source import Curriculum as Curriculum, LevelSource as LevelSource
     from ninja_game.learn.observations.objects import LevelPlanes as LevelPlanes, NearObjects as NearObjects
     from ninja_game.learn.observations.pixels import Image as Image, Pixels as Pixels
     from ninja_game.learn.observations.surroundings import LocalTiles as LocalTiles, Rays as Rays

@@ -32,8 +32,8 @@ from ninja_game.formats.load import NamedLevel, load_levels
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.pack import episodes_of
 from ninja_game.formats.recording import Recording
-from ninja_game.runs.checkpoint_log import CheckpointLog
 from ninja_game.runs.chunks import (
+    CheckpointLog,
     Chunk,
     Result,
     chunks_in,

@@ -10,9 +10,8 @@ from pathlib import PurePath
 from ninja_game.batch.difficulty import TRIES, difficulty
 from ninja_game.errors import NinjaGameError, ReplayError
 from ninja_game.formats.n14.level_string import level_digest
-from ninja_game.formats.pack.files import CERTIFICATES, INDEX, PARS, certificate_name
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
-from ninja_game.formats.pack.pack import Pack
+from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, PARS, Pack, certificate_name
 from ninja_game.formats.pack.pars import DIGITS, Pars, parse_pars
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.levels.findings import DESIGN_RULES, PackFinding, in_pack

@@ -11,7 +11,7 @@ is the index of a node, an ``action`` what leads from it to the scratch world (m
 
 from __future__ import annotations
 
-from ninja_game.search.heuristics import point_at
+from ninja_game.search.heuristics import open_mask, point_at
 from ninja_game.search.known_run import KnownRun, nearest
 from ninja_game.search.macros import (
     MOST_ROWS,
@@ -41,7 +41,6 @@ from ninja_game.search.nodes import (
     random_below,
 )
 from ninja_game.search.states import Goal, estimate, find_entry, gold_hash, is_new, key_of, switch_state_of
-from ninja_game.search.switches import open_mask
 from ninja_game.sim.memory.declare import entry_point, fast
 from ninja_game.sim.memory.schema import Ninja
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME

@@ -14,10 +14,20 @@ from itertools import pairwise
 import numpy as np
 
 from ninja_game.backend.memories import compiled
-from ninja_game.search.legs import MORE_THAN_ANY, ROLLOUTS, Checkpoint, Frontier, Leg, LegFields, Spend, pieces_of
+from ninja_game.search.legs import (
+    MORE_THAN_ANY,
+    ROLLOUTS,
+    Checkpoint,
+    Frontier,
+    Leg,
+    LegFields,
+    PieceTicks,
+    Spend,
+    pieces_of,
+    short_tour,
+)
 from ninja_game.search.nodes import Resolution, Start
 from ninja_game.search.searching import Search
-from ninja_game.search.tour import PieceTicks, short_tour
 from ninja_game.sim.inputs import KEYS_DOWN, pressed
 from ninja_game.sim.memory.declare import entry_point
 from ninja_game.sim.world import step

@@ -24,10 +24,10 @@ from ninja_game.search.legs import (
     LegFields,
     Spend,
     pieces_of,
+    short_tour,
 )
 from ninja_game.search.nodes import Resolution
 from ninja_game.search.searching import Search
-from ninja_game.search.tour import short_tour
 
 ROUTE_LEGS = (
     (Resolution(cell=12.0, speed=1.0, macro=5, weight=1.6), 400_000),

@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.search.heuristics import open_mask
 from ninja_game.search.nodes import Counters, Resolution, TableEntry
-from ninja_game.search.switches import open_mask
 from ninja_game.sim.kinds import LAUNCHER
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import World

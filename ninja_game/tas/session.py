@@ -10,12 +10,10 @@ from typing import Any
 from ninja_game.document import History, digest_of_file
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import write_replay
-from ninja_game.tas.branches import Branch, Branches, branch_as_json, track_as_json
-from ninja_game.tas.contributions import Contributions
-from ninja_game.tas.files import OpenedRun, RunFile, has_tail, recording_of, save_run, unclaimed_replay
-from ninja_game.tas.input_track import InputTrack
+from ninja_game.tas.files import Contributions, OpenedRun, RunFile, has_tail, recording_of, save_run, unclaimed_replay
 from ninja_game.tas.journal import Journal, RecoveredRun, edit_as_json
 from ninja_game.tas.timeline import EMPTY_TRAJECTORY, Timeline, Trajectory
+from ninja_game.tas.tracks import Branch, Branches, InputTrack, branch_as_json, track_as_json
 
 TICKS_PER_FRAME = 6000
 """Ticks that are simulated at once after an edit on the compiled memory: some ms."""

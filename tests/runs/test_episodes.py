@@ -12,7 +12,7 @@ from hypothesis import given, settings
 
 from ninja_game.cli.main import cli
 from ninja_game.errors import FormatError, LinkError, ReplayError
-from ninja_game.formats.links.fragment import write_link
+from ninja_game.formats.links import write_link
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.episode import lifetimes, parse_episode, write_episode

@@ -21,15 +21,15 @@ import pytest
 from ninja_game import parse_level
 from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import FileError, FormatError
-from ninja_game.files.beside import Beside
-from ninja_game.files.reading import files_below
+from ninja_game.files.reading import Beside, files_below
 from ninja_game.formats.n14.level_file import LevelRecord
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.runs import archive as archives
 from ninja_game.runs.archive import Totals, verify_all, write_report
-from ninja_game.runs.checkpoint_log import HEADER, CheckpointLog
 from ninja_game.runs.chunks import (
+    HEADER,
     RECORDS,
+    CheckpointLog,
     Chunk,
     Result,
     as_data,

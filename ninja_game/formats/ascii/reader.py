@@ -12,11 +12,11 @@ from ninja_game.formats.ascii.picture import (
     ROW_START,
     Placed,
     PlacedTile,
+    Problems,
     merge_picture_and_list,
     read_picture,
 )
 from ninja_game.formats.ascii.places import shown
-from ninja_game.formats.ascii.problems import Problems
 from ninja_game.formats.ascii.writer import HEADER_KEYS, MAGIC, VERSION, write_ascii_level
 from ninja_game.formats.lines import MOST_NAME, UNCOMMENTED, Line, numbered_lines, read_quoted
 from ninja_game.formats.sayings import read_sayings

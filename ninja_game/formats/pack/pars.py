@@ -8,7 +8,7 @@ from math import ceil, inf
 from typing import Any
 
 from ninja_game.errors import PackError
-from ninja_game.files.toml import parse_toml
+from ninja_game.files.untrusted import parse_toml
 
 MARGINS = {"author": 0.05, "gold": 0.225, "silver": 0.6}
 """How much longer than the certificate a run may take, by medal, the best first, where nothing can go wrong.

@@ -14,9 +14,9 @@ from ninja_game.formats.lines import Line, header_text, numbered_lines
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.numbers import format_number
 from ninja_game.formats.replay.headers import COUNT_LIMIT, LEVELS_KEPT, Headers, Waypoint, read_level, read_waypoints
-from ninja_game.formats.replay.input_runs import Marker, is_marker_name, write_inputs
 from ninja_game.formats.replay.input_text import included_beside, read_inputs
 from ninja_game.formats.replay.made import UNKNOWN, Made, is_told
+from ninja_game.formats.replay.notations import Marker, is_marker_name, write_inputs
 from ninja_game.sim.inputs import MAX_TICKS, Demo, fitted_inputs
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import BODIES, Body

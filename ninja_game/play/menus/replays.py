@@ -13,7 +13,7 @@ from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.reading import LeftOut, files_below
 from ninja_game.files.shown_text import unreadable
 from ninja_game.files.user_folder import bundled_replays
-from ninja_game.formats.links.making import recording_link, replay_link
+from ninja_game.formats.links import recording_link, replay_link
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay, write_replay

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from ninja_game.ui.theme import RUN_COLOURS
 from ninja_game.web.pages.frame import Markup, joined, tag
-from ninja_game.web.pages.gallery import PICTURE_HEIGHT
-from ninja_game.web.pages.published import PICTURE_WIDTH
+from ninja_game.web.pages.gallery import PICTURE_HEIGHT, PICTURE_WIDTH
 
 WIDTH, HEIGHT, MARGIN = 480, 150, 14
 """Size of the chart and its margin, px, before it is fitted to the page."""

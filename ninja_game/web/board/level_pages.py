@@ -19,8 +19,7 @@ from ninja_game.web.board.ranking import Part, Ranked
 from ninja_game.web.board.rules import FASTEST
 from ninja_game.web.board.runs import Run
 from ninja_game.web.pages.frame import Content, Markup, joined, section, table, tag
-from ninja_game.web.pages.gallery import level_page
-from ninja_game.web.pages.published import page_name, picture, picture_name
+from ninja_game.web.pages.gallery import level_page, page_name, picture, picture_name
 
 FIRST, TOGETHER, MOST_SPLITS = 10, 5, 60
 """Rows of a table; runs side by side; rows of splits, and where there were more, gold is left out."""

@@ -24,8 +24,7 @@ from ninja_game.web.board.ranking import Record, Standing
 from ninja_game.web.board.report import summary
 from ninja_game.web.board.runs import PLAYED, Key, Run
 from ninja_game.web.pages.frame import REPLAYS, Content, page, section, table, tag
-from ninja_game.web.pages.gallery import BOARD, medal_mark
-from ninja_game.web.pages.published import page_name, shared_text
+from ninja_game.web.pages.gallery import BOARD, medal_mark, page_name, shared_text
 
 NEWEST, LEADING, CONTESTED = 30, 20, 10
 """Rows on the first page of records, players and levels."""

@@ -15,9 +15,8 @@ from ninja_game.web.board.ranking import Part, Ranking
 from ninja_game.web.board.rules import Category
 from ninja_game.web.board.runs import Run
 from ninja_game.web.pages.frame import GAME, REPLAYS, Content, Markup, Pages, joined, page, table, tag
-from ninja_game.web.pages.gallery import BOARD, medal_mark, run_page
+from ninja_game.web.pages.gallery import BOARD, medal_mark, page_name, picture_name, run_page, watch_address
 from ninja_game.web.pages.memo import Memo
-from ninja_game.web.pages.published import page_name, picture_name, watch_address
 
 PER_PAGE = 100
 """Rows of a table that goes on on another page: a page has at most 100 KB."""

@@ -19,7 +19,7 @@ from ninja_game.files.tree import Tree, leads_below
 from ninja_game.files.user_folder import PACKAGE, data_folder
 from ninja_game.web.pages.documents import Documents
 from ninja_game.web.pages.frame import GAME, MARK as PAGES_MARK, REPLAYS
-from ninja_game.web.pages.published import page_name, picture_name, published_levels
+from ninja_game.web.pages.gallery import page_name, picture_name, published_levels
 from ninja_game.web.site.game_archive import compiled, game_archive, game_files, licence_of
 from ninja_game.web.site.pyodide_files import library_files, library_of, pyodide_files
 
