@@ -26,7 +26,6 @@ _STARTED: list[subprocess.Popen[bytes]] = []
 
 
 def allowed() -> bool:
-    """Whether such a process may be started."""
     return os.environ.get(VARIABLE) != "0"
 
 

@@ -114,7 +114,6 @@ def open_worlds(
 
 
 def _twins_for(memory: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """What gives compiled worlds of a memory their kernels."""
     return partial(compiled, checked=True) if memory in ("checked", JUDGED) else compiled
 
 

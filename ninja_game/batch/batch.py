@@ -119,7 +119,6 @@ class Batch:
         return deepcopy(self)
 
     def _make_views(self) -> None:
-        """Make the views, which can only be read."""
         self.records: Records = self._worlds.records.view()
         self.levels_now: Indices = np.asarray(self._worlds.level_of).view()
         self.records.flags.writeable = self.levels_now.flags.writeable = False

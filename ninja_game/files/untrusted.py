@@ -45,7 +45,6 @@ def parse_toml(text: str, *, any_number: bool = False) -> dict[str, Any]:
 
 
 def _check_numbers(value: object) -> None:
-    """Raise ValueError for a whole number of more than 64 bits."""
     if isinstance(value, dict | list):
         for each in value.values() if isinstance(value, dict) else value:
             _check_numbers(each)

@@ -21,8 +21,15 @@ from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.n14.level_file import write_level_file
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording, parse_replays, record_of
-from ninja_game.formats.replay.episode import is_episode, parse_episode, write_episode
-from ninja_game.formats.replay.text import Replay, is_replay, parse_replay, write_replay
+from ninja_game.formats.replay.text import (
+    Replay,
+    is_episode,
+    is_replay,
+    parse_episode,
+    parse_replay,
+    write_episode,
+    write_replay,
+)
 from ninja_game.sim.level import Level
 
 Kind = Literal["level", "pack", "replay"]

@@ -13,11 +13,10 @@ from ninja_game.files.reading import read_beside
 from ninja_game.formats.ascii.places import shown
 from ninja_game.formats.ascii.reader import is_ascii_level, parse_ascii_level
 from ninja_game.formats.lines import numbered_lines
-from ninja_game.formats.n14.level_file import MARKER, LevelRecord, is_demo, read_level_file
+from ninja_game.formats.n14.level_file import MARKER, is_demo, read_level_file
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, tidy_level_string
-from ninja_game.formats.replay.episode import is_episode, parse_episode
 from ninja_game.formats.replay.notations import is_tas_text
-from ninja_game.formats.replay.text import Replay, is_replay, parse_replay
+from ninja_game.formats.replay.text import Replay, is_episode, is_replay, parse_episode, parse_replay
 from ninja_game.sim.level import TILES, Level
 
 Form = Literal["replay", "episode", "ascii", "file", "demo", "inputs", "string"]
@@ -71,54 +70,34 @@ class NamedLevel:
     teaches: str = ""
     says: str = ""
 
-    @property
-    def ascii(self) -> bool:
-        """Whether the file is one of our readable ones."""
-        return self.form == "ascii"
-
 
 def parse_levels(text: str, *, file: str = "") -> list[NamedLevel]:
     """All levels in a text of any format. Raises LevelError or ReplayError."""
     form = form_of(text)
     if form in ("replay", "episode"):
         replays = [parse_replay(text, file=file)] if form == "replay" else parse_episode(text, file=file)
+        levels = [level_of_replay(each, file) for each in replays]
         return [
-            NamedLevel(
-                each.level_name or each.name,
-                each.level_author,
-                "",
-                level_of_replay(each, file),
-                file,
-                number,
-                form=form,
-            )
-            for number, each in enumerate(replays)
+            NamedLevel(each.level_name or each.name, each.level_author, "", level, file, number, form=form)
+            for number, (each, level) in enumerate(zip(replays, levels, strict=True))
         ]
     if form == "ascii":
         read = parse_ascii_level(text, file=file)
-        name = read.name or Path(file).stem
-        return [
-            NamedLevel(
-                name, read.author, read.comment, read.level, file, form=form, teaches=read.teaches, says=read.says
-            )
-        ]
+        told = read.name or Path(file).stem, read.author, read.comment, read.level, file
+        return [NamedLevel(*told, form=form, teaches=read.teaches, says=read.says)]
     if form == "file":
-        levels = [_named(record, file) for record in read_level_file(text, file=file) if record.level]
-        if not levels:
+        found = []
+        for record in read_level_file(text, file=file):
+            if record.level:
+                level = parse_level_string(record.level, file=file, line=record.line)
+                named = record.name, record.author, record.comment, level, file, record.number, record.line
+                found.append(NamedLevel(*named))
+        if not found:
             raise LevelError("recordings without their levels", file, hint="give the level file")
-        return levels
-    return [
-        NamedLevel(
-            Path(file).stem, "", "", parse_level_string(string, file=file, line=line), file, number, line, "string"
-        )
-        for number, (line, string) in enumerate(_level_strings(text, file))
-    ]
-
-
-def _named(record: LevelRecord, file: str) -> NamedLevel:
-    """A level file's record with its level read."""
-    level = parse_level_string(record.level, file=file, line=record.line)
-    return NamedLevel(record.name, record.author, record.comment, level, file, record.number, record.line)
+        return found
+    strings = [(line, parse_level_string(string, file=file, line=line)) for line, string in _level_strings(text, file)]
+    stem = Path(file).stem
+    return [NamedLevel(stem, "", "", level, file, k, line, "string") for k, (line, level) in enumerate(strings)]
 
 
 def _level_strings(text: str, file: str) -> Iterator[tuple[int, str]]:
@@ -128,13 +107,10 @@ def _level_strings(text: str, file: str) -> Iterator[tuple[int, str]]:
         lines = [(lines[0][0], tidy_level_string(text))]
     for number, line in lines:
         if not _is_level_string(line):
+            expected = "an ASCII level, a level file of N or an in-game string"
+            hint = "'ninja-game convert 00-0-first-steps - --to ascii --legend' shows how to write a level"
             raise LevelError(
-                "not a level in any format that is known here",
-                file,
-                number,
-                found=repr(line[:40]),
-                expected="an ASCII level, a level file of N or an in-game string",
-                hint="'ninja-game convert 00-0-first-steps - --to ascii --legend' shows how to write a level",
+                "not a level in any format that is known here", file, number, 0, repr(line[:40]), expected, hint
             )
         yield number, line
     if not lines:
@@ -177,7 +153,6 @@ def level_of_replay(replay: Replay, file: str, level: Level | None = None, *, ch
 
 
 def _level_in(text: str, place: str, record: int, file: str) -> Level:
-    """One level of the text of a level file that a replay names."""
     if is_replay(text) or is_episode(text):
         raise ReplayError("a replay as the level of a replay", file, found=place, expected="a level file")
     for level in parse_levels(text, file=place):

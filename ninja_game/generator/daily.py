@@ -21,8 +21,7 @@ from ninja_game.formats.pack.pack import INDEX, PARS, certificate_name
 from ninja_game.formats.pack.pars import DIGITS, Pars, parse_pars, write_pars
 from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
-from ninja_game.generator.naming import AUTHOR
-from ninja_game.generator.packed import PACKED, generated_levels
+from ninja_game.generator.packed import AUTHOR, PACKED, generated_levels
 
 FOLDER = "daily-levels"
 """The pack's folder, in the player's folder of levels."""

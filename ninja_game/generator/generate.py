@@ -15,9 +15,9 @@ from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.replay.text import Replay
 from ninja_game.generator.compose import compose
 from ninja_game.generator.gold import lay_trails
-from ninja_game.generator.layouts import LAYOUTS
-from ninja_game.generator.naming import AUTHOR, name_for
+from ninja_game.generator.layouts import LAYOUTS, name_for
 from ninja_game.generator.obstacles import more_beside, nearest_hazard
+from ninja_game.generator.packed import AUTHOR
 from ninja_game.generator.scene import Point, Scene
 from ninja_game.runs.level_design import design, design_findings
 from ninja_game.runs.run import run_level

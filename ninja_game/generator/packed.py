@@ -18,9 +18,10 @@ from ninja_game.formats.n14.level_string import parse_level_string, write_level_
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.formats.replay.notations import write_inputs
-from ninja_game.generator.naming import AUTHOR
 from ninja_game.sim.level import Level
 
+AUTHOR = "ninja-game generate"
+"""Who made the levels."""
 PACKED = "generated.tsv.xz"
 """Among the game's assets: a level a line, as ``PackedLevel.line`` writes it."""
 FROZEN = "bench.tsv.xz"
@@ -52,7 +53,6 @@ class PackedLevel(NamedTuple):
 
     @property
     def line(self) -> str:
-        """All of it as a line of the file."""
         runs = " ".join(" ".join(write_inputs(self.inputs)).split())
         level = write_level_string(self.level, exact=True)
         return f"{self.seed}\t{self.wanted}\t{self.name}\t{self.difficulty}\t{level}\t{runs}"

@@ -28,7 +28,6 @@ MIDDLE = (COLUMNS + 1) // 2
 
 
 def mirrored(cell: Cell) -> Cell:
-    """The cell on the other side of the middle column."""
     return COLUMNS + 1 - cell[0], cell[1]
 
 
@@ -181,7 +180,6 @@ def steps_from(first: Cell, within: set[Cell]) -> dict[Cell, int]:
 
 
 def neighbours(cell: Cell) -> tuple[Cell, ...]:
-    """The four cells beside a cell."""
     column, row = cell
     return (column + 1, row), (column, row + 1), (column - 1, row), (column, row - 1)
 
@@ -264,7 +262,6 @@ class Scene:
 
     @property
     def objects(self) -> list[ObjectSpec]:
-        """All objects, in the order of the level."""
         return [*self.key, *self.fixtures, *self.gold, *(record for group in self.hazards for record in group)]
 
     @property

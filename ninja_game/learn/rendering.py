@@ -61,7 +61,6 @@ class EpisodePicture:
         self._surface = pygame.Surface(size)
 
     def begin(self, simulation: Simulation) -> None:
-        """Show a run as it is now."""
         from ninja_game.view.level_view import LevelView
 
         self._simulation = simulation

@@ -26,9 +26,9 @@ from ninja_game.batch.thread_pool import thread_count, thread_pool, whole_number
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import Keys
 from ninja_game.learn.goal_distance import GoalDistance
-from ninja_game.learn.levels import LevelChoice, Origin, level_source
+from ninja_game.learn.levels.origins import Origin, level_source
 from ninja_game.learn.levels.places import new_levels, put_levels
-from ninja_game.learn.levels.source import LevelSequences
+from ninja_game.learn.levels.source import LevelChoice, LevelSequences
 from ninja_game.learn.observations.observation import Observation, PartLike
 from ninja_game.learn.observations.part import Setting
 from ninja_game.learn.protocol import CHANCES, beginnings, next_random
@@ -325,7 +325,6 @@ class EnvWorlds:
         return numbers
 
     def ended(self) -> Indices:
-        """The worlds whose episode is over."""
         return self._ended.nonzero()[0]
 
     # --- single worlds ---

@@ -124,7 +124,6 @@ class Asked:
 def _verify_all(
     chunks: Iterable[Chunk], asked: Asked, jobs: int | None, processes: bool | None, cluster: str, resume: Path | None
 ) -> Iterator[Result]:
-    """The results as the recordings alone give them."""
     if processes is None:
         processes = asked.memory == "both" or choose_memory(asked.memory) == "plain"
     with ExitStack() as stack:
@@ -174,7 +173,6 @@ def _looked_up(chunk: Chunk, log: CheckpointLog, context: str) -> Chunk:
 
 
 def _verify(asked: Asked, job: Job) -> list[list[Result]]:
-    """Verdicts on every chunk of a job that is not done yet."""
     counting = None if asked.counting is None else frozenset(asked.counting)
     return [
         [] if chunk.done else verify_chunk(chunk, asked.memory, asked.level, counting, asked.budget) for chunk in job
@@ -237,7 +235,6 @@ class Totals:
         self.outcomes[result.outcome] += 1
 
     def as_json(self) -> dict[str, Any]:
-        """The counts for programs."""
         return vars(self) | {"outcomes": dict(sorted(self.outcomes.items()))}
 
 

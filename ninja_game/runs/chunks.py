@@ -28,8 +28,7 @@ from ninja_game.files.locking import lock
 from ninja_game.files.reading import Beside, known_files, what_it_is
 from ninja_game.formats.n14.level_file import LevelRecord
 from ninja_game.formats.recording import Recording
-from ninja_game.formats.replay.episode import is_episode
-from ninja_game.formats.replay.text import RULES_VERSION
+from ninja_game.formats.replay.text import RULES_VERSION, is_episode
 from ninja_game.levels.findings import RUN_RULES, RunProblem
 from ninja_game.runs.recording_reader import Unreadable, recording_of_text, recordings_of, records_of, texts_in
 from ninja_game.runs.verify import NOT_RUN, OutOfRangeError, Verdict, verify_recording
@@ -65,7 +64,6 @@ class Chunk:
 
     @property
     def weight(self) -> int:
-        """About how much work it is."""
         return len(self.records) or 1
 
     @property
@@ -143,7 +141,7 @@ def _result(recording: Recording | Unreadable, memory: str, counting: Container[
 
 def results_as_text(results: Sequence[Sequence[Result]]) -> str:
     """The results of several chunks as JSON."""
-    return json.dumps([[as_data(result) for result in each] for each in results])
+    return json.dumps([[asdict(result) for result in each] for each in results])
 
 
 def results_from_text(text: object, chunks: Sequence[Chunk]) -> list[list[Result]]:
@@ -162,11 +160,6 @@ def results_from_text(text: object, chunks: Sequence[Chunk]) -> list[list[Result
         raise ClusterError(f"a worker of the cluster answers with something else than results ({error})") from None
 
 
-def as_data(result: Result) -> dict[str, Any]:
-    """A result as a dictionary of plain values."""
-    return asdict(result)
-
-
 LARGEST = 2**53
 """Numbers of a result are smaller."""
 OUTCOMES = (*OUTCOME_NAMES, NOT_RUN)
@@ -175,7 +168,7 @@ _TYPES = {name: hint for name, hint in get_type_hints(Verdict).items() if name !
 
 
 def result_from_data(data: object) -> Result:
-    """The result that ``as_data`` gave, also after a way through JSON. Raises ValueError for anything else."""
+    """The result that ``asdict`` gave, also after a way through JSON. Raises ValueError for anything else."""
     if isinstance(data, dict) and data.keys() == {"message"} and isinstance(data["message"], str):
         return Unreadable(data["message"])
     if not isinstance(data, dict) or data.keys() != {*_TYPES, "problems"}:
@@ -285,9 +278,8 @@ class CheckpointLog:
         return results
 
     def add(self, key: str, results: Sequence[Result]) -> None:
-        """Note that a chunk is finished."""
         self._places[key] = self._file.tell()
-        fields: dict[str, Any] = {"chunk": key, "results": [as_data(result) for result in results]}
+        fields: dict[str, Any] = {"chunk": key, "results": [asdict(result) for result in results]}
         self._write(json.dumps(fields).encode() + b"\n")
 
     def __enter__(self) -> Self:

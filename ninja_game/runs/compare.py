@@ -57,7 +57,6 @@ class Split(NamedTuple):
 
     @property
     def key(self) -> Key:
-        """What it has in common with the same split of another run."""
         return self.event, self.object_id, self.number
 
     def __str__(self) -> str:
@@ -89,7 +88,6 @@ class RunSplits:
 
     @property
     def by_key(self) -> dict[Key, Split]:
-        """The splits by what they have in common with those of other runs."""
         return {split.key: split for split in self.splits}
 
 

@@ -95,6 +95,7 @@ def design(level: Level, inputs: bytes) -> Design:
     gold, mines = places(level, kinds.GOLD), places(level, kinds.MINE)
     room = len(ground.cells) * CELL * CELL
     homes = np.concatenate([places(level, kind) for kind in HAZARDS])
+    to_exit = distances(places(level, kinds.NINJA)[-1:], places(level, kinds.EXIT))
     return Design(
         float(np.median(distances(homes, path))) if len(homes) else None,
         float(np.mean(in_danger(level, ground, still, gold))) if len(gold) and len(homes) else None,
@@ -102,13 +103,12 @@ def design(level: Level, inputs: bytes) -> Design:
         evenness(mines, room),
         most_bays(level),
         unused(level, ground, path),
-        float(np.abs(np.diff(path, axis=0)).sum()) / max(CELL, _start_to_exit(level)),
+        float(np.abs(np.diff(path, axis=0)).sum()) / max(CELL, float(to_exit.min(initial=np.inf))),
         float(np.mean(clearance(run) < NEAR)),
     )
 
 
 def places(level: Level, kind: int) -> Points:
-    """The places of all objects of a kind."""
     found = [record.values[:2] for record in level.objects if record.kind == kind and well_formed(record)]
     return np.array(found, np.float64).reshape(-1, 2)
 
@@ -207,8 +207,3 @@ def unused(level: Level, ground: Ground, path: Points) -> float:
     cells = np.array([(CENTRE_X[cell], CENTRE_Y[cell]) for cell in ground.cells])
     used = np.array([record.values[:2] for record in level.objects if well_formed(record)], np.float64)
     return float(np.mean(np.minimum(distances(cells, used), distances(cells, path[::5])) > EMPTY))
-
-
-def _start_to_exit(level: Level) -> float:
-    """The distance from the ninja's start to the nearest exit, px."""
-    return float(distances(places(level, kinds.NINJA)[-1:], places(level, kinds.EXIT)).min(initial=np.inf))

@@ -68,7 +68,6 @@ def certificate(pack: Pack, file: str, kind: str) -> Certificate | None:
 
 
 def is_certified(pack: Pack, file: str, kind: str) -> bool:
-    """Whether a level file has a sound certificate."""
     try:
         found = certificate(pack, file, kind)
         return found is not None and not found.problems

@@ -90,9 +90,7 @@ def recordings_of(
             yield Unreadable(str(error))
 
 
-@lru_cache(LEVELS_KEPT)
-def _level(text: str) -> Level:
-    return parse_level_string(text)
+_level = lru_cache(LEVELS_KEPT)(parse_level_string)
 
 
 def recording_of_text(

@@ -224,7 +224,6 @@ def in_order(pool: Workers, function: Callable[[J], R], jobs: Iterable[J]) -> It
 
 
 def _retry(pool: Workers, function: Callable[[J], R], job: J) -> R | WorkerLostError:
-    """The result of a job that was lost with its worker."""
     for _ in range(pool.tries - 1):
         pool.renew()
         try:

@@ -87,7 +87,6 @@ def add_root(start: Start, arrays: SearchArrays, goal: Goal, resolution: Resolut
 
 @entry_point
 def load_node(start: Start, arrays: SearchArrays, index: int) -> None:
-    """Make the save-state of a node that has one the scratch world."""
     load_state(start.scratch, start.initial, arrays.nodes[index], arrays)
 
 
@@ -324,7 +323,6 @@ def add_node(parent: int, action: int, tick: int, arrays: SearchArrays) -> int:
 
 @fast
 def note_link(arrays: SearchArrays, source: int, target: int, ticks: int) -> None:
-    """Remember that a macro leads from one table entry to another."""
     counters = arrays.counters[0]
     link = arrays.links[counters.links]
     counters.links += 1

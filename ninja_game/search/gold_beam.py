@@ -63,7 +63,6 @@ HOPE = 1.1
 
 @entry_point
 def play_on(start: Start, keys: int) -> None:
-    """Play one tick of the scratch world."""
     w = start.worlds[1]
     step(start.levels[0], w, pressed(keys & KEYS_DOWN, w.ninja.jump_held))
 
@@ -151,15 +150,8 @@ class GoldBeam:
         if target < 0:
             leg = Leg(roots, 0, frontier.mask, frontier.count, 1, 0, self.heuristics.field)
         else:
-            leg = Leg(
-                roots,
-                frontier.count + 1,
-                frontier.mask,
-                MORE_THAN_ANY,
-                BEAM_ENDS,
-                ROLLOUTS,
-                partial(self._fields.to_piece, target),
-            )
+            field = partial(self._fields.to_piece, target)
+            leg = Leg(roots, frontier.count + 1, frontier.mask, MORE_THAN_ANY, BEAM_ENDS, ROLLOUTS, field)
         self.search.begin_leg(leg, resolution, seed=self.seed * 100_000 + self.legs, bound=self.ticks)
         budget = BEAM_TICKS * (EXIT_FACTOR if target < 0 else effort)
         self.search.run_leg(budget, spend, part=BEAM_EXTRA)
@@ -186,9 +178,8 @@ class GoldBeam:
         tour = frontier.tour
         if not tour:
             return frontier.checkpoints[0].tick + float(home[-1])
-        return frontier.checkpoints[0].tick + float(
-            start[tour[0]] + between[tour[:-1], tour[1:]].sum() + home[tour[-1]]
-        )
+        to_come = float(start[tour[0]] + between[tour[:-1], tour[1:]].sum() + home[tour[-1]])
+        return frontier.checkpoints[0].tick + to_come
 
     def _target(self, frontier: Frontier) -> int:
         """The piece to fetch next from a frontier, -1: the exit. Its tour is made shorter."""

@@ -49,7 +49,6 @@ def known_run(ticks: int, keys: bytes = b"") -> KnownRun:
 
 @fast
 def note(run: KnownRun, w: World, switch_slots: NDArray[np.int64]) -> None:
-    """Note the present moment of a world."""
     n = w.ninja
     row = run.moves[w.tick]
     row[0] = n.x

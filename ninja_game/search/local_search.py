@@ -87,7 +87,6 @@ def shift_pulse(keys: Keys, length: int, tick: int, by: int) -> int:
 
 @fast
 def mutate(keys: Keys, length: int, tick: int, source: RandomState) -> tuple[int, int]:
-    """One random edit at or after a tick."""
     kind = random_below(source, 12)
     by = 1 + random_below(source, 2 if random_below(source, 2) else 8)
     sign = 1 if random_below(source, 2) else -1

@@ -66,13 +66,11 @@ def play_macro(level: TileMap, w: World, direction: int, mode: int, limit: int) 
 
 @fast
 def action_code(direction: int, mode: int, held: int, ticks: int) -> int:
-    """A macro in one number."""
     return (direction + 1) | mode << 2 | held << 4 | ticks << 8
 
 
 @cache
 def action_inputs(action: int) -> bytes:
-    """The inputs of an action, one byte per tick."""
     direction, mode, held, ticks = (action & 3) - 1, action >> 2 & 3, action >> 4 & 1, action >> 8
     return bytes(macro_keys(direction, mode, held, k) for k in range(ticks))
 

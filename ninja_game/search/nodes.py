@@ -249,7 +249,6 @@ def back_up_values(table: Sequence[TableEntry], links: Sequence[Link], count: in
 
 @fast
 def copy_words(target: StateWords, source: StateWords) -> None:
-    """Copy a save-state."""
     for k in range(len(target)):
         target[k] = source[k]
 
@@ -315,7 +314,6 @@ def load_state(words: StateWords, initial: StateWords, node: Node, arrays: Searc
 
 @fast
 def push(index: int, priority: float, arrays: SearchArrays) -> None:
-    """Put a node into its bucket."""
     counters = arrays.counters[0]
     bucket = int(priority)
     bucket = 0 if bucket < 0 else min(bucket, BUCKETS - 1)
@@ -356,7 +354,6 @@ def drop_highest(arrays: SearchArrays) -> None:
 
 @fast
 def take_first(bucket: int, arrays: SearchArrays) -> int:
-    """Take the first node out of a bucket that has one."""
     index = arrays.buckets[bucket]
     arrays.buckets[bucket] = arrays.nodes[index].next
     arrays.counters[0].waiting -= 1

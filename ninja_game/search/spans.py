@@ -51,7 +51,6 @@ class SpanSettings(NamedTuple):
 
 
 def draw_settings(random: np.random.Generator) -> SpanSettings:
-    """Draw how finely to search."""
     resolution = Resolution(
         cell=float(random.choice(CELLS)), speed=float(random.choice(SPEEDS)), macro=int(random.choice(MACROS)),
         jitter=int(random.choice(JITTERS)), enemy_cell=float(random.choice(ENEMY_CELLS)),
@@ -61,8 +60,6 @@ def draw_settings(random: np.random.Generator) -> SpanSettings:
 
 
 class SpanSearches:
-    """Searches along runs of one level."""
-
     def __init__(self, start: Start, heuristics: Heuristics, *, gold: int) -> None:
         self.gold = gold
         self._search = Search(start, heuristics, nodes=NODES, along=True)
@@ -71,7 +68,6 @@ class SpanSearches:
         self._delay_factor = 1.0
 
     def know(self, inputs: bytes) -> None:
-        """Take a run to the exit as the known one."""
         if inputs != self._inputs:
             self._inputs, self.run = inputs, self._noted(inputs)
 

@@ -65,7 +65,6 @@ class Task:
 
     @property
     def gold_wanted(self) -> int:
-        """Pieces of gold that a run must collect."""
         return self.level.gold if self.gold < 0 else self.gold
 
     @property
@@ -143,7 +142,6 @@ class SharedProgress:
 
     @property
     def over(self) -> bool:
-        """Whether time is up or the caller wants to stop."""
         late = not self.task.work and time.monotonic() - self.began >= self.task.seconds
         return late or self.stop.is_set() or self.cancelled.is_set() or bool(self.task.first_only and self.best)
 

@@ -121,7 +121,6 @@ def runs_of_level(path: Path, about: Recording) -> list[Recording]:
 
 
 def same_level(recording: Recording, other: Recording) -> bool:
-    """Whether two runs are of the same level and have the same body."""
     return recording.body == other.body and level_digest(recording.level) == level_digest(other.level)
 
 
@@ -238,7 +237,6 @@ def _with_old_path(replay: Replay, about: Recording) -> Replay:
 
 
 def branches_path(path: Path) -> Path:
-    """The file of a run's branches, beside it."""
     return path.with_name(f"{path.name}.branches.json")
 
 
@@ -258,7 +256,6 @@ def read_branches(path: Path) -> Branches:
 
 
 def _player_of(recording: Recording) -> str:
-    """Who made a run; one who is not known is called by the file."""
     file = Path(recording.file).name or recording.name
     return recording.player or f"unknown ({file_stem(file, 'no file')})"
 

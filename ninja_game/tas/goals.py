@@ -81,13 +81,11 @@ class SearchedSpan:
 
 
 def be_there(span: SearchedSpan) -> SpanGoal:
-    """Be where the run is at the end of the span, earlier."""
     end = span.end
     return SpanGoal(f"distance({end['x']:.6g}, {end['y']:.6g}) < {NEAR:g}")
 
 
 def go_beyond(span: SearchedSpan) -> SpanGoal:
-    """Pass, earlier, the upright line at the end of the span."""
     start, end = span.start, span.end
     # Rounded so that the run itself has passed the line at its end.
     if end["x"] >= start["x"]:
@@ -96,7 +94,6 @@ def go_beyond(span: SearchedSpan) -> SpanGoal:
 
 
 def be_fast(span: SearchedSpan) -> SpanGoal:
-    """End the span with the greatest speed."""
     return SpanGoal(_alive(span.last), "speed")
 
 

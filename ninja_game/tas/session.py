@@ -52,7 +52,6 @@ class Session:
         self.timeline.simulate(self.ticks_per_frame)
 
     def _opened(self) -> dict[str, object]:
-        """What the journal says first."""
         text = write_replay(unclaimed_replay(self.about, self.track))
         path = str(self.file.path.absolute()) if self.file.path else ""
         file = {"path": path, "digest": self.file.digest, "branches_digest": self.file.branches_digest}
@@ -72,7 +71,6 @@ class Session:
         return not self._file_differs and self.track == self.saved and self._kept() == self._saved_branches
 
     def _kept(self) -> tuple[list[Branch], tuple[str, ...]]:
-        """What is saved beside the run."""
         return list(self.branches.all), self.branches.watched
 
     @property
@@ -189,7 +187,6 @@ class Session:
         self._note_branches({"rename": number, "name": name})
 
     def watch(self, formulas: Iterable[str]) -> None:
-        """Keep other watched formulas with the run."""
         self.branches.watched = tuple(formulas)
         self._note_branches({"watch": list(self.branches.watched)})
 

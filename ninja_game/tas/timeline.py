@@ -105,7 +105,6 @@ class Timeline:
 
     @property
     def complete(self) -> bool:
-        """Whether all ticks are simulated."""
         return self.simulated_until >= len(self)
 
     # --- edits ---
@@ -183,7 +182,6 @@ class Timeline:
         self.simulated_until = last
 
     def _reserve(self, rows: int) -> None:
-        """Have room for this many rows."""
         if len(self._objects) >= rows:
             return
         more = max(rows - len(self._objects), _GROWTH)
@@ -207,7 +205,6 @@ class Timeline:
 
     @property
     def event_ticks(self) -> list[tuple[int, str]]:
-        """The simulated ticks in which anything happened, and what."""
         return [(tick, names) for tick, names in enumerate(self._events) if names]
 
     @property

@@ -1,4 +1,4 @@
-"""A run as its maker edits it: an input track; and its branches, tracks that are kept as a tree of what was made of what."""
+"""A run as its maker edits it, an input track; and its branches: kept tracks, as a tree of what was made of what."""
 
 from __future__ import annotations
 
@@ -175,7 +175,6 @@ class Branches:
             waiting += [(child, depth + 1) for child in reversed(children.get(number, []))]
 
     def as_json(self) -> dict[str, Any]:
-        """All of it as JSON can say it."""
         said = {"branches": [branch_as_json(branch) for branch in self.all], "current": self.current}
         return {**said, "watched": list(self.watched)}
 

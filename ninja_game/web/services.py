@@ -57,7 +57,6 @@ class PageServices:
         self.app.notify(text)
 
     def flush(self) -> None:
-        """Put what waits for the next save on the disk now."""
         self.app.player.store.flush()
 
     def watched(self, fragment: str) -> list[str]:

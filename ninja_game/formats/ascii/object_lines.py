@@ -160,18 +160,20 @@ _SYNONYMS = {
 
 
 class Listed(NamedTuple):
-    """An object that a line of the list creates, and the column of its place in that line."""
+    """An object that a line of the list creates, and where its place stands: the column, and the line if known."""
 
     record: ObjectSpec
     column: int
+    line: int = 0
 
 
 class OddTile(NamedTuple):
-    """A cell whose tile id no character draws, and the column of its place in the line."""
+    """A cell whose tile id no character draws, and where its place stands, as of ``Listed``."""
 
     cell: tuple[int, int]
     id: int
     column: int
+    line: int = 0
 
 
 def tokens_of(text: str) -> list[Token]:

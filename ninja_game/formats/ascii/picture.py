@@ -132,12 +132,9 @@ def read_picture(lines: Sequence[tuple[int, str]], end: int, problems: Problems)
         if row is not None:
             rows.append((row[0], line, row[1]))
     if len(lines) != ROWS and not misnumbered:
-        problems.add(
-            "the picture has too many rows" if len(lines) > ROWS else "the picture has too few rows",
-            lines[ROWS][0] if len(lines) > ROWS else end,
-            found=f"{len(lines)}",
-            expected=f"{ROWS} rows, each |{COLUMNS} characters|",
-        )
+        amount, line = ("many", lines[ROWS][0]) if len(lines) > ROWS else ("few", end)
+        expected = f"{ROWS} rows, each |{COLUMNS} characters|"
+        problems.add(f"the picture has too {amount} rows", line, found=f"{len(lines)}", expected=expected)
     if len(problems.found) > before:
         return None
     texts, numbers, columns = zip(*rows, strict=True)
@@ -179,11 +176,8 @@ def _read_row(line: int, text: str, number: int, problems: Problems) -> tuple[st
                      found=f"{len(cells)} characters", expected=f"{COLUMNS}", hint=hint)  # fmt: skip
     for offset, char in enumerate(cells[:COLUMNS]):
         if char not in TILE_OF_CHAR and char not in SYMBOL_OF_CHAR and char != ODD_TILE:
-            hint = (
-                f"did you mean {_similar(char)}?"
-                if _similar(char)
-                else "'ninja-game convert --legend' writes the legend"
-            )
+            meant = _similar(char)
+            hint = f"did you mean {meant}?" if meant else "'ninja-game convert --legend' writes the legend"
             problems.add("a character that is not in the legend", line, start + offset, found=repr(char), hint=hint,
                          expected="a tile or an object")  # fmt: skip
     return cells, start
@@ -208,22 +202,8 @@ _NEEDED_LINES = {
 """A line to copy for each drawn object that needs one."""
 
 
-class Placed(NamedTuple):
-    """An object of the list and the line that gives it."""
-
-    listed: Listed
-    line: int
-
-
-class PlacedTile(NamedTuple):
-    """A tile of the list and the line that gives it."""
-
-    tile: OddTile
-    line: int
-
-
 def merge_picture_and_list(
-    picture: Picture, objects: Sequence[Placed], tiles: Sequence[PlacedTile], problems: Problems
+    picture: Picture, objects: Sequence[Listed], tiles: Sequence[OddTile], problems: Problems
 ) -> Level:
     """The level: drawn objects that no line mentions (ninjas first, then in reading order), then the list in order.
 
@@ -245,30 +225,27 @@ def merge_picture_and_list(
                          hint=f"add a line below the picture, such as: {example}")  # fmt: skip
         else:
             drawn.append((cell, symbol))
-    records = _drawn_records(picture, drawn, problems) + [placed.listed.record for placed in objects]
+    records = _drawn_records(picture, drawn, problems) + [placed.record for placed in objects]
     return Level(tuple(_tiles(picture, tiles, problems)), tuple(records))
 
 
 def _mentioned(
-    picture: Picture, objects: Iterable[Placed], problems: Problems
-) -> tuple[set[Cell], dict[Cell, tuple[Placed, Symbol]]]:
+    picture: Picture, objects: Iterable[Listed], problems: Problems
+) -> tuple[set[Cell], dict[Cell, tuple[Listed, Symbol]]]:
     """Cells whose drawn object a line speaks of; cells where a line has another form of the same kind."""
     mentioned: set[Cell] = set()
-    conflicts: dict[Cell, tuple[Placed, Symbol]] = {}
+    conflicts: dict[Cell, tuple[Listed, Symbol]] = {}
     for placed in objects:
-        for part in visible_parts(placed.listed.record):
+        for part in visible_parts(placed.record):
             cell, wanted = (part.column, part.row), SYMBOL_OF_CHAR[part.char]
             char = picture.char(cell)
             if char == part.char:
                 mentioned.add(cell)
             elif char in ". ":
-                problems.add(
-                    f"{_named(wanted)} at {part.column},{part.row} is not in the picture",
-                    placed.line,
-                    placed.listed.column,
-                    hint=f"draw {part.char} in line {picture.where(cell)[0]}, column {picture.where(cell)[1]}, "
-                    "or correct the place",
-                )
+                line, column = picture.where(cell)
+                what = f"{_named(wanted)} at {part.column},{part.row} is not in the picture"
+                hint = f"draw {part.char} in line {line}, column {column}, or correct the place"
+                problems.add(what, placed.line, placed.column, hint=hint)
             elif char in SYMBOL_OF_CHAR and SYMBOL_OF_CHAR[char].kind == wanted.kind:
                 conflicts[cell] = placed, wanted
     return mentioned, conflicts
@@ -310,11 +287,11 @@ def _drawn_records(picture: Picture, drawn: Sequence[tuple[Cell, Symbol]], probl
     return ninjas + others
 
 
-def _tiles(picture: Picture, lines: Iterable[PlacedTile], problems: Problems) -> list[int]:
+def _tiles(picture: Picture, listed: Iterable[OddTile], problems: Problems) -> list[int]:
     """The 713 tile ids, odd ones from their lines."""
     tiles = picture.tiles()
     given: set[Cell] = set()
-    for tile, line in lines:
+    for tile in listed:
         (column, row), mistake = tile.cell, ""
         if not (1 <= column <= COLUMNS and 1 <= row <= ROWS):
             mistake, hint = "a tile line for a border cell", "only 1,1 to 31,23 have tiles of the level"
@@ -326,7 +303,7 @@ def _tiles(picture: Picture, lines: Iterable[PlacedTile], problems: Problems) ->
             mistake, hint = "a tile line for a cell that is not marked", f"draw {ODD_TILE} in the picture there"
         given.add(tile.cell)
         if mistake:
-            problems.add(mistake, line, tile.column, found=f"{column},{row}", hint=hint)
+            problems.add(mistake, tile.line, tile.column, found=f"{column},{row}", hint=hint)
             continue
         tiles[(column - 1) * ROWS + row - 1] = tile.id
     for cell in picture.cells():

@@ -21,7 +21,7 @@ from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel, parse_levels
 from ninja_game.formats.pack.index import LEVELS_PER_EPISODE, EpisodeIndex, parse_index
 from ninja_game.formats.pack.pars import Pars, parse_pars
-from ninja_game.formats.replay.episode import episode_key
+from ninja_game.formats.replay.text import episode_key
 
 INDEX, PARS, CERTIFICATES = "pack.toml", "pars.toml", "certificates"
 """The index, the table of par times, the folder of replays."""

@@ -113,6 +113,5 @@ def write_pars(pars: Mapping[str, Pars]) -> str:
 
 
 def _key(name: str) -> str:
-    """A file name as a TOML key."""
     escaped = "".join(f"\\u{ord(char):04x}" if ord(char) < 32 or ord(char) == 127 else char for char in name)
     return '"' + escaped.replace('"', '\\"') + '"'

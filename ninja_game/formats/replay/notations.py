@@ -35,7 +35,6 @@ _MARKER_NAME = re.compile(r"[\w.-]{1,100}")
 
 
 def is_marker_name(name: str) -> bool:
-    """Whether a marker can have this name."""
     return _MARKER_NAME.fullmatch(name) is not None
 
 
@@ -224,5 +223,4 @@ def _celeste_word(found: str, file: str, number: int) -> str:
 
 
 def _in_order(letters: Iterable[str]) -> str:
-    """Keys in our order."""
     return "".join(letter for letter in "LRJ" if letter in [*letters]) or "."

@@ -163,8 +163,6 @@ def _swapped(keys: int) -> int:
 
 
 class _Levels(Sequence[Level]):
-    """Levels by number, made when they are asked for."""
-
     def __init__(self, split: str, numbers: range) -> None:
         self.split, self.numbers = split, numbers
 

@@ -109,7 +109,6 @@ def _split(names: Sequence[str]) -> dict[str, list[str]]:
 
 
 def _named(found: Sequence[NamedLevel]) -> LevelSource:
-    """Levels by the names of their files."""
     names = [Path(named.file).stem or named.name or "level" for named in found]
     return LevelSource(names, [named.level for named in found])
 

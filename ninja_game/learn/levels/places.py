@@ -10,6 +10,7 @@ from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import Worlds
 from ninja_game.sim.memory.plain import PlainWorlds, load_plain
+from ninja_game.sim.memory.schema import World
 
 
 class NewObject(NamedTuple):
@@ -33,18 +34,7 @@ class NewLevel(NamedTuple):
 def new_levels(worlds: Worlds, places: Iterable[int]) -> list[NewLevel]:
     """Levels of worlds by their numbers."""
     if isinstance(worlds, PlainWorlds):
-        plain = [(worlds.maps[place].tiles, worlds.fresh[place]) for place in places]
-        return [
-            NewLevel(
-                tiles,
-                [
-                    NewObject(k, o.kind, o.x, o.y, o.partner if o.kind == EXIT else 0)
-                    for k, o in enumerate(w.objects[: w.slots_used])
-                ],
-                (w.ninja.x, w.ninja.y),
-            )
-            for tiles, w in plain
-        ]
+        return [_new_level(worlds.maps[place].tiles, worlds.fresh[place]) for place in places]
     fresh = worlds.fresh
     every = [fresh["objects"][name] for name in ("kind", "x", "y", "partner")]
     tiles, used, ninja = worlds.maps["tiles"], fresh["slots_used"], fresh["ninja"]
@@ -54,6 +44,12 @@ def new_levels(worlds: Worlds, places: Iterable[int]) -> list[NewLevel]:
         objects = list(map(NewObject, range(len(columns[0])), *columns))
         found.append(NewLevel(tiles[place].tolist(), objects, (float(ninja["x"][place]), float(ninja["y"][place]))))
     return found
+
+
+def _new_level(tiles: Sequence[int], w: World) -> NewLevel:
+    slots = enumerate(w.objects[: w.slots_used])
+    objects = [NewObject(k, o.kind, o.x, o.y, o.partner if o.kind == EXIT else 0) for k, o in slots]
+    return NewLevel(tiles, objects, (w.ninja.x, w.ninja.y))
 
 
 def put_levels(worlds: Worlds, places: Indices, levels: Sequence[Level]) -> None:

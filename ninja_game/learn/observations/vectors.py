@@ -113,7 +113,6 @@ def observe_state(
     gold_bounds: Any, gold: Any, gold_x: Any, gold_y: Any,
     changed: Any, opened: Any, nearest: Any,
 ) -> None:  # fmt: skip
-    """Write the state vector of some worlds."""
     for k in range(first, last):
         index = which[k]
         level = level_of[index]
@@ -259,7 +258,6 @@ def observe_time(
     maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
     time_limit: int, factor: float, highest: float,
 ) -> None:  # fmt: skip
-    """Write the time left of some worlds."""
     for k in range(first, last):
         index = which[k]
         out[index, offset] = clamp((time_limit - worlds[index].tick) * factor, 0.0, highest)

@@ -8,8 +8,7 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.files.writing import write_atomically
-from ninja_game.formats.replay.episode import write_episode
-from ninja_game.formats.replay.text import write_replay
+from ninja_game.formats.replay.text import write_episode, write_replay
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen

@@ -56,7 +56,6 @@ def paths(picture: str, runs: Sequence[tuple[str, str]]) -> Markup:
 
 
 def swatch(number: int) -> Markup:
-    """The colour of the path with a number."""
     line = tag("path", d="M1 7H21", stroke=_colour(number), class_="way")
     return tag("svg", line, viewBox="0 0 22 14", width="22", height="14", aria_hidden="true")
 

@@ -87,7 +87,6 @@ class LevelPages(Parts):
         return section(self.part_name(part), table("Best run of each player", compress(heads, filled), lines))
 
     def _progression(self, entry: Entry, part: Part) -> Content:
-        """How the record fell."""
         category, runs = part[1], self.ranking.history[entry.digest, part]
         moved = "rose" if category.rising else "fell"
         numbers = [self.ranking.number(category, run) for run in runs]

@@ -208,15 +208,8 @@ class BoardPages(LevelPages):
         def cells(row: Sequence[Any]) -> tuple[Content, ...]:
             run = known[row[0]]
             result = seconds_text(run.tick), medal_mark(run.medal), seconds_text(run.score), run.gold
-            return (
-                row[1],
-                level_link(run.entry, UP),
-                *result,
-                *row[3:5],
-                run.made or "unknown",
-                *self.leads(run, UP),
-                run.day,
-            )
+            leads = run.made or "unknown", *self.leads(run, UP), run.day
+            return (row[1], level_link(run.entry, UP), *result, *row[3:5], *leads)
 
         rows = [
             [self.stems[run.key], run.entry.episode, run.medal, *places.get(run.key, ("", "")), run.day]

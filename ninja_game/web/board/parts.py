@@ -85,7 +85,6 @@ class Parts:
         return self.watch([run], up), tag("a", "Share", href=address, aria_label=said)
 
     def run_page(self, run: Run) -> None:
-        """The small page of a run."""
         stem, title = self.stems[run.key], f"{self.name(run.player)} on {run.entry.title}"
         facts = [("Time", f"{seconds_text(run.tick)} s"), ("Score", seconds_text(run.score)), ("Gold", str(run.gold)),
                  ("Medal", run.medal), ("Made", run.made or "unknown"), ("Date", run.day)]  # fmt: skip
@@ -139,14 +138,5 @@ def signed(ticks: int) -> str:
 def _stem(run: Run) -> str:
     """The stem of the file in ``replays`` with a run: of all that the file holds."""
     named = run.entry.named
-    told = [
-        run.digest,
-        str(run.record),
-        run.player,
-        run.entry.title,
-        named.author,
-        run.made,
-        run.co_authors,
-        run.entry.digest,
-    ]
-    return sha256("\0".join(told).encode("utf-8", "replace")).hexdigest()[:16]
+    told = run.digest, str(run.record), run.player, run.entry.title, named.author, run.made, run.co_authors
+    return sha256("\0".join((*told, run.entry.digest)).encode("utf-8", "replace")).hexdigest()[:16]

@@ -229,7 +229,6 @@ def heading(text: str) -> Markup:
 
 
 def page_icon() -> bytes:
-    """The game's icon as a PNG."""
     return png_of(icon(_ICON_SIZE))
 
 
@@ -287,5 +286,4 @@ def _wrapping(cell: Content) -> Content:
 
 
 def section(title: str, *contents: Content) -> Markup:
-    """A part of a page with its heading."""
     return tag("section", tag("h2", title), joined(*contents))

@@ -50,8 +50,6 @@ CERTIFICATES = ("exit", "gold")
 
 @dataclass(frozen=True)
 class PublishedLevels:
-    """Levels with what is known of them."""
-
     name: str
     author: str
     comment: str
@@ -214,7 +212,6 @@ def _play(entry: Entry, game: str) -> Content:
 
 
 def objects_text(entry: Entry) -> str:
-    """How many objects of each kind, the commonest first."""
     counts = Counter(KIND_NAMES[spec.kind] for spec in entry.named.level.objects if makes_object(spec))
     told = [counted(count, kind, "gold" * (kind == "gold")) for kind, count in counts.most_common()]
     return ", ".join(told) or "none"
@@ -306,7 +303,6 @@ def search(episodes: Mapping[str, str]) -> Markup:
 
 
 def _card(entry: Entry, place: int) -> Markup:
-    """A level in the list."""
     pars = entry.pars
     facts: list[Content] = [tag("span", f"by {entry.named.author}" if entry.named.author else "author unknown")]
     if pars:
