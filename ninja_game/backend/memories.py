@@ -37,8 +37,7 @@ if TYPE_CHECKING:
 
 R = TypeVar("R")
 
-_LOCK = Lock()
-"""One thread at a time imports Numba and makes twins."""
+_LOCK = Lock()  # one thread at a time imports Numba and makes twins
 _KERNELS: dict[tuple[Callable[..., Any], bool], Any] = {}
 _FAILURES: list[str] = []
 """Why the compiled memory cannot be used in this process, once that has been tried."""

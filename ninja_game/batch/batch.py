@@ -42,8 +42,7 @@ from ninja_game.simulation import Body, is_box
 
 __all__ = ["OBJECT_FIELDS", "OUTCOME_NAMES", "Batch", "BatchState"]
 
-Indices = NDArray[np.intp]
-"""Indices of worlds or levels."""
+Indices = NDArray[np.intp]  # indices of worlds or levels
 
 WorldChoice: TypeAlias = int | slice | Sequence[int] | Sequence[bool] | NDArray[np.intp] | NDArray[np.bool_] | None
 """Worlds: by number, a slice of numbers, or one truth value for each world; None: all of them."""

@@ -136,8 +136,7 @@ def open_regular(path: Path) -> IO[bytes]:
     return os.fdopen(handle, "rb")
 
 
-NO_FILE: list[int] = []
-"""The stamp of what is not there."""
+NO_FILE: list[int] = []  # the stamp of what is not there
 
 
 def stamp_of(path: Path | str) -> list[int]:

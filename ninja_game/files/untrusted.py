@@ -117,8 +117,7 @@ UNREADABLE = (
 )  # fmt: skip
 """What odd files make the standard library and NumPy raise."""
 
-MOST_ARRAYS = 2**16
-"""In an archive; a trace has nine."""
+MOST_ARRAYS = 2**16  # in an archive; a trace has nine
 
 _HEADER = re.compile(
     rb"\x93NUMPY(?:\x01\x00..|\x02\x00....)"

@@ -38,11 +38,9 @@ KINDS: tuple[Kind, ...] = ("level", "pack", "replay")
 VERSION = 1
 """Raw deflate (RFC 1951) of the text in UTF-8 behind four bytes of CRC-32, in base64url without padding."""
 
-MOST_CHARACTERS = 2 * 2**20
-"""Length of a link: what browsers take."""
+MOST_CHARACTERS = 2 * 2**20  # length of a link: what browsers take
 
-MOST_BYTES = 4 * 2**20
-"""Size of its text when unpacked."""
+MOST_BYTES = 4 * 2**20  # size of its text when unpacked
 
 MOST_TEXTS = 9
 """In a link of replays: the one that is watched, and as many ghosts as the viewer shows."""
@@ -178,8 +176,7 @@ def watched(fragment: str) -> list[str]:
     return [f"replays/{name}.txt" for name in found]
 
 
-_NAME_LIMIT = 100
-"""Characters of the name of a file in a pack."""
+_NAME_LIMIT = 100  # characters of the name of a file in a pack
 
 
 def level_link(level: Level, **headers: Any) -> str:

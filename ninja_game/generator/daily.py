@@ -23,8 +23,7 @@ from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.generator.packed import AUTHOR, PACKED, generated_levels
 
-FOLDER = "daily-levels"
-"""The pack's folder, in the player's folder of levels."""
+FOLDER = "daily-levels"  # the pack's folder, in the player's folder of levels
 
 FIRST = date(2026, 11, 23)
 """The Monday from which on the packed levels are taken in turn, each week's seven of seven difficulties."""

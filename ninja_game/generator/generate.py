@@ -34,8 +34,7 @@ ATTEMPTS = 3
 """Attempts that the solver looks at; of those it passes the nearest to what is wanted is taken."""
 PATIENCE = 4
 """So many times as many, with other plans, as long as none is about as hard as wanted; its square if none is passed."""
-ROUNDS = 22
-"""Changes of the hazards of one attempt."""
+ROUNDS = 22  # changes of the hazards of one attempt
 TRIES_TO_COMPOSE = 400
 
 

@@ -20,16 +20,14 @@ from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.formats.replay.notations import write_inputs
 from ninja_game.sim.level import Level
 
-AUTHOR = "ninja-game generate"
-"""Who made the levels."""
+AUTHOR = "ninja-game generate"  # who made the levels
 PACKED = "generated.tsv.xz"
 """Among the game's assets: a level a line, as ``PackedLevel.line`` writes it."""
 FROZEN = "bench.tsv.xz"
 """Likewise, of an earlier generator: what the levels of the benchmark are made of. They never change."""
 MOST_BYTES = 8 * 2**20
 """The largest size of the file, and of its text when unpacked."""
-MOST_MEMORY = 64 * 2**20
-"""Bytes that unpacking may take."""
+MOST_MEMORY = 64 * 2**20  # bytes that unpacking may take
 
 
 class PackedLevel(NamedTuple):

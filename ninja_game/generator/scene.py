@@ -19,10 +19,8 @@ from ninja_game.sim import kinds
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 from ninja_game.sim.rules import CELL
 
-Cell = tuple[int, int]
-"""Column 1…31, row 1…23."""
-Point = tuple[float, float]
-"""px; where a board is painted, cells."""
+Cell = tuple[int, int]  # column 1…31, row 1…23
+Point = tuple[float, float]  # px; where a board is painted, cells
 
 MIDDLE = (COLUMNS + 1) // 2
 

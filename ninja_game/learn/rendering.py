@@ -22,8 +22,7 @@ _GONE_WHEN_0 = {GOLD, MINE}
 _NOWHERE = (0.0, 0.0)
 
 
-MOST_PX = 8192
-"""Longest side of a picture."""
+MOST_PX = 8192  # longest side of a picture
 
 
 def checked_size(size: object) -> tuple[int, int]:

@@ -44,12 +44,10 @@ from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_EXIT
 from ninja_game.sim.world import step
 from ninja_game.simulation import Body, SaveState, Simulation, is_box
 
-PAID_EXIT, PAID_DEATH, PAID_PIECE, PAID_TICK = range(4)
-"""Columns of what is paid."""
+PAID_EXIT, PAID_DEATH, PAID_PIECE, PAID_TICK = range(4)  # columns of what is paid
 OUTCOME, TICKS, GOLD, EVENTS, ENDED, PLAYED, WAIT, RANDOM = range(8)
 """Columns of what is told of each world; the last three are the keys of its last step, and of `protocol.py`."""
-TERMINATED, TRUNCATED = 1, 2
-"""How an episode has ended; 0: it goes on."""
+TERMINATED, TRUNCATED = 1, 2  # how an episode has ended; 0: it goes on
 CHANGES = (1 << GOLD_TAKEN) | (1 << MINE_EXPLODED) | (1 << EXIT_OPENED)
 """Events after which objects that stay where they are look another way."""
 

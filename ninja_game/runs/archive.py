@@ -54,8 +54,7 @@ class Lost(Unreadable):
     """A recording on which workers died: on another machine, or later, it may have a verdict."""
 
 
-JOB_WEIGHT = 64
-"""Files or records a job."""
+JOB_WEIGHT = 64  # files or records a job
 
 Job: TypeAlias = tuple[Chunk, ...]
 Done: TypeAlias = Iterable[tuple[Job, list[list[Result]] | WorkerLostError]]

@@ -160,8 +160,7 @@ def results_from_text(text: object, chunks: Sequence[Chunk]) -> list[list[Result
         raise ClusterError(f"a worker of the cluster answers with something else than results ({error})") from None
 
 
-LARGEST = 2**53
-"""Numbers of a result are smaller."""
+LARGEST = 2**53  # numbers of a result are smaller
 OUTCOMES = (*OUTCOME_NAMES, NOT_RUN)
 
 _TYPES = {name: hint for name, hint in get_type_hints(Verdict).items() if name != "problems"}

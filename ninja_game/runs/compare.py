@@ -186,8 +186,7 @@ NEAR = CELL
 MAX_PAIRS = 100_000_000
 """Most pairs of ticks that are looked at: two runs of four minutes."""
 
-MAX_TOGETHER = 60_000
-"""Most ticks of both: each costs some work by itself."""
+MAX_TOGETHER = 60_000  # most ticks of both: each costs some work by itself
 
 
 class Lead(NamedTuple):

@@ -18,21 +18,17 @@ from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec, well_formed
 from ninja_game.sim.rules import CELL, DRONE_RADIUS, GUARD_RADIUS, MINE_RADIUS, RADIUS, ROCKET_RADIUS
 
-Points = NDArray[np.float64]
-"""Places, px: (n, 2)."""
+Points = NDArray[np.float64]  # places, px: (n, 2)
 
-STANDING_TICKS = 400
-"""How long one stands still at the start: ten seconds."""
+STANDING_TICKS = 400  # how long one stands still at the start: ten seconds
 NEAR = 20.0
 """A near miss: so few px between the ninja and what kills."""
 BAIT = 40.0
 """Gold so near (px) to where a hazard can be is in danger."""
 EMPTY = 4 * CELL
 """Space so far (px) from every object and from the run is not used."""
-FEW = 6
-"""Fewer pieces are neither even nor in groups."""
-BAY = 6, 5
-"""Columns and rows of a bay that may repeat."""
+FEW = 6  # fewer pieces are neither even nor in groups
+BAY = 6, 5  # columns and rows of a bay that may repeat
 
 RADII = {"mine": MINE_RADIUS, "floor guard": GUARD_RADIUS, "drone": DRONE_RADIUS, "thwump": 9.0}
 """Radius of hazards that kill by touch, px."""

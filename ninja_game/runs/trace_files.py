@@ -35,8 +35,7 @@ MOST_BYTES = 2**28
 
 _KEYS = (("L", Input.LEFT), ("R", Input.RIGHT), ("J", Input.JUMP_HELD), ("!", Input.JUMP_PRESSED))
 
-ZIPPED = b"PK"
-"""What a .npz begins with."""
+ZIPPED = b"PK"  # what a .npz begins with
 
 _UNREADABLE = (*UNREADABLE, csv.Error)
 

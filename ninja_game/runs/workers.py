@@ -39,8 +39,7 @@ TRIES = 3
 WORKER_BYTES, JOB_SECONDS = 2 << 30, 3600
 """Memory of a worker process, and processor time that one job may take there, where the system has such limits."""
 
-PATIENCE = 30
-"""Seconds to wait for a cluster's first worker."""
+PATIENCE = 30  # seconds to wait for a cluster's first worker
 
 
 class ClusterError(NinjaGameError):

@@ -58,8 +58,7 @@ OTHER_ENDS = 8
 """Ends of a leg that are kept where another switch than a wanted one was touched. Not tuned."""
 SURVIVAL = 60
 """Ticks that the ninja must be able to live after the end of a leg. Not tuned."""
-MORE, EXHAUSTED, NO_ROOM = 0, 1, 2
-"""How a slice of a search ended."""
+MORE, EXHAUSTED, NO_ROOM = 0, 1, 2  # how a slice of a search ended
 
 
 @entry_point

@@ -90,8 +90,7 @@ def save_replay(path: Path, replay: Replay) -> None:
     write_atomically(path, write_replay(replay))
 
 
-Row = tuple[int, int]
-"""Keys that are down, and for how many ticks."""
+Row = tuple[int, int]  # keys that are down, and for how many ticks
 
 
 def rows_of(inputs: bytes) -> list[Row]:

@@ -53,8 +53,7 @@ BREADTHS = (3, 6, 3, 6, 10)
 """Frontiers that are searched on from at each depth, pass by pass."""
 SPARE = 2
 """Frontiers that may take the place of others whose legs found nothing."""
-FRONTIERS_KEPT = 10
-"""Frontiers kept at each depth from pass to pass."""
+FRONTIERS_KEPT = 10  # frontiers kept at each depth from pass to pass
 NOISE = 0.4
 """By which part the ticks between pieces are changed at random, for other orders."""
 HOPE = 1.1

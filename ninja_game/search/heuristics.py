@@ -31,8 +31,7 @@ POINTS = ACROSS * DOWN
 CLEARANCE = 9.0
 """Px; a point is free if a circle of this radius about it is. A little less than the ninja, which slides along."""
 
-UNREACHED = 1.0e9
-"""Ticks to go from where no way is known."""
+UNREACHED = 1.0e9  # ticks to go from where no way is known
 MINE_COST = 12.0
 """How many times longer a step beside a mine counts: to be avoided, not impossible."""
 

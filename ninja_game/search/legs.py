@@ -122,11 +122,9 @@ class LegFields:
         return self._pieces[piece, mask]
 
 
-Distances = NDArray[np.float64]
-"""Ticks from each stop (row) to each stop (column)."""
+Distances = NDArray[np.float64]  # ticks from each stop (row) to each stop (column)
 
-LONGEST_SEGMENT = 4
-"""Stops that are moved together."""
+LONGEST_SEGMENT = 4  # stops that are moved together
 
 
 def short_tour(start: Distances, between: Distances, end: Distances, order: Sequence[int] = ()) -> list[int]:

@@ -124,8 +124,7 @@ def mutate(keys: Keys, length: int, tick: int, source: RandomState) -> tuple[int
     return tick, 0
 
 
-CHECKPOINT = 8
-"""Ticks between the save-states of the current run."""
+CHECKPOINT = 8  # ticks between the save-states of the current run
 ROOM = 64
 """Ticks by which a current run may be longer than the run that the local search began with."""
 LEASH = 90.0

@@ -24,12 +24,10 @@ from ninja_game.sim.memory.layout import STATE_START, Records, dtype_of, new_wor
 StateWords = NDArray[np.int64]
 Int32s = NDArray[np.int32]
 
-CHUNK = 32
-"""Words in a chunk."""
+CHUNK = 32  # words in a chunk
 BUCKETS = 1 << 14
 """How many the open list has, by priority: one for each tick, two where a search goes along a run."""
-LARGE_STATE = 10_000
-"""Words; the states of all levels of N are smaller."""
+LARGE_STATE = 10_000  # words; the states of all levels of N are smaller
 MAX_ENDS = 96
 """Ends of a leg that are kept, with room for those of a last expansion."""
 

@@ -36,8 +36,7 @@ FEW_TICKS, MANY_TICKS = 500_000, 2_000_000
 """An end of its own before the first is an early one, after the second a late one."""
 SPAN_TICKS, DOUBLINGS = 1_000_000, 3
 """Ticks of a search; half of them get twice as many, half of these twice as many again, and so on."""
-EACH_COSTS = 10_000
-"""Ticks that it takes to prepare a search."""
+EACH_COSTS = 10_000  # ticks that it takes to prepare a search
 
 
 class SpanSettings(NamedTuple):

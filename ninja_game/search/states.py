@@ -19,8 +19,7 @@ from ninja_game.sim.states import JUMPING, LAUNCHER_FLIGHT, SLIDING
 MIX = 0x2545F4914F6CDD1D
 MAX_SWITCH_STATES = 512
 """So many can be told apart: nine bits of a key."""
-JUMP_PART = 11
-"""Ticks of a jump that count as the same moment."""
+JUMP_PART = 11  # ticks of a jump that count as the same moment
 NOT_MADE, WANTED = -1.0, -2.0
 """Value of a field at point 0, outside the world, until the field is made."""
 

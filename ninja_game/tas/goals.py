@@ -23,8 +23,7 @@ EXIT_TICKS = 5 * TICKS_PER_SECOND
 """In which the exit is looked for at least, from a run that does not reach it."""
 IMPROVES = IMPROVE, IMPROVE_GOLD = "improve", "improve with the gold"
 """Methods for a whole run: with whatever gold, or with as much as it has."""
-NEAR = 6.0
-"""How near to a place counts as there, px."""
+NEAR = 6.0  # how near to a place counts as there, px
 SAME_PLACE, SAME_VELOCITY = 0.5, 0.05
 """How far an end that is the same may be from the run's own, px and px/tick."""
 

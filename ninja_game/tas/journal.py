@@ -33,8 +33,7 @@ from ninja_game.tas.tracks import (
     track_of_json,
 )
 
-FOLDER, SUFFIX = "tas", ".jsonl"
-"""In the player's folder."""
+FOLDER, SUFFIX = "tas", ".jsonl"  # in the player's folder
 
 
 def edit_as_json(old: InputTrack, new: InputTrack) -> dict[str, Any]:

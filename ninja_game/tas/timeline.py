@@ -27,8 +27,7 @@ from ninja_game.tas.tracks import first_difference
 
 AFTERMATH = 40
 """Ticks that are run behind the last input, without a key: what it leads to."""
-_GROWTH = 4096
-"""Rows by which the table grows at least."""
+_GROWTH = 4096  # rows by which the table grows at least
 _WATCHED_RECORD = np.dtype([*OBJECT_RECORD.descr, ("switched", "u1")])
 
 

@@ -70,8 +70,7 @@ def _joined(errors: Sequence[LevelError]) -> LevelError:
     return joined
 
 
-Cell = tuple[int, int]
-"""Column 1…31, row 1…23."""
+Cell = tuple[int, int]  # column 1…31, row 1…23
 
 FRAME = "|"
 ROW_START = re.compile(r"\s*+(\d*+)\s*+\|", re.ASCII)

@@ -68,8 +68,7 @@ def write_demo(demo: Demo) -> str:
     return f"{format_number(demo.length)}:{'|'.join(words)}"
 
 
-MAX_DIGITS = 50_000
-"""The game stops recording at 5000 words of ten ticks."""
+MAX_DIGITS = 50_000  # the game stops recording at 5000 words of ten ticks
 
 _DIGIT_RUN = re.compile(r"7([0-7])([0-7]{2})|7.*", re.DOTALL)
 _RUN_OFFSET = 4

@@ -26,11 +26,9 @@ from ninja_game.formats.replay.text import episode_key
 INDEX, PARS, CERTIFICATES = "pack.toml", "pars.toml", "certificates"
 """The index, the table of par times, the folder of replays."""
 
-MOST_FILES = 4096
-"""In a zip; all of them together may hold MAX_BYTES."""
+MOST_FILES = 4096  # in a zip; all of them together may hold MAX_BYTES
 
-MOST_BYTES = 4 * 2**20
-"""The largest size of one file."""
+MOST_BYTES = 4 * 2**20  # the largest size of one file
 
 LEVEL_FILES = re.compile(r"[^/\\:]+\.txt", re.IGNORECASE)
 

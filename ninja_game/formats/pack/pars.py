@@ -17,8 +17,7 @@ From the reference: people's best runs take 5 % longer than tool-assisted ones (
 levels at most 22.5 %. Silver's is chosen, not measured: for who has just understood the level.
 """
 
-MEDALS = (*MARGINS, "bronze")
-"""The best first; bronze is for every pass."""
+MEDALS = (*MARGINS, "bronze")  # the best first; bronze is for every pass
 
 CARE = 0.25
 """What each point of difficulty adds to a margin, as a share of it: who plays safe takes longer. Chosen, not tuned."""
@@ -29,8 +28,7 @@ GRADES = {1.5: "easy", 4.0: "medium", 8.0: "hard", 15.0: "very hard", inf: "extr
 STEP = 4
 """Ticks to whose multiples pars are rounded up: a tenth of a second."""
 
-DIGITS = 16
-"""How much of a digest the table keeps."""
+DIGITS = 16  # how much of a digest the table keeps
 
 _HEAD = "# Made by `ninja-game levels pars` from the levels and their certificates: exit and gold in ticks.\n\n"
 

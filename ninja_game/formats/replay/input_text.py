@@ -16,8 +16,7 @@ from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, MAX_TICKS, pressed
 MOST_INCLUDES = 100
 """Files that a text may take in, the same one every time."""
 
-MOST_MARKERS = 100_000
-"""In a text with all that it takes in."""
+MOST_MARKERS = 100_000  # in a text with all that it takes in
 
 DEEPEST = 8
 """How deep files may take in others, and blocks may lie in blocks."""

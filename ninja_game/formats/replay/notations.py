@@ -68,8 +68,7 @@ def _runs(ticks: Sequence[str]) -> Iterator[str]:
 KEYSYMS = {"ff51": "L", "ff53": "R", "ffe1": "J", "ffe2": "J", "7a": "J", "20": "J"}
 """Keys by their X11 numbers: the arrows; the shift keys, Z and space jump. The first of each is written."""
 
-MOST_FRAMES = 9999
-"""Frames that a line of CelesteTAS can say."""
+MOST_FRAMES = 9999  # frames that a line of CelesteTAS can say
 
 _FRAMES = re.compile(r"([0-9]{1,7})((?:[ \t]*+,[ \t]*+[A-Za-z0-9.]++)*+)[ \t]*+,?[ \t]*+(?:#.*)?")
 _REPEAT = re.compile(r"repeat[ ,]+([1-9][0-9]{0,6})", re.IGNORECASE)

@@ -39,8 +39,7 @@ INPUTS_AFTER = "inputs after the final tick"
 """What is wrong with a replay whose time was made shorter than its run."""
 
 
-WAYPOINT_TICKS = TICKS_PER_SECOND
-"""How far apart a recorder sets waypoints: a second."""
+WAYPOINT_TICKS = TICKS_PER_SECOND  # how far apart a recorder sets waypoints: a second
 
 
 @dataclass(frozen=True)

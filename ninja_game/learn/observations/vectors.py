@@ -20,8 +20,7 @@ from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL, HALF, LONGEST_JUMP, ROOT2, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.states import JUMPING, STATE_NAMES
 
-MAX_SPEED = 24.0
-"""px/tick; a ninja is seldom faster than 10."""
+MAX_SPEED = 24.0  # px/tick; a ninja is seldom faster than 10
 
 _FLAG, _SIGN = (0.0, 1.0, 1.0), (-1.0, 1.0, 1.0)
 _DX, _DY = (-WORLD_WIDTH, WORLD_WIDTH, WORLD_WIDTH), (-WORLD_HEIGHT, WORLD_HEIGHT, WORLD_WIDTH)
@@ -61,8 +60,7 @@ _NAMES = tuple(FIELDS)
 FIRST_EXIT, FIRST_GOLD, FIRST_STATE = (_NAMES.index(name) for name in ("exit_there", "gold_there", STATE_NAMES[0]))
 FAR = 1.0e18
 """px², farther than anything."""
-MOST_EXITS = 60
-"""Exits of a level that are looked at: its first."""
+MOST_EXITS = 60  # exits of a level that are looked at: its first
 
 
 @dataclass(frozen=True)
@@ -233,8 +231,7 @@ def nearest_gold(w: World, gold: Any, gold_x: Any, gold_y: Any, start: int, end:
     return chosen
 
 
-LONGEST = 1_000_000.0
-"""Ticks."""
+LONGEST = 1_000_000.0  # ticks
 
 
 @dataclass(frozen=True)
@@ -263,13 +260,11 @@ def observe_time(
         out[index, offset] = clamp((time_limit - worlds[index].tick) * factor, 0.0, highest)
 
 
-RADII = (24.0, 60.0)
-"""px."""
+RADII = (24.0, 60.0)  # px
 _SIDES = ((1.0, 0.0), (1.0 / ROOT2, 1.0 / ROOT2), (0.0, 1.0), (-1.0 / ROOT2, 1.0 / ROOT2))
 DIRECTIONS = [*_SIDES, *((-x, -y) for x, y in _SIDES)]
 """From the right by way of down."""
-FAR_TICKS = 1000.0
-"""Ticks to the exit that count as 1."""
+FAR_TICKS = 1000.0  # ticks to the exit that count as 1
 
 
 @dataclass(frozen=True)

@@ -21,8 +21,7 @@ from ninja_game.web.pages.memo import Memo
 PER_PAGE = 100
 """Rows of a table that goes on on another page: a page has at most 100 KB."""
 
-LONGEST_NAME = 40
-"""Characters of a name in a table."""
+LONGEST_NAME = 40  # characters of a name in a table
 
 UP = "../"
 RUN_HEADS = ("Watch", "Share", "Medal", "Gold", "Made", "Date", "Remark")

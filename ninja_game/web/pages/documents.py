@@ -32,11 +32,9 @@ from ninja_game.web.pages.frame import GAME, HOME, NAVIGATION, SEARCH, Content, 
 FILM, STILL = "pictures/ninja-game.webp", "pictures/ninja-game.png"
 """The moving picture of the first page, and one for who wants no motion."""
 
-FIGURES_SCRIPT = "app-folder/figures.js"
-"""Where the build puts what makes figures move."""
+FIGURES_SCRIPT = "app-folder/figures.js"  # where the build puts what makes figures move
 
-LAB = "lab-"
-"""How the name of a figure's picture begins."""
+LAB = "lab-"  # how the name of a figure's picture begins
 
 LEFT_OUT = (".", "build/", "dist/")
 """Folders whose Markdown is not the project's, or not meant for readers."""

@@ -20,11 +20,9 @@ from ninja_game.ui.lettering import SPACING, WEIGHTS, glyph
 from ninja_game.ui.theme import PALETTES, Palette, mixed
 from ninja_game.web.pages.memo import Memo, digest_of, program
 
-LONGEST = 400
-"""Characters of a text that are shown."""
+LONGEST = 400  # characters of a text that are shown
 
-_EMPTY = frozenset({"img", "input", "link", "meta", "source"})
-"""Elements without an end tag."""
+_EMPTY = frozenset({"img", "input", "link", "meta", "source"})  # elements without an end tag
 
 _ADDRESS = re.compile(r"(?:https?://[\w.:-]+/)?(?!//)[\w./#=&,-]*")
 """Where a page may lead: a file of its site, a page with the game, a fragment; no scheme that runs anything."""

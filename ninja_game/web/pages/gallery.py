@@ -232,8 +232,7 @@ def medal_mark(medal: str) -> Content:
 
 SORT_ORDERS = (("", "in playing order"), ("name", "by name"), ("difficulty", "by difficulty"), ("par", "by par time"))
 
-LONGEST_NAME = 60
-"""Characters of a name in the list."""
+LONGEST_NAME = 60  # characters of a name in the list
 
 
 def write_gallery(out: Path, shown: PublishedLevels, *, game: str = GAME, address: str = "") -> Path:

@@ -52,8 +52,7 @@ ENCODINGS = frozenset((
 ))  # fmt: skip
 """Encodings that stay; the tables of the others are a ninth of the library."""
 
-_NPM_WAIT = 300
-"""Seconds for npm."""
+_NPM_WAIT = 300  # seconds for npm
 
 
 def pyodide_files(folder: Path | None, cache: Path) -> dict[str, bytes]:
@@ -189,11 +188,9 @@ def licence_of(name: str) -> str:
     return ""
 
 
-_WAIT = 600
-"""Seconds for node."""
+_WAIT = 600  # seconds for node
 
-Files = dict[str, bytes]
-"""Content by name."""
+Files = dict[str, bytes]  # content by name
 
 
 def compiled(library: Files, game: Files, pyodide: Mapping[str, bytes]) -> tuple[Files, Files]:
