@@ -158,14 +158,10 @@ def _findings(pack: Pack, *, with_design: bool, with_gold: bool) -> Iterator[Pac
     if sound:
         yield from _about_pars(pack)
     if sound and with_design:
-        yield from (finding for file in pack.levels for finding in _about_design(pack, file))
-
-
-def _about_design(pack: Pack, file: str) -> Iterator[PackFinding]:
-    run = certificate(pack, file, "exit")
-    if run:
-        counts = design(run.level, run.recording.inputs[: run.verdict.ticks])
-        yield from design_findings(counts, pack.files.place(file))
+        for file in pack.levels:
+            if run := certificate(pack, file, "exit"):
+                counts = design(run.level, run.recording.inputs[: run.verdict.ticks])
+                yield from design_findings(counts, pack.files.place(file))
 
 
 def _about_index(pack: Pack) -> Iterator[PackFinding]:

@@ -164,33 +164,29 @@ class Session:
         end, outcome = self.timeline.end
         gold = self.timeline.column("gold")
         reached = int(gold[end]) if len(gold) else 0
-        branch = Branch(name, self.track, None, end, outcome, reached)
-        number = self.branches.keep(branch)
-        self._note_branches({"keep": branch_as_json(branch)})
-        return number
+        self._change_branches({"keep": branch_as_json(Branch(name, self.track, None, end, outcome, reached))})
+        return len(self.branches) - 1
 
     def checkout_branch(self, number: int) -> None:
         """Go on from a branch; undo brings back what was there before. Raises ArgumentError without such a one."""
         self.end()
-        track = self.branches.checkout(number)
-        self._note_branches({"checkout": number})
-        self.change(track)
+        self._change_branches({"checkout": number})
+        self.change(self.branches.all[number].track)
 
     def drop_branch(self, number: int) -> None:
         """Forget a branch. Raises ArgumentError without such a one."""
-        self.branches.drop(number)
-        self._note_branches({"drop": number})
+        self._change_branches({"drop": number})
 
     def rename_branch(self, number: int, name: str) -> None:
         """Give a branch another name. Raises ArgumentError without such a one."""
-        self.branches.rename(number, name)
-        self._note_branches({"rename": number, "name": name})
+        self._change_branches({"rename": number, "name": name})
 
     def watch(self, formulas: Iterable[str]) -> None:
-        self.branches.watched = tuple(formulas)
-        self._note_branches({"watch": list(self.branches.watched)})
+        self._change_branches({"watch": list(formulas)})
 
-    def _note_branches(self, change: dict[str, Any]) -> None:
+    def _change_branches(self, change: dict[str, Any]) -> None:
+        """Make a change in the words of the journal, and note it."""
+        self.branches.do(change)
         self._branches_noted = self.journal.note(change if self._branches_noted else self.branches.as_json())
 
     def recording(self, track: InputTrack | None = None, name: str = "") -> Recording:

@@ -60,14 +60,10 @@ class Problems:
     def raise_if_any(self) -> None:
         """Raise what was noted, in the order of the lines; do nothing if all is well."""
         if self.found:
-            raise _joined(sorted(self.found, key=lambda error: (error.line, error.column)))
-
-
-def _joined(errors: Sequence[LevelError]) -> LevelError:
-    first = errors[0]
-    joined = LevelTextError(first.what, first.file, first.line, first.column, first.found, first.expected, first.hint)
-    joined.further = tuple(errors[1:])
-    return joined
+            first, *others = sorted(self.found, key=lambda error: (error.line, error.column))
+            joined = LevelTextError(**vars(first))
+            joined.further = tuple(others)
+            raise joined
 
 
 Cell = tuple[int, int]  # column 1…31, row 1…23

@@ -45,7 +45,6 @@ from ninja_game.web.pages.frame import (
 )
 
 PICTURE_WIDTH = 792
-CERTIFICATES = ("exit", "gold")
 
 
 @dataclass(frozen=True)
@@ -81,7 +80,7 @@ def published_levels(path: Path) -> PublishedLevels:
 
 def _certificates(pack: Pack, entry: Entry) -> dict[str, Recording]:
     found = {}
-    for kind in CERTIFICATES:
+    for kind in KINDS:
         name = pack.certificate(Path(entry.named.file).name, kind)
         if name is not None:
             try:
