@@ -26,7 +26,7 @@ OURS = {
     "play/menus/good_levels": "its own levels",
     "learn/levels/source": "its own levels", "learn/levels/bench": "its own table",
     "sim/memory/declare": "its own code, made from its own rules",
-    "web/site/compiling": "its own code", "web/site/game_archive": "its own files",
+    "web/site/compiling": "its own code",
     "web/pages/documents": "its own documents",
 }  # fmt: skip
 """Modules that read only what is part of the program, or nothing."""

@@ -74,6 +74,7 @@ class Recording:
 
     @property
     def body(self) -> Body:
+        """The ninja's body."""
         return self.replay.body
 
     @property

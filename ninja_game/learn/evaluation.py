@@ -68,6 +68,7 @@ class LevelResult:
 
     @property
     def rate(self) -> float:
+        """The share of episodes that were passed."""
         return self.passed / self.episodes
 
 

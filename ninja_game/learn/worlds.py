@@ -27,10 +27,9 @@ from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import Keys
 from ninja_game.learn.goal_distance import GoalDistance
 from ninja_game.learn.levels.origins import Origin, level_source
-from ninja_game.learn.levels.places import new_levels, put_levels
 from ninja_game.learn.levels.source import LevelChoice, LevelSequences
 from ninja_game.learn.observations.observation import Observation, PartLike
-from ninja_game.learn.observations.part import Setting
+from ninja_game.learn.observations.part import Setting, new_levels, put_levels
 from ninja_game.learn.protocol import CHANCES, beginnings, next_random
 from ninja_game.learn.rewards import DistanceShaping, RewardLike, Shaping, reward_terms, weights_of
 from ninja_game.sim.digest import world_digest
@@ -323,6 +322,7 @@ class EnvWorlds:
         return numbers
 
     def ended(self) -> Indices:
+        """The worlds whose episode is over."""
         return self._ended.nonzero()[0]
 
     # --- single worlds ---

@@ -56,6 +56,7 @@ class RunResult:
 
     @property
     def ticks(self) -> int:
+        """Ticks run."""
         return len(self.state_numbers)
 
     @property

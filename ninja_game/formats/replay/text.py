@@ -105,6 +105,7 @@ class Replay:
 
     @property
     def ticks(self) -> int:
+        """How many ticks are run."""
         return self.final_tick + 1
 
     @property

@@ -9,8 +9,7 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from ninja_game.learn.goal_distance import point_within
-from ninja_game.learn.levels.places import NewLevel
-from ninja_game.learn.observations.part import Part, Setting, clamp
+from ninja_game.learn.observations.part import NewLevel, Part, Setting, clamp
 from ninja_game.search.heuristics import FARTHEST
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_at
