@@ -92,7 +92,7 @@ def convert(
             output.write(episode_text(recordings, budget))
     else:
         found = levels = [named for source in sources for named in load_levels(source)]
-        form = form or ("file" if all(named.form == "ascii" for named in levels) else "ascii")
+        form = form or ("file" if all(named.ascii for named in levels) else "ascii")
         if form == "ascii":
             output.write_each([_ascii_text(named, legend) for named in levels], levels, ".txt")
     if form == "file":

@@ -63,7 +63,7 @@ def open_source(path: Path, record: int = 0) -> Source:
     if named is None:
         raise LevelError(f"there is no record {record}", str(path))
     draft = draft_of(named)
-    if linked or named.form != "ascii":
+    if linked or not named.ascii:
         return Source(draft)
     return Source(draft, path, text, digest_of(data), b"\r\n" in data)
 

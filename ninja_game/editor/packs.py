@@ -231,7 +231,7 @@ def duplicate(path: Path, level: NamedLevel) -> str:
 def transfer(level: NamedLevel, path: Path, *, keep: bool) -> str:
     """Take a level and its certificates into another folder; its file's name there. ``keep``: they stay here too."""
     old = Path(level.file)
-    if not (level.form == "ascii" and old.is_file()):
+    if not (level.ascii and old.is_file()):
         return _write(path, draft_of(level))
     new = free_path(path, old.stem, old.suffix).name
     moved = {old.name: new} | {certificate_name(old.name, kind): certificate_name(new, kind) for kind in KINDS}

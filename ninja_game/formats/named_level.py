@@ -70,6 +70,11 @@ class NamedLevel:
     teaches: str = ""
     says: str = ""
 
+    @property
+    def ascii(self) -> bool:
+        """Whether the file is one of our readable ones."""
+        return self.form == "ascii"
+
 
 def parse_levels(text: str, *, file: str = "") -> list[NamedLevel]:
     """All levels in a text of any format. Raises LevelError or ReplayError."""

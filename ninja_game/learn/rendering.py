@@ -21,7 +21,6 @@ _MOVING = {BOUNCE_BLOCK, FLOOR_GUARD, DRONE, THWUMP}
 _GONE_WHEN_0 = {GOLD, MINE}
 _NOWHERE = (0.0, 0.0)
 
-
 MOST_PX = 8192  # longest side of a picture
 
 

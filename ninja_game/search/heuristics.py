@@ -156,7 +156,6 @@ FARTHEST = 20_000.0
 SWITCH_COST = 3.0
 """How many times longer a step beside a switch counts that is better touched later."""
 
-
 Source = tuple[float, float, float]
 """Where a field begins (px), and its value there (ticks)."""
 

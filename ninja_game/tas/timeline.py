@@ -30,7 +30,6 @@ AFTERMATH = 40
 _GROWTH = 4096  # rows by which the table grows at least
 _WATCHED_RECORD = np.dtype([*OBJECT_RECORD.descr, ("switched", "u1")])
 
-
 NINJA_FIELDS = (*TRACED_PLACES, "state", "in_air")
 """The fields of the ninja on which its picture depends."""
 

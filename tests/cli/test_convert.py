@@ -27,7 +27,7 @@ def test_string_becomes_ascii_and_comes_back_equal(tmp_path: Path) -> None:
     source, picture, back = tmp_path / "walk.nlevel", tmp_path / "walk.txt", tmp_path / "back.nlevel"
     source.write_text(WALK + "\n")
     assert convert(source, picture).exit_code == 0
-    assert load_levels(picture)[0].form == "ascii"
+    assert load_levels(picture)[0].ascii
     assert convert(picture, back).exit_code == 0
     assert back.read_text() == WALK + "\n"
 

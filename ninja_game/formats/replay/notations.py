@@ -16,7 +16,6 @@ _WIDTH = 100
 KEY_NAMES = (".", "L", "R", "LR", "J", "LJ", "RJ", "LRJ")
 """The word of each sum of keys that are down."""
 
-
 _WORDS = {
     (keys, usual): KEY_NAMES[keys & KEYS_DOWN] + ("" if keys == usual else "!" if keys & JUMP_PRESSED else "-")
     for keys, usual in product(range(ALL_KEYS + 1), repeat=2)

@@ -38,7 +38,6 @@ OUTCOMES = ("exit", "dead", "running")
 INPUTS_AFTER = "inputs after the final tick"
 """What is wrong with a replay whose time was made shorter than its run."""
 
-
 WAYPOINT_TICKS = TICKS_PER_SECOND  # how far apart a recorder sets waypoints: a second
 
 

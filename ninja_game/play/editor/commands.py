@@ -306,7 +306,7 @@ class EditorCommands(DocumentCommands):
     def edit_entry(self, entry: Entry) -> None:
         """Edit a level of the browser: the player's in its file, in a pack too; the game's or a zip's as a new one."""
         path = Path(entry.named.file)
-        if entry.source != "game" and entry.named.form == "ascii" and path.is_file():
+        if entry.source != "game" and entry.named.ascii and path.is_file():
             self.open_file(path)
         else:
             self.session.begin(Source(draft_of(entry.named)))

@@ -24,7 +24,6 @@ from ninja_game.web.pages.gallery import level_page, page_name, picture, picture
 FIRST, TOGETHER, MOST_SPLITS = 10, 5, 60
 """Rows of a table; runs side by side; rows of splits, and where there were more, gold is left out."""
 
-
 NEAR = "A run that is nearly somebody else's is never first, until the keeper of the board confirms it."
 
 
