@@ -33,7 +33,7 @@ try:
     from ninja_game.learn.vector import NinjaVectorEnv
     from ninja_game.learn.worlds import EnvWorlds
 except ModuleNotFoundError as error:
-    if error.name != "gymnasium":
+    if not str(error.name).startswith("gymnasium"):
         raise
     raise MissingExtraError(f"ninja_game.learn needs Gymnasium; {how_to_install('learn')}") from None
 
