@@ -28,8 +28,8 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.load import load_replays
 from ninja_game.learn.evaluation import Planner, Policy, chosen, played
-from ninja_game.learn.levels import level_source
 from ninja_game.learn.levels.bench import GRADES, bench_level
+from ninja_game.learn.levels.origins import level_source
 from ninja_game.learn.levels.source import LevelSource
 from ninja_game.learn.protocol import EVALUATION_SEED, PROTOCOL
 from ninja_game.learn.worlds import EnvWorlds

@@ -33,7 +33,7 @@ from numpy.typing import NDArray
 from examples.agents import LARGEST, PolicyAgent
 from examples.ppo import LEARNED_IN, POINTS, Networks, Player, Settings, advantages, compiled, new_networks, random_play
 from ninja_game.errors import ArgumentError, NinjaGameError
-from ninja_game.learn.levels import level_source
+from ninja_game.learn.levels.origins import level_source
 from ninja_game.learn.levels.source import LevelSource
 
 PATIENCE = 60.0

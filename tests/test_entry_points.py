@@ -24,9 +24,9 @@ OURS = {
     "files/locking": "holds locks", "files/writing": "writes", "ui/audio/player": "silences a library",
     "play/lab/figure": "the program's own figures", "play/menus/help": "its own help",
     "play/menus/good_levels": "its own levels",
-    "learn/levels/curriculum": "its own levels", "learn/levels/bench": "its own table",
+    "learn/levels/source": "its own levels", "learn/levels/bench": "its own table",
     "sim/memory/declare": "its own code, made from its own rules",
-    "web/site/compiling": "its own code", "web/site/game_archive": "its own files",
+    "web/site/compiling": "its own code",
     "web/pages/documents": "its own documents",
 }  # fmt: skip
 """Modules that read only what is part of the program, or nothing."""

@@ -14,9 +14,8 @@ import numpy as np
 import soundfile
 
 from tools import ROOT
-from tools.sounds.effects import RECIPES
+from tools.sounds.effects import RATE, RECIPES, Wave, at_level
 from tools.sounds.music import TRACKS, music
-from tools.sounds.synthesis import RATE, Wave, at_level
 
 FOLDER = ROOT / "assets" / "sounds"
 

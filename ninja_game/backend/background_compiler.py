@@ -21,12 +21,10 @@ VARIABLE = "NINJA_GAME_BACKGROUND_COMPILER"
 BEHIND = 15
 """How far its priority is lowered (``os.nice``)."""
 
-_STARTED: list[subprocess.Popen[bytes]] = []
-"""The process that this one has started."""
+_STARTED: list[subprocess.Popen[bytes]] = []  # the process that this one has started
 
 
 def allowed() -> bool:
-    """Whether such a process may be started."""
     return os.environ.get(VARIABLE) != "0"
 
 

@@ -42,8 +42,7 @@ from ninja_game.simulation import Body, is_box
 
 __all__ = ["OBJECT_FIELDS", "OUTCOME_NAMES", "Batch", "BatchState"]
 
-Indices = NDArray[np.intp]
-"""Indices of worlds or levels."""
+Indices = NDArray[np.intp]  # indices of worlds or levels
 
 WorldChoice: TypeAlias = int | slice | Sequence[int] | Sequence[bool] | NDArray[np.intp] | NDArray[np.bool_] | None
 """Worlds: by number, a slice of numbers, or one truth value for each world; None: all of them."""
@@ -119,7 +118,6 @@ class Batch:
         return deepcopy(self)
 
     def _make_views(self) -> None:
-        """Make the views, which can only be read."""
         self.records: Records = self._worlds.records.view()
         self.levels_now: Indices = np.asarray(self._worlds.level_of).view()
         self.records.flags.writeable = self.levels_now.flags.writeable = False

@@ -15,12 +15,9 @@ from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_RUNNING
 
 SPACING = TICKS_PER_SECOND
 """Ticks between the save-states from which the tries begin."""
-LENGTH = 3 * TICKS_PER_SECOND // 2
-"""Ticks of a try."""
-SHIFT = 3
-"""Ticks by which a key may come early or late."""
-TRIES = 256
-"""Tries from each save-state."""
+LENGTH = 3 * TICKS_PER_SECOND // 2  # ticks of a try
+SHIFT = 3  # ticks by which a key may come early or late
+TRIES = 256  # tries from each save-state
 LOST = 3 * CELL
 """px from the run at which a try that lives has lost it."""
 LOST_WEIGHT = 0.25

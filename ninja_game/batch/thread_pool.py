@@ -23,8 +23,7 @@ CHUNKS_PER_THREAD = 8
 SMALL_CHUNK = 2048
 """Ticks that a chunk should have at least, unless each thread has but one: every handing over makes a thread wait."""
 
-HEAD_START = 128
-"""Ticks that the caller does while the others wake up."""
+HEAD_START = 128  # ticks that the caller does while the others wake up
 
 TOO_SMALL = 800
 """Ticks that are not worth waking another thread for: about 80 us."""
@@ -59,7 +58,6 @@ def thread_count(threads: int | None) -> int:
 
 
 def cores() -> int:
-    """How many cores this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 

@@ -15,7 +15,7 @@ from ninja_game.errors import FileError, LevelError
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import free_path
-from ninja_game.formats.links.fragment import is_link
+from ninja_game.formats.links import is_link
 from ninja_game.formats.run_time import seconds_text
 
 if TYPE_CHECKING:
@@ -248,9 +248,9 @@ def link(files: Sequence[Path], record: int | None, base: str) -> None:
 def link_of(files: Sequence[Path], record: int | None = None) -> str:
     """The link of what files hold: one pack, one level, or all the recordings. Raises NinjaGameError."""
     from ninja_game.formats.ascii.writer import headers_of
-    from ninja_game.formats.links.making import level_link, recording_link
+    from ninja_game.formats.links import level_link, recording_link
     from ninja_game.formats.load import load_levels, load_replays, texts_of
-    from ninja_game.formats.pack.files import PackFiles, is_pack
+    from ninja_game.formats.pack.pack import PackFiles, is_pack
     from ninja_game.formats.recording import holds_recordings
 
     first = files[0]

@@ -14,7 +14,7 @@ from ninja_game.cli.options import InputPath, Pixels, choose, heartbeat, level_g
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
-from ninja_game.formats.links.fragment import is_link
+from ninja_game.formats.links import is_link
 
 MOST_BESIDE = 3
 

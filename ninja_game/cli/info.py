@@ -82,7 +82,7 @@ def _level_of(run: Recording) -> NamedLevel:
 def _recordings(file: Path, level: Level | None) -> list[Recording]:
     """The recordings in a file, folder or link; none where it holds levels only."""
     from ninja_game.files.reading import text_files
-    from ninja_game.formats.links.fragment import is_link
+    from ninja_game.formats.links import is_link
     from ninja_game.formats.load import load_replays
 
     found = []

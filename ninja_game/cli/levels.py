@@ -71,8 +71,7 @@ def pars(pack: Path) -> None:
       ninja-game levels pars levels/
     """
     from ninja_game.files.tree import Tree
-    from ninja_game.formats.pack.files import PARS
-    from ninja_game.formats.pack.pack import Pack
+    from ninja_game.formats.pack.pack import PARS, Pack
     from ninja_game.formats.pack.pars import MARGINS, write_pars
     from ninja_game.runs.packs import make_pars
 

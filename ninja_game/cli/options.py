@@ -54,7 +54,7 @@ class InputPath(click.Path):
         super().__init__(exists=True, dir_okay=dir_okay, path_type=Path)
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        from ninja_game.formats.links.fragment import is_link
+        from ninja_game.formats.links import is_link
 
         return Path(value) if is_link(value) else super().convert(value, param, ctx)
 
@@ -63,7 +63,7 @@ class LevelPath(InputPath):
     """A file or link; or the name of one of the game's own levels, which stands for its file."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        from ninja_game.formats.links.fragment import is_link
+        from ninja_game.formats.links import is_link
 
         if is_link(value):
             return super().convert(value, param, ctx)

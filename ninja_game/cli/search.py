@@ -254,7 +254,7 @@ def search(
 
 
 def _keys(found: Found) -> str:
-    from ninja_game.formats.replay.input_runs import write_inputs
+    from ninja_game.formats.replay.notations import write_inputs
     from ninja_game.sim.inputs import with_press_bits
 
     return " ".join(write_inputs(with_press_bits(found.keys[: found.ticks].tolist())))

@@ -112,7 +112,7 @@ def verify(
 def _reported(results: Iterable[Result], report: Path, files: Sequence[Path], stack: ExitStack) -> Iterator[Result]:
     """Results, written to a report as they pass."""
     from ninja_game.files.writing import open_atomically
-    from ninja_game.formats.links.fragment import is_link
+    from ninja_game.formats.links import is_link
     from ninja_game.runs.archive import write_report
 
     out = stack.enter_context(open_atomically(report, keep=[file for file in files if not is_link(file)]))

@@ -104,8 +104,7 @@ def site(out: Path | None, pyodide: Path | None, serve: bool, port: int, address
     from platformdirs import user_cache_path
 
     from ninja_game.files.user_folder import data_folder
-    from ninja_game.web.pages.gallery import write_gallery
-    from ninja_game.web.pages.published import published_levels
+    from ninja_game.web.pages.gallery import published_levels, write_gallery
     from ninja_game.web.site.build import build_site
 
     cache = user_cache_path("ninja-game", appauthor=False)
@@ -191,7 +190,7 @@ def board(
     from ninja_game.web.board.rules import USUAL, read_categories
     from ninja_game.web.board.runs import NO_LEDGER, judge
     from ninja_game.web.pages.frame import GAME
-    from ninja_game.web.pages.published import published_levels
+    from ninja_game.web.pages.gallery import published_levels
 
     if site:
         check_site(site, folder)
@@ -276,7 +275,7 @@ def ask(
     from ninja_game.web.board.report import dates_of, read_board
     from ninja_game.web.board.rules import USUAL, read_categories
     from ninja_game.web.board.runs import ASSISTED, NO_LEDGER, PLAYED, judge
-    from ninja_game.web.pages.published import published_levels
+    from ninja_game.web.pages.gallery import published_levels
 
     if what in ("trace", "film") and not output:
         raise click.UsageError(f"{what}: name the file with -o")

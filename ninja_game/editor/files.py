@@ -24,10 +24,10 @@ from ninja_game.files.writing import write_atomically
 from ninja_game.formats.ascii import writer
 from ninja_game.formats.ascii.legend import visible_parts
 from ninja_game.formats.ascii.object_lines import Listed, OddTile, read_object_line
-from ninja_game.formats.ascii.problems import Problems
+from ninja_game.formats.ascii.picture import Problems
 from ninja_game.formats.ascii.reader import parse_ascii_level, sections
 from ninja_game.formats.lines import UNCOMMENTED, header_text, numbered_lines
-from ninja_game.formats.links.fragment import is_link
+from ninja_game.formats.links import is_link
 from ninja_game.formats.load import load_levels, texts_of
 from ninja_game.formats.named_level import NamedLevel, parse_levels
 from ninja_game.runtime import NewestJob

@@ -21,9 +21,8 @@ from ninja_game.files.shown_text import file_stem, name_problem
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import free_path, how_to_install
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.formats.pack.files import INDEX, MOST_FILES, PARS, certificate_name
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, MOST_EPISODES, parse_index
-from ninja_game.formats.pack.pack import Pack
+from ninja_game.formats.pack.pack import INDEX, MOST_FILES, PARS, Pack, certificate_name
 from ninja_game.formats.pack.pars import write_pars
 from ninja_game.levels.findings import Finding, PackFinding
 from ninja_game.runs.packs import KINDS, file_of, is_certified, level_of, lint, make_pars

@@ -1,4 +1,9 @@
-"""Files as people have them: texts in any encoding, with any line ends, alone or in folders. Only regular files."""
+"""Files as people have them: texts in any encoding, with any line ends, alone or in folders. Only regular files.
+
+A text may take in others by their names, from its own folder or below it (``read_beside``). Every format reads them
+here, so that a verification knows all of what its results depend on, and can have it read from memory on another
+machine (``known_files``).
+"""
 
 from __future__ import annotations
 
@@ -6,11 +11,13 @@ import codecs
 import os
 import stat
 from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from pathlib import Path
-from typing import IO
+from typing import IO, NamedTuple
 
-from ninja_game.errors import FileError
+from ninja_game.errors import FileError, NinjaGameError, reason
 
 SUFFIXES = (".txt", ".nlevel", ".level", ".replay", ".demo", ".tas")
 """Which files of a folder are looked at."""
@@ -129,8 +136,7 @@ def open_regular(path: Path) -> IO[bytes]:
     return os.fdopen(handle, "rb")
 
 
-NO_FILE: list[int] = []
-"""The stamp of what is not there."""
+NO_FILE: list[int] = []  # the stamp of what is not there
 
 
 def stamp_of(path: Path | str) -> list[int]:
@@ -196,3 +202,58 @@ def what_it_is(mode: int) -> str:
         stat.S_IFCHR: "a device", stat.S_IFBLK: "a device", stat.S_IFREG: "a regular file",
     }  # fmt: skip
     return kinds.get(stat.S_IFMT(mode), "something else")
+
+
+class Beside(NamedTuple):
+    """A file that a text names: its path, "" for one elsewhere; its text, None where it cannot be read; why not.
+
+    There is no reason where no regular file is there.
+    """
+
+    path: str
+    text: str | None = None
+    problem: str = ""
+
+
+_KNOWN: ContextVar[tuple[dict[str, Beside], bool] | None] = ContextVar("known files", default=None)
+
+
+@contextmanager
+def known_files(known: dict[str, Beside], *, no_more: bool) -> Iterator[None]:
+    """For a while files come from ``known``, by name; others are read and noted there, or, ``no_more``, are errors."""
+    token = _KNOWN.set((known, no_more))
+    try:
+        yield
+    finally:
+        _KNOWN.reset(token)
+
+
+PLACE = "link"
+"""What the text of a link is called; a file of that name in the current folder is another one."""
+
+
+def has_folder(file: str) -> bool:
+    """Whether the text of that name lies in a folder; one of a link does not."""
+    known = _KNOWN.get()
+    sent = bool(known and known[1] and known[0])
+    return sent or (file != PLACE and os.path.isfile(file))  # noqa: PTH113 - fails on no name
+
+
+def read_beside(file: str, name: str) -> Beside:
+    """The file of a name that stands in the text ``file``."""
+    known, no_more = _KNOWN.get() or ({}, False)
+    if name not in known:
+        if no_more:
+            raise FileError("a file that was not read before its text was sent here", file, found=repr(name[:40]))
+        known[name] = _read(file, name)
+    return known[name]
+
+
+def _read(file: str, name: str) -> Beside:
+    path = path_below(Path(file).parent, name) if name else None
+    if path is None or not os.path.isfile(path):  # noqa: PTH113
+        return Beside(str(path or ""))
+    try:
+        return Beside(str(path), read_text(path))
+    except (OSError, NinjaGameError) as error:
+        return Beside(str(path), problem=reason(error))

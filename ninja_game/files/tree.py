@@ -61,7 +61,6 @@ class Tree:
             os.unlink(named(folder / last, at), dir_fd=at)
 
     def remove_others(self, folder: str, keep: Collection[str]) -> None:
-        """Remove the regular files of a folder but those with these names."""
         with suppress(FileNotFoundError), self._folder(_parts(folder)) as (path, at):
             for entry in _entries(path, at):
                 if entry.name not in keep and entry.is_file(follow_symlinks=False):
@@ -91,7 +90,6 @@ class Tree:
 
 
 def leads_below(name: str) -> bool:
-    """Whether a name stays below the folder that it is used in."""
     odd = "\0" if os.sep == "/" else "\0\\:"
     return not any(part in ("", ".", "..") or set(part) & set(odd) for part in name.split("/"))
 

@@ -14,14 +14,12 @@ from ninja_game.errors import FileError
 from ninja_game.files.shown_text import file_stem, name_key
 from ninja_game.runtime import IN_PAGE, ONLY_ON_A_DESKTOP
 
-HOME_VARIABLE = "NINJA_GAME_HOME"
-"""Environment variable that moves the folder."""
+HOME_VARIABLE = "NINJA_GAME_HOME"  # environment variable that moves the folder
 
 LEVELS, REPLAYS, EXPORTS, EDITING = "levels", "replays", "exports", "editing"
 """Folders in it: levels and replays that the game offers, what it writes on request, levels that are being edited."""
 
-SETTINGS, RECORDS = "settings.toml", "records.sqlite"
-"""Files in it."""
+SETTINGS, RECORDS = "settings.toml", "records.sqlite"  # files in it
 
 
 def user_folder() -> Path:

@@ -21,8 +21,7 @@ from ninja_game.files.reading import SUFFIXES, is_input, what_it_is
 PART_PREFIX, PART_SUFFIX = ".ninja-game-", ".part"
 """Name of a temporary file; it lies in the folder of the file that it will become."""
 
-_unfinished: set[Path] = set()
-"""The temporary files that this process is writing."""
+_unfinished: set[Path] = set()  # the temporary files that this process is writing
 
 _tidied: set[Path] = set()
 """Folders in which this process has looked for what killed writers left behind."""

@@ -9,11 +9,9 @@ from collections.abc import Iterator
 MOST_NAME = 1000
 """Characters of the name of a level, a run or an author: tables repeat it in every row."""
 
-Line = tuple[int, str]
-"""A line with its number, from 1."""
+Line = tuple[int, str]  # a line with its number, from 1
 
-FILLED = re.compile(r"^[^\S\n]*+\S[^\n]*", re.MULTILINE)
-"""A line that is not blank."""
+FILLED = re.compile(r"^[^\S\n]*+\S[^\n]*", re.MULTILINE)  # a line that is not blank
 
 UNCOMMENTED = re.compile(r"^[^\S\n]*+(?!;)\S[^\n]*", re.MULTILINE)
 """A line that is neither blank nor a comment, which begins with a semicolon."""

@@ -6,12 +6,10 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from ninja_game.errors import LevelError, ReplayError
-from ninja_game.files.beside import PLACE
-from ninja_game.files.reading import SUFFIXES, read_text, text_files
-from ninja_game.formats.links.fragment import is_link
-from ninja_game.formats.links.making import linked_texts
+from ninja_game.files.reading import PLACE, SUFFIXES, read_text, text_files
+from ninja_game.formats.links import is_link, linked_texts
 from ninja_game.formats.named_level import NamedLevel, parse_levels
-from ninja_game.formats.pack.files import PackFiles, is_pack
+from ninja_game.formats.pack.pack import PackFiles, is_pack
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.sim.level import Level
 

@@ -6,18 +6,45 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 from ninja_game.errors import LevelError, ReplayError
-from ninja_game.files.beside import read_beside
+from ninja_game.files.reading import read_beside
 from ninja_game.formats.ascii.places import shown
-from ninja_game.formats.ascii.reader import parse_ascii_level
-from ninja_game.formats.forms import Form, form_of
+from ninja_game.formats.ascii.reader import is_ascii_level, parse_ascii_level
 from ninja_game.formats.lines import numbered_lines
-from ninja_game.formats.n14.level_file import LevelRecord, read_level_file
+from ninja_game.formats.n14.level_file import MARKER, is_demo, read_level_file
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, tidy_level_string
-from ninja_game.formats.replay.episode import is_episode, parse_episode
-from ninja_game.formats.replay.text import Replay, is_replay, parse_replay
+from ninja_game.formats.replay.notations import is_tas_text
+from ninja_game.formats.replay.text import Replay, is_episode, is_replay, parse_episode, parse_replay
 from ninja_game.sim.level import TILES, Level
+
+Form = Literal["replay", "episode", "ascii", "file", "demo", "inputs", "string"]
+"""A replay of ours, several that are an episode, a readable level of ours, a file of N's records, a demo of N alone,
+inputs in another tool's notation, in-game strings of levels or anything else."""
+
+
+def form_of(text: str) -> Form:
+    """The format of a text, sound or not.
+
+    >>> form_of("ninja-game level 1"), form_of("$hill#us##0|5^60,540#"), form_of("3:12|0|1"), form_of("0|5^60,540")
+    ('ascii', 'file', 'demo', 'string')
+    """
+    if is_replay(text):
+        return "replay"
+    if is_episode(text):
+        return "episode"
+    if is_ascii_level(text):
+        return "ascii"
+    if MARKER in text or ("#" in text and "$" in text):
+        return "file"
+    # Labels and comments of CelesteTAS begin with # too; N's own texts have | in them.
+    if text.lstrip().startswith("#") and ("|" in text or not is_tas_text(text)):
+        return "file"
+    if is_demo("".join(text.split())):
+        return "demo"
+    return "inputs" if is_tas_text(text) else "string"
+
 
 # What the object half of an in-game string is made of, numbers that no object can have included.
 _OBJECTS = re.compile(r"[0-9.,^!+\-xeENa \t]+")
@@ -54,43 +81,28 @@ def parse_levels(text: str, *, file: str = "") -> list[NamedLevel]:
     form = form_of(text)
     if form in ("replay", "episode"):
         replays = [parse_replay(text, file=file)] if form == "replay" else parse_episode(text, file=file)
+        levels = [level_of_replay(each, file) for each in replays]
         return [
-            NamedLevel(
-                each.level_name or each.name,
-                each.level_author,
-                "",
-                level_of_replay(each, file),
-                file,
-                number,
-                form=form,
-            )
-            for number, each in enumerate(replays)
+            NamedLevel(each.level_name or each.name, each.level_author, "", level, file, number, form=form)
+            for number, (each, level) in enumerate(zip(replays, levels, strict=True))
         ]
     if form == "ascii":
         read = parse_ascii_level(text, file=file)
-        name = read.name or Path(file).stem
-        return [
-            NamedLevel(
-                name, read.author, read.comment, read.level, file, form=form, teaches=read.teaches, says=read.says
-            )
-        ]
+        told = read.name or Path(file).stem, read.author, read.comment, read.level, file
+        return [NamedLevel(*told, form=form, teaches=read.teaches, says=read.says)]
     if form == "file":
-        levels = [_named(record, file) for record in read_level_file(text, file=file) if record.level]
-        if not levels:
+        found = []
+        for record in read_level_file(text, file=file):
+            if record.level:
+                level = parse_level_string(record.level, file=file, line=record.line)
+                named = record.name, record.author, record.comment, level, file, record.number, record.line
+                found.append(NamedLevel(*named))
+        if not found:
             raise LevelError("recordings without their levels", file, hint="give the level file")
-        return levels
-    return [
-        NamedLevel(
-            Path(file).stem, "", "", parse_level_string(string, file=file, line=line), file, number, line, "string"
-        )
-        for number, (line, string) in enumerate(_level_strings(text, file))
-    ]
-
-
-def _named(record: LevelRecord, file: str) -> NamedLevel:
-    """A level file's record with its level read."""
-    level = parse_level_string(record.level, file=file, line=record.line)
-    return NamedLevel(record.name, record.author, record.comment, level, file, record.number, record.line)
+        return found
+    strings = [(line, parse_level_string(string, file=file, line=line)) for line, string in _level_strings(text, file)]
+    stem = Path(file).stem
+    return [NamedLevel(stem, "", "", level, file, k, line, "string") for k, (line, level) in enumerate(strings)]
 
 
 def _level_strings(text: str, file: str) -> Iterator[tuple[int, str]]:
@@ -100,13 +112,10 @@ def _level_strings(text: str, file: str) -> Iterator[tuple[int, str]]:
         lines = [(lines[0][0], tidy_level_string(text))]
     for number, line in lines:
         if not _is_level_string(line):
+            expected = "an ASCII level, a level file of N or an in-game string"
+            hint = "'ninja-game convert 00-0-first-steps - --to ascii --legend' shows how to write a level"
             raise LevelError(
-                "not a level in any format that is known here",
-                file,
-                number,
-                found=repr(line[:40]),
-                expected="an ASCII level, a level file of N or an in-game string",
-                hint="'ninja-game convert 00-0-first-steps - --to ascii --legend' shows how to write a level",
+                "not a level in any format that is known here", file, number, 0, repr(line[:40]), expected, hint
             )
         yield number, line
     if not lines:
@@ -149,7 +158,6 @@ def level_of_replay(replay: Replay, file: str, level: Level | None = None, *, ch
 
 
 def _level_in(text: str, place: str, record: int, file: str) -> Level:
-    """One level of the text of a level file that a replay names."""
     if is_replay(text) or is_episode(text):
         raise ReplayError("a replay as the level of a replay", file, found=place, expected="a level file")
     for level in parse_levels(text, file=place):

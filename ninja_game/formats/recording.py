@@ -8,16 +8,14 @@ from functools import cached_property
 from pathlib import Path
 
 from ninja_game.errors import DemoError, ReplayError
-from ninja_game.formats.forms import Form, form_of
 from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.n14.level_file import LevelRecord, read_level_file
 from ninja_game.formats.n14.level_string import parse_level_string, write_level_string
-from ninja_game.formats.named_level import level_of_replay
-from ninja_game.formats.replay.episode import episode_key, lifetimes, parse_episode
+from ninja_game.formats.named_level import Form, form_of, level_of_replay
 from ninja_game.formats.replay.input_text import included_beside, read_inputs
 from ninja_game.formats.replay.made import with_made, without_made
-from ninja_game.formats.replay.text import Replay, parse_replay
-from ninja_game.formats.tas_lines import in_our_notation
+from ninja_game.formats.replay.notations import in_our_notation
+from ninja_game.formats.replay.text import Replay, episode_key, lifetimes, parse_episode, parse_replay
 from ninja_game.sim.inputs import Demo, fitted_demo
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import Body
@@ -171,26 +169,18 @@ def _read_recordings(records: Iterable[LevelRecord], file: str, level: Level | N
         recordings.append(recording_of(record, file, known.get(record.level, level)))
         legacy_ticks += recordings[-1].ticks if record.demo.startswith("A") else 0
         if legacy_ticks > MOST_LEGACY_TICKS:
-            raise ReplayError(
-                "the demos of older versions in this file are too long together",
-                file,
-                record.line,
-                found=f"more than {MOST_LEGACY_TICKS:,} ticks",
-                hint="split the file, or `ninja-game verify` it, which reads one record after the other",
-            )
+            what = "the demos of older versions in this file are too long together"
+            hint = "split the file, or `ninja-game verify` it, which reads one record after the other"
+            raise ReplayError(what, file, record.line, found=f"more than {MOST_LEGACY_TICKS:,} ticks", hint=hint)
     return recordings
 
 
 def recording_of(record: LevelRecord, file: str, level: Level | None) -> Recording:
     """A record with its demo read, on its level. Raises ReplayError or DemoError naming ``file`` and the record."""
     if not record.demo:
-        raise ReplayError(
-            f"record {record.number} has no demo",
-            file,
-            record.line,
-            found=repr(record.note[:40]) if record.note else "",
-            expected="$name#author#comment#level#demo#",
-        )
+        found = repr(record.note[:40]) if record.note else ""
+        what, expected = f"record {record.number} has no demo", "$name#author#comment#level#demo#"
+        raise ReplayError(what, file, record.line, 0, found, expected)
     if level is None:
         raise ReplayError(
             f"record {record.number} leaves its level out", file, record.line, hint="give it with --level"

@@ -18,8 +18,7 @@ from ninja_game.sim.inputs import Input
 from ninja_game.sim.level import TILES, Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
-CHOICES = 96
-"""Routes of which the best is taken."""
+CHOICES = 96  # routes of which the best is taken
 CLOSE = 4.0
 """Cells that are at least between any two of ninja, switches and exit."""
 BESIDE = 5.0, 11.0

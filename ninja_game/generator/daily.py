@@ -17,15 +17,13 @@ from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.formats.pack.files import INDEX, PARS, certificate_name
+from ninja_game.formats.pack.pack import INDEX, PARS, certificate_name
 from ninja_game.formats.pack.pars import DIGITS, Pars, parse_pars, write_pars
 from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
-from ninja_game.generator.naming import AUTHOR
-from ninja_game.generator.packed import PACKED, generated_levels
+from ninja_game.generator.packed import AUTHOR, PACKED, generated_levels
 
-FOLDER = "daily-levels"
-"""The pack's folder, in the player's folder of levels."""
+FOLDER = "daily-levels"  # the pack's folder, in the player's folder of levels
 
 FIRST = date(2026, 11, 23)
 """The Monday from which on the packed levels are taken in turn, each week's seven of seven difficulties."""
@@ -92,18 +90,14 @@ def make_daily(levels: Path, day: date, *, report: Callable[[str], None], stop: 
 
 
 def _keep_made(file: Path, named: NamedLevel, run: Replay, difficulty: float) -> None:
+    """Write a level into the pack, whose table of pars grows by a line."""
     from ninja_game.runs.verify import verify_recording
     from ninja_game.search.certificate import named_run
 
     replay = write_replay(named_run(run, "generate", name=named.name, author=AUTHOR, level_author=AUTHOR))
     verdict = verify_recording(parse_replays(replay, file=file.stem, level=named.level)[0])
-    text = write_ascii_level(named.level, name=named.name, author=AUTHOR, comment=named.comment)
     digests = level_digest(named.level)[:DIGITS], verdict.xy_sha256[:DIGITS]
-    _keep(file, text, replay, Pars(*digests, run.end_tick, None, difficulty))
-
-
-def _keep(file: Path, level: str, replay: str, pars: Pars) -> None:
-    """Write a level into the pack, whose table of pars grows by a line; the level last, so that all of it is there."""
+    pars = Pars(*digests, run.end_tick, None, difficulty)
     pack, tree = file.parent, Tree(file.parent)
     if not (pack / INDEX).exists():
         tree.write(INDEX, _INDEX)
@@ -111,4 +105,5 @@ def _keep(file: Path, level: str, replay: str, pars: Pars) -> None:
     table = pack / PARS
     lines = parse_pars(read_text(table), file=str(table)) if table.exists() else {}
     tree.write(PARS, write_pars({**lines, file.name: pars}))
-    tree.write(file.name, level)
+    # Last of all, so that the rest of it is there.
+    tree.write(file.name, write_ascii_level(named.level, name=named.name, author=AUTHOR, comment=named.comment))

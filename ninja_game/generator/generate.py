@@ -15,9 +15,9 @@ from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.replay.text import Replay
 from ninja_game.generator.compose import compose
 from ninja_game.generator.gold import lay_trails
-from ninja_game.generator.layouts import LAYOUTS
-from ninja_game.generator.naming import AUTHOR, name_for
+from ninja_game.generator.layouts import LAYOUTS, name_for
 from ninja_game.generator.obstacles import more_beside, nearest_hazard
+from ninja_game.generator.packed import AUTHOR
 from ninja_game.generator.scene import Point, Scene
 from ninja_game.runs.level_design import design, design_findings
 from ninja_game.runs.run import run_level
@@ -34,8 +34,7 @@ ATTEMPTS = 3
 """Attempts that the solver looks at; of those it passes the nearest to what is wanted is taken."""
 PATIENCE = 4
 """So many times as many, with other plans, as long as none is about as hard as wanted; its square if none is passed."""
-ROUNDS = 22
-"""Changes of the hazards of one attempt."""
+ROUNDS = 22  # changes of the hazards of one attempt
 TRIES_TO_COMPOSE = 400
 
 

@@ -10,14 +10,11 @@ from random import Random
 from ninja_game.generator.scene import Point, Scene, cell_of, middle, spec
 from ninja_game.sim.rules import CELL
 
-LEAST, MOST = 26, 38
-"""Pieces in a level; a last group may bring more."""
+LEAST, MOST = 26, 38  # pieces in a level; a last group may bring more
 APART, FROM_KEY = 12.0, 26.0
 """px between pieces, and from ninja, exit and switches."""
-BETWEEN = 3.5 * CELL
-"""px between the middles of two groups."""
-OFF = 14.0
-"""px from the rock."""
+BETWEEN = 3.5 * CELL  # px between the middles of two groups
+OFF = 14.0  # px from the rock
 
 Pattern = Callable[[Scene, Random], Iterator[list[Point]]]
 

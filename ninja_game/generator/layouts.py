@@ -1,4 +1,4 @@
-"""Ground plans: each is one picture over the whole screen, with a vault whose only way in can be locked.
+"""Ground plans, each one picture over the whole screen with a vault whose only way in can be locked; names for them.
 
 They are painted in cells: columns 1 to 32, rows 1 to 24, the middle at ``MID``.
 """
@@ -237,3 +237,31 @@ LAYOUTS: dict[str, Layout] = {
     "waves": waves, "skull": skull, "wheel": wheel,
 }  # fmt: skip
 """The ground plans by name."""
+
+MOODS = (
+    "Quiet", "Copper", "Hollow", "Crooked", "Sleepless", "Paper", "Salt", "Borrowed", "Northern", "Patient", "Velvet",
+    "Rusty", "Second", "Hidden", "Restless", "Lunar", "Brittle", "Tidal", "Sunken", "Amber", "Narrow", "Distant",
+    "Folded", "Idle", "Wired", "Granite", "Silent", "Spare", "Winter", "Lost", "Painted", "Minor",
+)  # fmt: skip
+PLACES = {
+    "heart": ("Heart", "Locket", "Shield", "Core"),
+    "cascade": ("Cascade", "Basins", "Ladles", "Cradle"),
+    "web": ("Web", "Rings", "Moat", "Onion"),
+    "cathedral": ("Cathedral", "Choir", "Crypt", "Nave"),
+    "islands": ("Islands", "Flock", "Lagoon", "Harbour"),
+    "mask": ("Mask", "Clown", "Idol", "Grin"),
+    "pyramid": ("Pyramid", "Tomb", "Tent", "Summit"),
+    "hive": ("Hive", "Honeycomb", "Nest", "Clover"),
+    "volcano": ("Volcano", "Crater", "Mountain", "Chimney"),
+    "eye": ("Eye", "Iris", "Lens", "Almond"),
+    "umbrellas": ("Umbrellas", "Mushrooms", "Orchard", "Grove"),
+    "hourglass": ("Hourglass", "Funnel", "Neck", "Bottle"),
+    "waves": ("Waves", "Tide", "Caves", "River"),
+    "skull": ("Skull", "Jaws", "Captain", "Thinker"),
+    "wheel": ("Wheel", "Clock", "Dial", "Windmill"),
+}
+"""Names of places for each ground plan."""
+
+
+def name_for(layout: str, rng: Random) -> str:
+    return f"{rng.choice(MOODS)} {rng.choice(PLACES[layout])}"

@@ -19,8 +19,7 @@ from ninja_game.sim.rules import CELL, PAD_RADIUS
 MOST_MINES, MOST_OBJECTS = 34, 110
 MORE = 28
 """Mines and objects that may come to them when a level turns out too easy."""
-SAFE = 150.0
-"""px from the ninja's start in which nothing waits."""
+SAFE = 150.0  # px from the ninja's start in which nothing waits
 BESIDE = 110.0
 """px from gold, exit and switches in which enemies are put first."""
 AT_BAIT = 120.0
@@ -34,8 +33,7 @@ IN_SIGHT = 200.0
 MOST_ENEMIES, MOST_ADDED = 11, 15
 MOST_VOIDS, VOID = 4, 4.2 * CELL
 """Places that are furnished because nothing is so many px around them."""
-GATE = 20.0
-"""px from the run to either mine of a gate."""
+GATE = 20.0  # px from the run to either mine of a gate
 
 Source = Callable[[Scene, Random], Iterator[str]]
 

@@ -16,19 +16,18 @@ from ninja_game.files.reading import read_bytes
 from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.n14.level_string import parse_level_string, write_level_string
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.formats.replay.input_runs import write_inputs
 from ninja_game.formats.replay.input_text import read_inputs
-from ninja_game.generator.naming import AUTHOR
+from ninja_game.formats.replay.notations import write_inputs
 from ninja_game.sim.level import Level
 
+AUTHOR = "ninja-game generate"  # who made the levels
 PACKED = "generated.tsv.xz"
 """Among the game's assets: a level a line, as ``PackedLevel.line`` writes it."""
 FROZEN = "bench.tsv.xz"
 """Likewise, of an earlier generator: what the levels of the benchmark are made of. They never change."""
 MOST_BYTES = 8 * 2**20
 """The largest size of the file, and of its text when unpacked."""
-MOST_MEMORY = 64 * 2**20
-"""Bytes that unpacking may take."""
+MOST_MEMORY = 64 * 2**20  # bytes that unpacking may take
 
 
 class PackedLevel(NamedTuple):
@@ -52,7 +51,6 @@ class PackedLevel(NamedTuple):
 
     @property
     def line(self) -> str:
-        """All of it as a line of the file."""
         runs = " ".join(" ".join(write_inputs(self.inputs)).split())
         level = write_level_string(self.level, exact=True)
         return f"{self.seed}\t{self.wanted}\t{self.name}\t{self.difficulty}\t{level}\t{runs}"

@@ -19,16 +19,13 @@ from ninja_game.sim import kinds
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 from ninja_game.sim.rules import CELL
 
-Cell = tuple[int, int]
-"""Column 1…31, row 1…23."""
-Point = tuple[float, float]
-"""px; where a board is painted, cells."""
+Cell = tuple[int, int]  # column 1…31, row 1…23
+Point = tuple[float, float]  # px; where a board is painted, cells
 
 MIDDLE = (COLUMNS + 1) // 2
 
 
 def mirrored(cell: Cell) -> Cell:
-    """The cell on the other side of the middle column."""
     return COLUMNS + 1 - cell[0], cell[1]
 
 
@@ -181,7 +178,6 @@ def steps_from(first: Cell, within: set[Cell]) -> dict[Cell, int]:
 
 
 def neighbours(cell: Cell) -> tuple[Cell, ...]:
-    """The four cells beside a cell."""
     column, row = cell
     return (column + 1, row), (column, row + 1), (column - 1, row), (column, row - 1)
 
@@ -264,7 +260,6 @@ class Scene:
 
     @property
     def objects(self) -> list[ObjectSpec]:
-        """All objects, in the order of the level."""
         return [*self.key, *self.fixtures, *self.gold, *(record for group in self.hazards for record in group)]
 
     @property

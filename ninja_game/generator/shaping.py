@@ -13,8 +13,7 @@ from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.memory.schema import TileMap
 from ninja_game.sim.rules import CELL, STRIDE
 
-FINE = 8
-"""Samples of a cell in a row and in a column."""
+FINE = 8  # samples of a cell in a row and in a column
 FULL = TILE_CHARS.index("#")
 COSTS = np.array([2 * (tile in '_]"[') + 3 * (tile in "jkiuJKIU") + 1 * (tile not in ".#") for tile in TILE_CHARS])
 """What each tile costs, in samples of a cell that it covers wrongly."""

@@ -117,7 +117,6 @@ def demonstration(
 
 
 def _same_run(recording: Recording, inputs: bytes) -> bool:
-    """Whether other inputs make the run that was recorded."""
     recorded = run_level(recording.level, recording.inputs, body=recording.body)
     return recorded == run_level(recording.level, inputs, body=recording.body)
 
@@ -161,7 +160,6 @@ def write_npz(path: Path, episodes: Sequence[Demonstration]) -> None:
 
 
 def require_minari() -> None:
-    """Raise MissingExtraError without Minari."""
     if find_spec("minari") is None or find_spec("h5py") is None:
         raise MissingExtraError(f"data sets of Minari need it; {how_to_install('minari')}")
 

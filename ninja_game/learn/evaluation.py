@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.learn.actions import DISCRETE_KEYS
-from ninja_game.learn.levels import Origin, level_source
+from ninja_game.learn.levels.origins import Origin, level_source
 from ninja_game.learn.protocol import EVALUATION_SEED, LONGEST_WAIT, REPEAT, TIME_LIMIT
 from ninja_game.learn.worlds import EnvWorlds
 from ninja_game.sim.level import Level
@@ -131,7 +131,6 @@ def first_seed(level: Level, seed: int = EVALUATION_SEED) -> int:
 
 
 def chosen(agent: Policy, worlds: EnvWorlds, seed: int) -> Actions:
-    """What a policy does, step by step."""
     agent.reset(worlds.count, seed)
     while True:
         yield agent.act(worlds.observations)

@@ -14,8 +14,7 @@ import numpy as np
 from ninja_game.backend.memories import open_worlds
 from ninja_game.batch.batch import Indices
 from ninja_game.learn.observations.part import Setting, clamp
-from ninja_game.search.heuristics import FARTHEST, POINTS, Heuristics, point_at
-from ninja_game.search.switches import open_bits
+from ninja_game.search.heuristics import FARTHEST, POINTS, Heuristics, open_bits, point_at
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.declare import entry_point, fast
 from ninja_game.sim.rules import WORLD_HEIGHT, WORLD_WIDTH

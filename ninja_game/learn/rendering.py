@@ -21,9 +21,7 @@ _MOVING = {BOUNCE_BLOCK, FLOOR_GUARD, DRONE, THWUMP}
 _GONE_WHEN_0 = {GOLD, MINE}
 _NOWHERE = (0.0, 0.0)
 
-
-MOST_PX = 8192
-"""Longest side of a picture."""
+MOST_PX = 8192  # longest side of a picture
 
 
 def checked_size(size: object) -> tuple[int, int]:
@@ -61,7 +59,6 @@ class EpisodePicture:
         self._surface = pygame.Surface(size)
 
     def begin(self, simulation: Simulation) -> None:
-        """Show a run as it is now."""
         from ninja_game.view.level_view import LevelView
 
         self._simulation = simulation

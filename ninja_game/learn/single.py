@@ -20,7 +20,7 @@ import numpy as np
 from gymnasium.error import ClosedEnvironmentError, ResetNeeded, UnsupportedMode
 
 from ninja_game.learn.actions import Actions
-from ninja_game.learn.levels import DEFAULT_LEVEL, Origin
+from ninja_game.learn.levels.origins import DEFAULT_LEVEL, Origin
 from ninja_game.learn.levels.source import checked_seed
 from ninja_game.learn.rendering import EpisodePicture, checked_size, episode_text
 from ninja_game.learn.worlds import (

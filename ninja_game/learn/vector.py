@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import Actions
-from ninja_game.learn.levels import DEFAULT_LEVEL, Origin
+from ninja_game.learn.levels.origins import DEFAULT_LEVEL, Origin
 from ninja_game.learn.levels.source import checked_seed
 from ninja_game.learn.observations.observation import Observed
 from ninja_game.learn.rendering import EpisodePicture, checked_size
@@ -103,7 +103,6 @@ class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
         return self._shown(), self._infos(reset)
 
     def _seeds(self, seed: int | Sequence[int] | None) -> list[int] | None:
-        """New seeds of all worlds; None: they keep theirs."""
         if seed is None:
             return None if self._reset_before else self.np_random.integers(2**63, size=self.num_envs).tolist()
         if isinstance(seed, int | np.integer):

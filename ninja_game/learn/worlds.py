@@ -26,11 +26,10 @@ from ninja_game.batch.thread_pool import thread_count, thread_pool, whole_number
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import Keys
 from ninja_game.learn.goal_distance import GoalDistance
-from ninja_game.learn.levels import LevelChoice, Origin, level_source
-from ninja_game.learn.levels.places import new_levels, put_levels
-from ninja_game.learn.levels.source import LevelSequences
+from ninja_game.learn.levels.origins import Origin, level_source
+from ninja_game.learn.levels.source import LevelChoice, LevelSequences
 from ninja_game.learn.observations.observation import Observation, PartLike
-from ninja_game.learn.observations.part import Setting
+from ninja_game.learn.observations.part import Setting, new_levels, put_levels
 from ninja_game.learn.protocol import CHANCES, beginnings, next_random
 from ninja_game.learn.rewards import DistanceShaping, RewardLike, Shaping, reward_terms, weights_of
 from ninja_game.sim.digest import world_digest
@@ -44,12 +43,10 @@ from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_EXIT
 from ninja_game.sim.world import step
 from ninja_game.simulation import Body, SaveState, Simulation, is_box
 
-PAID_EXIT, PAID_DEATH, PAID_PIECE, PAID_TICK = range(4)
-"""Columns of what is paid."""
+PAID_EXIT, PAID_DEATH, PAID_PIECE, PAID_TICK = range(4)  # columns of what is paid
 OUTCOME, TICKS, GOLD, EVENTS, ENDED, PLAYED, WAIT, RANDOM = range(8)
 """Columns of what is told of each world; the last three are the keys of its last step, and of `protocol.py`."""
-TERMINATED, TRUNCATED = 1, 2
-"""How an episode has ended; 0: it goes on."""
+TERMINATED, TRUNCATED = 1, 2  # how an episode has ended; 0: it goes on
 CHANGES = (1 << GOLD_TAKEN) | (1 << MINE_EXPLODED) | (1 << EXIT_OPENED)
 """Events after which objects that stay where they are look another way."""
 

@@ -9,7 +9,7 @@ import pygame
 from ninja_game.editor.draft import Draft
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.formats.ascii.writer import headers_of
-from ninja_game.formats.links.making import level_link
+from ninja_game.formats.links import level_link
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.play.app import App
 

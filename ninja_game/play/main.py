@@ -11,12 +11,10 @@ import pygame
 from ninja_game.backend.memories import begins_plain
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.user_folder import data_folder
-from ninja_game.formats.links.fragment import is_link, read_link
-from ninja_game.formats.links.making import recordings_of
+from ninja_game.formats.links import is_link, read_link, recordings_of
 from ninja_game.formats.load import load_level, load_levels, load_replays
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.formats.pack.files import is_pack
-from ninja_game.formats.pack.pack import Pack
+from ninja_game.formats.pack.pack import Pack, is_pack
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App, Screen, TasEditorOpener, build_app
 from ninja_game.play.window import Window, save_picture

@@ -25,9 +25,9 @@ from ninja_game.errors import DAMAGED, FileError, NinjaGameError
 from ninja_game.files.reading import SUFFIXES, files_in, read_bytes
 from ninja_game.files.shown_text import MAX_SHOWN, name_key, name_problem, shown_text
 from ninja_game.files.tree import Tree
+from ninja_game.files.untrusted import open_zip, unpacked
 from ninja_game.files.user_folder import EDITING, EXPORTS, LEVELS, RECORDS, REPLAYS, SETTINGS, quarantine
 from ninja_game.files.writing import write_atomically
-from ninja_game.files.zips import open_zip, unpacked
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay

@@ -19,12 +19,10 @@ from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.formats.pack.files import CERTIFICATES, PackFiles, certificate_name, is_pack
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE
-from ninja_game.formats.pack.pack import Pack
+from ninja_game.formats.pack.pack import CERTIFICATES, Pack, PackFiles, certificate_name, is_pack
 from ninja_game.formats.pack.pars import Pars
-from ninja_game.formats.replay.episode import episode_key
-from ninja_game.formats.replay.text import Replay, parse_replay
+from ninja_game.formats.replay.text import Replay, episode_key, parse_replay
 from ninja_game.sim.level import Level
 
 OURS = "ninja-game"

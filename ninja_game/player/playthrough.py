@@ -19,8 +19,7 @@ from ninja_game.files.reading import stamp_of
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pars import Pars
-from ninja_game.formats.replay.episode import lifetimes
-from ninja_game.formats.replay.text import Replay, parse_replay, write_replay
+from ninja_game.formats.replay.text import Replay, lifetimes, parse_replay, write_replay
 from ninja_game.formats.sayings import Saying, read_sayings
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry, Episode

@@ -14,7 +14,7 @@ from ninja_game.errors import FileError
 from ninja_game.files.locking import locked
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.shown_text import shown_text
-from ninja_game.files.toml import parse_toml
+from ninja_game.files.untrusted import parse_toml
 from ninja_game.files.user_folder import quarantine
 from ninja_game.files.writing import write_atomically
 

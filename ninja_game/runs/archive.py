@@ -32,8 +32,8 @@ from ninja_game.formats.load import NamedLevel, load_levels
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.pack import episodes_of
 from ninja_game.formats.recording import Recording
-from ninja_game.runs.checkpoint_log import CheckpointLog
 from ninja_game.runs.chunks import (
+    CheckpointLog,
     Chunk,
     Result,
     chunks_in,
@@ -54,8 +54,7 @@ class Lost(Unreadable):
     """A recording on which workers died: on another machine, or later, it may have a verdict."""
 
 
-JOB_WEIGHT = 64
-"""Files or records a job."""
+JOB_WEIGHT = 64  # files or records a job
 
 Job: TypeAlias = tuple[Chunk, ...]
 Done: TypeAlias = Iterable[tuple[Job, list[list[Result]] | WorkerLostError]]
@@ -124,7 +123,6 @@ class Asked:
 def _verify_all(
     chunks: Iterable[Chunk], asked: Asked, jobs: int | None, processes: bool | None, cluster: str, resume: Path | None
 ) -> Iterator[Result]:
-    """The results as the recordings alone give them."""
     if processes is None:
         processes = asked.memory == "both" or choose_memory(asked.memory) == "plain"
     with ExitStack() as stack:
@@ -174,7 +172,6 @@ def _looked_up(chunk: Chunk, log: CheckpointLog, context: str) -> Chunk:
 
 
 def _verify(asked: Asked, job: Job) -> list[list[Result]]:
-    """Verdicts on every chunk of a job that is not done yet."""
     counting = None if asked.counting is None else frozenset(asked.counting)
     return [
         [] if chunk.done else verify_chunk(chunk, asked.memory, asked.level, counting, asked.budget) for chunk in job
@@ -237,7 +234,6 @@ class Totals:
         self.outcomes[result.outcome] += 1
 
     def as_json(self) -> dict[str, Any]:
-        """The counts for programs."""
         return vars(self) | {"outcomes": dict(sorted(self.outcomes.items()))}
 
 

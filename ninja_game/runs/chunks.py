@@ -1,7 +1,13 @@
-"""Recordings cut into chunks that can be verified anywhere: some files, or some records of a large one.
+"""Recordings cut into chunks that can be verified anywhere, and the log of those that are done.
 
-A chunk carries its text, so that it can be sent to a machine that does not see the files. Files that a text takes in
-are read where the chunk is verified, unless ``self_contained`` has put them inside first.
+A chunk is some files, or some records of a large one. It carries its text, so that it can be sent to a machine that
+does not see the files. Files that a text takes in are read where the chunk is verified, unless ``self_contained`` has
+put them inside first.
+
+The checkpoint log lets a long verification be stopped and resumed. It is a text file, one JSON object a line: first
+what it is a log of, then each chunk with its results, as soon as it is done. Chunks are known by a digest of everything
+that their results depend on. A last line that was not finished, because the program or the machine died, is cut off and
+its chunk done again.
 """
 
 from __future__ import annotations
@@ -13,14 +19,16 @@ from dataclasses import asdict, dataclass, field, replace
 from hashlib import sha256
 from itertools import islice
 from pathlib import Path
-from typing import Any, get_args, get_type_hints
+from typing import IO, Any, Self, get_args, get_type_hints
 
+from ninja_game import __version__
 from ninja_game.budget import RUN_BUDGET
-from ninja_game.errors import DAMAGED, BudgetError, DemoError, LevelError, ReplayError
-from ninja_game.files.beside import Beside, known_files
+from ninja_game.errors import DAMAGED, BudgetError, DemoError, FileError, FormatError, LevelError, ReplayError
+from ninja_game.files.locking import lock
+from ninja_game.files.reading import Beside, known_files, what_it_is
 from ninja_game.formats.n14.level_file import LevelRecord
 from ninja_game.formats.recording import Recording
-from ninja_game.formats.replay.episode import is_episode
+from ninja_game.formats.replay.text import RULES_VERSION, is_episode
 from ninja_game.levels.findings import RUN_RULES, RunProblem
 from ninja_game.runs.recording_reader import Unreadable, recording_of_text, recordings_of, records_of, texts_in
 from ninja_game.runs.verify import NOT_RUN, OutOfRangeError, Verdict, verify_recording
@@ -56,7 +64,6 @@ class Chunk:
 
     @property
     def weight(self) -> int:
-        """About how much work it is."""
         return len(self.records) or 1
 
     @property
@@ -134,7 +141,7 @@ def _result(recording: Recording | Unreadable, memory: str, counting: Container[
 
 def results_as_text(results: Sequence[Sequence[Result]]) -> str:
     """The results of several chunks as JSON."""
-    return json.dumps([[as_data(result) for result in each] for each in results])
+    return json.dumps([[asdict(result) for result in each] for each in results])
 
 
 def results_from_text(text: object, chunks: Sequence[Chunk]) -> list[list[Result]]:
@@ -153,20 +160,14 @@ def results_from_text(text: object, chunks: Sequence[Chunk]) -> list[list[Result
         raise ClusterError(f"a worker of the cluster answers with something else than results ({error})") from None
 
 
-def as_data(result: Result) -> dict[str, Any]:
-    """A result as a dictionary of plain values."""
-    return asdict(result)
-
-
-LARGEST = 2**53
-"""Numbers of a result are smaller."""
+LARGEST = 2**53  # numbers of a result are smaller
 OUTCOMES = (*OUTCOME_NAMES, NOT_RUN)
 
 _TYPES = {name: hint for name, hint in get_type_hints(Verdict).items() if name != "problems"}
 
 
 def result_from_data(data: object) -> Result:
-    """The result that ``as_data`` gave, also after a way through JSON. Raises ValueError for anything else."""
+    """The result that ``asdict`` gave, also after a way through JSON. Raises ValueError for anything else."""
     if isinstance(data, dict) and data.keys() == {"message"} and isinstance(data["message"], str):
         return Unreadable(data["message"])
     if not isinstance(data, dict) or data.keys() != {*_TYPES, "problems"}:
@@ -189,3 +190,107 @@ def _is_problem(data: object) -> bool:
     if not isinstance(data, (list, tuple)) or len(data) != 2 or not isinstance(data[1], str):
         return False
     return isinstance(data[0], str) and data[0] in RUN_RULES
+
+
+HEADER = {"checkpoint-log": "ninja-game verify", "version": __version__, "rules": RULES_VERSION}
+
+LONGEST_LINE = 2**26
+"""Bytes; the results of a chunk are a thousandth of it."""
+
+
+class CheckpointLog:
+    """A checkpoint log that is open for reading and writing; a context manager.
+
+    ``path`` is made if it is missing. Raises FormatError for a file that is something else, and leaves it as it is;
+    OSError.
+    """
+
+    def __init__(self, path: Path) -> None:
+        if path.exists() and not path.is_file():
+            raise FileError(
+                "only a regular file can be a checkpoint log", str(path), found=what_it_is(path.stat().st_mode)
+            )
+        self.path = path
+        self._places: dict[str, int] = {}
+        self._file: IO[bytes] = path.open("r+b" if path.exists() else "w+b")
+        try:
+            self._read()
+        except BaseException:
+            self._file.close()
+            raise
+
+    def _read(self) -> None:
+        """Note where the results of every finished chunk stand, and cut off what was not finished."""
+        if not lock(self._file.fileno()):
+            raise FileError("another program writes this checkpoint log", str(self.path), hint="wait, or name another")
+        header = json.dumps(HEADER).encode() + b"\n"
+        first = self._file.readline(len(header))
+        if first == header:
+            whole = self._read_chunks(len(header))
+        elif not first or (header.startswith(first) and first.startswith(header[:20])):
+            # Empty, or its writer died in the first line; a shorter beginning may be that of anything.
+            whole = 0
+        else:
+            raise self._odd(1, first, f"{json.dumps(HEADER)}; start another file")
+        self._file.truncate(whole)
+        self._file.seek(whole)
+        if not whole:
+            self._write(header)
+
+    def _read_chunks(self, whole: int) -> int:
+        """Note the chunks of all lines but the first; where the last whole line ends."""
+        number = 1
+        while line := self._file.readline(LONGEST_LINE):
+            number += 1
+            if not line.endswith(b"\n") and len(line) < LONGEST_LINE:
+                break
+            try:
+                self._places[_parse(line)[0]] = whole
+            except (ValueError, RecursionError):
+                raise self._odd(number, line, "a line that `ninja-game verify --resume` wrote") from None
+            whole += len(line)
+        return whole
+
+    def _odd(self, number: int, line: bytes, expected: str) -> FormatError:
+        what, found = "not a checkpoint log that can be resumed", repr(line[:60].decode("utf-8", "replace"))
+        return FormatError(what, str(self.path), number, found=found, expected=expected)
+
+    def _write(self, line: bytes) -> None:
+        self._file.write(line)
+        self._file.flush()
+
+    def __len__(self) -> int:
+        return len(self._places)
+
+    def __contains__(self, key: str) -> bool:
+        return key in self._places
+
+    def __getitem__(self, key: str) -> list[Result]:
+        end = self._file.tell()
+        self._file.seek(self._places[key])
+        found, results = _parse(self._file.readline())
+        self._file.seek(end)
+        if found != key:
+            raise FormatError(
+                "the checkpoint log was changed meanwhile", str(self.path), expected="one writer at a time"
+            )
+        return results
+
+    def add(self, key: str, results: Sequence[Result]) -> None:
+        self._places[key] = self._file.tell()
+        fields: dict[str, Any] = {"chunk": key, "results": [asdict(result) for result in results]}
+        self._write(json.dumps(fields).encode() + b"\n")
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._file.close()
+
+
+def _parse(line: bytes) -> tuple[str, list[Result]]:
+    """The key and the results of a chunk's line. Raises ValueError where it is none, RecursionError."""
+    fields = json.loads(line)
+    if not isinstance(fields, dict) or fields.keys() != {"chunk", "results"} or not isinstance(fields["results"], list):
+        raise ValueError("not the line of a chunk")
+    return str(fields["chunk"]), [result_from_data(data) for data in fields["results"]]

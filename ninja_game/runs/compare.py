@@ -15,6 +15,7 @@ from ninja_game.budget import PLAIN_WORK, RUN_BUDGET, affordable_ticks, over_bud
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.notations import Marker
 from ninja_game.runs.recording_reader import named_errors
 from ninja_game.sim.rules import CELL, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
@@ -56,7 +57,6 @@ class Split(NamedTuple):
 
     @property
     def key(self) -> Key:
-        """What it has in common with the same split of another run."""
         return self.event, self.object_id, self.number
 
     def __str__(self) -> str:
@@ -88,7 +88,6 @@ class RunSplits:
 
     @property
     def by_key(self) -> dict[Key, Split]:
-        """The splits by what they have in common with those of other runs."""
         return {split.key: split for split in self.splits}
 
 
@@ -187,8 +186,7 @@ NEAR = CELL
 MAX_PAIRS = 100_000_000
 """Most pairs of ticks that are looked at: two runs of four minutes."""
 
-MAX_TOGETHER = 60_000
-"""Most ticks of both: each costs some work by itself."""
+MAX_TOGETHER = 60_000  # most ticks of both: each costs some work by itself
 
 
 class Lead(NamedTuple):
@@ -305,3 +303,38 @@ def _first_unequal(ours: NDArray[np.generic], theirs: NDArray[np.generic]) -> in
     if unequal.any():
         return int(np.argmax(unequal))
     return None if len(ours) == len(theirs) else shared
+
+
+class LeadRow(NamedTuple):
+    """A place that both runs reach, and their ticks there. ``counts``: it is more than a second of the first run."""
+
+    tick: int
+    other: int
+    name: str
+    counts: bool
+
+    @property
+    def ahead(self) -> int:
+        """Ticks by which the first run is there earlier; negative where it is later."""
+        return self.other - self.tick
+
+
+@dataclass(frozen=True)
+class LeadTable:
+    """The rows by ticks of the first run, and what the runs have in common."""
+
+    rows: tuple[LeadRow, ...]
+    comparison: Comparison
+
+
+def lead_table(ours: Recording, theirs: Recording, markers: Sequence[Marker]) -> LeadTable:
+    """Compare a run, with its markers, to another one. Raises what ``compare_runs`` does."""
+    found = compare_runs(ours, theirs)
+    rows = [LeadRow(lead.tick, lead.other, split_name(lead.at), True) for lead in found.splits]
+    there = {lead.tick: lead.other for lead in found.places}
+    rows += [LeadRow(tick, there[tick], name, True) for tick, name in markers if tick in there]
+    rows += [
+        LeadRow(lead.tick, lead.other, f"{lead.tick // TICKS_PER_SECOND} s", False)
+        for lead in each_second(found.places)
+    ]
+    return LeadTable(tuple(sorted(rows, key=lambda row: row.tick)), found)

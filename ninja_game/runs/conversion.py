@@ -11,14 +11,12 @@ from ninja_game.errors import ReplayError
 from ninja_game.formats.ascii.legend import legend_text
 from ninja_game.formats.ascii.reader import is_ascii_level
 from ninja_game.formats.ascii.writer import RULER
-from ninja_game.formats.forms import form_of
 from ninja_game.formats.n14.level_file import LevelRecord, read_level_file, write_level_file
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
-from ninja_game.formats.named_level import NamedLevel, parse_levels
+from ninja_game.formats.named_level import NamedLevel, form_of, parse_levels
 from ninja_game.formats.recording import Recording, holds_recordings, parse_replays, record_of
-from ninja_game.formats.replay.episode import write_episode
-from ninja_game.formats.replay.text import RULES_VERSION, Replay, write_replay
-from ninja_game.formats.tas_lines import write_celeste, write_libtas
+from ninja_game.formats.replay.notations import write_celeste, write_libtas
+from ninja_game.formats.replay.text import RULES_VERSION, Replay, write_episode, write_replay
 from ninja_game.runs.recording_reader import named_errors
 from ninja_game.runs.run import record_replay
 from ninja_game.runs.verify import verify_recording

@@ -18,21 +18,17 @@ from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec, well_formed
 from ninja_game.sim.rules import CELL, DRONE_RADIUS, GUARD_RADIUS, MINE_RADIUS, RADIUS, ROCKET_RADIUS
 
-Points = NDArray[np.float64]
-"""Places, px: (n, 2)."""
+Points = NDArray[np.float64]  # places, px: (n, 2)
 
-STANDING_TICKS = 400
-"""How long one stands still at the start: ten seconds."""
+STANDING_TICKS = 400  # how long one stands still at the start: ten seconds
 NEAR = 20.0
 """A near miss: so few px between the ninja and what kills."""
 BAIT = 40.0
 """Gold so near (px) to where a hazard can be is in danger."""
 EMPTY = 4 * CELL
 """Space so far (px) from every object and from the run is not used."""
-FEW = 6
-"""Fewer pieces are neither even nor in groups."""
-BAY = 6, 5
-"""Columns and rows of a bay that may repeat."""
+FEW = 6  # fewer pieces are neither even nor in groups
+BAY = 6, 5  # columns and rows of a bay that may repeat
 
 RADII = {"mine": MINE_RADIUS, "floor guard": GUARD_RADIUS, "drone": DRONE_RADIUS, "thwump": 9.0}
 """Radius of hazards that kill by touch, px."""
@@ -95,6 +91,7 @@ def design(level: Level, inputs: bytes) -> Design:
     gold, mines = places(level, kinds.GOLD), places(level, kinds.MINE)
     room = len(ground.cells) * CELL * CELL
     homes = np.concatenate([places(level, kind) for kind in HAZARDS])
+    to_exit = distances(places(level, kinds.NINJA)[-1:], places(level, kinds.EXIT))
     return Design(
         float(np.median(distances(homes, path))) if len(homes) else None,
         float(np.mean(in_danger(level, ground, still, gold))) if len(gold) and len(homes) else None,
@@ -102,13 +99,12 @@ def design(level: Level, inputs: bytes) -> Design:
         evenness(mines, room),
         most_bays(level),
         unused(level, ground, path),
-        float(np.abs(np.diff(path, axis=0)).sum()) / max(CELL, _start_to_exit(level)),
+        float(np.abs(np.diff(path, axis=0)).sum()) / max(CELL, float(to_exit.min(initial=np.inf))),
         float(np.mean(clearance(run) < NEAR)),
     )
 
 
 def places(level: Level, kind: int) -> Points:
-    """The places of all objects of a kind."""
     found = [record.values[:2] for record in level.objects if record.kind == kind and well_formed(record)]
     return np.array(found, np.float64).reshape(-1, 2)
 
@@ -207,8 +203,3 @@ def unused(level: Level, ground: Ground, path: Points) -> float:
     cells = np.array([(CENTRE_X[cell], CENTRE_Y[cell]) for cell in ground.cells])
     used = np.array([record.values[:2] for record in level.objects if well_formed(record)], np.float64)
     return float(np.mean(np.minimum(distances(cells, used), distances(cells, path[::5])) > EMPTY))
-
-
-def _start_to_exit(level: Level) -> float:
-    """The distance from the ninja's start to the nearest exit, px."""
-    return float(distances(places(level, kinds.NINJA)[-1:], places(level, kinds.EXIT)).min(initial=np.inf))

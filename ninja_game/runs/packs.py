@@ -10,9 +10,8 @@ from pathlib import PurePath
 from ninja_game.batch.difficulty import TRIES, difficulty
 from ninja_game.errors import NinjaGameError, ReplayError
 from ninja_game.formats.n14.level_string import level_digest
-from ninja_game.formats.pack.files import CERTIFICATES, INDEX, PARS, certificate_name
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
-from ninja_game.formats.pack.pack import Pack
+from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, PARS, Pack, certificate_name
 from ninja_game.formats.pack.pars import DIGITS, Pars, parse_pars
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.levels.findings import DESIGN_RULES, PackFinding, in_pack
@@ -69,7 +68,6 @@ def certificate(pack: Pack, file: str, kind: str) -> Certificate | None:
 
 
 def is_certified(pack: Pack, file: str, kind: str) -> bool:
-    """Whether a level file has a sound certificate."""
     try:
         found = certificate(pack, file, kind)
         return found is not None and not found.problems
@@ -160,14 +158,10 @@ def _findings(pack: Pack, *, with_design: bool, with_gold: bool) -> Iterator[Pac
     if sound:
         yield from _about_pars(pack)
     if sound and with_design:
-        yield from (finding for file in pack.levels for finding in _about_design(pack, file))
-
-
-def _about_design(pack: Pack, file: str) -> Iterator[PackFinding]:
-    run = certificate(pack, file, "exit")
-    if run:
-        counts = design(run.level, run.recording.inputs[: run.verdict.ticks])
-        yield from design_findings(counts, pack.files.place(file))
+        for file in pack.levels:
+            if run := certificate(pack, file, "exit"):
+                counts = design(run.level, run.recording.inputs[: run.verdict.ticks])
+                yield from design_findings(counts, pack.files.place(file))
 
 
 def _about_index(pack: Pack) -> Iterator[PackFinding]:

@@ -11,12 +11,11 @@ from pathlib import Path
 
 from ninja_game.errors import BudgetError, LevelError, NinjaGameError, reason
 from ninja_game.files.reading import LeftOut, files_below
-from ninja_game.formats.forms import form_of
-from ninja_game.formats.links.fragment import is_link
+from ninja_game.formats.links import is_link
 from ninja_game.formats.load import texts_of
 from ninja_game.formats.n14.level_file import LevelRecord, read_level_file
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.formats.named_level import parse_levels
+from ninja_game.formats.named_level import form_of, parse_levels
 from ninja_game.formats.recording import Recording, parse_replays, recording_of
 from ninja_game.formats.replay.headers import LEVELS_KEPT
 from ninja_game.formats.replay.text import is_replay
@@ -91,9 +90,7 @@ def recordings_of(
             yield Unreadable(str(error))
 
 
-@lru_cache(LEVELS_KEPT)
-def _level(text: str) -> Level:
-    return parse_level_string(text)
+_level = lru_cache(LEVELS_KEPT)(parse_level_string)
 
 
 def recording_of_text(

@@ -54,16 +54,6 @@ class RunResult:
     in_time: bool = True
     digest: str = ""
 
-    def __eq__(self, other: object) -> bool:
-        """Whether the runs are the same in every bit."""
-        return isinstance(other, RunResult) and self._key() == other._key()
-
-    def __hash__(self) -> int:
-        return hash(self._key())
-
-    def _key(self) -> tuple[object, ...]:
-        return self.outcome, self.gold, self.places, self.state_numbers, self.in_time, self.digest
-
     @property
     def ticks(self) -> int:
         """Ticks run."""

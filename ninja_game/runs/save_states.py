@@ -7,8 +7,7 @@ from typing import Generic, TypeVar
 
 State = TypeVar("State")
 
-SPACING = 60
-"""A save-state every this many ticks, at first."""
+SPACING = 60  # a save-state every this many ticks, at first
 MOST_STATES = 300
 """With more save-states than this every second one is dropped, so that a run of any length fits into the memory."""
 

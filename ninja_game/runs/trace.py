@@ -29,8 +29,7 @@ from ninja_game.sim.memory.interface import TRACED_NUMBERS, TRACED_PLACES, Trace
 from ninja_game.sim.memory.schema import MAX_EVENTS
 from ninja_game.simulation import Body, is_box
 
-Records: TypeAlias = NDArray[np.void]
-"""An array of NINJA_RECORD or OBJECT_RECORD."""
+Records: TypeAlias = NDArray[np.void]  # an array of NINJA_RECORD or OBJECT_RECORD
 
 NINJA_NAME = "ninja"
 """Kind of the ninja's rows, beside the kinds of objects."""

@@ -20,7 +20,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from ninja_game.errors import FileError, FormatError
 from ninja_game.files.reading import open_regular
-from ninja_game.files.zips import MOST_ARRAYS, UNREADABLE, open_zip, read_array
+from ninja_game.files.untrusted import MOST_ARRAYS, UNREADABLE, open_zip, read_array
 from ninja_game.runs.trace import NINJA_NAME, NINJA_RECORD, OBJECT_RECORD, RunTrace, rows
 from ninja_game.sim.inputs import MAX_TICKS, Input
 
@@ -35,8 +35,7 @@ MOST_BYTES = 2**28
 
 _KEYS = (("L", Input.LEFT), ("R", Input.RIGHT), ("J", Input.JUMP_HELD), ("!", Input.JUMP_PRESSED))
 
-ZIPPED = b"PK"
-"""What a .npz begins with."""
+ZIPPED = b"PK"  # what a .npz begins with
 
 _UNREADABLE = (*UNREADABLE, csv.Error)
 

@@ -196,12 +196,10 @@ def with_demands(
 
 
 def _as_json(value: object) -> str:
-    """A field's value as JSON has it."""
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
 def _ending(recording: Recording, run: RunResult) -> str:
-    """An outcome in words."""
     if run.outcome != "running":
         return f"{run.outcome} in tick {run.end_tick}"
     if recording.missing:

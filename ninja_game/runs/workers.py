@@ -35,12 +35,10 @@ AHEAD = 4
 TRIES = 3
 """How often a job may take a process with it before it is given up; a cluster's scheduler counts by itself."""
 
-
 WORKER_BYTES, JOB_SECONDS = 2 << 30, 3600
 """Memory of a worker process, and processor time that one job may take there, where the system has such limits."""
 
-PATIENCE = 30
-"""Seconds to wait for a cluster's first worker."""
+PATIENCE = 30  # seconds to wait for a cluster's first worker
 
 
 class ClusterError(NinjaGameError):
@@ -224,7 +222,6 @@ def in_order(pool: Workers, function: Callable[[J], R], jobs: Iterable[J]) -> It
 
 
 def _retry(pool: Workers, function: Callable[[J], R], job: J) -> R | WorkerLostError:
-    """The result of a job that was lost with its worker."""
     for _ in range(pool.tries - 1):
         pool.renew()
         try:

@@ -11,7 +11,7 @@ is the index of a node, an ``action`` what leads from it to the scratch world (m
 
 from __future__ import annotations
 
-from ninja_game.search.heuristics import point_at
+from ninja_game.search.heuristics import open_mask, point_at
 from ninja_game.search.known_run import KnownRun, nearest
 from ninja_game.search.macros import (
     MOST_ROWS,
@@ -41,7 +41,6 @@ from ninja_game.search.nodes import (
     random_below,
 )
 from ninja_game.search.states import Goal, estimate, find_entry, gold_hash, is_new, key_of, switch_state_of
-from ninja_game.search.switches import open_mask
 from ninja_game.sim.memory.declare import entry_point, fast
 from ninja_game.sim.memory.schema import Ninja
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
@@ -59,8 +58,7 @@ OTHER_ENDS = 8
 """Ends of a leg that are kept where another switch than a wanted one was touched. Not tuned."""
 SURVIVAL = 60
 """Ticks that the ninja must be able to live after the end of a leg. Not tuned."""
-MORE, EXHAUSTED, NO_ROOM = 0, 1, 2
-"""How a slice of a search ended."""
+MORE, EXHAUSTED, NO_ROOM = 0, 1, 2  # how a slice of a search ended
 
 
 @entry_point
@@ -88,7 +86,6 @@ def add_root(start: Start, arrays: SearchArrays, goal: Goal, resolution: Resolut
 
 @entry_point
 def load_node(start: Start, arrays: SearchArrays, index: int) -> None:
-    """Make the save-state of a node that has one the scratch world."""
     load_state(start.scratch, start.initial, arrays.nodes[index], arrays)
 
 
@@ -325,7 +322,6 @@ def add_node(parent: int, action: int, tick: int, arrays: SearchArrays) -> int:
 
 @fast
 def note_link(arrays: SearchArrays, source: int, target: int, ticks: int) -> None:
-    """Remember that a macro leads from one table entry to another."""
     counters = arrays.counters[0]
     link = arrays.links[counters.links]
     counters.links += 1

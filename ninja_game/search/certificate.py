@@ -11,7 +11,7 @@ from ninja_game.budget import NO_LIMIT
 from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
-from ninja_game.formats.replay.input_runs import Marker
+from ninja_game.formats.replay.notations import Marker
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.runs.compare import aligned
 from ninja_game.runs.run import record_replay, run_level
@@ -90,8 +90,7 @@ def save_replay(path: Path, replay: Replay) -> None:
     write_atomically(path, write_replay(replay))
 
 
-Row = tuple[int, int]
-"""Keys that are down, and for how many ticks."""
+Row = tuple[int, int]  # keys that are down, and for how many ticks
 
 
 def rows_of(inputs: bytes) -> list[Row]:

@@ -16,7 +16,7 @@ from ninja_game.files.reading import read_text
 from ninja_game.files.tree import Tree
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.formats.pack.files import certificate_name
+from ninja_game.formats.pack.pack import certificate_name
 from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.runs.packs import KINDS

@@ -14,10 +14,20 @@ from itertools import pairwise
 import numpy as np
 
 from ninja_game.backend.memories import compiled
-from ninja_game.search.legs import MORE_THAN_ANY, ROLLOUTS, Checkpoint, Frontier, Leg, LegFields, Spend, pieces_of
+from ninja_game.search.legs import (
+    MORE_THAN_ANY,
+    ROLLOUTS,
+    Checkpoint,
+    Frontier,
+    Leg,
+    LegFields,
+    PieceTicks,
+    Spend,
+    pieces_of,
+    short_tour,
+)
 from ninja_game.search.nodes import Resolution, Start
 from ninja_game.search.searching import Search
-from ninja_game.search.tour import PieceTicks, short_tour
 from ninja_game.sim.inputs import KEYS_DOWN, pressed
 from ninja_game.sim.memory.declare import entry_point
 from ninja_game.sim.world import step
@@ -43,8 +53,7 @@ BREADTHS = (3, 6, 3, 6, 10)
 """Frontiers that are searched on from at each depth, pass by pass."""
 SPARE = 2
 """Frontiers that may take the place of others whose legs found nothing."""
-FRONTIERS_KEPT = 10
-"""Frontiers kept at each depth from pass to pass."""
+FRONTIERS_KEPT = 10  # frontiers kept at each depth from pass to pass
 NOISE = 0.4
 """By which part the ticks between pieces are changed at random, for other orders."""
 HOPE = 1.1
@@ -53,7 +62,6 @@ HOPE = 1.1
 
 @entry_point
 def play_on(start: Start, keys: int) -> None:
-    """Play one tick of the scratch world."""
     w = start.worlds[1]
     step(start.levels[0], w, pressed(keys & KEYS_DOWN, w.ninja.jump_held))
 
@@ -141,15 +149,8 @@ class GoldBeam:
         if target < 0:
             leg = Leg(roots, 0, frontier.mask, frontier.count, 1, 0, self.heuristics.field)
         else:
-            leg = Leg(
-                roots,
-                frontier.count + 1,
-                frontier.mask,
-                MORE_THAN_ANY,
-                BEAM_ENDS,
-                ROLLOUTS,
-                partial(self._fields.to_piece, target),
-            )
+            field = partial(self._fields.to_piece, target)
+            leg = Leg(roots, frontier.count + 1, frontier.mask, MORE_THAN_ANY, BEAM_ENDS, ROLLOUTS, field)
         self.search.begin_leg(leg, resolution, seed=self.seed * 100_000 + self.legs, bound=self.ticks)
         budget = BEAM_TICKS * (EXIT_FACTOR if target < 0 else effort)
         self.search.run_leg(budget, spend, part=BEAM_EXTRA)
@@ -176,9 +177,8 @@ class GoldBeam:
         tour = frontier.tour
         if not tour:
             return frontier.checkpoints[0].tick + float(home[-1])
-        return frontier.checkpoints[0].tick + float(
-            start[tour[0]] + between[tour[:-1], tour[1:]].sum() + home[tour[-1]]
-        )
+        to_come = float(start[tour[0]] + between[tour[:-1], tour[1:]].sum() + home[tour[-1]])
+        return frontier.checkpoints[0].tick + to_come
 
     def _target(self, frontier: Frontier) -> int:
         """The piece to fetch next from a frontier, -1: the exit. Its tour is made shorter."""

@@ -12,13 +12,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.backend.memories import compiled_if_possible
-from ninja_game.search.switches import open_mask_at
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.rays import solid_at
+from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.memory.declare import entry_point, fast
 from ninja_game.sim.memory.layout import Records
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL, STRIDE, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.states import AUTOMATIC, LOCKED
+from ninja_game.sim.traces import is_open
 
 SPACING = 6.0
 """Px between points; cell sides (multiples of 24 px) lie on points, so that closing them closes a door."""
@@ -29,8 +31,7 @@ POINTS = ACROSS * DOWN
 CLEARANCE = 9.0
 """Px; a point is free if a circle of this radius about it is. A little less than the ninja, which slides along."""
 
-UNREACHED = 1.0e9
-"""Ticks to go from where no way is known."""
+UNREACHED = 1.0e9  # ticks to go from where no way is known
 MINE_COST = 12.0
 """How many times longer a step beside a mine counts: to be avoided, not impossible."""
 
@@ -154,7 +155,6 @@ FARTHEST = 20_000.0
 """Ticks that an unreachable place counts where ticks are summed."""
 SWITCH_COST = 3.0
 """How many times longer a step beside a switch counts that is better touched later."""
-
 
 Source = tuple[float, float, float]
 """Where a field begins (px), and its value there (ticks)."""
@@ -357,3 +357,35 @@ def _bars(edge: int) -> tuple[int, ...]:
     if side == 0:
         return tuple((row * 4 + k) * ACROSS + (column + 1) * 4 for k in range(5))
     return tuple((row + 1) * 4 * ACROSS + column * 4 + k for k in range(5))
+
+
+@fast
+def open_bits(w: World, slots: Any, first: int, last: int) -> int:
+    """The switch state of a world: bit k is set if the exit or door ``slots[first + k]`` is not as it began."""
+    mask = 0
+    for k in range(first, last):
+        if is_open(w, int(slots[k])):
+            mask |= 1 << (k - first)
+    return mask
+
+
+@fast
+def open_mask(w: World, slots: Any) -> int:
+    """The switch state over all ``slots``."""
+    return open_bits(w, slots, 0, len(slots))
+
+
+@entry_point
+def open_mask_at(worlds: Any, index: int, slots: Any) -> int:
+    """The switch state over all ``slots`` of world ``index``."""
+    return open_bits(worlds[index], slots, 0, len(slots))
+
+
+def open_masks(objects: Any, slots: Any) -> NDArray[np.int64]:
+    """The switch states of many worlds, by their objects: records (worlds, slots)."""
+    masks = np.zeros(len(objects), np.int64)
+    for bit, slot in enumerate(slots):
+        record = objects[:, slot]
+        opened = np.where(record["kind"] == EXIT, record["is_open"], record["switched"])
+        masks |= (opened != 0).astype(np.int64) << bit
+    return masks

@@ -12,9 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.search.heuristics import UNREACHED
+from ninja_game.search.heuristics import UNREACHED, open_mask
 from ninja_game.search.nodes import Start, copy_words
-from ninja_game.search.switches import open_mask
 from ninja_game.sim.inputs import KEYS_DOWN, pressed
 from ninja_game.sim.memory.declare import entry_point, fast
 from ninja_game.sim.memory.schema import World
@@ -50,7 +49,6 @@ def known_run(ticks: int, keys: bytes = b"") -> KnownRun:
 
 @fast
 def note(run: KnownRun, w: World, switch_slots: NDArray[np.int64]) -> None:
-    """Note the present moment of a world."""
     n = w.ninja
     row = run.moves[w.tick]
     row[0] = n.x

@@ -1,4 +1,4 @@
-"""What runs in legs are made of: checkpoints on the way, frontiers of them, a leg between them, and their fields."""
+"""What runs in legs are made of: checkpoints, frontiers, a leg and its fields, and the order in which to fetch gold."""
 
 from __future__ import annotations
 
@@ -8,8 +8,9 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ninja_game.search.heuristics import Field, Heuristics, point_at
+from ninja_game.search.heuristics import FARTHEST, Field, Heuristics, point_at
 from ninja_game.search.nodes import StateWords
 
 MORE_THAN_ANY = 1 << 30
@@ -119,3 +120,130 @@ class LegFields:
                 self._pieces.clear()
             self._pieces[piece, mask] = self.heuristics.field_to(self.heuristics.gold_places[piece], mask, x, y)
         return self._pieces[piece, mask]
+
+
+Distances = NDArray[np.float64]  # ticks from each stop (row) to each stop (column)
+
+LONGEST_SEGMENT = 4  # stops that are moved together
+
+
+def short_tour(start: Distances, between: Distances, end: Distances, order: Sequence[int] = ()) -> list[int]:
+    """All stops in an order with a short way from the start over all of them to the end.
+
+    ``start``, ``end``: ticks from the start to each stop, from each stop to the end; ``between``: from stop to stop.
+    ``order``: stops in an order to begin with; those that it lacks are inserted where they cost least.
+    """
+    tour = list(order)
+    missing = set(range(len(start))) - set(tour)
+    while missing:
+        # The nearest to what is in the tour first, so that a far one joins the neighbours it passes.
+        costs = {stop: _best_place(stop, stop, tour, start, between, end) for stop in sorted(missing)}
+        stop = min(costs, key=lambda stop: (costs[stop][0], stop))
+        tour.insert(costs[stop][1], stop)
+        missing.remove(stop)
+    while _move_a_segment(tour, start, between, end):
+        pass
+    return tour
+
+
+def _best_place(
+    first: int, last: int, tour: list[int], start: Distances, between: Distances, end: Distances
+) -> tuple[float, int]:
+    """The least cost of a segment (its first and last stop) within a tour, and before which stop that is."""
+    if not tour:
+        return float(start[first] + end[last]), 0
+    stops = np.array(tour)
+    into = np.append(start[first], between[stops, first])
+    out = np.append(between[last, stops], end[last])
+    skipped = np.concatenate(([start[stops[0]]], between[stops[:-1], stops[1:]], [end[stops[-1]]]))
+    added = into + out - skipped
+    place = int(np.argmin(added))
+    return float(added[place]), place
+
+
+def _move_a_segment(tour: list[int], start: Distances, between: Distances, end: Distances) -> bool:
+    """Move the first segments that are better elsewhere, also turned round; whether any was moved."""
+    moved = False
+    for length in range(1, min(LONGEST_SEGMENT, len(tour) - 1) + 1):
+        for index in range(len(tour) - length + 1):
+            segment = tour[index : index + length]
+            rest = tour[:index] + tour[index + length :]
+            before = start[segment[0]] if index == 0 else between[rest[index - 1], segment[0]]
+            after = end[segment[-1]] if index == len(rest) else between[segment[-1], rest[index]]
+            if index == 0:
+                direct = start[rest[0]]
+            elif index == len(rest):
+                direct = end[rest[-1]]
+            else:
+                direct = between[rest[index - 1], rest[index]]
+            present = float(before + after - direct)
+            added, place = _best_place(segment[0], segment[-1], rest, start, between, end)
+            turned_added, turned_place = _best_place(segment[-1], segment[0], rest, start, between, end)
+            if length > 1:
+                inside = float(between[segment[:-1], segment[1:]].sum())
+                turned_added += float(between[segment[1:], segment[:-1]].sum()) - inside
+            if min(added, turned_added) > present - 1.0:
+                continue
+            if turned_added < added:
+                segment.reverse()
+                place = turned_place
+            tour[:] = rest[:place] + segment + rest[place:]
+            moved = True
+    return moved
+
+
+FAILED = 200.0
+"""Ticks that a way counts at least which a leg did not find."""
+SLOWER, TURN = 1.4, 10.0
+"""What legs take, against distance fields, which know no run-ups: so many times the ticks, and ticks more a piece.
+
+Set when legs were measured on tours of gold; the figures were not kept.
+"""
+
+
+class PieceTicks:
+    """Ticks between the pieces of a level, to be learned from the legs of its runs."""
+
+    def __init__(self, fields: LegFields) -> None:
+        self._fields = fields
+        count = len(fields.points)
+        # The last row: from the start of the level.
+        self._measured: Distances = np.full((count + 1, count), np.nan)
+        self._factors: Distances = np.ones((count + 1, count))
+
+    def change(self, random: np.random.Generator, noise: float) -> None:
+        """Change all estimates at random by up to half of ``noise`` (a part of them), for other tours."""
+        self._factors = 1.0 + noise * (random.random(self._factors.shape) - 0.5)
+
+    def learn(self, before: Checkpoint, after: Checkpoint) -> None:
+        """Learn from a leg how many ticks it is from one piece to the next."""
+        new = list(pieces_of(after.taken & ~before.taken))
+        if len(new) == 1 and before.mask == after.mask:
+            row, ticks = _last_piece(before), max(1.0, float(after.tick - before.tick))
+            self._measured[row, new[0]] = np.fmin(self._measured[row, new[0]], ticks)
+
+    def note_failure(self, before: Checkpoint, piece: int) -> None:
+        """Note that a leg did not reach a piece: it counts as farther from now on."""
+        row = _last_piece(before)
+        known = np.nan_to_num(self._measured[row, piece], nan=0.0)
+        self._measured[row, piece] = min(FARTHEST, max(FAILED, 1.5 * known))
+
+    def estimate(self, checkpoint: Checkpoint) -> tuple[Distances, Distances, Distances]:
+        """Ticks from piece to piece, from a checkpoint to each piece, and from each to the exit."""
+        mask, here = checkpoint.mask, point_at(*checkpoint.place)
+        fields, points = self._fields.tours(mask), self._fields.points
+        by_fields = np.vstack([fields[:-1, points].T, fields[:-1, here]]).astype(float)
+        by_fields = np.minimum(SLOWER * by_fields + TURN, FARTHEST)
+        row = _last_piece(checkpoint)
+        known = np.vstack([self._measured[:-1], self._measured[row]])
+        factors = np.vstack([self._factors[:-1], self._factors[row]])
+        ticks = np.where(np.isnan(known), by_fields, known) * factors
+        home = SLOWER * np.append(fields[-1, points], fields[-1, here]).astype(float)
+        return ticks[:-1], ticks[-1], np.minimum(home, FARTHEST)
+
+
+def _last_piece(checkpoint: Checkpoint) -> int:
+    """The piece collected last before a checkpoint, -1 if there is none."""
+    while checkpoint.before and checkpoint.before.taken == checkpoint.taken:
+        checkpoint = checkpoint.before
+    return max(pieces_of(checkpoint.taken & ~(checkpoint.before.taken if checkpoint.before else 0)), default=-1)

@@ -87,7 +87,6 @@ def shift_pulse(keys: Keys, length: int, tick: int, by: int) -> int:
 
 @fast
 def mutate(keys: Keys, length: int, tick: int, source: RandomState) -> tuple[int, int]:
-    """One random edit at or after a tick."""
     kind = random_below(source, 12)
     by = 1 + random_below(source, 2 if random_below(source, 2) else 8)
     sign = 1 if random_below(source, 2) else -1
@@ -125,8 +124,7 @@ def mutate(keys: Keys, length: int, tick: int, source: RandomState) -> tuple[int
     return tick, 0
 
 
-CHECKPOINT = 8
-"""Ticks between the save-states of the current run."""
+CHECKPOINT = 8  # ticks between the save-states of the current run
 ROOM = 64
 """Ticks by which a current run may be longer than the run that the local search began with."""
 LEASH = 90.0

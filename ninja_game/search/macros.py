@@ -24,8 +24,7 @@ RELEASED, PRESSED, PRESSED_AGAIN = 0, 1, 2
 """Modes of the jump key: up; down (a press if it was up); up for one tick, then down."""
 FOLLOWED = 3
 """Mode of an action that plays on as a known run did, from the row in its bits 16 and up."""
-MOST_ROWS = 1 << 15
-"""An action has no room for a row from here on."""
+MOST_ROWS = 1 << 15  # an action has no room for a row from here on
 
 
 @fast
@@ -66,13 +65,11 @@ def play_macro(level: TileMap, w: World, direction: int, mode: int, limit: int) 
 
 @fast
 def action_code(direction: int, mode: int, held: int, ticks: int) -> int:
-    """A macro in one number."""
     return (direction + 1) | mode << 2 | held << 4 | ticks << 8
 
 
 @cache
 def action_inputs(action: int) -> bytes:
-    """The inputs of an action, one byte per tick."""
     direction, mode, held, ticks = (action & 3) - 1, action >> 2 & 3, action >> 4 & 1, action >> 8
     return bytes(macro_keys(direction, mode, held, k) for k in range(ticks))
 

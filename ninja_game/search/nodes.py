@@ -24,12 +24,10 @@ from ninja_game.sim.memory.layout import STATE_START, Records, dtype_of, new_wor
 StateWords = NDArray[np.int64]
 Int32s = NDArray[np.int32]
 
-CHUNK = 32
-"""Words in a chunk."""
+CHUNK = 32  # words in a chunk
 BUCKETS = 1 << 14
 """How many the open list has, by priority: one for each tick, two where a search goes along a run."""
-LARGE_STATE = 10_000
-"""Words; the states of all levels of N are smaller."""
+LARGE_STATE = 10_000  # words; the states of all levels of N are smaller
 MAX_ENDS = 96
 """Ends of a leg that are kept, with room for those of a last expansion."""
 
@@ -249,7 +247,6 @@ def back_up_values(table: Sequence[TableEntry], links: Sequence[Link], count: in
 
 @fast
 def copy_words(target: StateWords, source: StateWords) -> None:
-    """Copy a save-state."""
     for k in range(len(target)):
         target[k] = source[k]
 
@@ -315,7 +312,6 @@ def load_state(words: StateWords, initial: StateWords, node: Node, arrays: Searc
 
 @fast
 def push(index: int, priority: float, arrays: SearchArrays) -> None:
-    """Put a node into its bucket."""
     counters = arrays.counters[0]
     bucket = int(priority)
     bucket = 0 if bucket < 0 else min(bucket, BUCKETS - 1)
@@ -356,7 +352,6 @@ def drop_highest(arrays: SearchArrays) -> None:
 
 @fast
 def take_first(bucket: int, arrays: SearchArrays) -> int:
-    """Take the first node out of a bucket that has one."""
     index = arrays.buckets[bucket]
     arrays.buckets[bucket] = arrays.nodes[index].next
     arrays.counters[0].waiting -= 1

@@ -24,10 +24,10 @@ from ninja_game.search.legs import (
     LegFields,
     Spend,
     pieces_of,
+    short_tour,
 )
 from ninja_game.search.nodes import Resolution
 from ninja_game.search.searching import Search
-from ninja_game.search.tour import short_tour
 
 ROUTE_LEGS = (
     (Resolution(cell=12.0, speed=1.0, macro=5, weight=1.6), 400_000),
@@ -123,7 +123,6 @@ class Route:
         return doors - early - frontier.spent / DOOR_TICKS, -frontier.tries, frontier.mask
 
     def _done(self, frontier: Frontier) -> float:
-        """Pieces collected and doors opened."""
         useful = self._doors | (self._exits if frontier.count >= self.gold else 0)
         return frontier.count + DOOR_WORTH * (frontier.mask & useful).bit_count()
 
@@ -135,7 +134,6 @@ class Route:
         return self._leaving[key]
 
     def never_taken(self) -> list[int]:
-        """The pieces that were collected at no checkpoint."""
         return [piece for piece in range(len(self._fields.points)) if not self.ever_taken >> piece & 1]
 
     def _restart(self) -> None:
@@ -160,20 +158,12 @@ class Route:
         roots = frontier.checkpoints
         rollouts = ROLLOUTS if frontier.tries <= CAREFUL_TRIES else 0
         if target >= 0:
-            return Leg(
-                roots,
-                frontier.count + 1,
-                frontier.mask,
-                MORE_THAN_ANY,
-                ROUTE_ENDS,
-                rollouts,
-                partial(self._fields.to_piece, target),
-            )
+            field = partial(self._fields.to_piece, target)
+            return Leg(roots, frontier.count + 1, frontier.mask, MORE_THAN_ANY, ROUTE_ENDS, rollouts, field)
         if self._may_leave(frontier):
             return Leg(roots, 0, frontier.mask, self.gold, 1, 0, self.heuristics.field)
-        return Leg(
-            roots, MORE_THAN_ANY, frontier.mask, MORE_THAN_ANY, ROUTE_ENDS, rollouts, *self._way_to_a_switch(frontier)
-        )
+        way = self._way_to_a_switch(frontier)
+        return Leg(roots, MORE_THAN_ANY, frontier.mask, MORE_THAN_ANY, ROUTE_ENDS, rollouts, *way)
 
     def _way_to_a_switch(self, frontier: Frontier) -> tuple[FieldOf, int]:
         """The fields of the first door in the way; at later tries, in turn, those of the other doors' switches.

@@ -100,12 +100,8 @@ class Search:
         shifts = random.random(2) * resolution.cell
         least = 0.5 if self._known is None else 0.0
         speed_shifts = resolution.speed * least + random.random(2) * resolution.speed * (1.0 - least)
-        self.resolution = resolution._replace(
-            shift_x=float(shifts[0]),
-            shift_y=float(shifts[1]),
-            shift_vx=float(speed_shifts[0]),
-            shift_vy=float(speed_shifts[1]),
-        )
+        (x, y), (vx, vy) = shifts.tolist(), speed_shifts.tolist()
+        self.resolution = resolution._replace(shift_x=x, shift_y=y, shift_vx=vx, shift_vy=vy)
         self.counters.best_ticks = bound
         self.counters.random = int(random.integers(1, 1 << 62))
         for words in roots:
@@ -155,7 +151,6 @@ class Search:
         return bool(self.counters.ends - self.counters.other_ends >= self.goal.ends)
 
     def _fill_fields(self) -> None:
-        """Make the distance fields that the search wants."""
         goal = self.goal
         for index in np.flatnonzero(goal.fields[:, 0] == WANTED):
             x, y = goal.places[index]

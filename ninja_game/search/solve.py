@@ -44,8 +44,6 @@ __all__ = ["Progress", "Task", "compile_solver", "solve"]
 
 
 class _Job:
-    """One thread's work."""
-
     def __init__(self, state: SharedProgress, number: int) -> None:
         task = state.task
         self.state = state
@@ -97,7 +95,6 @@ class _Job:
         return not task.first and self.work < self.plan.routes_until * task.work_planned
 
     def _spend(self, played: int, cost: float) -> bool:
-        """Count ticks of shortening; whether the job is over."""
         self.work += cost
         self.state.count(played, 0, "shortening")
         return self._over
@@ -249,7 +246,6 @@ def solve(
 
 
 def _work(state: SharedProgress) -> None:
-    """Have all jobs run until the end."""
     jobs = [_Job(state, number) for number in range(state.task.jobs)]
     if len(jobs) == 1:
         jobs[0].run()

@@ -23,7 +23,6 @@ NODES = 300_000
 PART = 500_000
 """Ticks between two looks at the clock."""
 
-
 CELLS, SPEEDS, MACROS, JITTERS = (3.0, 4.0, 6.0, 8.0), (0.2, 0.35, 0.5), (1, 2, 3, 4), (3, 5, 8)
 DELAYS, DISTANCES = (4.0, 8.0, 16.0, 30.0), (48.0, 64.0, 96.0, 160.0)
 PLACE_PRICES, SPEED_PRICES = (0.6, 0.9, 1.2), (0.5, 1.0, 2.0, 4.0)
@@ -36,8 +35,7 @@ FEW_TICKS, MANY_TICKS = 500_000, 2_000_000
 """An end of its own before the first is an early one, after the second a late one."""
 SPAN_TICKS, DOUBLINGS = 1_000_000, 3
 """Ticks of a search; half of them get twice as many, half of these twice as many again, and so on."""
-EACH_COSTS = 10_000
-"""Ticks that it takes to prepare a search."""
+EACH_COSTS = 10_000  # ticks that it takes to prepare a search
 
 
 class SpanSettings(NamedTuple):
@@ -51,7 +49,6 @@ class SpanSettings(NamedTuple):
 
 
 def draw_settings(random: np.random.Generator) -> SpanSettings:
-    """Draw how finely to search."""
     resolution = Resolution(
         cell=float(random.choice(CELLS)), speed=float(random.choice(SPEEDS)), macro=int(random.choice(MACROS)),
         jitter=int(random.choice(JITTERS)), enemy_cell=float(random.choice(ENEMY_CELLS)),
@@ -61,8 +58,6 @@ def draw_settings(random: np.random.Generator) -> SpanSettings:
 
 
 class SpanSearches:
-    """Searches along runs of one level."""
-
     def __init__(self, start: Start, heuristics: Heuristics, *, gold: int) -> None:
         self.gold = gold
         self._search = Search(start, heuristics, nodes=NODES, along=True)
@@ -71,7 +66,6 @@ class SpanSearches:
         self._delay_factor = 1.0
 
     def know(self, inputs: bytes) -> None:
-        """Take a run to the exit as the known one."""
         if inputs != self._inputs:
             self._inputs, self.run = inputs, self._noted(inputs)
 

@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.search.heuristics import open_mask
 from ninja_game.search.nodes import Counters, Resolution, TableEntry
-from ninja_game.search.switches import open_mask
 from ninja_game.sim.kinds import LAUNCHER
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import World
@@ -19,8 +19,7 @@ from ninja_game.sim.states import JUMPING, LAUNCHER_FLIGHT, SLIDING
 MIX = 0x2545F4914F6CDD1D
 MAX_SWITCH_STATES = 512
 """So many can be told apart: nine bits of a key."""
-JUMP_PART = 11
-"""Ticks of a jump that count as the same moment."""
+JUMP_PART = 11  # ticks of a jump that count as the same moment
 NOT_MADE, WANTED = -1.0, -2.0
 """Value of a field at point 0, outside the world, until the field is made."""
 

@@ -20,8 +20,7 @@ from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import Level, makes_object
 from ninja_game.simulation import Body
 
-CANDIDATES = 4
-"""Runs that are remembered for local searches."""
+CANDIDATES = 4  # runs that are remembered for local searches
 
 Report = Callable[["Progress"], None]
 
@@ -65,7 +64,6 @@ class Task:
 
     @property
     def gold_wanted(self) -> int:
-        """Pieces of gold that a run must collect."""
         return self.level.gold if self.gold < 0 else self.gold
 
     @property
@@ -143,7 +141,6 @@ class SharedProgress:
 
     @property
     def over(self) -> bool:
-        """Whether time is up or the caller wants to stop."""
         late = not self.task.work and time.monotonic() - self.began >= self.task.seconds
         return late or self.stop.is_set() or self.cancelled.is_set() or bool(self.task.first_only and self.best)
 
@@ -191,8 +188,7 @@ OTHER_ROUTE_TURNS = 4
 GOLD_BEAM_TICKS = 12_000_000
 """Ticks of beam search before a run with gold gets a local search. Not tuned."""
 
-SLICE = 1_000_000
-"""Ticks between two looks at the clock."""
+SLICE = 1_000_000  # ticks between two looks at the clock
 SHORT_LOCAL_TICKS = 3_000_000
 """Ticks of the local search from a run that came of the search of a span."""
 COOLING = (6.0, 4.0, 2.5, 1.2, 0.4)

@@ -23,8 +23,7 @@ EXIT_TICKS = 5 * TICKS_PER_SECOND
 """In which the exit is looked for at least, from a run that does not reach it."""
 IMPROVES = IMPROVE, IMPROVE_GOLD = "improve", "improve with the gold"
 """Methods for a whole run: with whatever gold, or with as much as it has."""
-NEAR = 6.0
-"""How near to a place counts as there, px."""
+NEAR = 6.0  # how near to a place counts as there, px
 SAME_PLACE, SAME_VELOCITY = 0.5, 0.05
 """How far an end that is the same may be from the run's own, px and px/tick."""
 
@@ -81,13 +80,11 @@ class SearchedSpan:
 
 
 def be_there(span: SearchedSpan) -> SpanGoal:
-    """Be where the run is at the end of the span, earlier."""
     end = span.end
     return SpanGoal(f"distance({end['x']:.6g}, {end['y']:.6g}) < {NEAR:g}")
 
 
 def go_beyond(span: SearchedSpan) -> SpanGoal:
-    """Pass, earlier, the upright line at the end of the span."""
     start, end = span.start, span.end
     # Rounded so that the run itself has passed the line at its end.
     if end["x"] >= start["x"]:
@@ -96,7 +93,6 @@ def go_beyond(span: SearchedSpan) -> SpanGoal:
 
 
 def be_fast(span: SearchedSpan) -> SpanGoal:
-    """End the span with the greatest speed."""
     return SpanGoal(_alive(span.last), "speed")
 
 

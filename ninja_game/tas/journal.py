@@ -21,20 +21,19 @@ from ninja_game.files.reading import open_regular
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import parse_replays
 from ninja_game.sim.loader import record_table
-from ninja_game.tas.branches import (
+from ninja_game.tas.files import Contributions, OpenedRun, RunFile, run_file_of
+from ninja_game.tas.tracks import (
     Branches,
+    InputTrack,
     branches_of_json,
     checked_track,
+    first_difference,
     inputs_of_json,
     markers_of_json,
     track_of_json,
 )
-from ninja_game.tas.contributions import Contributions
-from ninja_game.tas.files import OpenedRun, RunFile, run_file_of
-from ninja_game.tas.input_track import InputTrack, first_difference
 
-FOLDER, SUFFIX = "tas", ".jsonl"
-"""In the player's folder."""
+FOLDER, SUFFIX = "tas", ".jsonl"  # in the player's folder
 
 
 def edit_as_json(old: InputTrack, new: InputTrack) -> dict[str, Any]:

@@ -10,12 +10,10 @@ from typing import Any
 from ninja_game.document import History, digest_of_file
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import write_replay
-from ninja_game.tas.branches import Branch, Branches, branch_as_json, track_as_json
-from ninja_game.tas.contributions import Contributions
-from ninja_game.tas.files import OpenedRun, RunFile, has_tail, recording_of, save_run, unclaimed_replay
-from ninja_game.tas.input_track import InputTrack
+from ninja_game.tas.files import Contributions, OpenedRun, RunFile, has_tail, recording_of, save_run, unclaimed_replay
 from ninja_game.tas.journal import Journal, RecoveredRun, edit_as_json
 from ninja_game.tas.timeline import EMPTY_TRAJECTORY, Timeline, Trajectory
+from ninja_game.tas.tracks import Branch, Branches, InputTrack, branch_as_json, track_as_json
 
 TICKS_PER_FRAME = 6000
 """Ticks that are simulated at once after an edit on the compiled memory: some ms."""
@@ -54,7 +52,6 @@ class Session:
         self.timeline.simulate(self.ticks_per_frame)
 
     def _opened(self) -> dict[str, object]:
-        """What the journal says first."""
         text = write_replay(unclaimed_replay(self.about, self.track))
         path = str(self.file.path.absolute()) if self.file.path else ""
         file = {"path": path, "digest": self.file.digest, "branches_digest": self.file.branches_digest}
@@ -74,7 +71,6 @@ class Session:
         return not self._file_differs and self.track == self.saved and self._kept() == self._saved_branches
 
     def _kept(self) -> tuple[list[Branch], tuple[str, ...]]:
-        """What is saved beside the run."""
         return list(self.branches.all), self.branches.watched
 
     @property
@@ -168,34 +164,29 @@ class Session:
         end, outcome = self.timeline.end
         gold = self.timeline.column("gold")
         reached = int(gold[end]) if len(gold) else 0
-        branch = Branch(name, self.track, None, end, outcome, reached)
-        number = self.branches.keep(branch)
-        self._note_branches({"keep": branch_as_json(branch)})
-        return number
+        self._change_branches({"keep": branch_as_json(Branch(name, self.track, None, end, outcome, reached))})
+        return len(self.branches) - 1
 
     def checkout_branch(self, number: int) -> None:
         """Go on from a branch; undo brings back what was there before. Raises ArgumentError without such a one."""
         self.end()
-        track = self.branches.checkout(number)
-        self._note_branches({"checkout": number})
-        self.change(track)
+        self._change_branches({"checkout": number})
+        self.change(self.branches.all[number].track)
 
     def drop_branch(self, number: int) -> None:
         """Forget a branch. Raises ArgumentError without such a one."""
-        self.branches.drop(number)
-        self._note_branches({"drop": number})
+        self._change_branches({"drop": number})
 
     def rename_branch(self, number: int, name: str) -> None:
         """Give a branch another name. Raises ArgumentError without such a one."""
-        self.branches.rename(number, name)
-        self._note_branches({"rename": number, "name": name})
+        self._change_branches({"rename": number, "name": name})
 
     def watch(self, formulas: Iterable[str]) -> None:
-        """Keep other watched formulas with the run."""
-        self.branches.watched = tuple(formulas)
-        self._note_branches({"watch": list(self.branches.watched)})
+        self._change_branches({"watch": list(formulas)})
 
-    def _note_branches(self, change: dict[str, Any]) -> None:
+    def _change_branches(self, change: dict[str, Any]) -> None:
+        """Make a change in the words of the journal, and note it."""
+        self.branches.do(change)
         self._branches_noted = self.journal.note(change if self._branches_noted else self.branches.as_json())
 
     def recording(self, track: InputTrack | None = None, name: str = "") -> Recording:

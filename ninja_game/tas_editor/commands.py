@@ -12,7 +12,7 @@ from time import localtime, strftime
 from ninja_game.files.locking import forget
 from ninja_game.files.shown_text import counted, file_stem
 from ninja_game.files.user_folder import REPLAYS, free_path, is_bundled
-from ninja_game.formats.links.making import replay_link
+from ninja_game.formats.links import replay_link
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.menus.help import HelpPage

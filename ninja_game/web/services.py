@@ -13,7 +13,7 @@ from pathlib import Path
 
 from ninja_game.budget import PAGE_BUDGET, TURN_WORK
 from ninja_game.errors import BudgetError, NinjaGameError
-from ninja_game.formats.links.fragment import is_link, watched
+from ninja_game.formats.links import is_link, watched
 from ninja_game.play.app import App
 from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
@@ -57,7 +57,6 @@ class PageServices:
         self.app.notify(text)
 
     def flush(self) -> None:
-        """Put what waits for the next save on the disk now."""
         self.app.player.store.flush()
 
     def watched(self, fragment: str) -> list[str]:

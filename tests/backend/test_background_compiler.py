@@ -12,8 +12,16 @@ import pytest
 
 from ninja_game.backend import background_compiler, memories
 from ninja_game.backend.kernel_cache import are_kept, cache_folder
-from ninja_game.backend.memories import JUDGED, compiled_available, go_on, open_worlds, proven_memory
-from ninja_game.backend.self_test import _OBJECTS, RUNS, _keys
+from ninja_game.backend.memories import (
+    _OBJECTS,
+    JUDGED,
+    RUNS,
+    _keys,
+    compiled_available,
+    go_on,
+    open_worlds,
+    proven_memory,
+)
 from ninja_game.budget import PLAIN_WORK, tick_cost
 from ninja_game.errors import FileError
 from ninja_game.formats.load import load_replays

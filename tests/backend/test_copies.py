@@ -76,8 +76,8 @@ def test_a_copied_batch_shows_and_runs_its_own_worlds(again: Again, memory: str)
 
 def environment(kind: str, memory: str) -> Any:
     """One that has whatever may be shared by accident: a source that learns, potentials, a goal, several parts."""
-    from ninja_game.learn.levels import level_source
-    from ninja_game.learn.levels.curriculum import Curriculum
+    from ninja_game.learn.levels.origins import level_source
+    from ninja_game.learn.levels.source import Curriculum
     from ninja_game.learn.rewards import DistanceShaping
     from ninja_game.learn.single import NinjaEnv
     from ninja_game.learn.vector import NinjaVectorEnv

@@ -13,8 +13,7 @@ from ninja_game.editor import packs
 from ninja_game.editor.packs import Obstacles, make_ready
 from ninja_game.errors import NinjaGameError, PackError
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.formats.pack.files import PackFiles
-from ninja_game.formats.pack.pack import Pack
+from ninja_game.formats.pack.pack import Pack, PackFiles
 from ninja_game.levels.findings import found
 from tests.support.own_pack import PACK
 

@@ -20,7 +20,7 @@ from examples.imitate import imitate, known_steps
 from examples.measure import measure
 from examples.ppo import OBSERVATION, Settings, advantages, main, new_networks, train, way_left
 from ninja_game.backend.memories import compiled_available
-from ninja_game.learn.levels import level_source
+from ninja_game.learn.levels.origins import level_source
 from ninja_game.learn.observations.observation import Observation
 from ninja_game.learn.observations.pixels import Pixels
 from ninja_game.learn.observations.vectors import FIELDS, Guide

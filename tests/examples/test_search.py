@@ -9,7 +9,7 @@ from examples.search import SearchAgent
 from ninja_game import parse_level
 from ninja_game.backend.memories import compiled_available
 from ninja_game.learn.actions import DISCRETE_KEYS
-from ninja_game.learn.levels import level_source
+from ninja_game.learn.levels.origins import level_source
 from ninja_game.learn.worlds import EnvWorlds
 from ninja_game.sim.level import Level
 

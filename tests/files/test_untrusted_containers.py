@@ -9,8 +9,7 @@ from zipfile import ZIP_LZMA, ZipFile
 
 import pytest
 
-from ninja_game.files.toml import MOST_PARTS, parse_toml
-from ninja_game.files.zips import open_zip, unpacked
+from ninja_game.files.untrusted import MOST_PARTS, open_zip, parse_toml, unpacked
 
 KEYS = ["a.", '"a" . ', "'a'.", '"\\"" .\t', "a-1."]
 

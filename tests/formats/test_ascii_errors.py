@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from ninja_game.errors import LevelError
-from ninja_game.formats.ascii.problems import LevelTextError
+from ninja_game.formats.ascii.picture import LevelTextError
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from tests.support.recorded import hold_against
 

@@ -13,9 +13,8 @@ import pytest
 from ninja_game.errors import ReplayError
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay import input_text
-from ninja_game.formats.replay.input_runs import Marker
 from ninja_game.formats.replay.input_text import read_inputs
-from ninja_game.formats.tas_lines import write_celeste
+from ninja_game.formats.replay.notations import Marker, write_celeste
 from tests.support.samples import WALK, unclaimed_text
 
 MEGABYTE = 1_000_000

@@ -15,11 +15,10 @@ from ninja_game.formats.lines import numbered_lines
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.recording import parse_replays, record_of
-from ninja_game.formats.replay.input_runs import Marker, write_inputs
 from ninja_game.formats.replay.input_text import MOST_INCLUDES, read_inputs
 from ninja_game.formats.replay.made import Made
+from ninja_game.formats.replay.notations import Marker, in_our_notation, write_inputs
 from ninja_game.formats.replay.text import Replay
-from ninja_game.formats.tas_lines import in_our_notation
 from ninja_game.runs.conversion import input_texts
 from ninja_game.sim.inputs import with_press_bits
 from tests.support import reference

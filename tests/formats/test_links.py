@@ -18,32 +18,29 @@ from hypothesis import given, strategies as st
 
 from ninja_game.cli.convert import link_of
 from ninja_game.errors import FormatError, LinkError, NinjaGameError
-from ninja_game.files.beside import PLACE, has_folder
+from ninja_game.files.reading import PLACE, has_folder
 from ninja_game.files.user_folder import bundled_levels, bundled_replays, data_folder
 from ninja_game.formats.ascii.writer import headers_of
-from ninja_game.formats.links.fragment import (
+from ninja_game.formats.links import (
     MOST_BYTES,
     MOST_CHARACTERS,
     MOST_TEXTS,
     is_link,
-    read_link,
-    watched,
-    write_link,
-    write_watch,
-)
-from ninja_game.formats.links.making import (
     level_link,
     linked_texts,
     pack_link,
     pack_texts,
+    read_link,
     recording_link,
     recordings_of,
     replay_link,
+    watched,
+    write_link,
+    write_watch,
 )
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
-from ninja_game.formats.pack.files import PackFiles, is_pack
-from ninja_game.formats.pack.pack import Pack
+from ninja_game.formats.pack.pack import Pack, PackFiles, is_pack
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.runs.recording_reader import texts_in
 from ninja_game.runs.verify import verify_recording

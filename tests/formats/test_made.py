@@ -13,8 +13,8 @@ from ninja_game import ReplayError, parse_replay, write_replay
 from ninja_game.cli.main import cli
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import parse_replays
-from ninja_game.formats.replay.input_runs import Marker
 from ninja_game.formats.replay.made import UNKNOWN, Made, names_of_text, parse_made, with_made, without_made
+from ninja_game.formats.replay.notations import Marker
 from ninja_game.runs.conversion import level_file_text, on_level, recorded_again
 from ninja_game.sim.level import Level
 from tests.support.forgeries import replay

@@ -10,7 +10,7 @@ import pytest
 from ninja_game.errors import FileError, PackError
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import write_level_string
-from ninja_game.formats.pack import files as pack_files
+from ninja_game.formats.pack import pack as pack_files
 from ninja_game.formats.pack.index import parse_index
 from ninja_game.formats.pack.pack import Pack
 from tests.support.players import short_level

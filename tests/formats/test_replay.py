@@ -11,8 +11,8 @@ from hypothesis import given, strategies as st
 
 from ninja_game.errors import DemoError, ReplayError
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
-from ninja_game.formats.replay.input_runs import write_inputs
 from ninja_game.formats.replay.input_text import read_inputs
+from ninja_game.formats.replay.notations import write_inputs
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay, write_replay
 from ninja_game.sim.level import Level, ObjectSpec
 from tests.support.strategies import inputs, replays

@@ -9,13 +9,12 @@ import pytest
 from hypothesis import given, strategies as st
 
 from ninja_game import ReplayError, parse_level
-from ninja_game.formats.forms import form_of
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.formats.named_level import form_of
 from ninja_game.formats.recording import parse_replays
-from ninja_game.formats.replay.input_runs import Marker
 from ninja_game.formats.replay.input_text import read_inputs
-from ninja_game.formats.tas_lines import in_our_notation, is_tas_text, write_celeste, write_libtas
+from ninja_game.formats.replay.notations import Marker, in_our_notation, is_tas_text, write_celeste, write_libtas
 from ninja_game.sim.inputs import with_press_bits
 from tests.support.samples import WALK
 

@@ -12,8 +12,7 @@ from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.generator.compose import compose
 from ninja_game.generator.generate import plan_of
-from ninja_game.generator.layouts import LAYOUTS
-from ninja_game.generator.naming import PLACES
+from ninja_game.generator.layouts import LAYOUTS, PLACES
 from ninja_game.generator.scene import RockBoard, Scene, box, disc, flood, path, places, poly
 from ninja_game.generator.shaping import shaped
 from ninja_game.levels.warnings import level_warnings

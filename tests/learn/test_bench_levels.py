@@ -15,8 +15,9 @@ from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.learn import Curriculum, DistanceShaping, EnvWorlds, NinjaEnv
-from ninja_game.learn.levels import LevelSource, level_source
 from ninja_game.learn.levels.bench import BASES, COUNTS, GRADES, LARGEST, _base, _bases, _table, bench_level
+from ninja_game.learn.levels.origins import level_source
+from ninja_game.learn.levels.source import LevelSource
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.loader import record_table
 from tools.bench_levels import passes

@@ -12,7 +12,7 @@ from ninja_game import load_replays
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.learn.evaluation import Evaluation, evaluate
-from ninja_game.learn.levels import LevelSource
+from ninja_game.learn.levels.source import LevelSource
 from ninja_game.sim.level import Level
 
 NEAR = parse_level_string("0" * 713 + "|5^100,566!0^130,566!11^260,564,230,564")

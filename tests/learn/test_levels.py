@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from ninja_game import Level, LevelError, load_level, load_levels
 from ninja_game.errors import ArgumentError
 from ninja_game.files.user_folder import bundled_levels
-from ninja_game.learn.levels import LevelSource, Origin, generated_levels, level_source
-from ninja_game.learn.levels.curriculum import Curriculum
+from ninja_game.learn.levels.origins import Origin, generated_levels, level_source
+from ninja_game.learn.levels.source import Curriculum, LevelSource
 
 FLAT = "0" * 713 + "|5^100,566!0^160,566"
 PACK = Path(__file__).resolve().parents[1] / "pack"

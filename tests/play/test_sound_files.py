@@ -11,9 +11,8 @@ import pytest
 from ninja_game.ui.audio.music import LAYERS_OF
 from tools.make_sounds import MUSIC_QUALITY, SOUND_QUALITY, decoded, encoded, made
 from tools.measure.sound_levels import HEADING, PAGE, WARNINGS, headroom, likeness, measured, samples
-from tools.sounds.effects import LOOPS, RECIPES
+from tools.sounds.effects import LOOPS, RATE, RECIPES
 from tools.sounds.music import LOUDNESS, TRACKS, music
-from tools.sounds.synthesis import RATE
 
 
 @pytest.mark.parametrize("name", RECIPES)

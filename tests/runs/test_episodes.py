@@ -12,11 +12,10 @@ from hypothesis import given, settings
 
 from ninja_game.cli.main import cli
 from ninja_game.errors import FormatError, LinkError, ReplayError
-from ninja_game.formats.links.fragment import write_link
+from ninja_game.formats.links import write_link
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.recording import parse_replays
-from ninja_game.formats.replay.episode import lifetimes, parse_episode, write_episode
-from ninja_game.formats.replay.text import parse_replay, write_replay
+from ninja_game.formats.replay.text import lifetimes, parse_episode, parse_replay, write_episode, write_replay
 from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.tas.files import open_run

@@ -9,7 +9,7 @@ import signal
 import sys
 import time
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import asdict, replace
 from functools import partial
 from io import BytesIO
 from multiprocessing import active_children
@@ -21,18 +21,17 @@ import pytest
 from ninja_game import parse_level
 from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import FileError, FormatError
-from ninja_game.files.beside import Beside
-from ninja_game.files.reading import files_below
+from ninja_game.files.reading import Beside, files_below
 from ninja_game.formats.n14.level_file import LevelRecord
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.runs import archive as archives
 from ninja_game.runs.archive import Totals, verify_all, write_report
-from ninja_game.runs.checkpoint_log import HEADER, CheckpointLog
 from ninja_game.runs.chunks import (
+    HEADER,
     RECORDS,
+    CheckpointLog,
     Chunk,
     Result,
-    as_data,
     chunks_in,
     result_from_data,
     results_from_text,
@@ -436,7 +435,7 @@ def test_a_run_on_a_level_that_does_not_count_is_not_simulated(tmp_path: Path, m
             "problems": [f"level_digest is {digest}, which is not one of the levels that count"],
             "codes": ["other-level"],
         }  # fmt: skip
-        assert result_from_data(json.loads(json.dumps(as_data(result)))) == result
+        assert result_from_data(json.loads(json.dumps(asdict(result)))) == result
 
 
 def test_a_run_that_is_told_as_not_run_never_passes_on_a_level_that_counts(tmp_path: Path) -> None:
@@ -504,7 +503,7 @@ def test_an_answer_that_is_not_one_of_each_recording_is_refused(answer: str, why
 def test_a_result_holds_only_what_a_verdict_can_say(archive: Path, field: str, value: object) -> None:
     verdict = next(verify_plainly([archive / "a.txt"]))
     with pytest.raises(ValueError, match=field):
-        result_from_data(as_data(verdict) | {field: value})
+        result_from_data(asdict(verdict) | {field: value})
 
 
 def test_two_programs_do_not_write_one_log(tmp_path: Path) -> None:

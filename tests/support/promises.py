@@ -13,8 +13,8 @@ import click
 import ninja_game
 from ninja_game.cli.main import cli
 from ninja_game.errors import FormatError
+from ninja_game.formats import links
 from ninja_game.formats.ascii import writer
-from ninja_game.formats.links import fragment
 from ninja_game.formats.replay import text
 from ninja_game.player import schema, settings
 from ninja_game.web.board import report
@@ -33,7 +33,7 @@ VERSIONS = {
     "rules": text.RULES_VERSION,
     "replay text": text.VERSION,
     "level text": writer.VERSION,
-    "link": fragment.VERSION,
+    "link": links.VERSION,
     "settings": settings.VERSION,
     "records": schema.VERSION,
     "board ledger": report.VERSION,

@@ -12,7 +12,7 @@ from typing import Any
 from platformdirs import user_cache_path
 
 from ninja_game.web.site.build import build_site, site_server
-from ninja_game.web.site.pyodide_files import VERSION
+from ninja_game.web.site.game_archive import VERSION
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 BUSY = ROOT / "tools" / "measure" / "busy.py"

@@ -14,11 +14,10 @@ from ninja_game.errors import DAMAGED, FileError
 from ninja_game.files.locking import forget
 from ninja_game.formats.load import load_replays
 from ninja_game.sim.inputs import with_press_bits
-from ninja_game.tas.branches import Branch, Branches, branches_of_json
 from ninja_game.tas.files import open_run, save_run
-from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.journal import FOLDER, Journal, read_journal, recovered
 from ninja_game.tas.session import Session
+from ninja_game.tas.tracks import Branch, Branches, InputTrack, branches_of_json
 from tests.support.samples import replay_of_walk
 from tests.support.strategies import tracks
 from tests.support.tas_edits import edit_at_random

@@ -21,12 +21,10 @@ from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.runs.archive import verify_all
 from ninja_game.runs.verify import Verdict
 from ninja_game.sim.inputs import fitted_inputs
-from ninja_game.tas.branches import Branches
-from ninja_game.tas.contributions import Contributions
-from ninja_game.tas.files import OpenedRun, RunFile, branches_path, open_run, save_run, track_of
-from ninja_game.tas.input_track import InputTrack
+from ninja_game.tas.files import Contributions, OpenedRun, RunFile, branches_path, open_run, save_run, track_of
 from ninja_game.tas.journal import FOLDER, recovered
 from ninja_game.tas.session import Session
+from ninja_game.tas.tracks import Branches, InputTrack
 from tests.support.own_pack import PACK, instead_of_ours
 from tests.support.samples import WALK, WALK_END, replay_of_walk, running, write_records
 from tests.support.strategies import tracks

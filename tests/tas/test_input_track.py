@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given, strategies as st
 
 from ninja_game.errors import ArgumentError, ReplayError
-from ninja_game.formats.replay.input_runs import Marker
+from ninja_game.formats.replay.notations import Marker
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, MAX_TICKS, with_press_bits
-from ninja_game.tas.input_track import InputTrack
+from ninja_game.tas.tracks import InputTrack
 from tests.support.strategies import tracks
 
 keyboards = st.lists(st.integers(0, 7), max_size=30).map(with_press_bits)

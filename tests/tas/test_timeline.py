@@ -18,9 +18,8 @@ from ninja_game.runs.trace import trace_level
 from ninja_game.search.formula.names import FLAGS, NAMES, view_of
 from ninja_game.sim.inputs import MAX_TICKS, fitted_inputs, with_press_bits
 from ninja_game.simulation import Simulation
-from ninja_game.tas.input_track import InputTrack
-from ninja_game.tas.timeline import AFTERMATH, Timeline
-from ninja_game.tas.watch import exit_distance, parse_watch
+from ninja_game.tas.timeline import AFTERMATH, Timeline, exit_distance, parse_watch
+from ninja_game.tas.tracks import InputTrack
 from tests.support.memories import BOTH
 from tests.support.own_pack import PACK
 from tests.support.samples import WALK

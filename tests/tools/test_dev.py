@@ -42,9 +42,9 @@ def test_dev_runs_nothing_from_the_current_folder(
     poisoned: Path, installed: list[tuple[str, ...]], capfd: pytest.CaptureFixture[str]
 ) -> None:
     assert dev.main(["run", "info", LEVEL]) == 0
-    assert dev.main(["tool", "solver_table", "--help"]) != 0  # tools are found, in their folders
-    assert dev.main(["tool", "measure.solver_table", "--help"]) == 0
-    assert "usage: solver_table.py" in capfd.readouterr().out
+    assert dev.main(["tool", "board_size", "--help"]) != 0  # tools are found, in their folders
+    assert dev.main(["tool", "measure.board_size", "--help"]) == 0
+    assert "usage: board_size.py" in capfd.readouterr().out
     assert dev.main(["tool", "golden", "--help"]) == 0  # has no options, and would write files
     assert capfd.readouterr().out.startswith("Write golden digests")
     assert not (poisoned / "ran").exists()

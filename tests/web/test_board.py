@@ -32,7 +32,7 @@ from ninja_game.web.board.report import DATE, read_board
 from ninja_game.web.board.rules import FASTEST, HIGHEST
 from ninja_game.web.board.runs import ASSISTED, PLAYED, Key, ValidatedRuns, judge
 from ninja_game.web.pages.frame import POLICY, tag
-from ninja_game.web.pages.published import published_levels
+from ninja_game.web.pages.gallery import published_levels
 from tests.support.forgeries import FORGERIES, GOLD_LATER, PRACTISED, WALKING, record, replay
 from tests.support.own_pack import PACK
 from tests.support.samples import SPIKED, WALK, WALK_END

@@ -30,12 +30,12 @@ from ninja_game.web.board.copies import ALIGNED, SHIFTED, Course, Courses, cours
 from ninja_game.web.board.pages import check_site
 from ninja_game.web.board.players import Players, folded
 from ninja_game.web.board.runs import _near_to_another, judge
-from ninja_game.web.pages.published import published_levels
+from ninja_game.web.pages.gallery import published_levels
+from tests.support import near_copies
 from tests.support.forgeries import WALKING, record, replay
 from tests.support.reference import require_reference
 from tests.test_entry_points import PACKAGE, readers
 from tests.web.test_board import DIGEST, levels, put, runs, slow_walk  # noqa: F401
-from tools.measure import near_copies
 
 JSON = "board.json"
 

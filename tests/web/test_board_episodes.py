@@ -15,8 +15,8 @@ from ninja_game.runs.run import record_replay
 from ninja_game.web.board.ranking import Ranking
 from ninja_game.web.board.rules import FASTEST
 from ninja_game.web.board.runs import PLAYED, ValidatedRuns, judge
+from ninja_game.web.pages.gallery import published_levels
 from ninja_game.web.pages.memo import Memo
-from ninja_game.web.pages.published import published_levels
 from tests.support.own_pack import PACK
 from tests.web.test_board_memo import board
 

@@ -16,7 +16,7 @@ from ninja_game.web.board.charts import path_data
 from ninja_game.web.board.ranking import Ranking
 from ninja_game.web.board.rules import FASTEST, MOST_CATEGORIES, NAMES, USUAL, Category, read_categories
 from ninja_game.web.board.runs import ASSISTED, PLAYED, judge
-from ninja_game.web.pages.published import published_levels
+from ninja_game.web.pages.gallery import published_levels
 from tests.support.forgeries import GOLD_LATER, WALKING, replay
 from tests.support.samples import WALK_END
 from tests.web.test_board import DIGEST, Tags, levels, put, runs, slow_walk  # noqa: F401

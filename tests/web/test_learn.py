@@ -18,8 +18,7 @@ from ninja_game.play.lab.screen import FIGURES
 from ninja_game.sim.collision.tiles import EDGE_OF_FACES
 from ninja_game.sim.grid import cell_at
 from ninja_game.view.overlays import touched_cells
-from ninja_game.web.pages.gallery import write_gallery
-from ninja_game.web.pages.published import published_levels
+from ninja_game.web.pages.gallery import published_levels, write_gallery
 from ninja_game.web.program import MOST_LINES, MOST_SHOWN, run_program
 from tests.support.slow import the_rest_is_slow
 from tests.support.visitor import Visitor, eventually

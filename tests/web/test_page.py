@@ -16,7 +16,7 @@ import pytest
 from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
-from ninja_game.formats.links.making import level_link, replay_link
+from ninja_game.formats.links import level_link, replay_link
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.runs.run import record_replay
 from ninja_game.web.services import PHONE_TEXT

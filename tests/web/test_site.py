@@ -20,7 +20,7 @@ from click.testing import CliRunner
 from ninja_game.cli.main import cli
 from ninja_game.errors import FileError, NinjaGameError
 from ninja_game.files.user_folder import bundled_replays
-from ninja_game.web.site import build, pyodide_files
+from ninja_game.web.site import build, game_archive
 from ninja_game.web.site.build import site_server
 from tests.support.slow import the_rest_is_slow
 
@@ -35,11 +35,11 @@ def pyodide(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     with ZipFile(library, "w") as packed:
         for name in ("json/__init__.py", "tkinter/__init__.py", "encodings/utf_8.py", "encodings/big5.py", "this.py"):
             packed.writestr(name, "pass\n")
-    files = {name: name.encode() for name in pyodide_files.DIGESTS}
+    files = {name: name.encode() for name in game_archive.DIGESTS}
     files |= {"python_stdlib.zip": library.getvalue(), "pyodide-lock.json": b'{"info": {"abi_version": "1<"}}'}
     for name, content in files.items():
         (folder / name).write_bytes(content)
-        monkeypatch.setitem(pyodide_files.DIGESTS, name, pyodide_files.digest_of(content))
+        monkeypatch.setitem(game_archive.DIGESTS, name, game_archive.digest_of(content))
     return folder
 
 
@@ -170,7 +170,7 @@ def test_other_files_than_those_of_the_version_are_refused(pyodide: Path, tmp_pa
 
 
 def test_without_npm_the_command_says_what_to_do(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("ninja_game.web.site.pyodide_files.shutil.which", lambda _: None)
+    monkeypatch.setattr("ninja_game.web.site.game_archive.shutil.which", lambda _: None)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     result = CliRunner().invoke(cli, ["site", str(tmp_path / "out")])
     assert (result.exit_code, result.stdout) == (2, "")

@@ -25,8 +25,7 @@ from ninja_game.web.board.pages import BoardPages
 from ninja_game.web.board.ranking import Ranking
 from ninja_game.web.board.runs import judge
 from ninja_game.web.pages.documents import Documents
-from ninja_game.web.pages.gallery import SORT_ORDERS, write_gallery
-from ninja_game.web.pages.published import published_levels
+from ninja_game.web.pages.gallery import SORT_ORDERS, published_levels, write_gallery
 from tests.support.forgeries import WALKING, replay
 from tests.support.samples import WALK
 from tests.support.visitor import LOADING, eventually

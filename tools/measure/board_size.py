@@ -26,8 +26,8 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.runs.conversion import replay_texts
+from tests.support.near_copies import EDITS, surviving
 from tests.support.reference import recordings, write_pack
-from tools.measure.near_copies import EDITS, surviving
 
 MOST_EDITS, EACH = 10, 20
 """Edits of a certificate; runs that a player has sent."""

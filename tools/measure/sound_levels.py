@@ -23,9 +23,8 @@ from ninja_game.ui.audio.music import LAYERS_OF
 from ninja_game.ui.audio.player import LOUDEST
 from tools import ROOT
 from tools.make_sounds import FOLDER, decoded
-from tools.sounds.effects import LOOPS, RECIPES
+from tools.sounds.effects import LOOPS, RATE, RECIPES, Wave
 from tools.sounds.music import TRACKS
-from tools.sounds.synthesis import RATE, Wave
 
 PAGE = ROOT / "docs" / "sound.md"
 HEADING = "## Measured\n"

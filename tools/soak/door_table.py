@@ -25,8 +25,7 @@ from ninja_game.files.shown_text import file_stem, shown_text
 from ninja_game.files.user_folder import RECORDS
 from ninja_game.formats.ascii.reader import parse_ascii_level, write_ascii_level
 from ninja_game.formats.ascii.writer import same_record
-from ninja_game.formats.links.fragment import is_link, read_link, watched, write_link
-from ninja_game.formats.links.making import recordings_of as watched_recordings
+from ninja_game.formats.links import is_link, read_link, recordings_of as watched_recordings, watched, write_link
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.n14.level_file import read_level_file
@@ -37,15 +36,22 @@ from ninja_game.formats.pack.index import parse_index
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.pack.pars import parse_pars
 from ninja_game.formats.recording import Recording, parse_replays, record_of
+from ninja_game.formats.replay.notations import write_celeste, write_libtas
 from ninja_game.formats.replay.text import parse_replay, write_replay
-from ninja_game.formats.tas_lines import write_celeste, write_libtas
 from ninja_game.levels.warnings import level_warnings
 from ninja_game.player.backup import read_backup
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.settings import read_settings, write_changes
 from ninja_game.player.store import Store
-from ninja_game.runs.checkpoint_log import CheckpointLog
-from ninja_game.runs.chunks import Chunk, chunks_in, results_as_text, results_from_text, self_contained, verify_chunk
+from ninja_game.runs.chunks import (
+    CheckpointLog,
+    Chunk,
+    chunks_in,
+    results_as_text,
+    results_from_text,
+    self_contained,
+    verify_chunk,
+)
 from ninja_game.runs.recording_reader import recordings_in, recordings_of, records_of
 from ninja_game.runs.trace import RunTrace, first_difference, rows, trace_digests, trace_level
 from ninja_game.runs.trace_files import FiledTrace, read_csv, read_traces
@@ -54,7 +60,7 @@ from ninja_game.search.formula.names import FACTS, SPAN_NAMES
 from ninja_game.tas import journal
 from ninja_game.tas.files import branches_path, inputs_of_text, open_run, replay_of_track, runs_of_level
 from ninja_game.tas.session import Session
-from ninja_game.tas.watch import parse_watch
+from ninja_game.tas.timeline import parse_watch
 from ninja_game.ui.lettering import StrokeFont
 from ninja_game.ui.text_entry import EditedText
 from ninja_game.web.board.report import read_board

@@ -41,8 +41,8 @@ from ninja_game.player.playthrough import LevelRun
 from ninja_game.sim.level import Level
 from ninja_game.tas import journal
 from ninja_game.tas.files import open_run
-from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.session import Session
+from ninja_game.tas.tracks import InputTrack
 from tests.support.samples import replay_of_walk
 
 PATIENCE = 120.0

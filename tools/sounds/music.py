@@ -10,8 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tools.sounds.effects import bell
-from tools.sounds.synthesis import RATE, Wave, at_level, fade, filtered, glide, noise, spaced, times, tone
+from tools.sounds.effects import RATE, Wave, at_level, bell, fade, filtered, glide, noise, spaced, times, tone
 
 SCALE = (0, 2, 4, 5, 7, 9, 11)
 """Semitones of a major scale; degree 0 is G."""

@@ -9,6 +9,7 @@ import difflib
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import takewhile
 from typing import NamedTuple, TypeVar
 
 from ninja_game.errors import LevelError
@@ -160,18 +161,20 @@ _SYNONYMS = {
 
 
 class Listed(NamedTuple):
-    """An object that a line of the list creates, and the column of its place in that line."""
+    """An object that a line of the list creates, and where its place stands: the column, and the line if known."""
 
     record: ObjectSpec
     column: int
+    line: int = 0
 
 
 class OddTile(NamedTuple):
-    """A cell whose tile id no character draws, and the column of its place in the line."""
+    """A cell whose tile id no character draws, and where its place stands, as of ``Listed``."""
 
     cell: tuple[int, int]
     id: int
     column: int
+    line: int = 0
 
 
 def tokens_of(text: str) -> list[Token]:
@@ -220,12 +223,8 @@ def _split_keyword(tokens: Sequence[Token]) -> tuple[str, Sequence[Token]]:
         keyword = " ".join(token.text for token in tokens[:count])
         if keyword in FORMS:
             return keyword, tokens[count:]
-    words = []
-    for token in tokens:
-        if "," in token.text:
-            break
-        words.append(token.text)
-    found = " ".join(words) or tokens[0].text
+    words = takewhile(lambda token: "," not in token.text, tokens)
+    found = " ".join(token.text for token in words) or tokens[0].text
     hint = suggestion(found, [*FORMS, "tile", "raw"])
     raise LevelError("unknown kind of object", column=tokens[0].column, found=shown(found), hint=hint)
 
@@ -241,7 +240,7 @@ def _sort_words(keyword: str, form: Form, tokens: Sequence[Token]) -> tuple[list
             name, value = token.text, next(words, None)
             if value is None:
                 column = token.column + len(token.text)
-                raise LevelError(f"nothing after '{name}'", column=column, expected=_value_example(name))
+                raise LevelError(f"nothing after '{name}'", column=column, expected=_EXAMPLES[name])
         elif names:
             name, value = names[0], token
         elif "," in token.text:
@@ -275,9 +274,8 @@ def _unknown_word(keyword: str, form: Form, token: Token, following: Token | Non
     return LevelError(f"unknown word for '{keyword}'", column=token.column, found=shown(token.text), hint=hint)
 
 
-def _value_example(name: str) -> str:
-    examples = {"switch": "switch 3,4 (column,row)", "normal": "normal 0.6,-0.8", "facing": "facing 1"}
-    return examples[name]
+_EXAMPLES = {"switch": "switch 3,4 (column,row)", "normal": "normal 0.6,-0.8", "facing": "facing 1"}
+"""Of properties that take a value."""
 
 
 def _check_complete(keyword: str, form: Form, given: dict[str, Token], tokens: Sequence[Token]) -> None:
@@ -287,7 +285,7 @@ def _check_complete(keyword: str, form: Form, given: dict[str, Token], tokens: S
         if len(present) > 1:
             raise LevelError(f"'{keyword}' with both {' and '.join(group)}", column=present[1].column, hint="keep one")
         if not present:
-            words = [", ".join(form.words[name]) if name in form.words else _value_example(name) for name in group]
+            words = [", ".join(form.words[name]) if name in form.words else _EXAMPLES[name] for name in group]
             raise LevelError(f"'{keyword}' without its {group[0]}", column=column, expected=", or ".join(words))
 
 

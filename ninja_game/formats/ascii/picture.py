@@ -1,6 +1,7 @@
 """The picture of an ASCII level: 23 framed rows of 31 characters, and where in the file each cell is drawn.
 
-Then picture and list are brought together: which line speaks of which drawn object, and in what order.
+Then picture and list are brought together: which line speaks of which drawn object, and in what order. Mistakes are
+collected (``Problems``) and reported together: a level maker mends them in one go.
 """
 
 from __future__ import annotations
@@ -9,15 +10,63 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
+from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.legend import ODD_TILE, SYMBOL_OF_CHAR, TILE_CHARS, TILE_OF_CHAR, Symbol, visible_parts
 from ninja_game.formats.ascii.object_lines import Listed, OddTile
 from ninja_game.formats.ascii.places import shown
-from ninja_game.formats.ascii.problems import Problems
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 
-Cell = tuple[int, int]
-"""Column 1…31, row 1…23."""
+_SHOWN = 20
+_ENOUGH = 1000
+
+
+class LevelTextError(LevelError):
+    """The first mistake of a level, with ``further`` ones after it; the message has a line for each."""
+
+    further: tuple[LevelError, ...] = ()
+
+    def __str__(self) -> str:
+        lines = [super().__str__(), *map(str, self.further[: _SHOWN - 1])]
+        left = len(self.further) - (_SHOWN - 1)
+        if left > 0:
+            lines.append(f"... and {left} more")
+        return "\n".join(lines)
+
+
+class Problems:
+    """Collects the mistakes found in one file."""
+
+    def __init__(self, file: str) -> None:
+        self.file = file
+        self.found: list[LevelError] = []
+
+    def add(
+        self, what: str, line: int, column: int = 0, *, found: str = "", expected: str = "", hint: str = ""
+    ) -> None:
+        """Note a mistake at a line and column (from 1)."""
+        self.found.append(LevelError(what, self.file, line, column, found, expected, hint))
+
+    def add_error(self, error: LevelError, line: int) -> None:
+        """Note an error that was raised without file and line."""
+        error.file, error.line = self.file, line
+        self.found.append(error)
+
+    @property
+    def full(self) -> bool:
+        """Whether there are so many mistakes that looking for more is not worth the time."""
+        return len(self.found) >= _ENOUGH
+
+    def raise_if_any(self) -> None:
+        """Raise what was noted, in the order of the lines; do nothing if all is well."""
+        if self.found:
+            first, *others = sorted(self.found, key=lambda error: (error.line, error.column))
+            joined = LevelTextError(**vars(first))
+            joined.further = tuple(others)
+            raise joined
+
+
+Cell = tuple[int, int]  # column 1…31, row 1…23
 
 FRAME = "|"
 ROW_START = re.compile(r"\s*+(\d*+)\s*+\|", re.ASCII)
@@ -78,12 +127,9 @@ def read_picture(lines: Sequence[tuple[int, str]], end: int, problems: Problems)
         if row is not None:
             rows.append((row[0], line, row[1]))
     if len(lines) != ROWS and not misnumbered:
-        problems.add(
-            "the picture has too many rows" if len(lines) > ROWS else "the picture has too few rows",
-            lines[ROWS][0] if len(lines) > ROWS else end,
-            found=f"{len(lines)}",
-            expected=f"{ROWS} rows, each |{COLUMNS} characters|",
-        )
+        amount, line = ("many", lines[ROWS][0]) if len(lines) > ROWS else ("few", end)
+        expected = f"{ROWS} rows, each |{COLUMNS} characters|"
+        problems.add(f"the picture has too {amount} rows", line, found=f"{len(lines)}", expected=expected)
     if len(problems.found) > before:
         return None
     texts, numbers, columns = zip(*rows, strict=True)
@@ -125,11 +171,8 @@ def _read_row(line: int, text: str, number: int, problems: Problems) -> tuple[st
                      found=f"{len(cells)} characters", expected=f"{COLUMNS}", hint=hint)  # fmt: skip
     for offset, char in enumerate(cells[:COLUMNS]):
         if char not in TILE_OF_CHAR and char not in SYMBOL_OF_CHAR and char != ODD_TILE:
-            hint = (
-                f"did you mean {_similar(char)}?"
-                if _similar(char)
-                else "'ninja-game convert --legend' writes the legend"
-            )
+            meant = _similar(char)
+            hint = f"did you mean {meant}?" if meant else "'ninja-game convert --legend' writes the legend"
             problems.add("a character that is not in the legend", line, start + offset, found=repr(char), hint=hint,
                          expected="a tile or an object")  # fmt: skip
     return cells, start
@@ -154,22 +197,8 @@ _NEEDED_LINES = {
 """A line to copy for each drawn object that needs one."""
 
 
-class Placed(NamedTuple):
-    """An object of the list and the line that gives it."""
-
-    listed: Listed
-    line: int
-
-
-class PlacedTile(NamedTuple):
-    """A tile of the list and the line that gives it."""
-
-    tile: OddTile
-    line: int
-
-
 def merge_picture_and_list(
-    picture: Picture, objects: Sequence[Placed], tiles: Sequence[PlacedTile], problems: Problems
+    picture: Picture, objects: Sequence[Listed], tiles: Sequence[OddTile], problems: Problems
 ) -> Level:
     """The level: drawn objects that no line mentions (ninjas first, then in reading order), then the list in order.
 
@@ -191,30 +220,27 @@ def merge_picture_and_list(
                          hint=f"add a line below the picture, such as: {example}")  # fmt: skip
         else:
             drawn.append((cell, symbol))
-    records = _drawn_records(picture, drawn, problems) + [placed.listed.record for placed in objects]
+    records = _drawn_records(picture, drawn, problems) + [placed.record for placed in objects]
     return Level(tuple(_tiles(picture, tiles, problems)), tuple(records))
 
 
 def _mentioned(
-    picture: Picture, objects: Iterable[Placed], problems: Problems
-) -> tuple[set[Cell], dict[Cell, tuple[Placed, Symbol]]]:
+    picture: Picture, objects: Iterable[Listed], problems: Problems
+) -> tuple[set[Cell], dict[Cell, tuple[Listed, Symbol]]]:
     """Cells whose drawn object a line speaks of; cells where a line has another form of the same kind."""
     mentioned: set[Cell] = set()
-    conflicts: dict[Cell, tuple[Placed, Symbol]] = {}
+    conflicts: dict[Cell, tuple[Listed, Symbol]] = {}
     for placed in objects:
-        for part in visible_parts(placed.listed.record):
+        for part in visible_parts(placed.record):
             cell, wanted = (part.column, part.row), SYMBOL_OF_CHAR[part.char]
             char = picture.char(cell)
             if char == part.char:
                 mentioned.add(cell)
             elif char in ". ":
-                problems.add(
-                    f"{_named(wanted)} at {part.column},{part.row} is not in the picture",
-                    placed.line,
-                    placed.listed.column,
-                    hint=f"draw {part.char} in line {picture.where(cell)[0]}, column {picture.where(cell)[1]}, "
-                    "or correct the place",
-                )
+                line, column = picture.where(cell)
+                what = f"{_named(wanted)} at {part.column},{part.row} is not in the picture"
+                hint = f"draw {part.char} in line {line}, column {column}, or correct the place"
+                problems.add(what, placed.line, placed.column, hint=hint)
             elif char in SYMBOL_OF_CHAR and SYMBOL_OF_CHAR[char].kind == wanted.kind:
                 conflicts[cell] = placed, wanted
     return mentioned, conflicts
@@ -256,11 +282,11 @@ def _drawn_records(picture: Picture, drawn: Sequence[tuple[Cell, Symbol]], probl
     return ninjas + others
 
 
-def _tiles(picture: Picture, lines: Iterable[PlacedTile], problems: Problems) -> list[int]:
+def _tiles(picture: Picture, listed: Iterable[OddTile], problems: Problems) -> list[int]:
     """The 713 tile ids, odd ones from their lines."""
     tiles = picture.tiles()
     given: set[Cell] = set()
-    for tile, line in lines:
+    for tile in listed:
         (column, row), mistake = tile.cell, ""
         if not (1 <= column <= COLUMNS and 1 <= row <= ROWS):
             mistake, hint = "a tile line for a border cell", "only 1,1 to 31,23 have tiles of the level"
@@ -272,7 +298,7 @@ def _tiles(picture: Picture, lines: Iterable[PlacedTile], problems: Problems) ->
             mistake, hint = "a tile line for a cell that is not marked", f"draw {ODD_TILE} in the picture there"
         given.add(tile.cell)
         if mistake:
-            problems.add(mistake, line, tile.column, found=f"{column},{row}", hint=hint)
+            problems.add(mistake, tile.line, tile.column, found=f"{column},{row}", hint=hint)
             continue
         tiles[(column - 1) * ROWS + row - 1] = tile.id
     for cell in picture.cells():

@@ -73,20 +73,13 @@ def read_place(text: str, dx: float = 0.0, dy: float = 0.0) -> tuple[float, floa
     if px:
         return x, y
     for value, count, what in ((x, COLUMNS, "column"), (y, ROWS, "row")):
+        found, hint = number_text(value), "if it is meant to be px, write px after it, as in 60,564px"
         if not 0 <= value <= count + 1:
-            raise LevelError(
-                f"{what} outside the grid",
-                found=number_text(value),
-                expected=f"1 to {count} (0 and {count + 1} are the border)",
-                hint="if it is meant to be px, write px after it, as in 60,564px",
-            )
+            expected = f"1 to {count} (0 and {count + 1} are the border)"
+            raise LevelError(f"{what} outside the grid", found=found, expected=expected, hint=hint)
         if value * 4 != int(value * 4):
-            raise LevelError(
-                f"{what} between the quarter cells",
-                found=number_text(value),
-                expected="steps of 0.25 (6 px)",
-                hint="write finer positions in px, as in 60,564px",
-            )
+            expected, hint = "steps of 0.25 (6 px)", "write finer positions in px, as in 60,564px"
+            raise LevelError(f"{what} between the quarter cells", found=found, expected=expected, hint=hint)
     return x * CELL + 12.0 + dx, y * CELL + 12.0 + dy
 
 

@@ -6,17 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ninja_game.errors import LevelError
-from ninja_game.formats.ascii.object_lines import OddTile, read_object_line, suggestion
-from ninja_game.formats.ascii.picture import (
-    ROW_END,
-    ROW_START,
-    Placed,
-    PlacedTile,
-    merge_picture_and_list,
-    read_picture,
-)
+from ninja_game.formats.ascii.object_lines import Listed, OddTile, read_object_line, suggestion
+from ninja_game.formats.ascii.picture import ROW_END, ROW_START, Problems, merge_picture_and_list, read_picture
 from ninja_game.formats.ascii.places import shown
-from ninja_game.formats.ascii.problems import Problems
 from ninja_game.formats.ascii.writer import HEADER_KEYS, MAGIC, VERSION, write_ascii_level
 from ninja_game.formats.lines import MOST_NAME, UNCOMMENTED, Line, numbered_lines, read_quoted
 from ninja_game.formats.sayings import read_sayings
@@ -69,7 +61,6 @@ def parse_ascii_level(text: str, *, file: str = "") -> AsciiLevel:
 
 
 def _check_first(lines: Sequence[Line], problems: Problems) -> None:
-    """Raise LevelError unless the first line says what this is."""
     number, first = lines[0] if lines else (1, "")
     words = first.split()
     expected = f"'{MAGIC} {VERSION}' in the first line"
@@ -129,9 +120,9 @@ def _read_header(lines: Sequence[Line], problems: Problems) -> dict[str, str]:
     return fields
 
 
-def _read_list(lines: Sequence[Line], problems: Problems) -> tuple[list[Placed], list[PlacedTile]]:
-    objects: list[Placed] = []
-    tiles: list[PlacedTile] = []
+def _read_list(lines: Sequence[Line], problems: Problems) -> tuple[list[Listed], list[OddTile]]:
+    objects: list[Listed] = []
+    tiles: list[OddTile] = []
     for number, line in lines:
         if problems.full:
             break
@@ -142,7 +133,7 @@ def _read_list(lines: Sequence[Line], problems: Problems) -> tuple[list[Placed],
             continue
         for entry in entries:
             if isinstance(entry, OddTile):
-                tiles.append(PlacedTile(entry, number))
+                tiles.append(entry._replace(line=number))
             else:
-                objects.append(Placed(entry, number))
+                objects.append(entry._replace(line=number))
     return objects, tiles

@@ -38,12 +38,9 @@ def parse_demo(text: str, *, length: float | None = None) -> Demo:
     if (words.count("|") + 1) * TICKS_PER_WORD >= MAX_TICKS:
         found = f"{words.count('|') + 1} words"
         raise DemoError("a demo that is too long", found=found, expected=f"at most {MAX_TICKS // TICKS_PER_WORD}")
-    return fitted_demo(_inputs_of_words(words.split("|")), parse_number(length_text))
-
-
-def _inputs_of_words(words: list[str]) -> bytes:
-    """Seven ticks a word, the first in the lowest bits."""
-    return "".join([f"{_word(word):07x}"[::-1] for word in words]).encode("ascii").translate(_KEYS_OF_HEX)
+    # Seven ticks a word, the first in the lowest bits.
+    digits = "".join([f"{_word(word):07x}"[::-1] for word in words.split("|")])
+    return fitted_demo(digits.encode("ascii").translate(_KEYS_OF_HEX), parse_number(length_text))
 
 
 def _word(text: str) -> int:
@@ -71,8 +68,7 @@ def write_demo(demo: Demo) -> str:
     return f"{format_number(demo.length)}:{'|'.join(words)}"
 
 
-MAX_DIGITS = 50_000
-"""The game stops recording at 5000 words of ten ticks."""
+MAX_DIGITS = 50_000  # the game stops recording at 5000 words of ten ticks
 
 _DIGIT_RUN = re.compile(r"7([0-7])([0-7]{2})|7.*", re.DOTALL)
 _RUN_OFFSET = 4
@@ -96,10 +92,8 @@ def parse_legacy_demo(text: str, *, length: float | None = None) -> Demo:
     # Defect (b): a last 3 is dropped also when it was not padding, and what it leaves of a run with it.
     digits = _DIGIT_RUN.sub(_expanded, _digits_of_chars(text).removesuffix(_PADDING))
     _check_length(len(digits))
-    return fitted_demo(
-        with_press_bits(digits.encode("ascii").translate(_KEYS_OF_DIGIT)),
-        float(len(digits)) if length is None else length,
-    )
+    inputs = with_press_bits(digits.encode("ascii").translate(_KEYS_OF_DIGIT))
+    return fitted_demo(inputs, float(len(digits)) if length is None else length)
 
 
 def _digits_of_chars(text: str) -> str:
@@ -126,12 +120,8 @@ def _pair(text: str, place: int) -> str:
     """The two octal digits of the character at ``place``."""
     code = ord(text[place]) if place < len(text) else 0
     if not _FIRST_PAIR <= code <= _LAST_PAIR or code == _BACKSLASH:
-        raise DemoError(
-            "a character that no legacy demo has here",
-            column=place + 1,
-            found=repr(text[place]) if code else "the end of the text",
-            expected='one of " to b, no backslash',
-        )
+        found, expected = repr(text[place]) if code else "the end of the text", 'one of " to b, no backslash'
+        raise DemoError("a character that no legacy demo has here", column=place + 1, found=found, expected=expected)
     return f"{code - _FIRST_PAIR - (code > _BACKSLASH):02o}"
 
 

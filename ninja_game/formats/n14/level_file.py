@@ -111,14 +111,8 @@ def _read_record(part: str, number: int, line: int, file: str) -> LevelRecord | 
     if last < 3 and not demo:
         if "|" not in part:
             return None
-        raise LevelError(
-            f"record {number} has only {last + 1} fields",
-            file=file,
-            line=line,
-            found=repr(part[:40]),
-            expected=SHAPE,
-            hint="an empty field still needs its '#'",
-        )
+        what, hint = f"record {number} has only {last + 1} fields", "an empty field still needs its '#'"
+        raise LevelError(what, file, line, 0, repr(part[:40]), SHAPE, hint)
     level = _level_text(fields[3], closed=last > 3) if not demo or place == 4 else ""
     if not level and not demo:
         raise LevelError(f"record {number} has no level string", file=file, line=line, expected=SHAPE)

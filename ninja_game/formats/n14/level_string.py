@@ -37,13 +37,8 @@ def parse_level_string(text: str, *, file: str = "", line: int = 0) -> Level:
     if text.startswith("$"):
         fields = text.split("#")
         if len(fields) < 4:
-            raise LevelError(
-                "a text that starts with '$' must have the level string in its fourth field",
-                file=file,
-                line=line,
-                found=f"only {len(fields)} of them",
-                expected="$name#author#comment#level string#",
-            )
+            what = "a text that starts with '$' must have the level string in its fourth field"
+            raise LevelError(what, file, line, 0, f"only {len(fields)} of them", "$name#author#comment#level string#")
         text = fields[3]
     tiles, _, rest = text.partition("|")
     objects = rest.partition("|")[0]
@@ -99,7 +94,6 @@ def write_level_string(level: Level, *, exact: bool = False) -> str:
 
 
 def _write_tiles(tiles: tuple[int, ...]) -> str:
-    """One character a cell."""
     if len(tiles) != TILES:
         raise LevelError("wrong number of tiles", found=str(len(tiles)), expected=f"{TILES} (31 columns of 23)")
     for cell, tile in enumerate(tiles):

@@ -8,7 +8,7 @@ from difflib import get_close_matches
 from typing import Any
 
 from ninja_game.errors import PackError
-from ninja_game.files.toml import parse_toml
+from ninja_game.files.untrusted import parse_toml
 
 MOST_EPISODES, EPISODES_PER_COLUMN, LEVELS_PER_EPISODE = 100, 10, 5
 

@@ -1,17 +1,153 @@
-"""A pack as a whole: index, levels, episodes, certificates."""
+"""A pack: its files in a folder, a zip or a link, and what they make: index, levels, episodes, certificates.
+
+A zip or link stays in memory; nothing of it goes to the disk.
+"""
 
 from __future__ import annotations
 
+import re
+from collections import Counter
 from functools import cached_property
-from pathlib import Path
+from io import BytesIO
+from pathlib import Path, PurePosixPath
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
-from ninja_game.errors import NinjaGameError, PackError
+from ninja_game.errors import FileError, NinjaGameError, PackError
+from ninja_game.files.reading import MAX_BYTES, PLACE, decoded, files_in, read_bytes
+from ninja_game.files.shown_text import name_key
+from ninja_game.files.untrusted import open_zip, unpacked
+from ninja_game.formats.links import is_link, link_kind, pack_link, pack_texts
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel, parse_levels
-from ninja_game.formats.pack.files import INDEX, PARS, PackFiles, certificate_name, is_pack
 from ninja_game.formats.pack.index import LEVELS_PER_EPISODE, EpisodeIndex, parse_index
 from ninja_game.formats.pack.pars import Pars, parse_pars
-from ninja_game.formats.replay.episode import episode_key
+from ninja_game.formats.replay.text import episode_key
+
+INDEX, PARS, CERTIFICATES = "pack.toml", "pars.toml", "certificates"
+"""The index, the table of par times, the folder of replays."""
+
+MOST_FILES = 4096  # in a zip; all of them together may hold MAX_BYTES
+
+MOST_BYTES = 4 * 2**20  # the largest size of one file
+
+LEVEL_FILES = re.compile(r"[^/\\:]+\.txt", re.IGNORECASE)
+
+
+def certificate_name(file: str, kind: str) -> str:
+    """Where the certificate of a level file, "exit" or "gold", lies in its pack.
+
+    >>> certificate_name("a.txt", "exit")
+    'certificates/a.exit.replay.txt'
+    """
+    return f"{CERTIFICATES}/{file.rpartition('.')[0]}.{kind}.replay.txt"
+
+
+class PackFiles:
+    """What lies in a pack: ``names``, as "pack.toml" or "certificates/a.exit.replay.txt", sorted.
+
+    ``problems``: of a zip in which files hide others.
+
+    Raises FileError for what is not a zip, or a zip beyond the limits, LinkError for a broken link; OSError as it
+    comes.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._zip: ZipFile | None = None
+        self._entries: dict[str, ZipInfo] = {}
+        self._texts: dict[str, str] = {}
+        self.problems: list[str] = []
+        if is_link(path):
+            self.path = Path(PLACE)
+            self._texts = pack_texts(path)
+            self.names = tuple(sorted(self._texts))
+        elif path.is_dir():
+            # A link in somebody's pack may lead to a file that is not theirs.
+            below = [] if (path / CERTIFICATES).is_symlink() else files_in(path / CERTIFICATES, follow_links=False)
+            inside = [*files_in(path, follow_links=False), *(f"{CERTIFICATES}/{name}" for name in below)]
+            self.names = tuple(sorted(inside))
+        else:
+            self._open_zip(read_bytes(path))
+            self.names = tuple(sorted(self._entries))
+
+    def _open_zip(self, data: bytes) -> None:
+        try:
+            self._zip = open_zip(BytesIO(data), most_files=MOST_FILES, most_bytes=MAX_BYTES)
+        except ValueError as error:
+            what, found = "neither a folder nor a zip that can be a pack", str(error)
+            raise FileError(what, str(self.path), found=found, expected=f"a pack, with {INDEX}") from None
+        entries = [entry for entry in self._zip.infolist() if not entry.filename.endswith("/")]
+        # Zips are often made of the folder, not of what is in it.
+        indexes = [name for entry in entries if PurePosixPath(name := entry.filename).name == INDEX]
+        top = min(indexes, key=lambda name: name.count("/"), default=INDEX).removesuffix(INDEX)
+        if others := [name for name in sorted(set(indexes)) if name != top + INDEX]:
+            self.problems.append(f"{self.place(others[0])}: a second index; {top + INDEX} is the one that is read")
+        keys = Counter(name_key(entry.filename) for entry in entries)
+        twice = sorted({entry.filename for entry in entries if keys[name_key(entry.filename)] > 1})
+        self.problems += [f"{self.place(name)}: more than one file has this name on some system" for name in twice]
+        for entry in entries:
+            name = entry.filename.removeprefix(top)
+            parts = PurePosixPath(name).parts
+            plain = "\\" not in name and ".." not in parts and not name.startswith("/")
+            if entry.filename.startswith(top) and plain and (len(parts) == 1 or parts[:-1] == (CERTIFICATES,)):
+                self._entries[name] = entry
+
+    @property
+    def levels(self) -> list[str]:
+        return [name for name in self.names if LEVEL_FILES.fullmatch(name)]
+
+    @property
+    def own_names(self) -> list[str]:
+        """The names of what makes a pack: index, par times, levels, certificates."""
+        replays = [name for name in self.names if name.startswith(f"{CERTIFICATES}/") and name.endswith(".replay.txt")]
+        return [name for name in (INDEX, PARS) if name in self.names] + self.levels + replays
+
+    def zipped(self) -> bytes:
+        """The pack as a zip, the same bytes for the same files."""
+        data, folder = BytesIO(), self.path.resolve().name.removesuffix(".zip")
+        with ZipFile(data, "w", ZIP_DEFLATED) as file:
+            for name in self.own_names:
+                about = ZipInfo(f"{folder}/{name}")
+                about.compress_type = ZIP_DEFLATED
+                file.writestr(about, self.text(name))
+        return data.getvalue()
+
+    def place(self, name: str) -> str:
+        """The path of a file, as errors name it; a file's own path in a folder."""
+        return str(self.path / name)
+
+    def text(self, name: str) -> str:
+        """A file's text with plain line ends. Raises FileError; OSError as it comes."""
+        if name in self._texts:
+            return self._texts[name]
+        return decoded(self._bytes(name), self.place(name))
+
+    def link(self) -> str:
+        """The pack as a link, without its certificates. Raises LinkError for one that is too large."""
+        wanted = [name for name in self.own_names if not name.startswith(CERTIFICATES)]
+        return pack_link({name: self.text(name) for name in wanted})
+
+    def _bytes(self, name: str) -> bytes:
+        if self._zip is None and not self._texts:
+            return read_bytes(self.path / name, MOST_BYTES)
+        if self._zip is None or name not in self._entries:
+            raise FileError("not in the pack", self.place(name))
+        if self._entries[name].file_size > MOST_BYTES:
+            raise FileError("the file is too large", self.place(name), expected=f"at most {MOST_BYTES >> 20} MiB")
+        try:
+            return unpacked(self._zip, self._entries[name])
+        except ValueError as error:
+            raise FileError("cannot be read from the zip", self.place(name), found=str(error)) from None
+
+
+def is_pack(path: Path) -> bool:
+    """Whether a path looks like a pack: a folder with an index, a file that is called a zip, a link of a pack."""
+    if kind := link_kind(path):
+        return kind == "pack"
+    try:
+        return (path / INDEX).is_file() if path.is_dir() else path.suffix.lower() == ".zip"
+    except OSError:
+        return False
 
 
 class Pack:

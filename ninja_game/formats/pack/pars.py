@@ -8,7 +8,7 @@ from math import ceil, inf
 from typing import Any
 
 from ninja_game.errors import PackError
-from ninja_game.files.toml import parse_toml
+from ninja_game.files.untrusted import parse_toml
 
 MARGINS = {"author": 0.05, "gold": 0.225, "silver": 0.6}
 """How much longer than the certificate a run may take, by medal, the best first, where nothing can go wrong.
@@ -17,8 +17,7 @@ From the reference: people's best runs take 5 % longer than tool-assisted ones (
 levels at most 22.5 %. Silver's is chosen, not measured: for who has just understood the level.
 """
 
-MEDALS = (*MARGINS, "bronze")
-"""The best first; bronze is for every pass."""
+MEDALS = (*MARGINS, "bronze")  # the best first; bronze is for every pass
 
 CARE = 0.25
 """What each point of difficulty adds to a margin, as a share of it: who plays safe takes longer. Chosen, not tuned."""
@@ -29,8 +28,7 @@ GRADES = {1.5: "easy", 4.0: "medium", 8.0: "hard", 15.0: "very hard", inf: "extr
 STEP = 4
 """Ticks to whose multiples pars are rounded up: a tenth of a second."""
 
-DIGITS = 16
-"""How much of a digest the table keeps."""
+DIGITS = 16  # how much of a digest the table keeps
 
 _HEAD = "# Made by `ninja-game levels pars` from the levels and their certificates: exit and gold in ticks.\n\n"
 
@@ -113,6 +111,5 @@ def write_pars(pars: Mapping[str, Pars]) -> str:
 
 
 def _key(name: str) -> str:
-    """A file name as a TOML key."""
     escaped = "".join(f"\\u{ord(char):04x}" if ord(char) < 32 or ord(char) == 127 else char for char in name)
     return '"' + escaped.replace('"', '\\"') + '"'

@@ -23,19 +23,9 @@ CLAIMS = ("rules", "outcome", "gold", "digest", "waypoints")
 """A replay without any of these is without claims: it needs its inputs only."""
 SECTIONS = ("inputs", "level-data", "waypoints")
 KEYS = (
-    *REQUIRED,
-    "name",
-    "author",
-    "co-authors",
-    "made",
-    "level",
-    "level-record",
-    "level-digest",
-    "digest",
-    "demo-length",
-    "level-data",
-    "waypoints",
-)
+    *REQUIRED, "name", "author", "co-authors", "made", "level", "level-record", "level-digest", "digest", "demo-length",
+    "level-data", "waypoints",
+)  # fmt: skip
 
 COUNT_LIMIT = 10**9
 
@@ -79,7 +69,6 @@ class Headers:
             raise ReplayError("an incomplete replay", file, expected=f"a line with {', '.join(missing)}")
 
     def section(self, key: str) -> list[Line]:
-        """The lines of a section, blank ones left out."""
         return [(number, line) for number, line in self.lines.get(key, []) if line.strip()]
 
     def line(self, key: str) -> int:
@@ -87,7 +76,6 @@ class Headers:
         return self.lines[key][0][0] if key in self.lines else 0
 
     def error(self, key: str, what: str, expected: str, hint: str = "") -> ReplayError:
-        """The error for a header's value."""
         number, line = self.lines[key][0]
         value = line.lstrip()
         return ReplayError(what, self.file, number, len(line) - len(value) + 1, repr(value[:40]), expected, hint)
@@ -126,14 +114,12 @@ class Headers:
         return value
 
     def choice(self, key: str, choices: Sequence[W]) -> W:
-        """One of a few words."""
         for word in choices:
             if word == self.raw(key):
                 return word
         raise self.error(key, f"an unknown {key}", " or ".join(choices))
 
     def made(self) -> Made:
-        """How the run was made."""
         try:
             return parse_made(self.text("made"))
         except ValueError:
@@ -142,7 +128,6 @@ class Headers:
             raise self.error("made", "not how a run is made", expected, hint) from None
 
     def co_authors(self) -> tuple[str, ...]:
-        """The names of who took part."""
         names = names_of_text(self.text("co-authors"))
         if (length := len(", ".join(names))) > MOST_NAME:
             what = f"{length:,} characters of names, with ', ' between them, in 'co-authors'"

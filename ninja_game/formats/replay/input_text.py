@@ -8,18 +8,15 @@ from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 from ninja_game.errors import ReplayError
-from ninja_game.files.beside import has_folder, read_beside
-from ninja_game.files.reading import MAX_BYTES
+from ninja_game.files.reading import MAX_BYTES, has_folder, read_beside
 from ninja_game.formats.lines import Line, numbered_lines
-from ninja_game.formats.replay.input_runs import KEY_NAMES, Marker, is_marker_name
-from ninja_game.formats.tas_lines import in_our_notation, is_tas_text
+from ninja_game.formats.replay.notations import KEY_NAMES, Marker, in_our_notation, is_marker_name, is_tas_text
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, MAX_TICKS, pressed
 
 MOST_INCLUDES = 100
 """Files that a text may take in, the same one every time."""
 
-MOST_MARKERS = 100_000
-"""In a text with all that it takes in."""
+MOST_MARKERS = 100_000  # in a text with all that it takes in
 
 DEEPEST = 8
 """How deep files may take in others, and blocks may lie in blocks."""

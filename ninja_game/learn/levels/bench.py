@@ -41,8 +41,7 @@ GRADES = {"easy": (30, 88), "medium": (89, 208), "hard": None}
 """Least and most ticks that are taken of the known run; the hard ones have the whole task."""
 DELAY = 16
 """Who starts elsewhere starts from rest: up to so many ticks of the known run are held longer, and its last one."""
-AWAY = 36.0
-"""Px, at least, between a new start and the old one."""
+AWAY = 36.0  # px, at least, between a new start and the old one
 KEPT = {"easy": 0.0, "medium": 0.3, "hard": 0.6}
 """Share of what kills that stays at least, by grade."""
 BASES, LARGEST = 1000, 306
@@ -163,8 +162,6 @@ def _swapped(keys: int) -> int:
 
 
 class _Levels(Sequence[Level]):
-    """Levels by number, made when they are asked for."""
-
     def __init__(self, split: str, numbers: range) -> None:
         self.split, self.numbers = split, numbers
 

@@ -18,8 +18,7 @@ from ninja_game.errors import ArgumentError
 from ninja_game.files.user_folder import bundled_levels
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.named_level import NamedLevel, parse_levels
-from ninja_game.learn.levels.curriculum import Curriculum
-from ninja_game.learn.levels.source import LevelSource, nearest
+from ninja_game.learn.levels.source import Curriculum, LevelSource, nearest
 from ninja_game.sim.level import Level
 
 DEFAULT_LEVEL = "00-0-first-steps"
@@ -38,7 +37,7 @@ def level_source(origin: Origin) -> LevelSource:
     "00-0-first-steps"        a level of the game, by the name of its file
     "set"                     all of the game's levels, in playing order
     "train", "test"           the set in two parts that never change places: of each episode one level is for testing
-    "curriculum"              the levels for training from the easiest on (``ninja_game.learn.levels.curriculum``);
+    "curriculum"              the levels for training from the easiest on (``ninja_game.learn.levels.source``);
                               "curriculum:ORIGIN": those of another origin
     "generated:3:1-8"         generated levels of difficulty 3, seeds 1 to 8; made when they are asked for, in some
                               seconds each (docs/generator.md)
@@ -110,7 +109,6 @@ def _split(names: Sequence[str]) -> dict[str, list[str]]:
 
 
 def _named(found: Sequence[NamedLevel]) -> LevelSource:
-    """Levels by the names of their files."""
     names = [Path(named.file).stem or named.name or "level" for named in found]
     return LevelSource(names, [named.level for named in found])
 

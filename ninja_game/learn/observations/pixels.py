@@ -22,10 +22,8 @@ from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, HALF, RADIUS, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.states import DRONE_FIRING, WEAPON_LASER
 
-FAR = 2.0 * WORLD_WIDTH
-"""px; nothing farther from a picture is drawn."""
-DOOR_HALF, BEAM_RADIUS, CROSS_RADIUS = 4.0, 2.0, 4.0
-"""px."""
+FAR = 2.0 * WORLD_WIDTH  # px; nothing farther from a picture is drawn
+DOOR_HALF, BEAM_RADIUS, CROSS_RADIUS = 4.0, 2.0, 4.0  # px
 EVERYWHERE = (-FAR, FAR, -FAR, FAR)
 ROUNDING = 1.0e-6
 """px; what rounding may move the rim of an object."""

@@ -156,7 +156,6 @@ def observe_distances(
     maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
     pictures: Any, width: int, height: int, size: int,
 ) -> None:  # fmt: skip
-    """Copy the part of the level's picture round the ninja."""
     for k in range(first, last):
         index = which[k]
         n = worlds[index].ninja

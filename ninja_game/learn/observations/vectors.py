@@ -9,8 +9,7 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from ninja_game.learn.goal_distance import point_within
-from ninja_game.learn.levels.places import NewLevel
-from ninja_game.learn.observations.part import Part, Setting, clamp
+from ninja_game.learn.observations.part import NewLevel, Part, Setting, clamp
 from ninja_game.search.heuristics import FARTHEST
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_at
@@ -20,8 +19,7 @@ from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL, HALF, LONGEST_JUMP, ROOT2, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.states import JUMPING, STATE_NAMES
 
-MAX_SPEED = 24.0
-"""px/tick; a ninja is seldom faster than 10."""
+MAX_SPEED = 24.0  # px/tick; a ninja is seldom faster than 10
 
 _FLAG, _SIGN = (0.0, 1.0, 1.0), (-1.0, 1.0, 1.0)
 _DX, _DY = (-WORLD_WIDTH, WORLD_WIDTH, WORLD_WIDTH), (-WORLD_HEIGHT, WORLD_HEIGHT, WORLD_WIDTH)
@@ -61,8 +59,7 @@ _NAMES = tuple(FIELDS)
 FIRST_EXIT, FIRST_GOLD, FIRST_STATE = (_NAMES.index(name) for name in ("exit_there", "gold_there", STATE_NAMES[0]))
 FAR = 1.0e18
 """px², farther than anything."""
-MOST_EXITS = 60
-"""Exits of a level that are looked at: its first."""
+MOST_EXITS = 60  # exits of a level that are looked at: its first
 
 
 @dataclass(frozen=True)
@@ -113,7 +110,6 @@ def observe_state(
     gold_bounds: Any, gold: Any, gold_x: Any, gold_y: Any,
     changed: Any, opened: Any, nearest: Any,
 ) -> None:  # fmt: skip
-    """Write the state vector of some worlds."""
     for k in range(first, last):
         index = which[k]
         level = level_of[index]
@@ -234,8 +230,7 @@ def nearest_gold(w: World, gold: Any, gold_x: Any, gold_y: Any, start: int, end:
     return chosen
 
 
-LONGEST = 1_000_000.0
-"""Ticks."""
+LONGEST = 1_000_000.0  # ticks
 
 
 @dataclass(frozen=True)
@@ -259,19 +254,16 @@ def observe_time(
     maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
     time_limit: int, factor: float, highest: float,
 ) -> None:  # fmt: skip
-    """Write the time left of some worlds."""
     for k in range(first, last):
         index = which[k]
         out[index, offset] = clamp((time_limit - worlds[index].tick) * factor, 0.0, highest)
 
 
-RADII = (24.0, 60.0)
-"""px."""
+RADII = (24.0, 60.0)  # px
 _SIDES = ((1.0, 0.0), (1.0 / ROOT2, 1.0 / ROOT2), (0.0, 1.0), (-1.0 / ROOT2, 1.0 / ROOT2))
 DIRECTIONS = [*_SIDES, *((-x, -y) for x, y in _SIDES)]
 """From the right by way of down."""
-FAR_TICKS = 1000.0
-"""Ticks to the exit that count as 1."""
+FAR_TICKS = 1000.0  # ticks to the exit that count as 1
 
 
 @dataclass(frozen=True)

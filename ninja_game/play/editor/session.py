@@ -17,7 +17,7 @@ from ninja_game.files.reading import NO_FILE, stamp_of
 from ninja_game.files.user_folder import LEVELS
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import write_level_string
-from ninja_game.formats.pack.files import is_pack
+from ninja_game.formats.pack.pack import is_pack
 from ninja_game.formats.replay.text import Replay
 from ninja_game.levels.findings import Finding
 from ninja_game.levels.warnings import level_findings

@@ -8,7 +8,7 @@ from functools import partial
 import pygame
 
 from ninja_game.errors import LevelError, NinjaGameError, reason
-from ninja_game.formats.links.making import replay_link
+from ninja_game.formats.links import replay_link
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
 from ninja_game.play.app import App, Screen

@@ -16,10 +16,9 @@ from ninja_game.editor.packs import Obstacles, ReadyPack, make_ready, obstacle_o
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.writing import write_atomically
-from ninja_game.formats.links.fragment import link_kind
-from ninja_game.formats.pack.files import INDEX, certificate_name
+from ninja_game.formats.links import link_kind
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, Accepted, EpisodeIndex
-from ninja_game.formats.pack.pack import Pack
+from ninja_game.formats.pack.pack import INDEX, Pack, certificate_name
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.generator.daily import FOLDER as DAILY
 from ninja_game.levels.findings import Finding, PackFinding

@@ -14,11 +14,10 @@ from ninja_game.files.reading import LeftOut, files_below
 from ninja_game.files.shown_text import unreadable
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.files.writing import write_atomically
-from ninja_game.formats.links.making import recording_link, replay_link
+from ninja_game.formats.links import recording_link, replay_link
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
-from ninja_game.formats.replay.episode import write_episode
-from ninja_game.formats.replay.text import Replay, write_replay
+from ninja_game.formats.replay.text import Replay, write_episode, write_replay
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.budget import TURN_WORK, affordable_ticks, tick_cost
-from ninja_game.formats.links.making import replay_link
+from ninja_game.formats.links import replay_link
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
 from ninja_game.formats.run_time import seconds_text

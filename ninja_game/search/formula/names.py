@@ -13,8 +13,7 @@ from ninja_game.backend.memories import open_worlds
 from ninja_game.batch.batch import Batch
 from ninja_game.errors import ArgumentError
 from ninja_game.search.formula.language import FAR, Values
-from ninja_game.search.heuristics import FARTHEST, Field, Heuristics, points_at
-from ninja_game.search.switches import open_masks
+from ninja_game.search.heuristics import FARTHEST, Field, Heuristics, open_masks, points_at
 from ninja_game.sim.kinds import DOOR, EXIT, GOLD, KIND_NAMES, LAUNCHER, MINE, TURRET
 from ninja_game.sim.level import Level
 from ninja_game.sim.states import LAUNCHER_FLIGHT, OUTCOME_DEAD, OUTCOME_EXIT

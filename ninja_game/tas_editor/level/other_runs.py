@@ -10,7 +10,7 @@ import numpy as np
 from ninja_game.errors import ReplayError
 from ninja_game.files.reading import LeftOut
 from ninja_game.files.user_folder import bundled_replays
-from ninja_game.formats.links.fragment import is_link
+from ninja_game.formats.links import is_link
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App
@@ -18,8 +18,7 @@ from ninja_game.play.menus.menu_screen import MenuScreen, ask_text
 from ninja_game.play.menus.replays import FILES_SHOWN, ReplayRow, ReplaysScreen
 from ninja_game.play.workspace import Commands
 from ninja_game.player.records import SavedReplay
-from ninja_game.tas.contributions import Contributions
-from ninja_game.tas.files import runs_of_level, same_level, track_of
+from ninja_game.tas.files import Contributions, runs_of_level, same_level, track_of
 from ninja_game.tas.timeline import Timeline
 from ninja_game.tas_editor.editor import OtherRun, TasEditor
 from ninja_game.ui.input.bindings import InputEvent

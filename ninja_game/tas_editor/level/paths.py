@@ -9,7 +9,7 @@ import numpy as np
 import pygame
 from numpy.typing import NDArray
 
-from ninja_game.formats.replay.input_runs import Marker
+from ninja_game.formats.replay.notations import Marker
 from ninja_game.play.replay.paths import draw_path
 from ninja_game.simulation import ObjectView
 from ninja_game.tas.timeline import Trajectory

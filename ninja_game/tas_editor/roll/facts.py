@@ -9,11 +9,11 @@ import numpy as np
 import pygame
 from numpy.typing import NDArray
 
-from ninja_game.formats.replay.input_runs import KEY_NAMES
+from ninja_game.formats.replay.notations import KEY_NAMES
 from ninja_game.sim.inputs import KEYS_DOWN, fitted_inputs
 from ninja_game.sim.states import STATE_NAMES
-from ninja_game.tas.input_track import InputTrack
-from ninja_game.tas.watch import exit_distance
+from ninja_game.tas.timeline import exit_distance
+from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.editor import TasEditor
 from ninja_game.tas_editor.tabs.values_tab import colour_of
 from ninja_game.ui.theme import Palette

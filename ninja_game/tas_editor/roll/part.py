@@ -8,7 +8,7 @@ import pygame
 
 from ninja_game.play.menus.menu_screen import Menu, nothing
 from ninja_game.play.workspace import Commands
-from ninja_game.tas.input_track import InputTrack
+from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.editor import TasEditor, TasPart
 from ninja_game.tas_editor.roll.commands import RollCommands
 from ninja_game.tas_editor.roll.facts import compared, different_rows, in_words, keys_in_words, row_facts

@@ -6,7 +6,7 @@ import pygame
 
 from ninja_game.play.menus.menu_screen import Question, ask_text
 from ninja_game.play.workspace import Commands
-from ninja_game.tas.branches import Branch, Branches
+from ninja_game.tas.tracks import Branch, Branches
 from ninja_game.tas_editor.editor import TasEditor
 from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, Rows, Tab, put_in_a_row
 from ninja_game.ui.theme import Area, Theme

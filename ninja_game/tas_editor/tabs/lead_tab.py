@@ -7,10 +7,10 @@ import pygame
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import counted
 from ninja_game.formats.recording import Recording
-from ninja_game.formats.replay.input_runs import Marker
+from ninja_game.formats.replay.notations import Marker
+from ninja_game.runs.compare import LeadTable, lead_table
 from ninja_game.runtime import NewestJob
-from ninja_game.tas.input_track import InputTrack
-from ninja_game.tas.leads import LeadTable, lead_table
+from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.editor import TasEditor
 from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, Rows, Tab
 from ninja_game.ui.theme import Area, Theme

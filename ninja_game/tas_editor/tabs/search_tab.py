@@ -21,10 +21,10 @@ from ninja_game.search.formula.methods import KEPT, fewest_ticks
 from ninja_game.search.formula.task import Found, SpanTask, score_in_words
 from ninja_game.sim.inputs import fitted_inputs, with_press_bits
 from ninja_game.sim.rules import TICKS_PER_SECOND
-from ninja_game.tas.contributions import Contributions
+from ninja_game.tas.files import Contributions
 from ninja_game.tas.goals import IMPROVE, IMPROVE_GOLD, IMPROVES, PRESETS, SearchedSpan, SpanGoal, whole_run
-from ninja_game.tas.input_track import InputTrack, first_difference
 from ninja_game.tas.timeline import Timeline
+from ninja_game.tas.tracks import InputTrack, first_difference
 from ninja_game.tas_editor.editor import OtherRun, Span, TasEditor
 from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, EntryField, Rows, Tab, what_is_wrong
 from ninja_game.ui.theme import Area, Theme, wrapped

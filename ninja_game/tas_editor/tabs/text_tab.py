@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 
 from ninja_game.errors import FormatError
 from ninja_game.files.shown_text import counted
-from ninja_game.formats.replay.input_runs import KEY_NAMES
 from ninja_game.formats.replay.input_text import Inputs
+from ninja_game.formats.replay.notations import KEY_NAMES
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, pressed, with_press_bits
 from ninja_game.tas.files import inputs_of_text
-from ninja_game.tas.input_track import InputTrack
+from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.editor import Span, TasEditor
 from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, EntryField, Rows, Tab
 from ninja_game.ui.theme import Area, Theme

@@ -16,7 +16,7 @@ from ninja_game.play.workspace import Commands
 from ninja_game.runs.compare import SPLIT_EVENTS
 from ninja_game.search.formula.language import Values
 from ninja_game.sim.kinds import DOOR, EXIT, GOLD, KIND_NAMES, KIND_OF, MINE
-from ninja_game.tas.watch import Watch, parse_watch
+from ninja_game.tas.timeline import Watch, parse_watch
 from ninja_game.tas_editor.editor import TasEditor
 from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, Rows, Tab, put_in_a_row, what_is_wrong
 from ninja_game.ui.list_view import ListView

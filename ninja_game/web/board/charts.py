@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from ninja_game.ui.theme import RUN_COLOURS
 from ninja_game.web.pages.frame import Markup, joined, tag
-from ninja_game.web.pages.gallery import PICTURE_HEIGHT
-from ninja_game.web.pages.published import PICTURE_WIDTH
+from ninja_game.web.pages.gallery import PICTURE_HEIGHT, PICTURE_WIDTH
 
 WIDTH, HEIGHT, MARGIN = 480, 150, 14
 """Size of the chart and its margin, px, before it is fitted to the page."""
@@ -57,7 +56,6 @@ def paths(picture: str, runs: Sequence[tuple[str, str]]) -> Markup:
 
 
 def swatch(number: int) -> Markup:
-    """The colour of the path with a number."""
     line = tag("path", d="M1 7H21", stroke=_colour(number), class_="way")
     return tag("svg", line, viewBox="0 0 22 14", width="22", height="14", aria_hidden="true")
 

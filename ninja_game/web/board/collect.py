@@ -14,8 +14,16 @@ from ninja_game.errors import FileError, NinjaGameError, ReplayError, reason
 from ninja_game.files.reading import LeftOut, decoded, files_below, read_bytes, stamp_of
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.recording import holds_recordings
-from ninja_game.formats.replay.episode import is_episode, parse_episode, write_episode
-from ninja_game.formats.replay.text import INPUTS_AFTER, Replay, is_replay, parse_replay, write_replay
+from ninja_game.formats.replay.text import (
+    INPUTS_AFTER,
+    Replay,
+    is_episode,
+    is_replay,
+    parse_episode,
+    parse_replay,
+    write_episode,
+    write_replay,
+)
 from ninja_game.runs.chunks import Chunk
 from ninja_game.runs.recording_reader import records_of
 from ninja_game.sim.inputs import MAX_TICKS

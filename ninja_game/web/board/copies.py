@@ -51,7 +51,6 @@ class Course:
 
 
 def course_of(inputs: bytes, run: RunResult) -> Course:
-    """The course of a run with such inputs."""
     keys = bytes(each & KEYS_DOWN for each in inputs)
     met: Counter[int] = Counter()
     strokes = []

@@ -19,12 +19,10 @@ from ninja_game.web.board.ranking import Part, Ranked
 from ninja_game.web.board.rules import FASTEST
 from ninja_game.web.board.runs import Run
 from ninja_game.web.pages.frame import Content, Markup, joined, section, table, tag
-from ninja_game.web.pages.gallery import level_page
-from ninja_game.web.pages.published import page_name, picture, picture_name
+from ninja_game.web.pages.gallery import level_page, page_name, picture, picture_name
 
 FIRST, TOGETHER, MOST_SPLITS = 10, 5, 60
 """Rows of a table; runs side by side; rows of splits, and where there were more, gold is left out."""
-
 
 NEAR = "A run that is nearly somebody else's is never first, until the keeper of the board confirms it."
 
@@ -88,7 +86,6 @@ class LevelPages(Parts):
         return section(self.part_name(part), table("Best run of each player", compress(heads, filled), lines))
 
     def _progression(self, entry: Entry, part: Part) -> Content:
-        """How the record fell."""
         category, runs = part[1], self.ranking.history[entry.digest, part]
         moved = "rose" if category.rising else "fell"
         numbers = [self.ranking.number(category, run) for run in runs]

@@ -24,8 +24,7 @@ from ninja_game.web.board.ranking import Record, Standing
 from ninja_game.web.board.report import summary
 from ninja_game.web.board.runs import PLAYED, Key, Run
 from ninja_game.web.pages.frame import REPLAYS, Content, page, section, table, tag
-from ninja_game.web.pages.gallery import BOARD, medal_mark
-from ninja_game.web.pages.published import page_name, shared_text
+from ninja_game.web.pages.gallery import BOARD, medal_mark, page_name, shared_text
 
 NEWEST, LEADING, CONTESTED = 30, 20, 10
 """Rows on the first page of records, players and levels."""
@@ -209,15 +208,8 @@ class BoardPages(LevelPages):
         def cells(row: Sequence[Any]) -> tuple[Content, ...]:
             run = known[row[0]]
             result = seconds_text(run.tick), medal_mark(run.medal), seconds_text(run.score), run.gold
-            return (
-                row[1],
-                level_link(run.entry, UP),
-                *result,
-                *row[3:5],
-                run.made or "unknown",
-                *self.leads(run, UP),
-                run.day,
-            )
+            leads = run.made or "unknown", *self.leads(run, UP), run.day
+            return (row[1], level_link(run.entry, UP), *result, *row[3:5], *leads)
 
         rows = [
             [self.stems[run.key], run.entry.episode, run.medal, *places.get(run.key, ("", "")), run.day]

@@ -15,15 +15,13 @@ from ninja_game.web.board.ranking import Part, Ranking
 from ninja_game.web.board.rules import Category
 from ninja_game.web.board.runs import Run
 from ninja_game.web.pages.frame import GAME, REPLAYS, Content, Markup, Pages, joined, page, table, tag
-from ninja_game.web.pages.gallery import BOARD, medal_mark, run_page
+from ninja_game.web.pages.gallery import BOARD, medal_mark, page_name, picture_name, run_page, watch_address
 from ninja_game.web.pages.memo import Memo
-from ninja_game.web.pages.published import page_name, picture_name, watch_address
 
 PER_PAGE = 100
 """Rows of a table that goes on on another page: a page has at most 100 KB."""
 
-LONGEST_NAME = 40
-"""Characters of a name in a table."""
+LONGEST_NAME = 40  # characters of a name in a table
 
 UP = "../"
 RUN_HEADS = ("Watch", "Share", "Medal", "Gold", "Made", "Date", "Remark")
@@ -86,7 +84,6 @@ class Parts:
         return self.watch([run], up), tag("a", "Share", href=address, aria_label=said)
 
     def run_page(self, run: Run) -> None:
-        """The small page of a run."""
         stem, title = self.stems[run.key], f"{self.name(run.player)} on {run.entry.title}"
         facts = [("Time", f"{seconds_text(run.tick)} s"), ("Score", seconds_text(run.score)), ("Gold", str(run.gold)),
                  ("Medal", run.medal), ("Made", run.made or "unknown"), ("Date", run.day)]  # fmt: skip
@@ -140,14 +137,5 @@ def signed(ticks: int) -> str:
 def _stem(run: Run) -> str:
     """The stem of the file in ``replays`` with a run: of all that the file holds."""
     named = run.entry.named
-    told = [
-        run.digest,
-        str(run.record),
-        run.player,
-        run.entry.title,
-        named.author,
-        run.made,
-        run.co_authors,
-        run.entry.digest,
-    ]
-    return sha256("\0".join(told).encode("utf-8", "replace")).hexdigest()[:16]
+    told = run.digest, str(run.record), run.player, run.entry.title, named.author, run.made, run.co_authors
+    return sha256("\0".join((*told, run.entry.digest)).encode("utf-8", "replace")).hexdigest()[:16]

@@ -13,7 +13,7 @@ from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.player.catalogue import Episode
 from ninja_game.web.board.rules import USUAL, Category
 from ninja_game.web.board.runs import PLAYED, Run, ValidatedRuns
-from ninja_game.web.pages.published import PublishedLevels
+from ninja_game.web.pages.gallery import PublishedLevels
 
 Part = tuple[str, Category]
 """A ladder and a category: runs are ranked within them."""

@@ -15,19 +15,7 @@ from ninja_game.files.reading import read_utf8
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.web.board.ranking import Ranking
-from ninja_game.web.board.runs import (
-    KINDS,
-    NO_LEDGER,
-    OWN,
-    PLAYED,
-    Dates,
-    Key,
-    Ledger,
-    Rejected,
-    Rows,
-    Run,
-    ValidatedRuns,
-)
+from ninja_game.web.board.runs import KINDS, NO_LEDGER, OWN, PLAYED, Dates, Key, Ledger, Rows, Run, ValidatedRuns
 
 VERSION = 2
 DATE = "%Y-%m-%dT%H:%M:%SZ"
@@ -51,10 +39,6 @@ def _run_data(run: Run) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _rejected_data(rejected: Rejected) -> dict[str, Any]:
-    return {key: getattr(rejected, key) for key in _FIELDS["rejected"]}
-
-
 def board_text(judged: ValidatedRuns, before: Ledger = NO_LEDGER) -> str:
     """A board as JSON, a run a line, so that a difference of two reads well; only its dates depend on time.
 
@@ -63,7 +47,10 @@ def board_text(judged: ValidatedRuns, before: Ledger = NO_LEDGER) -> str:
     """
     data = {"runs": [_run_data(run) for run in sorted(judged.runs, key=lambda run: run.key)]}
     counted = {run.key for run in judged.runs}
-    rejected = {(each.file, each.record): _rejected_data(each) for each in (*judged.rejected, *judged.again)}
+    rejected = {
+        (each.file, each.record): {key: getattr(each, key) for key in _FIELDS["rejected"]}
+        for each in (*judged.rejected, *judged.again)
+    }
     for key, old in (before.rejected | before.runs).items():
         whole = rejected.get((key[0], 0), {})
         row = rejected.get(key) or (whole if whole.get("kind") == "unreadable" else {})
@@ -184,7 +171,6 @@ def plain(text: str) -> str:
 
 
 def summary(judged: ValidatedRuns) -> str:
-    """All of it in a line."""
     players, levels = {run.player for run in judged.runs}, {run.entry.digest for run in judged.runs}
     counts = ("run", judged.runs), ("player", players), ("level", levels)
     runs, by, on = (counted(len(each), name, f"{name}s") for name, each in counts)

@@ -13,7 +13,7 @@ import numpy as np
 
 from ninja_game.errors import FormatError
 from ninja_game.files.reading import read_utf8
-from ninja_game.files.toml import parse_toml
+from ninja_game.files.untrusted import parse_toml
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.search.formula.language import Formula, FormulaError, Values, parse_number, parse_truth
 from ninja_game.web.board.runs import Run

@@ -33,8 +33,8 @@ from ninja_game.web.board.charts import path_data
 from ninja_game.web.board.collect import RunFolder, Sent, SentFile
 from ninja_game.web.board.copies import Course, Courses, course_of
 from ninja_game.web.board.players import Players, folded
+from ninja_game.web.pages.gallery import PublishedLevels, shared_text
 from ninja_game.web.pages.memo import Memo, digest_of, program
-from ninja_game.web.pages.published import PublishedLevels, shared_text
 
 Key = tuple[str, int]
 """A run's file, as a path in the folder, and its record there."""

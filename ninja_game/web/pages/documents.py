@@ -32,11 +32,9 @@ from ninja_game.web.pages.frame import GAME, HOME, NAVIGATION, SEARCH, Content, 
 FILM, STILL = "pictures/ninja-game.webp", "pictures/ninja-game.png"
 """The moving picture of the first page, and one for who wants no motion."""
 
-FIGURES_SCRIPT = "app-folder/figures.js"
-"""Where the build puts what makes figures move."""
+FIGURES_SCRIPT = "app-folder/figures.js"  # where the build puts what makes figures move
 
-LAB = "lab-"
-"""How the name of a figure's picture begins."""
+LAB = "lab-"  # how the name of a figure's picture begins
 
 LEFT_OUT = (".", "build/", "dist/")
 """Folders whose Markdown is not the project's, or not meant for readers."""
@@ -52,7 +50,6 @@ def slug(heading: str) -> str:
 
 
 def markdown_files() -> dict[str, Path]:
-    """All documents of the project by their names in it."""
     root = data_folder("docs").parent
     files = {path.relative_to(root).as_posix(): path for path in root.rglob("*.md")}
     return {name: path for name, path in sorted(files.items()) if not name.startswith(LEFT_OUT)}
@@ -91,7 +88,6 @@ class Documents:
         self._sources: set[str] = set()
 
     def build(self) -> dict[str, bytes]:
-        """All pages, with their pictures, style and search."""
         here = Path(__file__).parent
         for name in self.markdown:
             self._document(name)
@@ -140,7 +136,6 @@ class Documents:
         self._write(page_name, title, [*top, body, *self._neighbours(name)], figures=figures)
 
     def _neighbours(self, name: str) -> list[Content]:
-        """Links to the chapters before and after one."""
         chapters = [each for each in self.markdown if each.startswith("docs/learn/") and not each.endswith("README.md")]
         if name not in chapters:
             return []
@@ -248,7 +243,6 @@ class Documents:
     # --- sources ---
 
     def _source(self, name: str) -> None:
-        """The page of a source file, or of a folder of them."""
         path = (PACKAGE.parent if name.startswith(PACKAGE.name) else data_folder("docs").parent) / name
         if path.is_dir():
             inside = sorted(each for each in path.iterdir() if each.is_dir() or each.suffix == ".py")
@@ -263,7 +257,6 @@ class Documents:
 
 
 def _titled(tokens: list[Token], name: str) -> tuple[str, list[Token]]:
-    """The title of a document, and the tokens without it."""
     if tokens and tokens[0].type == "heading_open" and tokens[0].tag == "h1":
         return _plain(tokens[1]), tokens[3:]
     return Path(name).stem, tokens

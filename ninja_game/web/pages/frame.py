@@ -20,11 +20,9 @@ from ninja_game.ui.lettering import SPACING, WEIGHTS, glyph
 from ninja_game.ui.theme import PALETTES, Palette, mixed
 from ninja_game.web.pages.memo import Memo, digest_of, program
 
-LONGEST = 400
-"""Characters of a text that are shown."""
+LONGEST = 400  # characters of a text that are shown
 
-_EMPTY = frozenset({"img", "input", "link", "meta", "source"})
-"""Elements without an end tag."""
+_EMPTY = frozenset({"img", "input", "link", "meta", "source"})  # elements without an end tag
 
 _ADDRESS = re.compile(r"(?:https?://[\w.:-]+/)?(?!//)[\w./#=&,-]*")
 """Where a page may lead: a file of its site, a page with the game, a fragment; no scheme that runs anything."""
@@ -229,7 +227,6 @@ def heading(text: str) -> Markup:
 
 
 def page_icon() -> bytes:
-    """The game's icon as a PNG."""
     return png_of(icon(_ICON_SIZE))
 
 
@@ -287,5 +284,4 @@ def _wrapping(cell: Content) -> Content:
 
 
 def section(title: str, *contents: Content) -> Markup:
-    """A part of a page with its heading."""
     return tag("section", tag("h2", title), joined(*contents))

@@ -1,21 +1,33 @@
-"""The gallery: a page of all levels, and one for each."""
+"""The gallery of levels, a page for each; and the levels that pages show, of a pack or of any file or folder."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from hashlib import sha256
+from io import BytesIO
 from pathlib import Path
 from posixpath import normpath
+
+import pygame
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.ascii.writer import headers_of
-from ninja_game.formats.links.making import level_link
+from ninja_game.formats.links import level_link, write_watch
+from ninja_game.formats.load import load_levels
+from ninja_game.formats.pack.pack import Pack, is_pack
 from ninja_game.formats.pack.pars import MARGINS, MEDALS, Pars
+from ninja_game.formats.recording import Recording, parse_replays
+from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.formats.run_time import seconds_text
-from ninja_game.player.catalogue import Entry
+from ninja_game.player.catalogue import Entry, EpisodeSet, episode_set
 from ninja_game.sim.kinds import KIND_NAMES
-from ninja_game.sim.level import makes_object
+from ninja_game.sim.level import Level, makes_object
+from ninja_game.ui.theme import CLASSIC
+from ninja_game.view.sprites.thumbnail import thumbnail
 from ninja_game.web.pages.frame import (
     GAME,
     HOME,
@@ -31,16 +43,89 @@ from ninja_game.web.pages.frame import (
     table,
     tag,
 )
-from ninja_game.web.pages.published import (
-    PICTURE_WIDTH,
-    PublishedLevels,
-    page_name,
-    picture,
-    picture_name,
-    shared_name,
-    shared_text,
-    watch_address,
-)
+
+PICTURE_WIDTH = 792
+
+
+@dataclass(frozen=True)
+class PublishedLevels:
+    name: str
+    author: str
+    comment: str
+    levels: EpisodeSet
+    pack: Pack | None = field(default=None, repr=False, compare=False)
+
+    @cached_property
+    def entries(self) -> dict[str, Entry]:
+        """The levels by digest, in playing order; of equal ones the first."""
+        found: dict[str, Entry] = {}
+        for entry in self.levels.levels:
+            found.setdefault(entry.digest, entry)
+        return found
+
+    @cached_property
+    def runs(self) -> Mapping[str, Mapping[str, Recording]]:
+        """By level digest the certificates there are, "exit" or "gold"."""
+        return {entry.digest: _certificates(self.pack, entry) for entry in self.levels.levels} if self.pack else {}
+
+
+def published_levels(path: Path) -> PublishedLevels:
+    """The levels of a pack, or of any file or folder. Raises NinjaGameError, OSError."""
+    if not is_pack(path):
+        entries = tuple(Entry(level, "yours") for level in load_levels(path))
+        return PublishedLevels(path.stem, "", "", EpisodeSet("", path.stem, (), {}, entries))
+    pack = Pack(path)
+    return PublishedLevels(pack.name, pack.index.author, pack.index.comment, episode_set(pack, ""), pack)
+
+
+def _certificates(pack: Pack, entry: Entry) -> dict[str, Recording]:
+    found = {}
+    for kind in KINDS:
+        name = pack.certificate(Path(entry.named.file).name, kind)
+        if name is not None:
+            try:
+                (found[kind],) = parse_replays(pack.files.text(name), level=entry.named.level)
+            except NinjaGameError:
+                # `levels lint` tells what is wrong with it; the page does without.
+                continue
+    return found
+
+
+def page_name(digest: str) -> str:
+    return f"levels/{digest[:16]}.html"
+
+
+def picture_name(digest: str) -> str:
+    return f"pictures/{digest[:16]}.png"
+
+
+def picture(level: Level, width: int = PICTURE_WIDTH) -> bytes:
+    """The level as a PNG, as the game draws it; colours are reduced, so that it is small."""
+    from PIL import Image
+
+    surface = thumbnail(level, CLASSIC, width)
+    image = Image.frombytes("RGB", surface.get_size(), pygame.image.tobytes(surface, "RGB"))
+    out = BytesIO()
+    image.quantize(128, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(out, "png")
+    return out.getvalue()
+
+
+def shared_text(replay: Replay, level: Level) -> str:
+    """A replay as the page fetches it: its level inside, no path, no waypoints, nothing that is only claimed."""
+    return write_replay(
+        replace(replay, level=level, level_path="", level_record=0, level_digest="", digest="", waypoints=())
+    )
+
+
+def shared_name(text: str) -> str:
+    """The stem of the file in ``replays`` that holds a text."""
+    return sha256(text.encode()).hexdigest()[:16]
+
+
+def watch_address(game: str, *stems: str) -> str:
+    """Where runs are watched: ``game`` is the address of the page with the game."""
+    return game + write_watch(stems)
+
 
 UP = "../"
 PICTURE_HEIGHT = PICTURE_WIDTH * 600 // 792
@@ -126,7 +211,6 @@ def _play(entry: Entry, game: str) -> Content:
 
 
 def objects_text(entry: Entry) -> str:
-    """How many objects of each kind, the commonest first."""
     counts = Counter(KIND_NAMES[spec.kind] for spec in entry.named.level.objects if makes_object(spec))
     told = [counted(count, kind, "gold" * (kind == "gold")) for kind, count in counts.most_common()]
     return ", ".join(told) or "none"
@@ -147,8 +231,7 @@ def medal_mark(medal: str) -> Content:
 
 SORT_ORDERS = (("", "in playing order"), ("name", "by name"), ("difficulty", "by difficulty"), ("par", "by par time"))
 
-LONGEST_NAME = 60
-"""Characters of a name in the list."""
+LONGEST_NAME = 60  # characters of a name in the list
 
 
 def write_gallery(out: Path, shown: PublishedLevels, *, game: str = GAME, address: str = "") -> Path:
@@ -218,7 +301,6 @@ def search(episodes: Mapping[str, str]) -> Markup:
 
 
 def _card(entry: Entry, place: int) -> Markup:
-    """A level in the list."""
     pars = entry.pars
     facts: list[Content] = [tag("span", f"by {entry.named.author}" if entry.named.author else "author unknown")]
     if pars:

@@ -53,7 +53,6 @@ class Memo:
         return self._now.get(key)
 
     def note(self, key: str, value: Any) -> None:
-        """Note a plain value."""
         self._now[key] = value
 
     @property

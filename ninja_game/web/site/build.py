@@ -19,9 +19,16 @@ from ninja_game.files.tree import Tree, leads_below
 from ninja_game.files.user_folder import PACKAGE, data_folder
 from ninja_game.web.pages.documents import Documents
 from ninja_game.web.pages.frame import GAME, MARK as PAGES_MARK, REPLAYS
-from ninja_game.web.pages.published import page_name, picture_name, published_levels
-from ninja_game.web.site.game_archive import compiled, game_archive, game_files, licence_of
-from ninja_game.web.site.pyodide_files import library_files, library_of, pyodide_files
+from ninja_game.web.pages.gallery import page_name, picture_name, published_levels
+from ninja_game.web.site.game_archive import (
+    compiled,
+    game_archive,
+    game_files,
+    library_files,
+    library_of,
+    licence_of,
+    pyodide_files,
+)
 
 MARK = "ninja-game-site.json"
 """The file that tells a folder of ours, with the names of what was written into it."""
@@ -104,7 +111,6 @@ def _of_pages(path: Path) -> bool:
 
 
 def _page() -> dict[str, bytes]:
-    """The page's own files, without what Python runs."""
     folder = PACKAGE / "web" / "page"
     return {
         path.name: path.read_bytes() for path in sorted(folder.iterdir()) if path.suffix in {".html", ".css", ".js"}
@@ -112,7 +118,6 @@ def _page() -> dict[str, bytes]:
 
 
 def _icons() -> dict[str, bytes]:
-    """The icons, as the game draws its ninja."""
     from ninja_game.play.window import icon, png_of
 
     wanted = ICONS | {MASKABLE: (512, 0.0)}
@@ -172,7 +177,6 @@ def _digest(files: Iterable[tuple[str, bytes]]) -> str:
 
 
 def _manifest() -> dict[str, object]:
-    """What a browser needs to install the page as a program."""
     icons = [
         {"src": name, "sizes": f"{size}x{size}", "type": "image/png", "purpose": "any"}
         for name, (size, _) in ICONS.items()

@@ -13,8 +13,7 @@ from types import CodeType
 PLACES = {"library": "/lib/python314.zip", "game": "/game"}
 """Where the page has what is in each folder: tracebacks name it."""
 
-DOCUMENTED = ("pyodide", "_pyodide")
-"""Packages that need their docstrings when they run."""
+DOCUMENTED = ("pyodide", "_pyodide")  # packages that need their docstrings when they run
 
 UNCHECKED = MAGIC_NUMBER + (1).to_bytes(4, "little") + bytes(8)
 """Header of bytecode that is never compared with a source."""

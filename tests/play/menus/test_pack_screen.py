@@ -15,7 +15,7 @@ import pytest
 
 from ninja_game.editor import packs
 from ninja_game.editor.packs import ReadyPack
-from ninja_game.formats.links.fragment import write_link
+from ninja_game.formats.links import write_link
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.levels.findings import in_pack
 from ninja_game.play.editor.screen import EditorScreen

@@ -11,7 +11,7 @@ import pytest
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.user_folder import LEVELS
-from ninja_game.formats.pack.files import is_pack
+from ninja_game.formats.pack.pack import is_pack
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.generator.daily import daily_file
 from ninja_game.play.level.screen import LevelScreen

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pygame
 import pytest
 
-from ninja_game.formats.replay.input_runs import Marker
-from ninja_game.tas.input_track import InputTrack
+from ninja_game.formats.replay.notations import Marker
+from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.roll.part import MARGIN
 from ninja_game.ui.input.keys import SCANCODES
 from tests.support.tas_driver import TasDriver

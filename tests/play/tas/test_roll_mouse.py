@@ -5,10 +5,10 @@ from __future__ import annotations
 import pygame
 import pytest
 
-from ninja_game.formats.replay.input_runs import Marker
+from ninja_game.formats.replay.notations import Marker
 from ninja_game.play.menus.menu_screen import FormPanel, Menu
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
-from ninja_game.tas.input_track import InputTrack
+from ninja_game.tas.tracks import InputTrack
 from tests.support.tas_driver import TasDriver
 
 CTRL, SHIFT = pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT

@@ -9,7 +9,7 @@ import pygame
 import pytest
 
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT
-from ninja_game.tas.input_track import InputTrack
+from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.editor import LayoutPreferences, tas_canvas, tas_layout
 from ninja_game.tas_editor.roll.facts import changed_ticks, in_words, row_facts
 from ninja_game.tas_editor.roll.rows import COLUMNS, RowSheet, layout_of, shortened

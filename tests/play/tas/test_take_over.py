@@ -9,8 +9,8 @@ import pygame
 import pytest
 
 from ninja_game.sim.inputs import with_press_bits
-from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.timeline import AFTERMATH
+from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.level.playing import TakeOver
 from ninja_game.ui.input.keys import SCANCODES
 from tests.support.tas_driver import TasDriver

@@ -17,8 +17,8 @@ from ninja_game.formats.n14.level_string import parse_level_string, write_level_
 from ninja_game.runs.run import run_level
 from ninja_game.sim.inputs import KEY_LEFT, Demo, with_press_bits
 from ninja_game.sim.level import Level
-from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.journal import FOLDER, read_journal
+from ninja_game.tas.tracks import InputTrack
 from tests.play.tas.conftest import RUN
 from tests.support import reference
 from tests.support.real_window import NEEDS_WINDOW, TIMEOUT, Player, virtual_screen

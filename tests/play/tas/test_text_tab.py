@@ -6,10 +6,10 @@ from itertools import pairwise
 
 import pytest
 
-from ninja_game.formats.replay.input_runs import Marker
+from ninja_game.formats.replay.notations import Marker
 from ninja_game.sim.inputs import KEY_LEFT
 from ninja_game.tas.files import inputs_of_text
-from ninja_game.tas.input_track import InputTrack
+from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.tabs.text_tab import TextTab, starts_of, text_of
 from tests.support.tas_driver import TasDriver
 

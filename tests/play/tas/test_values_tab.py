@@ -12,7 +12,7 @@ import pytest
 from ninja_game.play.menus.menu_screen import FormPanel
 from ninja_game.sim.inputs import Input
 from ninja_game.simulation import Simulation
-from ninja_game.tas.input_track import InputTrack
+from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.tabs.values_tab import ObjectList, TickRange, ValuesTab, shown_value, watched_values
 from tests.support.tas_driver import TasDriver
 

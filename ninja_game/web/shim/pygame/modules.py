@@ -39,7 +39,6 @@ def _get_surface() -> Surface | None:
 
 
 def _flip(rectangles: Any = None) -> None:
-    """Paint what was drawn since the last time."""
     address, count = LIST.numbers.buffer_info()
     LINK.page.paint(address, count)
     LIST.clear()

@@ -25,8 +25,7 @@ a fresh one they are parts, letters of a text say, as often as they are blitted 
 )
 """Kinds of entries, each followed by its numbers (painter.js says which)."""
 
-SCREEN = 1
-"""The number of the canvas that the player sees."""
+SCREEN = 1  # the number of the canvas that the player sees
 
 
 class DisplayList:

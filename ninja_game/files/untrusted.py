@@ -1,4 +1,4 @@
-"""Untrusted zips: files in them, unpacked in memory, within limits that hold before any memory is made."""
+"""TOML texts and zips from anybody: read by the library, within limits that hold before any memory is made."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import io
 import re
 import struct
 import sys
+import tomllib
 import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -16,6 +17,40 @@ from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile, ZipInfo
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
+
+MOST_PARTS = 50
+"""Parts of a key with dots; the library takes time with the square of their number."""
+
+_PART = r"""(?:(?<![\w-])[\w-]++|(?<!\\)"(?:[^"\\\n]|\\.)*+"|'[^'\n]*+')"""
+_LONG_KEY = re.compile(rf"(?:{_PART}[ \t]*+\.[ \t]*+){{{MOST_PARTS}}}")
+
+
+def parse_toml(text: str, *, any_number: bool = False) -> dict[str, Any]:
+    """The table in a TOML text. Raises ValueError, with line and column in its words where it can.
+
+    ``any_number``: also with numbers that TOML does not have, of which Python may refuse to tell the digits.
+    """
+    long_key = _LONG_KEY.search(text)
+    if long_key:
+        before = text[: long_key.start()]
+        place = f"(at line {before.count(chr(10)) + 1}, column {len(before) - before.rfind(chr(10))})"
+        raise ValueError(f"A key of more than {MOST_PARTS} parts {place}")
+    try:
+        table = tomllib.loads(text)
+        if not any_number:
+            _check_numbers(table)
+    except RecursionError:
+        raise ValueError("Nested too deep") from None
+    return table
+
+
+def _check_numbers(value: object) -> None:
+    if isinstance(value, dict | list):
+        for each in value.values() if isinstance(value, dict) else value:
+            _check_numbers(each)
+    elif isinstance(value, int) and not -(2**63) <= value < 2**63:
+        raise ValueError("A whole number of more than 64 bits")
+
 
 _ENTRY = b"PK\1\2"
 _BLOCK = 2**20
@@ -82,8 +117,7 @@ UNREADABLE = (
 )  # fmt: skip
 """What odd files make the standard library and NumPy raise."""
 
-MOST_ARRAYS = 2**16
-"""In an archive; a trace has nine."""
+MOST_ARRAYS = 2**16  # in an archive; a trace has nine
 
 _HEADER = re.compile(
     rb"\x93NUMPY(?:\x01\x00..|\x02\x00....)"

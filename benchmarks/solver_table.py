@@ -1,6 +1,6 @@
 """Make the solver's table: the reference levels of episodes 00, 10, ... 90, each for some seconds of a core's work.
 
-    python3 tools/dev.py tool measure.solver_table results.jsonl --seconds 60
+    python3 -m benchmarks.solver_table results.jsonl --seconds 60
 
 With two jobs a level gets twice as many seconds. Results are appended to a file of JSON lines after each level; levels
 that are in it are not solved again, so that a long run can be interrupted. In the end all of them are printed as

@@ -1,6 +1,4 @@
-"""How many honest runs and how many edited ones the board takes for near copies: the table of docs/board.md.
-
-    python3 tools/dev.py tool measure.near_copies
+"""Honest pairs of runs, and edited ones, that the board should tell apart: the table of docs/board.md is of these.
 
 Honest: pairs of runs of the reference on one level, one by a person and one made with tools. Edited: certificates of
 ours, in which changes are made at random places, one after the other, each kept only if the run still passes.
@@ -15,10 +13,6 @@ from dataclasses import replace
 from functools import partial
 from itertools import combinations, islice
 
-import numpy as np
-
-from ninja_game.files.user_folder import bundled_replays
-from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.run import RunResult, run_level
@@ -27,7 +21,6 @@ from ninja_game.web.board.copies import Course, Courses, course_of
 from tests.support.reference import RunRow, positions, recordings
 
 COUNTS = (1, 2, 5, 10, 20, 50, 100, 200)
-PAIRS, CERTIFICATES = 300, 100
 MOST_TRIES = 1500
 LONGEST_BLOCK = 60
 
@@ -46,7 +39,7 @@ def every_nth(found: list, count: int) -> list:  # type: ignore[type-arg]
     return [found[index * len(found) // count] for index in range(count)]
 
 
-def honest_pairs(count: int = PAIRS) -> tuple[list[tuple[RunRow, RunRow]], int]:
+def honest_pairs(count: int) -> tuple[list[tuple[RunRow, RunRow]], int]:
     """Pairs of a person's run and another source's; and how many more of all are equal in every position."""
     on_level: dict[str, list[RunRow]] = defaultdict(list)
     for run in recordings():
@@ -121,22 +114,3 @@ def noticed(recording: Recording, kind: str) -> Iterator[tuple[int, bool]]:
     first = course_of(inputs[: run.ticks], run)
     for count, changed, result in edited(recording, kind):
         yield count, result.places == run.places or near_ones(course_of(changed, result), [first]) != []
-
-
-def main() -> None:
-    pairs, equal = honest_pairs()
-    told = [found for one, other in pairs for found in near_ones(course_of_row(other), [course_of_row(one)])]
-    print(f"honest pairs: {len(told)} of {len(pairs)} remarked; {equal} more pairs are equal in every position")
-    print("| changes |", " | ".join(map(str, COUNTS)), "|")
-    chosen = every_nth([path for path in bundled_replays() if ".exit." in path.name], CERTIFICATES)
-    for kind in EDITS:
-        rows: dict[int, list[bool]] = {count: [] for count in COUNTS}
-        for path in chosen:
-            (recording,) = load_replays(path)
-            for count, seen in noticed(recording, kind):
-                rows[count].append(seen)
-        print(f"| {kind} |", " | ".join(f"{np.mean(row):.0%} of {len(row)}" for row in rows.values()), "|", flush=True)
-
-
-if __name__ == "__main__":
-    main()

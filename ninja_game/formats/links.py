@@ -1,19 +1,36 @@
-"""The part of an address behind the #: ``#level=1.…``, ``#pack=1.…``, ``#replay=1.…`` (`docs/links.md`)."""
+"""Links that carry everything: a level, a pack or replays as compressed text behind the # of an address.
+
+``#level=1.…``, ``#pack=1.…``, ``#replay=1.…`` (`docs/links.md`).
+"""
 
 from __future__ import annotations
 
+import json
 import re
 import zlib
 from base64 import urlsafe_b64decode, urlsafe_b64encode
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 from urllib.parse import unquote
 
-from ninja_game.errors import LinkError
-from ninja_game.files.beside import PLACE
-from ninja_game.files.reading import decoded
+from ninja_game.errors import FormatError, LinkError
+from ninja_game.files.reading import PLACE, decoded
+from ninja_game.formats.ascii.writer import write_ascii_level
+from ninja_game.formats.n14.level_file import write_level_file
+from ninja_game.formats.n14.level_string import level_digest
+from ninja_game.formats.recording import Recording, parse_replays, record_of
+from ninja_game.formats.replay.text import (
+    Replay,
+    is_episode,
+    is_replay,
+    parse_episode,
+    parse_replay,
+    write_episode,
+    write_replay,
+)
+from ninja_game.sim.level import Level
 
 Kind = Literal["level", "pack", "replay"]
 KINDS: tuple[Kind, ...] = ("level", "pack", "replay")
@@ -21,11 +38,9 @@ KINDS: tuple[Kind, ...] = ("level", "pack", "replay")
 VERSION = 1
 """Raw deflate (RFC 1951) of the text in UTF-8 behind four bytes of CRC-32, in base64url without padding."""
 
-MOST_CHARACTERS = 2 * 2**20
-"""Length of a link: what browsers take."""
+MOST_CHARACTERS = 2 * 2**20  # length of a link: what browsers take
 
-MOST_BYTES = 4 * 2**20
-"""Size of its text when unpacked."""
+MOST_BYTES = 4 * 2**20  # size of its text when unpacked
 
 MOST_TEXTS = 9
 """In a link of replays: the one that is watched, and as many ghosts as the viewer shows."""
@@ -159,3 +174,103 @@ def watched(fragment: str) -> list[str]:
     if len(found) > MOST_TEXTS or not all(_STEM.fullmatch(name) for name in found):
         raise LinkError("not a link of runs of this page", PLACE, found=ascii(names[:40]), hint="copy it again, whole")
     return [f"replays/{name}.txt" for name in found]
+
+
+_NAME_LIMIT = 100  # characters of the name of a file in a pack
+
+
+def level_link(level: Level, **headers: Any) -> str:
+    """The link of a level, from the # on. ``headers``: as ``write_ascii_level`` has them. Raises LinkError."""
+    return write_link("level", [write_ascii_level(level, **headers)])
+
+
+def replay_text(replay: Replay, level: Level | None = None) -> str:
+    """The text that a link of a replay carries: level inside, waypoints left out, since the digest says the same.
+
+    ``level``: of a replay that does not hold its own. Raises LinkError where there is none.
+    """
+    level = replay.level or level
+    if level is None:
+        raise LinkError("a replay without its level", hint="record it with its level inside")
+    digest = level_digest(level)
+    return write_replay(replace(replay, level=level, level_digest=digest, level_path="", level_record=0, waypoints=()))
+
+
+def replay_link(replays: Iterable[Replay]) -> str:
+    """The link of replays with their levels inside; behind the first the others are its ghosts. Raises LinkError."""
+    return write_link("replay", [replay_text(replay) for replay in replays])
+
+
+def recording_link(recordings: Iterable[Recording]) -> str:
+    """A link of recordings of any format; one of N stays N's record.
+
+    Raises LinkError; LevelError or DemoError for what N's record cannot hold.
+    """
+    return write_link("replay", [_recording_text(each) for each in recordings])
+
+
+def _recording_text(recording: Recording) -> str:
+    if recording.form != "file":
+        return replay_text(recording.replay, recording.level)
+    return write_level_file([record_of(recording)])
+
+
+def pack_link(texts: dict[str, str]) -> str:
+    """The link of a pack from its files by name: index, levels, par times; no certificates. Raises LinkError."""
+    return write_link("pack", [json.dumps(texts, ensure_ascii=False, separators=(",", ":"))])
+
+
+def pack_texts(link: str | Path) -> dict[str, str]:
+    """The files of the pack in a link, by name. Raises LinkError."""
+    (text,) = linked_texts(link, "pack")
+    try:
+        files = json.loads(text)
+    except (ValueError, RecursionError):
+        files = None
+    if not isinstance(files, dict) or not all(isinstance(file, str) for file in files.values()):
+        raise LinkError("no pack in this link", PLACE, found=repr(text[:40]), expected="files by their names, as JSON")
+    odd = next((name for name in files if not _is_plain(name)), None)
+    if odd is not None:
+        raise LinkError("a name that no file of a pack has", PLACE, found=ascii(odd[:40]))
+    return files
+
+
+def _is_plain(name: str) -> bool:
+    """Whether a name is that of a file in a pack: no path, nothing hidden."""
+    plain = name.isprintable() and not set(name) & set("/\\:") and not name.startswith(".")
+    return plain and 0 < len(name) <= _NAME_LIMIT
+
+
+def linked_texts(link: str | Path, *kinds: Kind) -> tuple[str, ...]:
+    """The texts in a link of one of some kinds, as a file would hold them. Raises LinkError."""
+    found: Link = read_link(link)
+    if found.kind not in kinds:
+        raise LinkError(f"a link of a {found.kind}", PLACE, expected=f"one of a {' or '.join(kinds)}")
+    return tuple(map(_whole, found.texts))
+
+
+def recordings_of(texts: Iterable[str]) -> list[Recording]:
+    """The recordings in texts from elsewhere, which hold their levels. Raises LinkError, ReplayError, LevelError."""
+    found = []
+    for text in texts:
+        found += parse_replays(_whole(text), file=PLACE)
+    return found
+
+
+def _whole(text: str) -> str:
+    """A text from elsewhere; replays in a form in which nothing leads to a file. Raises LinkError, ReplayError.
+
+    Without the name of a file its inputs take in no other files, and with its level inside no path is tried.
+    """
+    episode = is_episode(text)
+    if not episode and not is_replay(text):
+        return text
+    try:
+        replays = parse_episode(text) if episode else [parse_replay(text)]
+    except FormatError as error:
+        error.file = PLACE
+        raise
+    if any(replay.level is None for replay in replays):
+        raise LinkError("a replay without its level", PLACE, hint="record it with its level inside")
+    whole = [replace(replay, level_path="", level_record=0) for replay in replays]
+    return write_episode(whole) if episode else write_replay(*whole)
