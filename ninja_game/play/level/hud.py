@@ -21,7 +21,7 @@ from ninja_game.player.statistics import SELF
 from ninja_game.sim.collision.tiles import FULL, SHAPE
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.kinds import EXIT, SWITCH
-from ninja_game.sim.level import COLUMNS, ROWS
+from ninja_game.sim.level import ROWS
 from ninja_game.sim.rules import CELL, LIFETIME
 from ninja_game.ui.canvas import WIDTH, Point
 from ninja_game.ui.input.bindings import MOVES
@@ -349,22 +349,18 @@ def solid_place(
     middle of the upper border. ``rows``: at the left, in the middle and at the right of so many heights only, from the
     upper border to the lower one.
     """
-    full = [SHAPE[tile] == FULL for tile in tiles]
-
-    def way(column: int, row: int) -> int:
-        around = [full[a * ROWS + b] for a in range(column - 1, column + 2) for b in range(row - 1, row + 2)
-                  if 0 <= a < COLUMNS and 0 <= b < ROWS]  # fmt: skip
-        return 0 if full[column * ROWS + row] else ALONG if any(around) or len(around) < 9 else 1
+    open_cells, ways = _ways(tiles)
 
     def cost(place: tuple[float, float]) -> tuple[int, float, int]:
         x, y = place
-        columns, heights = (range(int(a // CELL) - 1, int((a + b - 1) // CELL)) for a, b in ((x, w), (y, h)))
-        covered = sum(ways[column * ROWS + row] for column in columns for row in heights if row < ROWS)
+        columns, heights = (slice(int(a // CELL) - 1, int((a + b - 1) // CELL)) for a, b in ((x, w), (y, h)))
+        area = (1 << heights.stop) - (1 << heights.start)
+        covered = sum((cells & area).bit_count() for cells in open_cells[columns])
+        covered += (ALONG - 1) * sum((cells & area).bit_count() for cells in ways[columns])
         hidden = sum(_hidden(things, x, y, w, h))
         far = hypot(x + w / 2 - eye[0], y + h / 2 - eye[1]) if eye else 0.0
         return covered + hidden, far or abs(x + w / 2 - WIDTH / 2) + y, hidden
 
-    ways = [way(*divmod(place, ROWS)) for place in range(COLUMNS * ROWS)]
     edge = CELL + 4
     lefts = [edge + k * (WIDTH - 2 * edge - w) / 8 for k in range(0, 9, 4 if rows else 1)]
     apart = (LOWEST - h - edge) / max(1, rows - 1) if rows else 6
@@ -372,6 +368,19 @@ def solid_place(
     x, y = min(((x, y) for x in lefts for y in tops), key=cost)
     covered, _, hidden = cost((x, y))
     return x, y, covered, hidden
+
+
+@lru_cache(maxsize=4)
+def _ways(tiles: tuple[int, ...]) -> tuple[list[int], list[int]]:
+    """A number for each column of a level, a bit for each row: what is not full, and of that what lies along rock."""
+    all_rows = (1 << ROWS) - 1
+    full = [sum(1 << row for row in range(ROWS) if SHAPE[tiles[first + row]] == FULL)
+            for first in range(0, len(tiles), ROWS)]  # fmt: skip
+    along = [all_rows, *(a | b | c for a, b, c in zip(full, full[1:], full[2:], strict=False)), all_rows]
+    edges = 1 | 1 << ROWS - 1
+    return [~each & all_rows for each in full], [
+        (near | near << 1 | near >> 1 | edges) & ~each & all_rows for near, each in zip(along, full, strict=True)
+    ]
 
 
 NEAR, ALONG = 16.0, 7

@@ -68,7 +68,10 @@ def is_near(x: float, y: float) -> bool:
 
 
 class DrawTarget:
-    """A surface that shows the stage. ``covered``: px rectangles drawn so far in this picture."""
+    """A surface that shows the stage. ``covered``: px rectangles drawn so far in this picture.
+
+    A rectangle within the one before, as a drone's eye, is not among them.
+    """
 
     def __init__(self, canvas: Canvas, palette: Palette, book: SpriteBook) -> None:
         self.canvas = canvas
@@ -83,13 +86,14 @@ class DrawTarget:
 
     def sprite(self, key: SpriteKey, x: float, y: float) -> None:
         """A sprite of the book, its point at (x, y)."""
-        if is_near(x, y):
-            self.covered.append(self.book.sprite(key).blit(self.surface, self.canvas.point(x, y)))
+        self.picture(self.book.sprite(key), x, y)
 
     def picture(self, sprite: Sprite, x: float, y: float) -> None:
         """A drawing that is not in the book."""
         if is_near(x, y):
-            self.covered.append(sprite.blit(self.surface, self.canvas.point(x, y)))
+            rect = sprite.blit(self.surface, self.canvas.point(x, y))
+            if not (self.covered and self.covered[-1].contains(rect)):
+                self.covered.append(rect)
 
     def line(self, colour: Colour, ax: float, ay: float, bx: float, by: float, width: float = 0) -> None:
         """A straight line; without a width as thin as can be."""

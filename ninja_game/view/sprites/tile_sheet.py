@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import lru_cache
 from math import cos, pi, sin
 
@@ -76,16 +77,19 @@ class TileSheet:
     def picture(self, key: TileKey, colour: pygame.Color) -> pygame.Surface:
         return tile_picture(key[0], key[1:3], tuple(colour), self.canvas.scale, key[3:])
 
-    def has_tile(self, area: pygame.Rect) -> bool:
-        """Whether any px of an area may be a tile's."""
-        x, y, size = area.left - self._shift[0], area.top - self._shift[1], 24 * self.canvas.scale
-        first_column, last_column = int(x / size), int((x + area.width) / size)
-        first_row, last_row = max(0, int(y / size)), min(GRID_ROWS - 1, int((y + area.height) / size))
-        columns = (1 << max(0, last_column + 1)) - (1 << max(0, first_column))
-        for row in range(first_row, last_row + 1):  # noqa: SIM110 - a hundred times a picture
-            if self._rows[row] & columns:
-                return True
-        return False
+    def on_tiles(self, areas: Iterable[pygame.Rect]) -> list[pygame.Rect]:
+        """Those areas of which any px may be a tile's."""
+        # At once, since a picture asks for a hundred.
+        (left, top), size, rows, found = self._shift, 24 * self.canvas.scale, self._rows, []
+        for area in areas:
+            x, y, w, h = area
+            x, y = x - left, y - top
+            columns = (1 << max(0, int((x + w) / size) + 1)) - (1 << max(0, int(x / size)))
+            for row in rows[max(0, int(y / size)) : max(0, int((y + h) / size) + 1)]:
+                if row & columns:
+                    found.append(area)
+                    break
+        return found
 
 
 H = 12.0
