@@ -9,7 +9,7 @@ from math import cos, pi, sin
 import pygame
 
 from ninja_game.sim.collision import tiles
-from ninja_game.sim.collision.tiles import EMPTY, SHAPE
+from ninja_game.sim.collision.tiles import EMPTY, FULL, SHAPE
 from ninja_game.sim.memory.schema import TileMap
 from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, STRIDE
 from ninja_game.ui.canvas import Canvas, Point
@@ -58,14 +58,20 @@ class TileSheet:
                 return
             key = self.key(column, row, tile)
             self._shown[column, row] = key, rect
-            self.surface.blit(self.picture(key, self.colour), rect)
+            self._put(self.surface, key, rect, self.colour)
 
     def in_colour(self, colour: pygame.Color) -> pygame.Surface:
         """What it shows, in another colour."""
         other = pygame.Surface(self.surface.size, pygame.SRCALPHA)
         for key, rect in self._shown.values():
-            other.blit(self.picture(key, colour), rect)
+            self._put(other, key, rect, colour)
         return other
+
+    def _put(self, surface: pygame.Surface, key: TileKey, rect: pygame.Rect, colour: pygame.Color) -> None:
+        if SHAPE[key[0]] == FULL:
+            surface.fill(colour, rect)
+        else:
+            surface.blit(self.picture(key, colour), rect)
 
     def key(self, column: int, row: int, tile: int) -> TileKey:
         """What tells the picture of a tile in a cell from others."""
