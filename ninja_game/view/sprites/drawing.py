@@ -86,14 +86,21 @@ class DrawTarget:
 
     def sprite(self, key: SpriteKey, x: float, y: float) -> None:
         """A sprite of the book, its point at (x, y)."""
-        self.picture(self.book.sprite(key), x, y)
+        self._put(self.book.sprite(key), x, y)
 
     def picture(self, sprite: Sprite, x: float, y: float) -> None:
         """A drawing that is not in the book."""
-        if is_near(x, y):
-            rect = sprite.blit(self.surface, self.canvas.point(x, y))
-            if not (self.covered and self.covered[-1].contains(rect)):
-                self.covered.append(rect)
+        self._put(sprite, x, y)
+
+    def _put(self, sprite: Sprite, x: float, y: float) -> None:
+        # As is_near, Canvas.point and Sprite.blit have it: a hundred times a picture.
+        if -_FAR < x < _FAR and -_FAR < y < _FAR:
+            (left, top), scale, covered = self.canvas.origin, self.canvas.scale, self.covered
+            surface, ax, ay = sprite
+            place = left + round(x * scale) - ax, top + round(y * scale) - ay
+            rect = self.surface.blit(surface, place, None, pygame.BLEND_PREMULTIPLIED)
+            if not (covered and covered[-1].contains(rect)):
+                covered.append(rect)
 
     def line(self, colour: Colour, ax: float, ay: float, bx: float, by: float, width: float = 0) -> None:
         """A straight line; without a width as thin as can be."""
