@@ -46,9 +46,7 @@ def add_relief(sheet: TileSheet, palette: Palette) -> pygame.Surface:
     return pygame.transform.smoothscale(small, size)
 
 
-def _add_edge(
-    surface: pygame.Surface, ink: pygame.Surface, taken: pygame.Surface, step: int, strength: int
-) -> None:
+def _add_edge(surface: pygame.Surface, ink: pygame.Surface, taken: pygame.Surface, step: int, strength: int) -> None:
     """Draw what is left of an ink when what is ``step`` px above is taken away, in strips that a cache has room for."""
     wide, high = surface.size
     strip = pygame.Surface((wide, STRIP), pygame.SRCALPHA)
