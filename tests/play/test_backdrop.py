@@ -165,7 +165,9 @@ def test_a_shaken_picture_is_the_still_one_elsewhere_and_its_edges_stay() -> Non
         still.subsurface(inner), "RGB"
     )
     for edge in (pygame.Rect(0, 0, 396, 10 + dy), pygame.Rect(396 + dx, 10, -dx, 300)):
-        assert pygame.image.tobytes(shaken.subsurface(edge), "RGB") == pygame.image.tobytes(still.subsurface(edge), "RGB")
+        assert pygame.image.tobytes(shaken.subsurface(edge), "RGB") == pygame.image.tobytes(
+            still.subsurface(edge), "RGB"
+        )
     view._shake = 0.0
     assert view.draw(shaken) is None
     assert pygame.image.tobytes(shaken, "RGB") == pygame.image.tobytes(still, "RGB")
