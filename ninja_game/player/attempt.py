@@ -35,12 +35,16 @@ class Attempt:
         self, level: Level, *, body: Body = "circle", lifetime: int = LIFETIME, practice_mode: bool = False
     ) -> None:
         self.simulation = Simulation(level, body=body)
+        self._start = self.simulation.save()
         self.start_lifetime = lifetime
         self.practice_mode = practice_mode
-        self.restart()
+        self._begin()
 
     def restart(self) -> None:
-        self.simulation.reset()
+        self.simulation.restore(self._start)
+        self._begin()
+
+    def _begin(self) -> None:
         self.lifetime = self.start_lifetime
         self.inputs = bytearray()
         self.score = 0

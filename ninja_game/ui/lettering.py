@@ -62,6 +62,7 @@ class Lettering:
         return rect
 
 
+@lru_cache(maxsize=_KEPT)
 def _safe(text: str) -> str:
     """A text as it may be shown; four blanks, which part two things, become a wide one."""
     return "\u2003".join(map(shown_text, text.split("    ")))

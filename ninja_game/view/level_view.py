@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import copy
 from math import cos, hypot, sin
 from random import Random
 from typing import TYPE_CHECKING, Protocol
@@ -239,8 +240,11 @@ class LevelView:
             self._layout()
         if not self.context.settings.smooth:
             fraction = 1.0
-        whole = whole or self._whole
-        self._whole = False
+        shaken = self._shake > 0.25
+        whole = whole or self._whole or shaken
+        # What a shaken picture shows lies elsewhere in the next one.
+        self._whole = shaken
+        self._shift(shaken=shaken)
         mended = self._restore(surface, whole, fraction)
         surface.set_clip(self.canvas.stage)
         self._draw_moving(surface, fraction)
@@ -252,24 +256,37 @@ class LevelView:
         surface.set_clip(None)
         changed = self._covered + self.target.covered + mended
         self._covered = self.target.covered
-        if self._shake > 0.25:
-            turn, reach = 2.4 * self.effects.now, self._shake * self.canvas.scale
-            surface.blit(surface, (round(reach * cos(turn)), round(reach * sin(turn))))
-            whole = self._whole = True
         return None if whole else changed
+
+    def _shift(self, *, shaken: bool) -> None:
+        """Have all that is drawn on the stage lie beside its place, if the picture is shaken."""
+        turn, reach = 2.4 * self.effects.now, self._shake * self.canvas.scale * shaken
+        dx, dy = round(reach * cos(turn)), round(reach * sin(turn))
+        self._origin = self.canvas.stage.move(dx, dy).topleft
+        self.target.canvas = self.canvas
+        if shaken:
+            self.target.canvas = copy(self.canvas)
+            self.target.canvas.origin = self.canvas.origin[0] + dx, self.canvas.origin[1] + dy
 
     def _restore(self, surface: pygame.Surface, whole: bool, fraction: float) -> list[pygame.Rect]:
         """Put the backdrop where something was drawn last time, and where it changed."""
-        origin = self.canvas.stage.topleft
+        origin, stage, picture = self._origin, self.canvas.stage, self._backdrop.picture
         self._mended += self._backdrop.update(self.simulation.world, self.object_animation, fraction)
         mended = [rect.move(origin) for rect in self._mended]
         self._mended.clear()
         if whole:
-            surface.fill(self._backdrop.palette.tile)
-            surface.blit(self._backdrop.picture, origin)
+            if stage != surface.get_rect():
+                surface.fill(self._backdrop.palette.tile)
+            surface.set_clip(stage)
+            surface.blit(picture, origin)
+            # Shaken, it leaves two edges free, which stay where they are.
+            dx, dy = origin[0] - stage.x, origin[1] - stage.y
+            left, top = 0 if dx > 0 else stage.width + dx, 0 if dy > 0 else stage.height + dy
+            for edge in ((left, 0, abs(dx), stage.height), (0, top, stage.width, abs(dy))):
+                surface.blit(picture, stage.move(edge[:2]), edge)
             return mended
         for rect in self._covered + mended:
-            surface.blit(self._backdrop.picture, rect, rect.move(-origin[0], -origin[1]))
+            surface.blit(picture, rect, rect.move(-origin[0], -origin[1]))
         return mended
 
     def _draw_moving(self, surface: pygame.Surface, fraction: float) -> None:
@@ -306,11 +323,9 @@ class LevelView:
 
     def _cover_by_tiles(self, surface: pygame.Surface) -> None:
         """Tiles are in front of everything that moves."""
-        origin, backdrop = self.canvas.stage.topleft, self._backdrop
-        for rect in self.target.covered:
-            local = rect.move(-origin[0], -origin[1])
-            if backdrop.has_tile(local):
-                backdrop.cover(surface, local, origin)
+        (x, y), backdrop = self._origin, self._backdrop
+        for area in backdrop.on_tiles([rect.move(-x, -y) for rect in self.target.covered]):
+            backdrop.cover(surface, area, (x, y))
 
     def also_covered(self, rect: pygame.Rect) -> None:
         """Something else was drawn over the level there; it is taken away before the next picture."""

@@ -10,7 +10,8 @@ import pytest
 
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.sim.events import EXIT_OPENED
-from ninja_game.sim.kinds import EXIT, SWITCH
+from ninja_game.sim.kinds import EXIT, NINJA, SWITCH
+from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.theme import CLASSIC, CONTRAST, MOODS, NIGHT, SAFE, Palette
@@ -129,3 +130,44 @@ def test_no_corner_hides_a_mine(tmp_path: Path) -> None:
     view._backdrop.cover(surface, pygame.Rect(200, 290, 30, 30), (0, 0))
     assert surface.get_at((213, 300)) == mine
     assert mine.r > 2 * mine.b
+
+
+def test_what_lies_within_what_was_drawn_before_it_is_covered_with_that() -> None:
+    """A drone's eye needs no rectangle of its own; what reaches beyond has one."""
+    target = DrawTarget(CANVAS, CLASSIC, SpriteBook(CANVAS.scale, CLASSIC))
+    target.begin(pygame.Surface(CANVAS.size))
+    for key, x, count in ((moving_sprites.drone(0, 0, 0, 0), 200, 1), (moving_sprites.eye(0), 204, 1),
+                          (moving_sprites.eye(0), 240, 2)):  # fmt: skip
+        target.sprite(key, x, 200)
+        assert len(target.covered) == count
+
+
+def test_only_areas_with_tiles_are_drawn_over() -> None:
+    level = Level(tuple(int(place == 2 * 23 + 3) for place in range(713)), (ObjectSpec(NINJA, (400.0, 300.0)),))
+    backdrop = Backdrop(CANVAS, CLASSIC, SpriteBook(CANVAS.scale, CLASSIC), Simulation(level).tiles)
+    cell = pygame.Rect(3 * 12, 4 * 12, 12, 12)
+    on, off = cell.move(11, -11), cell.move(-14, 0)
+    assert backdrop.on_tiles([off, on, off.move(0, 30), cell]) == [on, cell]
+    assert backdrop.on_tiles([pygame.Rect(-40, -40, 20, 20), pygame.Rect(600, 500, 9, 9)]) == []
+
+
+def test_a_shaken_picture_is_the_still_one_elsewhere_and_its_edges_stay() -> None:
+    run = Simulation(load_replays(REPLAYS[0])[0].level)
+    still, shaken = pygame.Surface((396, 320)), pygame.Surface((396, 320))
+    view = LevelView(OffscreenContext(still.size), run, audible=False)
+    view.draw(still)
+    view.effects.now, view._shake = 1.0, 9.0
+    assert view.draw(shaken) is None
+    dx, dy = view._origin[0], view._origin[1] - 10
+    assert dx < 0 < dy
+    inner = view.canvas.stage.inflate(-20, -20)
+    assert pygame.image.tobytes(shaken.subsurface(inner.move(dx, dy)), "RGB") == pygame.image.tobytes(
+        still.subsurface(inner), "RGB"
+    )
+    for edge in (pygame.Rect(0, 0, 396, 10 + dy), pygame.Rect(396 + dx, 10, -dx, 300)):
+        assert pygame.image.tobytes(shaken.subsurface(edge), "RGB") == pygame.image.tobytes(
+            still.subsurface(edge), "RGB"
+        )
+    view._shake = 0.0
+    assert view.draw(shaken) is None
+    assert pygame.image.tobytes(shaken, "RGB") == pygame.image.tobytes(still, "RGB")

@@ -252,6 +252,18 @@ def test_the_time_bar_is_linear_and_what_gold_adds_to_a_full_one_is_seen(app: Ap
     assert len(set(pictures)) == 3
 
 
+@pytest.mark.parametrize("pars", [(), (("gold", 700.0),)])
+def test_what_the_borders_cover_is_told_not_what_lies_between(app: App, pars: tuple[tuple[str, float], ...]) -> None:
+    hud = Hud(app.theme)
+    app.surface.fill("black")
+    told = hud.time_bar(app.surface, LIFETIME / 2, pars) + hud.foot(app.surface, "left", "right")
+    assert all(0 < rect.height < app.canvas.px(24) for rect in told)
+    assert sum(rect.width for rect in told[2:]) < app.surface.width / 2
+    for rect in told:
+        app.surface.fill("black", rect)
+    assert set(pygame.image.tobytes(app.surface, "RGB")) == {0}
+
+
 @pytest.mark.parametrize("size", [100, 125, 150])
 def test_the_time_left_ends_at_the_border_and_says_what_it_is_for(app: App, size: int) -> None:
     app.change_settings(text_size=size)

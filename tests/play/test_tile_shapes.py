@@ -84,3 +84,9 @@ def test_slope_over_many_cells_is_one_straight_line(size: tuple[int, int]) -> No
         top = next(y for y, alpha in enumerate(column) if alpha > 0.5) + round(26 * canvas.scale)
         off.append(top - (x + 24 * canvas.scale))
     assert max(off) - min(off) < 1.3
+
+
+def test_full_tile_is_its_colour_everywhere() -> None:
+    """Sheets are filled with it."""
+    picture = tile_picture(1, (37, 36), tuple(CLASSIC.tile))
+    assert {tuple(picture.get_at((x, y))) for x in range(37) for y in range(36)} == {tuple(CLASSIC.tile)}

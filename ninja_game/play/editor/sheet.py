@@ -123,7 +123,7 @@ class LevelSheet:
         near = area.collidelistall(self._rects)
         for number in near:
             self._order[number].draw(target)
-        if self._tiles.has_tile(area):
+        if self._tiles.on_tiles([area]):
             surface.blit(self._tiles.surface, area, area, pygame.BLEND_PREMULTIPLIED)
             for number in near:
                 if any(self.draft.tile(cell) == 1 for cell in self._order[number].cells):

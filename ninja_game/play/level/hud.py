@@ -21,7 +21,7 @@ from ninja_game.player.records import SELF
 from ninja_game.sim.collision.tiles import FULL, SHAPE
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.kinds import EXIT, SWITCH
-from ninja_game.sim.level import COLUMNS, ROWS
+from ninja_game.sim.level import ROWS
 from ninja_game.sim.rules import CELL, LIFETIME
 from ninja_game.ui.canvas import WIDTH, Point
 from ninja_game.ui.input.bindings import MOVES
@@ -103,23 +103,23 @@ class HudView:
 
 
 class Hud:
-    """Draws on a theme's canvas. Every method gives the px rectangle that it covered."""
+    """Draws on a theme's canvas. Every method gives the px rectangle that it covered, or several small ones."""
 
     def __init__(self, theme: Theme) -> None:
         self.theme = theme
 
     def draw(self, surface: pygame.Surface, view: HudView) -> list[pygame.Rect]:
         """All of it; the px rectangles that it covers."""
-        top = self.label(surface, view.label) if view.label else self.time_bar(surface, view.lifetime, view.pars)
+        top = [self.label(surface, view.label)] if view.label else self.time_bar(surface, view.lifetime, view.pars)
         said = self.box(*view.said, keys=KEYS_WIDE if view.moves else 0) if view.said else None
         in_border = said is not None and said[2] == IN_BORDER
-        written = [top, self.foot(surface, "" if in_border else view.foot[0], view.foot[1])]
+        written = top + self.foot(surface, "" if in_border else view.foot[0], view.foot[1])
         if said is not None and in_border:
             # It lies beside the text at the right, and leaves the rest to the level's own name.
             left = max(24.0, RIGHT - self.theme.width(view.foot[1], FOOT) - 14 - said[3])
             said = said[0], left, *said[2:]
             if left > NAME_FROM:
-                written.append(self.foot(surface, self.theme.fit(view.name, left - 36, FOOT), ""))
+                written += self.foot(surface, self.theme.fit(view.name, left - 36, FOOT), "")
         if view.frame_ms is not None:
             written.append(self.frame_time(surface, view.frame_ms))
         if view.keys is not None:
@@ -135,7 +135,9 @@ class Hud:
             written.append(self.message(surface, view, *view.message))
         return written
 
-    def time_bar(self, surface: pygame.Surface, lifetime: float, pars: Sequence[tuple[str, float]] = ()) -> pygame.Rect:
+    def time_bar(
+        self, surface: pygame.Surface, lifetime: float, pars: Sequence[tuple[str, float]] = ()
+    ) -> list[pygame.Rect]:
         """The lifetime (ticks) as a bar, what gold added to the first in gold, and as seconds; medals where they end.
 
         It grows thick and red as it runs out.
@@ -157,17 +159,17 @@ class Hud:
             surface, f"{rounded_text(int(left))} s left" + " to live" * (left < _LAST_TICKS), RIGHT, 7.4, size=9,
             colour=palette.on_tile, align="right", bold=True, width=RIGHT - x - 10,
         )  # fmt: skip
-        return frame.union(text.inflate(canvas.px(8), 4)).union(canvas.rect(x, 2, 8, 20))
+        return [frame.union(canvas.rect(x, 2, 8, 20)) if pars else frame, text.inflate(canvas.px(8), 4)]
 
     def label(self, surface: pygame.Surface, text: str) -> pygame.Rect:
         """A word in the time bar's place."""
         return self.theme.text(surface, text, 24, 7, size=10, colour=self.theme.palette.on_tile, bold=True)
 
-    def foot(self, surface: pygame.Surface, left: str, right: str) -> pygame.Rect:
+    def foot(self, surface: pygame.Surface, left: str, right: str) -> list[pygame.Rect]:
         """A line in the border below the level; where both texts do not fit, the left one is shortened."""
         return self._border_line(surface, left, right, 582)
 
-    def _border_line(self, surface: pygame.Surface, left: str, right: str, y: float) -> pygame.Rect:
+    def _border_line(self, surface: pygame.Surface, left: str, right: str, y: float) -> list[pygame.Rect]:
         theme, colour = self.theme, self.theme.palette.on_tile
         gap = 14 if left and right else 0
         # The right text grows only where that takes nothing from the left one.
@@ -175,9 +177,9 @@ class Hud:
         room = max(min(_FOOT_WIDTH, theme.lettering.width(right, FOOT)), _FOOT_WIDTH - beside - gap)
         rect = theme.text(surface, right, 768, y, size=FOOT, colour=colour, align="right", width=room)
         room = _FOOT_WIDTH - rect.width / theme.canvas.scale - gap
-        return rect.union(theme.text(surface, left, 24, y, size=FOOT, colour=colour, width=room))
+        return [rect, theme.text(surface, left, 24, y, size=FOOT, colour=colour, width=room)]
 
-    def head(self, surface: pygame.Surface, left: str, right: str) -> pygame.Rect:
+    def head(self, surface: pygame.Surface, left: str, right: str) -> list[pygame.Rect]:
         """A line in the border above the level, like ``foot`` below it."""
         return self._border_line(surface, left, right, 7)
 
@@ -349,22 +351,18 @@ def solid_place(
     middle of the upper border. ``rows``: at the left, in the middle and at the right of so many heights only, from the
     upper border to the lower one.
     """
-    full = [SHAPE[tile] == FULL for tile in tiles]
-
-    def way(column: int, row: int) -> int:
-        around = [full[a * ROWS + b] for a in range(column - 1, column + 2) for b in range(row - 1, row + 2)
-                  if 0 <= a < COLUMNS and 0 <= b < ROWS]  # fmt: skip
-        return 0 if full[column * ROWS + row] else ALONG if any(around) or len(around) < 9 else 1
+    open_cells, ways = _ways(tiles)
 
     def cost(place: tuple[float, float]) -> tuple[int, float, int]:
         x, y = place
-        columns, heights = (range(int(a // CELL) - 1, int((a + b - 1) // CELL)) for a, b in ((x, w), (y, h)))
-        covered = sum(ways[column * ROWS + row] for column in columns for row in heights if row < ROWS)
+        columns, heights = (slice(int(a // CELL) - 1, int((a + b - 1) // CELL)) for a, b in ((x, w), (y, h)))
+        area = (1 << heights.stop) - (1 << heights.start)
+        covered = sum((cells & area).bit_count() for cells in open_cells[columns])
+        covered += (ALONG - 1) * sum((cells & area).bit_count() for cells in ways[columns])
         hidden = sum(_hidden(things, x, y, w, h))
         far = hypot(x + w / 2 - eye[0], y + h / 2 - eye[1]) if eye else 0.0
         return covered + hidden, far or abs(x + w / 2 - WIDTH / 2) + y, hidden
 
-    ways = [way(*divmod(place, ROWS)) for place in range(COLUMNS * ROWS)]
     edge = CELL + 4
     lefts = [edge + k * (WIDTH - 2 * edge - w) / 8 for k in range(0, 9, 4 if rows else 1)]
     apart = (LOWEST - h - edge) / max(1, rows - 1) if rows else 6
@@ -372,6 +370,19 @@ def solid_place(
     x, y = min(((x, y) for x in lefts for y in tops), key=cost)
     covered, _, hidden = cost((x, y))
     return x, y, covered, hidden
+
+
+@lru_cache(maxsize=4)
+def _ways(tiles: tuple[int, ...]) -> tuple[list[int], list[int]]:
+    """A number for each column of a level, a bit for each row: what is not full, and of that what lies along rock."""
+    all_rows = (1 << ROWS) - 1
+    full = [sum(1 << row for row in range(ROWS) if SHAPE[tiles[first + row]] == FULL)
+            for first in range(0, len(tiles), ROWS)]  # fmt: skip
+    along = [all_rows, *(a | b | c for a, b, c in zip(full, full[1:], full[2:], strict=False)), all_rows]
+    edges = 1 | 1 << ROWS - 1
+    return [~each & all_rows for each in full], [
+        (near | near << 1 | near >> 1 | edges) & ~each & all_rows for near, each in zip(along, full, strict=True)
+    ]
 
 
 NEAR, ALONG = 16.0, 7

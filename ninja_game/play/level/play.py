@@ -134,7 +134,6 @@ class LevelPlay:
         if runs != [(ghost.inputs, ghost.pace) for ghost in self.ghosts]:
             self.ghosts = [Ghost(run, self.context.level, self.context.body, pace=pace) for run, pace in runs]
             self.view.ghosts = self.ghosts
-        self.view.on_seek()
 
     def ninja_place(self) -> tuple[float, float]:
         ninja = self.attempt.simulation.world.ninja
@@ -188,6 +187,7 @@ class LevelPlay:
         self.tools.restarted()
         self.shown_lifetime = float(self.attempt.lifetime)
         self._wait_at_start()
+        self.view.on_seek()
         self._held_before = ignored
 
     def give_up(self) -> None:

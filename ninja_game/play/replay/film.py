@@ -146,7 +146,7 @@ class _Panel:
         self.view.draw(surface, 1.0, whole=whole)
         hud, run, world = self.hud, self.run, self.playback.simulation
         if run.episode:
-            covered = [hud.time_bar(surface, run.lifetime + GOLD_BONUS * world.gold - self.time)]
+            covered = hud.time_bar(surface, run.lifetime + GOLD_BONUS * world.gold - self.time)
         else:
             covered = [hud.label(surface, self.title)]
         words = [self.title] * bool(run.episode)
@@ -156,7 +156,7 @@ class _Panel:
             x, y = ghost.place(1.0)
             if is_near(x, y):
                 covered.append(hud.theme.text(surface, name, x, y - 24, size=9, colour=ghost.shade, align="centre"))
-        covered.append(hud.foot(surface, "; ".join(words), ""))
+        covered += hud.foot(surface, "; ".join(words), "")
         if self.film.keys:
             covered.append(hud.keys(surface, self.playback.keys_at(world.tick - 1), 704))
         for each in covered:

@@ -275,7 +275,7 @@ class ReplayScreen(Screen):
         written = [
             bar.draw(surface, theme, self.tick, self.end, self.length, self.outcome),
             bar.write(surface, theme, self.tick, self.end, f"x {SPEEDS[self.speed]:g}", still=still),
-            hud.head(surface, self.run.title, self._hint()),
+            *hud.head(surface, self.run.title, self._hint()),
             hud.keys(surface, self.playback.keys_at(self.tick - 1), 444),
         ]
         for rect in written:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import cos, radians, sin
 from typing import NamedTuple
 
@@ -230,32 +231,42 @@ def bend(a: Point, b: Point, first: float, second: float, side: float) -> Point:
     return a[0] + ux * along - uy * out, a[1] + uy * along + ux * out
 
 
-def paint_limbs(s: Sketch, colour: pygame.Color, far: pygame.Color, pose: Pose, facing: int) -> None:
-    """All parts of a figure, the far ones first. ``facing``: which way knees bend."""
-    paint_leg(s, far, pose.pelvis, pose.far_foot, facing)
-    paint_arm(s, far, pose.shoulder, pose.far_hand, facing)
-    paint_trunk(s, colour, pose)
-    paint_leg(s, colour, pose.pelvis, pose.near_foot, facing)
-    paint_arm(s, colour, pose.shoulder, pose.near_hand, facing)
+Limb = tuple[Sequence[Point], Sequence[float]]
+"""Joints, and how wide it is at each."""
 
 
-def paint_leg(s: Sketch, colour: pygame.Color, hip: Point, foot: Point, facing: int) -> None:
+def limbs_of(pose: Pose, facing: int) -> tuple[Limb, Limb, Limb, Limb]:
+    """The far leg and arm, the near leg and arm. ``facing``: which way knees bend."""
+    shoulder, pelvis = pose.shoulder, pose.pelvis
+    far = leg(pelvis, pose.far_foot, facing), arm(shoulder, pose.far_hand, facing)
+    return *far, leg(pelvis, pose.near_foot, facing), arm(shoulder, pose.near_hand, facing)
+
+
+def leg(hip: Point, foot: Point, facing: int) -> Limb:
     """Thigh, shin and a hint of a foot."""
     knee = bend(hip, foot, THIGH, SHIN, -facing)
-    s.limb(colour, (hip, knee, foot, (foot[0] + 1.7 * facing, foot[1] - 0.1)), (2.7, 1.9, 1.3, 0.9))
+    return (hip, knee, foot, (foot[0] + 1.7 * facing, foot[1] - 0.1)), (2.7, 1.9, 1.3, 0.9)
 
 
-def paint_arm(s: Sketch, colour: pygame.Color, shoulder: Point, hand: Point, facing: int) -> None:
+def arm(shoulder: Point, hand: Point, facing: int) -> Limb:
     """Upper arm and forearm."""
-    elbow = bend(shoulder, hand, UPPER_ARM, FOREARM, facing)
-    s.limb(colour, (shoulder, elbow, hand), (1.9, 1.5, 1.1))
+    return (shoulder, bend(shoulder, hand, UPPER_ARM, FOREARM, facing), hand), (1.9, 1.5, 1.1)
 
 
-def paint_trunk(s: Sketch, colour: pygame.Color, pose: Pose) -> None:
+def paint_trunk(s: Sketch, colour: pygame.Color, head: Point, shoulder: Point, pelvis: Point) -> None:
     """Trunk, neck and head."""
-    s.stroke(colour, pose.shoulder, pose.pelvis, 3.4, 2.5)
-    s.stroke(colour, pose.shoulder, pose.head, 1.6)
-    s.disc(colour, *pose.head, HEAD)
+    s.stroke(colour, shoulder, pelvis, 3.4, 2.5)
+    s.stroke(colour, shoulder, head, 1.6)
+    s.disc(colour, *head, HEAD)
+
+
+def _paint_limbs(s: Sketch, colour: pygame.Color, far: pygame.Color, pose: Pose, limbs: Sequence[Limb]) -> None:
+    """All parts of a figure, the far ones first."""
+    for limb in limbs[:2]:
+        s.limb(far, *limb)
+    paint_trunk(s, colour, pose.head, pose.shoulder, pose.pelvis)
+    for limb in limbs[2:]:
+        s.limb(colour, *limb)
 
 
 def band_ends(head: Point, shoulder: Point) -> tuple[Point, Point]:
@@ -297,11 +308,12 @@ def paint_figure(
     """Draw the figure into a sketch, ``REACH`` px to all sides, within an edge that stands out from it."""
     far = mixed(colour, palette.background, 0.12)
     edge = edge_of(colour)
+    limbs = limbs_of(shown, facing)
     s.grown = EDGE
-    paint_limbs(s, edge, edge, shown, facing)
+    _paint_limbs(s, edge, edge, shown, limbs)
     s.grown = 0.0
     if banded:
         paint_tails(s, palette.band, shown, facing, velocity)
-    paint_limbs(s, colour, far, shown, facing)
+    _paint_limbs(s, colour, far, shown, limbs)
     if banded:
         s.stroke(palette.band, *band_ends(shown.head, shown.shoulder), 1.5)

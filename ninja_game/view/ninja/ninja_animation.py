@@ -15,16 +15,16 @@ from ninja_game.ui.theme import mixed
 from ninja_game.view.ninja.figure import (
     CYCLE,
     DANCES,
-    HEAD,
     SKID,
     SLIDE,
     STAND,
     Pose,
     air_pose,
+    arm,
     band_ends,
+    leg,
     ninja_sprite,
-    paint_arm,
-    paint_leg,
+    paint_trunk,
     run_pose,
 )
 from ninja_game.view.ninja.ragdoll import PELVIS, SHOULDER, TRUNK, Ragdoll
@@ -207,12 +207,10 @@ def _draw_parts(
         a, b = places[stick.first], places[stick.second]
         shade = far if k in {0, 1} else colour
         if k == TRUNK:
-            s.stroke(shade, places[SHOULDER], places[PELVIS], 3.4, 2.5)
-            s.stroke(shade, places[SHOULDER], (hx, hy), 1.6)
-            s.disc(shade, hx, hy, HEAD)
+            paint_trunk(s, shade, (hx, hy), places[SHOULDER], places[PELVIS])
             s.stroke(target.palette.band, *band_ends((hx, hy), places[SHOULDER]), 1.1)
         elif k in {0, 4}:
-            paint_arm(s, shade, a, b, doll.facing)
+            s.limb(shade, *arm(a, b, doll.facing))
         else:
-            paint_leg(s, shade, a, b, doll.facing)
+            s.limb(shade, *leg(a, b, doll.facing))
     target.picture(s.finish(), *at)

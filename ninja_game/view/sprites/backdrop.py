@@ -36,7 +36,7 @@ class Backdrop:
         else:
             self.ground = pygame.Surface(canvas.size)
             self.ground.fill(palette.background)
-        self.tiles, self.has_tile = sheet.surface, sheet.has_tile
+        self.tiles, self.on_tiles = sheet.surface, sheet.on_tiles
         self._mines: list[int] = []
         self._mine_places: list[pygame.Rect] = []
         self._blits: dict[int, list[tuple[Sprite, int, int]]] = {}

@@ -68,7 +68,10 @@ def is_near(x: float, y: float) -> bool:
 
 
 class DrawTarget:
-    """A surface that shows the stage. ``covered``: px rectangles drawn so far in this picture."""
+    """A surface that shows the stage. ``covered``: px rectangles drawn so far in this picture.
+
+    A rectangle within the one before, as a drone's eye, is not among them.
+    """
 
     def __init__(self, canvas: Canvas, palette: Palette, book: SpriteBook) -> None:
         self.canvas = canvas
@@ -83,13 +86,21 @@ class DrawTarget:
 
     def sprite(self, key: SpriteKey, x: float, y: float) -> None:
         """A sprite of the book, its point at (x, y)."""
-        if is_near(x, y):
-            self.covered.append(self.book.sprite(key).blit(self.surface, self.canvas.point(x, y)))
+        self._put(self.book.sprite(key), x, y)
 
     def picture(self, sprite: Sprite, x: float, y: float) -> None:
         """A drawing that is not in the book."""
-        if is_near(x, y):
-            self.covered.append(sprite.blit(self.surface, self.canvas.point(x, y)))
+        self._put(sprite, x, y)
+
+    def _put(self, sprite: Sprite, x: float, y: float) -> None:
+        # As is_near, Canvas.point and Sprite.blit have it: a hundred times a picture.
+        if -_FAR < x < _FAR and -_FAR < y < _FAR:
+            (left, top), scale, covered = self.canvas.origin, self.canvas.scale, self.covered
+            surface, ax, ay = sprite
+            place = left + round(x * scale) - ax, top + round(y * scale) - ay
+            rect = self.surface.blit(surface, place, None, pygame.BLEND_PREMULTIPLIED)
+            if not (covered and covered[-1].contains(rect)):
+                covered.append(rect)
 
     def line(self, colour: Colour, ax: float, ay: float, bx: float, by: float, width: float = 0) -> None:
         """A straight line; without a width as thin as can be."""

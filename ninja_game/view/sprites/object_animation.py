@@ -108,10 +108,12 @@ class ObjectAnimation:
 
     def place(self, slot: int, fraction: float) -> Place:
         """Where to draw an object, ``fraction`` of a tick after the last but one."""
-        x, y = self.now[slot]
-        bx, by = self.before.get(slot, (x, y))
+        now, before = self.now[slot], self.before[slot]
+        if now == before:
+            return now
+        (x, y), (bx, by) = now, before
         if abs(x - bx) > _JUMP or abs(y - by) > _JUMP:
-            return x, y
+            return now
         return bx + (x - bx) * fraction, by + (y - by) * fraction
 
     def ninja_place(self, fraction: float) -> Place:

@@ -15,6 +15,9 @@ how strong it is. The last lights rock near its other edges too, so that it is d
 GRAIN = 13
 """By how much the rock's marks differ from it, of 255 a channel: never enough to be taken for a thing."""
 
+STRIP = 128
+"""Height of the strips in which edges are drawn, px."""
+
 SHADOW, SHADOW_AT = 76, (4, 6)
 """The shadow's strength, and where it falls, logical px."""
 
@@ -32,21 +35,29 @@ def add_relief(sheet: TileSheet, palette: Palette) -> pygame.Surface:
     share = sheet.canvas.scale * small.width / size[0]
     small.blit(shadow, [round(share * away) for away in SHADOW_AT], special_flags=pygame.BLEND_PREMULTIPLIED)
     for role, depth, soft, strength in EDGES:
-        edge = taken = inks[role]
+        taken = inks[role]
         step = round(depth * sheet.canvas.scale) or (1 if depth > 0 else -1)
         if soft:
             # Made small and large again.
             few = [max(1, round(length / soft / sheet.canvas.scale)) for length in size]
             for each in ([2 * number for number in few], few, size):
                 taken = pygame.transform.smoothscale(taken, each)
-        else:
-            edge = taken.copy()
-        edge.blit(taken, (0, step), special_flags=pygame.BLEND_RGBA_SUB)
-        # The tiles go on beyond the edge of the stage.
-        edge.fill((0, 0, 0, 0), (0, 0 if step > 0 else size[1] + step, size[0], abs(step)))
-        edge.fill((strength,) * 4, special_flags=pygame.BLEND_RGBA_MULT)
-        sheet.surface.blit(edge, (0, 0), special_flags=pygame.BLEND_PREMULTIPLIED)
+        _add_edge(sheet.surface, inks[role], taken, step, strength)
     return pygame.transform.smoothscale(small, size)
+
+
+def _add_edge(surface: pygame.Surface, ink: pygame.Surface, taken: pygame.Surface, step: int, strength: int) -> None:
+    """Draw what is left of an ink when what is ``step`` px above is taken away, in strips that a cache has room for."""
+    wide, high = surface.size
+    strip = pygame.Surface((wide, STRIP), pygame.SRCALPHA)
+    # The tiles go on beyond the edge of the stage.
+    for top in range(max(0, step), high + min(0, step), STRIP):
+        few = min(STRIP, high + min(0, step) - top)
+        strip.fill((0, 0, 0, 0))
+        strip.blit(ink, (0, 0), (0, top, wide, few), pygame.BLEND_PREMULTIPLIED)
+        strip.blit(taken, (0, 0), (0, top - step, wide, few), pygame.BLEND_RGBA_SUB)
+        strip.fill((strength,) * 4, special_flags=pygame.BLEND_RGBA_MULT)
+        surface.blit(strip, (0, top), (0, 0, wide, few), pygame.BLEND_PREMULTIPLIED)
 
 
 def _add_grain(sheet: TileSheet, palette: Palette, inks: dict[str, pygame.Surface]) -> None:

@@ -26,8 +26,8 @@ class Sprite(NamedTuple):
 
     def blit(self, target: pygame.Surface, at: tuple[int, int]) -> pygame.Rect:
         """Draw it with its point at a px; what was covered."""
-        place = at[0] - self.ax, at[1] - self.ay
-        return target.blit(self.surface, place, special_flags=pygame.BLEND_PREMULTIPLIED)
+        surface, ax, ay = self
+        return target.blit(surface, (at[0] - ax, at[1] - ay), None, pygame.BLEND_PREMULTIPLIED)
 
 
 class Sketch:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import lru_cache
 from math import cos, pi, sin
 
 import pygame
 
 from ninja_game.sim.collision import tiles
-from ninja_game.sim.collision.tiles import EMPTY, SHAPE
+from ninja_game.sim.collision.tiles import EMPTY, FULL, SHAPE
 from ninja_game.sim.memory.schema import TileMap
 from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, STRIDE
 from ninja_game.ui.canvas import Canvas, Point
@@ -57,14 +58,20 @@ class TileSheet:
                 return
             key = self.key(column, row, tile)
             self._shown[column, row] = key, rect
-            self.surface.blit(self.picture(key, self.colour), rect)
+            self._put(self.surface, key, rect, self.colour)
 
     def in_colour(self, colour: pygame.Color) -> pygame.Surface:
         """What it shows, in another colour."""
         other = pygame.Surface(self.surface.size, pygame.SRCALPHA)
         for key, rect in self._shown.values():
-            other.blit(self.picture(key, colour), rect)
+            self._put(other, key, rect, colour)
         return other
+
+    def _put(self, surface: pygame.Surface, key: TileKey, rect: pygame.Rect, colour: pygame.Color) -> None:
+        if SHAPE[key[0]] == FULL:
+            surface.fill(colour, rect)
+        else:
+            surface.blit(self.picture(key, colour), rect)
 
     def key(self, column: int, row: int, tile: int) -> TileKey:
         """What tells the picture of a tile in a cell from others."""
@@ -76,16 +83,19 @@ class TileSheet:
     def picture(self, key: TileKey, colour: pygame.Color) -> pygame.Surface:
         return tile_picture(key[0], key[1:3], tuple(colour), self.canvas.scale, key[3:])
 
-    def has_tile(self, area: pygame.Rect) -> bool:
-        """Whether any px of an area may be a tile's."""
-        x, y, size = area.left - self._shift[0], area.top - self._shift[1], 24 * self.canvas.scale
-        first_column, last_column = int(x / size), int((x + area.width) / size)
-        first_row, last_row = max(0, int(y / size)), min(GRID_ROWS - 1, int((y + area.height) / size))
-        columns = (1 << max(0, last_column + 1)) - (1 << max(0, first_column))
-        for row in range(first_row, last_row + 1):  # noqa: SIM110 - a hundred times a picture
-            if self._rows[row] & columns:
-                return True
-        return False
+    def on_tiles(self, areas: Iterable[pygame.Rect]) -> list[pygame.Rect]:
+        """Those areas of which any px may be a tile's."""
+        # At once, since a picture asks for a hundred.
+        (left, top), size, rows, found = self._shift, 24 * self.canvas.scale, self._rows, []
+        for area in areas:
+            x, y, w, h = area
+            x, y = x - left, y - top
+            columns = (1 << max(0, int((x + w) / size) + 1)) - (1 << max(0, int(x / size)))
+            for row in rows[max(0, int(y / size)) : max(0, int((y + h) / size) + 1)]:
+                if row & columns:
+                    found.append(area)
+                    break
+        return found
 
 
 H = 12.0
