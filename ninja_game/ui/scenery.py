@@ -90,14 +90,9 @@ def _strata(sheet: pygame.Surface, numbers: Numbers, slant: float = 0.1, wave: f
     """Layers of earth, one on another."""
     top, start = -160.0, 2 * pi * next(numbers)
 
-    def surface_at(top: float) -> list[Point]:
-        return [(x, top + slant * x + wave * sin(start + top / 60 + x / 45)) for x in range(-4, _WIDE + 8, 4)]
-
     while top < _HIGH:
-        # Each only as far as the next one: where a page draws one over another, both are seen.
-        white, upper = _white(numbers), surface_at(top)
+        _ridge(sheet, _white(numbers), lambda x, top=top: top + slant * x + wave * sin(start + top / 60 + x / 45))
         top += 9 + 26 * next(numbers)
-        pygame.draw.polygon(sheet, white, [*upper, *reversed(surface_at(top if top < _HIGH else 2.0 * _HIGH))])
     for _ in range(70):
         # Stones lie in it, and cracks run down from some of them.
         x, y, wide = _WIDE * next(numbers), _HIGH * next(numbers), 3 + 5 * next(numbers)
