@@ -73,10 +73,14 @@ def painted(palette: Palette) -> pygame.Surface:
 
 
 @lru_cache(maxsize=_SHEETS)
-def grain(palette: Palette) -> pygame.Surface:
-    """White where the rock of a palette that has a scenery is plain, the rest in its kind; nobody may draw on it."""
+def grain(palette: Palette, role: str) -> pygame.Surface:
+    """What to take from rock of a role's colour, of a palette that has a scenery, so that its marks are left.
+
+    Nobody may draw on it.
+    """
     sheet = pygame.Surface((_WIDE, _HIGH), pygame.SRCALPHA)
     GRAINS[palette.scenery](sheet, _numbers(f"rock of {palette.name}"))
+    sheet.fill(getattr(palette, role), special_flags=pygame.BLEND_RGBA_MULT)
     # Made small and large again, it is soft.
     return pygame.transform.smoothscale(pygame.transform.smoothscale(sheet, (_WIDE // 2, _HIGH // 2)), (_WIDE, _HIGH))
 
@@ -89,7 +93,6 @@ def _white(numbers: Numbers) -> tuple[int, int, int, int]:
 def _strata(sheet: pygame.Surface, numbers: Numbers, slant: float = 0.1, wave: float = 7.0) -> None:
     """Layers of earth, one on another."""
     top, start = -160.0, 2 * pi * next(numbers)
-
     while top < _HIGH:
         _ridge(sheet, _white(numbers), lambda x, top=top: top + slant * x + wave * sin(start + top / 60 + x / 45))
         top += 9 + 26 * next(numbers)

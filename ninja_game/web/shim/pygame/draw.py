@@ -40,8 +40,7 @@ def limb(surface: Surface, color: Any, points: Sequence[Any], radii: Sequence[fl
     else:
         each = chain.from_iterable(zip(xs, ys, radii, strict=True))
         surface.entries().extend((LIMB, packed(color), len(xs), *each))
-    box = floor(min(xs) - most), floor(min(ys) - most), floor(max(xs) + most) + 1, floor(max(ys) + most) + 1
-    _clipped(surface, *box)
+    _clipped(surface, *map(floor, (min(xs) - most, min(ys) - most, max(xs) + most + 1, max(ys) + most + 1)))
 
 
 def circle(surface: Surface, color: Any, center: Any, radius: float, width: int = 0, smooth: int = 0) -> Rect:

@@ -48,7 +48,6 @@ class Rect:
     def move(self, x: Any, y: float = 0) -> Rect:
         if x.__class__ is tuple:
             x, y = x
-        # As ``make`` does it: a hundred times a picture.
         rect = _new(Rect)
         rect.x, rect.y, rect.w, rect.h = self.x + int(x), self.y + int(y), self.w, self.h
         return rect
@@ -81,11 +80,8 @@ class Rect:
 
     def collidelistall(self, others: Sequence[Rect]) -> list[int]:
         x, y, right, bottom = self.x, self.y, self.x + self.w, self.y + self.h
-        return [
-            k for k, other in enumerate(others)
-            if other.x < right and x < other.x + other.w and other.y < bottom and y < other.y + other.h
-            and other.w and other.h and self.w and self.h
-        ]  # fmt: skip
+        boxes = enumerate((each.x, each.y, each.w, each.h) for each in others) if self else ()
+        return [k for k, (a, b, w, h) in boxes if a < right and x < a + w and b < bottom and y < b + h and w and h]
 
     def collidelist(self, others: Any) -> int:
         return next(iter(self.collidelistall(others)), -1)
@@ -97,10 +93,8 @@ class Rect:
 
     def contains(self, other: Any) -> bool:
         left, top, w, h = other
-        return bool(
-            self.x <= left and self.y <= top and self.x + self.w >= left + w and self.y + self.h >= top + h
-            and self.x + self.w > left and self.y + self.h > top
-        )  # fmt: skip
+        across = self.x <= left < self.x + self.w >= left + w
+        return bool(across and self.y <= top < self.y + self.h >= top + h)
 
 
 # The same places in memory, read without a call.

@@ -52,9 +52,6 @@ class DisplayList:
         if self.target == number:
             self.target = 0
 
-    def clear(self) -> None:
-        del self.numbers[:]
-
 
 LIST = DisplayList()
 
