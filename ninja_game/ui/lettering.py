@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Sequence
 from functools import lru_cache
 from math import ceil, cos, floor, radians, sin
 from typing import NamedTuple

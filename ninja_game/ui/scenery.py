@@ -8,7 +8,7 @@ from math import cos, pi, sin
 
 import pygame
 
-from ninja_game.ui.canvas import Point
+from ninja_game.ui.canvas import Colour, Point
 from ninja_game.ui.theme import GROUND_ROLES, Palette, mixed
 
 _WIDE, _HIGH = 396, 300
@@ -146,7 +146,7 @@ def _numbers(name: str) -> Numbers:
         yield (state >> 8) / 2**23
 
 
-def _ridge(sheet: pygame.Surface, colour: pygame.Color, height: Callable[[float], float]) -> None:
+def _ridge(sheet: pygame.Surface, colour: Colour, height: Callable[[float], float]) -> None:
     """Everything below a line."""
     line: list[Point] = [(x, height(x)) for x in range(-4, _WIDE + 8, 4)]
     pygame.draw.polygon(sheet, colour, [*line, (_WIDE + 4, _HIGH), (-4, _HIGH)])

@@ -4,7 +4,7 @@ const CANVAS = 2; // canvas, width, height, opaque: a new canvas, which becomes 
 const FREE = 3; // canvas: no longer needed
 const CLIP = 4; // x, y, width, height
 const IMAGE = 5; // canvas, x, y, width, height, to x, to y, opacity; below 0: take away
-const STRETCH = 6; // canvas, width, height, to width, to height, opacity
+const STRETCH = 6; // canvas, width, height, to width, to height
 const FILL = 7; // colour, x, y, width, height: in the place of what is there
 const SHIFT = 8; // scale, x, y: of the entries up to UNSHIFT; with a scale of 1 they are a copy, which is blended
 const UNSHIFT = 9;
@@ -243,15 +243,13 @@ export class Painter {
   }
 
   // Larger as pygame does it: the first px lies on the first one, and between two there is a line.
-  stretch(source, width, height, toWidth, toHeight, opacity) {
+  stretch(source, width, height, toWidth, toHeight) {
     const { context } = this;
     const larger = toWidth > width && height > 1;
     const from = (few, many) => (larger ? [(1 - (few - 1) / many) / 2, few - 1] : [0, few]);
     const [[x, wide], [y, high]] = [from(width, toWidth), from(height, toHeight)];
-    context.globalAlpha = opacity;
     context.imageSmoothingQuality = larger ? "low" : "high";
     context.drawImage(source, x, y, wide, high, 0, 0, toWidth, toHeight);
-    context.globalAlpha = 1;
   }
 
   clip(x, y, width, height) {
@@ -367,8 +365,8 @@ export class Painter {
           at += 9;
           break;
         case STRETCH:
-          this.stretch(sheets[list[at + 1]].canvas, ...list.slice(at + 2, at + 7));
-          at += 7;
+          this.stretch(sheets[list[at + 1]].canvas, ...list.slice(at + 2, at + 6));
+          at += 6;
           break;
         case FILL:
           this.fillBox(list[at + 1], list[at + 2], list[at + 3], list[at + 4], list[at + 5]);

@@ -97,8 +97,9 @@ class Rect:
         return bool(across and self.y <= top < self.y + self.h >= top + h)
 
 
-# The same places in memory, read without a call.
-Rect.left, Rect.top, Rect.width, Rect.height = Rect.x, Rect.y, Rect.w, Rect.h
+# Other names of the same places in memory, which are read without a call.
+for _name, _slot in ("left", "x"), ("top", "y"), ("width", "w"), ("height", "h"):
+    setattr(Rect, _name, getattr(Rect, _slot))
 
 _new = Rect.__new__
 

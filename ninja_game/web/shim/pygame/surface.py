@@ -20,9 +20,8 @@ LONGEST_COPY, LARGEST_COPY, ONE_SHAPE, A_PART = 3000, 65536, 8, 160
 """Fresh surfaces of at most this many numbers and px, or of one simple shape, are copied to where they are blitted. Of
 a fresh one they are parts, letters of a text say, as often as they are blitted there if their numbers are that few."""
 
-(TARGET, CANVAS, FREE, CLIP, IMAGE, STRETCH, FILL, SHIFT, UNSHIFT, POLYGON, DISC, RING, LINE, FRAME, TEXT, STROKE, LIMB) = (
-    range(1, 18)
-)
+TARGET, CANVAS, FREE, CLIP, IMAGE, STRETCH, FILL, SHIFT, UNSHIFT = range(1, 10)
+POLYGON, DISC, RING, LINE, FRAME, TEXT, STROKE, LIMB = range(10, 18)
 """Kinds of entries, each followed by its numbers (painter.js says which)."""
 
 SCREEN = 1
@@ -234,5 +233,6 @@ class Surface:
         else:
             number = self.settle()
             small.settle()
-            small.entries().extend((STRETCH, number, self.w, self.h, small.w, small.h, self.opacity))
+            small.entries().extend((STRETCH, number, self.w, self.h, small.w, small.h))
+            small.opacity = self.opacity
         return small
