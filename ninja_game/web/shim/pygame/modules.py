@@ -41,7 +41,7 @@ def _get_surface() -> Surface | None:
 def _flip(rectangles: Any = None) -> None:
     address, count = LIST.numbers.buffer_info()
     LINK.page.paint(address, count)
-    LIST.clear()
+    del LIST.numbers[:]
 
 
 display = SimpleNamespace(
