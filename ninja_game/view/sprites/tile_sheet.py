@@ -62,8 +62,9 @@ class TileSheet:
     def in_colour(self, colour: pygame.Color) -> pygame.Surface:
         """What it shows, in another colour."""
         other = pygame.Surface(self.surface.size, pygame.SRCALPHA)
+        pictures = {key: self.picture(key, colour) for key in {key for key, _ in self._shown.values()}}
         for key, rect in self._shown.values():
-            other.blit(self.picture(key, colour), rect)
+            other.blit(pictures[key], rect)
         return other
 
     def key(self, column: int, row: int, tile: int) -> TileKey:

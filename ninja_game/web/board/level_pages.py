@@ -114,7 +114,9 @@ class LevelPages(Parts):
         """The first runs of what is called so: their paths, any two of them, their splits."""
         names = [self.name(run.player) for run in runs]
         found = [run_splits(Recording(run.entry.named.level, run.replay), memory="auto") for run in runs]
-        known = [run.folder.drawn.get(run.key) or path_data(each.positions) for run, each in zip(runs, found, strict=True)]
+        known = [
+            run.folder.drawn.get(run.key) or path_data(each.positions) for run, each in zip(runs, found, strict=True)
+        ]
         drawn = paths(UP + picture_name(runs[0].entry.digest), list(zip(names, known, strict=True)))
         together = tag("p", self.watch(runs, UP, f"Watch the first {len(runs)} together"))
         pairs = [
