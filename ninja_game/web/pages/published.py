@@ -95,8 +95,10 @@ def picture(level: Level, width: int = PICTURE_WIDTH) -> bytes:
 
 @cache
 def _keep_freed_memory() -> None:
-    """Have memory for the next picture: glibc gives back what is free beyond twice the largest piece, of 32 MiB at most,
-    that was freed so far; to get it again for each surface took a third of a picture's time."""
+    """Keep what is freed: glibc gives back all beyond twice the largest piece freed so far, of 32 MiB at most.
+
+    To get it again for each surface took a third of a picture's time.
+    """
     bytearray(31 << 20)
 
 
