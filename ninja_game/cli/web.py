@@ -182,6 +182,8 @@ def board(
       ninja-game board replays/ --levels my-pack/ --site public/
       ninja-game board ask replays/ rank 00-0
     """
+    import gc
+
     from ninja_game.files.user_folder import data_folder
     from ninja_game.files.writing import check_output, write_atomically
     from ninja_game.web.board.pages import BoardPages, check_ledger, check_site
@@ -197,6 +199,7 @@ def board(
     if data:
         check_output(data, keep=[folder])
         check_ledger(data, folder)
+    gc.set_threshold(20_000)  # of many runs, all of which stay, a third of the time went into looking for garbage
     now = datetime.now(UTC)
     ledger = check or data
     before = read_board(ledger, now) if ledger and ledger.exists() else NO_LEDGER

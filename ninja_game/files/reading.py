@@ -50,11 +50,11 @@ def files_below(folder: Path, *, follow_links: bool = True) -> Iterator[Path | L
     waiting = [(folder, True)]
     while waiting:
         path, is_folder = waiting.pop()
-        if not follow_links and path != folder and path.is_symlink():
-            yield LeftOut(path, "a link; put the file itself here")
-            continue
         try:
-            about = path.stat()
+            about = os.stat(path, follow_symlinks=follow_links or path == folder)  # noqa: PTH116 - of each run of a board
+            if stat.S_ISLNK(about.st_mode):
+                yield LeftOut(path, "a link; put the file itself here")
+                continue
             if not is_folder:
                 yield path if stat.S_ISREG(about.st_mode) else LeftOut(path, f"{what_it_is(about.st_mode)}, not a file")
                 continue

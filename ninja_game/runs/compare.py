@@ -11,7 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.budget import PLAIN_WORK, RUN_BUDGET, affordable_ticks, over_budget, tick_cost
+from ninja_game.backend.memories import begins_plain
+from ninja_game.budget import RUN_BUDGET, affordable_ticks, over_budget, tick_cost
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
@@ -96,11 +97,11 @@ def run_splits(
 ) -> RunSplits:
     """Run a recording and note its splits, of these events only.
 
-    ``memory``: as of ``Simulation``; "auto" is the plain one where there is little work.
+    ``memory``: as of ``Simulation``; "auto" is the plain one while there is little work.
     Raises, naming file and record, LevelError for a level that cannot be played, BudgetError for a run that is not over
     when its ``budget`` of work is.
     """
-    if memory == "auto" and recording.ticks * tick_cost(recording.level) <= PLAIN_WORK:
+    if begins_plain(memory, recording.ticks * tick_cost(recording.level)):
         memory = "plain"
     with named_errors(recording):
         run = Simulation(recording.level, body=recording.body, memory=memory)

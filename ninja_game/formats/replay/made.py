@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from contextlib import suppress
+from functools import lru_cache
 from typing import NamedTuple, Self
 
 from ninja_game.formats.lines import MOST_NAME
@@ -61,6 +62,7 @@ class Made(NamedTuple):
 UNKNOWN = Made()
 
 
+@lru_cache(4096)
 def parse_made(text: str) -> Made:
     """What ``str`` of one gives. Raises ValueError for any other text.
 

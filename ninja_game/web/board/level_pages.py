@@ -111,8 +111,10 @@ class LevelPages(Parts):
         """The first runs of what is called so: their paths, any two of them, their splits."""
         names = [self.name(run.player) for run in runs]
         found = [run_splits(Recording(run.entry.named.level, run.replay), memory="auto") for run in runs]
-        places = [(name, path_data(each.positions)) for name, each in zip(names, found, strict=True)]
-        drawn = paths(UP + picture_name(runs[0].entry.digest), places)
+        known = [
+            run.folder.drawn.get(run.key) or path_data(each.positions) for run, each in zip(runs, found, strict=True)
+        ]
+        drawn = paths(UP + picture_name(runs[0].entry.digest), list(zip(names, known, strict=True)))
         together = tag("p", self.watch(runs, UP, f"Watch the first {len(runs)} together"))
         pairs = [
             (joined(swatch(number), " ", names[number]), *(self._pair(run, other) for other in runs))

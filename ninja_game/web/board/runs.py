@@ -7,7 +7,7 @@ from collections import defaultdict, deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from functools import partial
+from functools import cached_property, partial
 from hashlib import sha256
 from heapq import nsmallest
 from itertools import pairwise
@@ -143,7 +143,7 @@ class Run:
     near: bool = False
     confirmed: bool = False
 
-    @property
+    @cached_property
     def key(self) -> Key:
         return self.file, self.record
 
@@ -157,7 +157,7 @@ class Run:
         """Where it is ranked."""
         return ASSISTED if self.assisted else PLAYED
 
-    @property
+    @cached_property
     def medal(self) -> str:
         """Its medal, "" for none."""
         return self.entry.pars.medal(self.tick) if self.entry.pars else ""
