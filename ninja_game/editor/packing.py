@@ -20,7 +20,7 @@ from ninja_game.sim.level import Level
 Obstacles = dict[tuple[Level, str], Finding]
 """By level and kind of certificate ("exit", "gold"): what kept the solver from such a run."""
 
-_MISSING = {"no-certificate": "exit", "certificate": "exit", "no-gold-run": "gold"}
+_MISSING = {"no-certificate": "exit", "no-gold-run": "gold"}
 """Findings that a run is not there, by code: of which kind."""
 
 
@@ -74,9 +74,15 @@ def problems_of(pack: Pack, obstacles: Obstacles) -> list[PackFinding]:
 
 def obstacle_of(pack: Pack, finding: PackFinding, obstacles: Obstacles) -> Finding | None:
     """What kept the solver from the run that a finding misses."""
-    kind = _MISSING.get(finding.code)
-    level = pack.levels.get(level_of(pack, file_of(pack, finding))) if kind else None
-    return obstacles.get((level.level, kind)) if kind and level else None
+    file, kind = _missing(pack, file_of(pack, finding), finding.code)
+    return obstacles.get((pack.levels[file].level, kind)) if kind and file in pack.levels else None
+
+
+def _missing(pack: Pack, file: str, code: str) -> tuple[str, str]:
+    """The level file and the kind of the run that a finding about a file misses; no kind where it misses none."""
+    level = level_of(pack, file)
+    broken = [kind for kind in KINDS if code == "certificate" and certificate_name(level, kind) == file]
+    return level, next(iter(broken), _MISSING.get(code, ""))
 
 
 def _with_obstacle(pack: Pack, finding: PackFinding, obstacles: Obstacles) -> str:
@@ -91,7 +97,7 @@ def _certify(
     from ninja_game.search.certify import Wanted, certify_all
     from ninja_game.search.task import Progress, obstacle
 
-    accepted = {(each.file, _MISSING.get(each.code)) for each in pack.index.accepted}
+    accepted = {_missing(pack, each.file, each.code) for each in pack.index.accepted}
 
     def is_open(file: str, kind: str) -> bool:
         known = (pack.levels[file].level, kind) in obstacles or (file, kind) in accepted

@@ -20,11 +20,12 @@ from ninja_game.files.reading import read_bytes, read_utf8
 from ninja_game.files.shown_text import file_stem, name_problem
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import free_path
+from ninja_game.formats.links.making import whole_certificate
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.formats.pack.files import INDEX, MOST_FILES, certificate_name
+from ninja_game.formats.pack.files import CERTIFICATES, INDEX, MOST_FILES, certificate_name
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, MOST_EPISODES, parse_index
 from ninja_game.formats.pack.pack import Pack
-from ninja_game.runs.packs import KINDS
+from ninja_game.runs.packs import KINDS, level_of
 from ninja_game.sim.level import Level
 
 if TYPE_CHECKING:
@@ -90,7 +91,8 @@ def copy_pack(pack: Pack, folder: Path, name: str) -> Path:
             raise PackError("a name that no file here can have", found=ascii(file[:40]), hint=problem)
     path = free_path(folder, file_stem(name, "pack"), "")
     for file in names:
-        Tree(path).write(file, pack.files.text(file))
+        text, level = pack.files.text(file), pack.levels.get(level_of(pack, file))
+        Tree(path).write(file, whole_certificate(text, level) if level else text)
     describe(path, {"name": name})
     return path
 
@@ -125,9 +127,12 @@ def bin_pack(path: Path, folder: Path) -> Path:
 
 
 def same_pack(pack: Pack, other: Pack) -> bool:
-    """Whether two packs have the same files."""
-    names = pack.files.own_names
-    return names == other.files.own_names and all(pack.files.text(name) == other.files.text(name) for name in names)
+    """Whether two packs have the same files, but for certificates, which a link has shorter."""
+    one, two = (
+        {name: each.files.text(name) for name in each.files.own_names if not name.startswith(CERTIFICATES)}
+        for each in (pack, other)
+    )
+    return one == two
 
 
 # --- episodes ---

@@ -44,6 +44,8 @@ from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.pack.files import PackFiles, is_pack
 from ninja_game.formats.pack.pack import Pack
+from ninja_game.runs.packs import lint
+from tests.support.own_pack import PACK
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.runs.recording_reader import texts_in
 from ninja_game.runs.verify import verify_recording
@@ -118,6 +120,16 @@ def test_pack_comes_back_with_episodes_and_par_times() -> None:
     assert [named.level for named in back.levels.values()] == [named.level for named in ours.levels.values()]
     assert not back.problems
     assert len(load_levels(link)) == len(ours.levels)
+
+
+def test_pack_brings_its_certificates_though_they_are_short() -> None:
+    link = PackFiles(PACK).link()
+    assert len(link) < 6100
+    back = Pack(Path(link))
+    assert list(lint(back)) == []
+    run = back.files.text("certificates/00-0-first-steps.exit.replay.txt")
+    assert "waypoints" not in run
+    assert "level-data" not in run
 
 
 def test_several_replays_are_one_link() -> None:
@@ -204,7 +216,7 @@ def test_replay_in_a_link_reads_no_file(tmp_path: Path, monkeypatch: pytest.Monk
         replay_link([replace(recording.replay, level=None)])
 
 
-@pytest.mark.parametrize("name", ["../a.txt", "a/b.txt", ".hidden", "", "c:a.txt", "a\nb.txt", "n" * 200])
+@pytest.mark.parametrize("name", ["../a.txt", "a/b.txt", "certificates/../a", "certificates/.a", ".hidden", "", "c:a.txt", "a\nb.txt", "n" * 200])
 def test_pack_with_odd_names_is_refused(name: str) -> None:
     with pytest.raises(LinkError, match="a name that no file"):
         pack_texts(pack_link({"pack.toml": 'name = "x"', name: ""}))
