@@ -25,6 +25,10 @@ FIRST, LAST = "00-0-first-steps.txt", "01-2-the-works.txt"
 RUN = "certificates/00-0-first-steps.exit.replay.txt"
 
 
+def _quiet(_text: str, _share: float | None) -> None:
+    """Nobody listens."""
+
+
 @pytest.fixture(name="pack")
 def copy_of_the_pack(tmp_path: Path) -> Path:
     return Path(shutil.copytree(PACK, tmp_path / "pack", ignore=shutil.ignore_patterns("gallery", "README.md")))
@@ -116,7 +120,7 @@ def test_a_pack_is_made_ready_and_only_what_changed_is_done_again(pack: Path, tm
     kept = other.stat().st_mtime_ns
     certificate.unlink()
     said: list[str] = []
-    ready = make_ready(pack, seconds=1.0, jobs=1, say=said.append)
+    ready = make_ready(pack, seconds=1.0, jobs=1, say=lambda text, _: said.append(text))
     assert certificate.exists()
     assert other.stat().st_mtime_ns == kept
     assert "Par times: 8 of 8 levels" in said
@@ -136,7 +140,7 @@ def test_what_keeps_a_level_from_a_certificate_is_a_problem_of_the_pack(pack: Pa
     text = (pack / FIRST).read_text("utf-8")
     (pack / FIRST).write_text(text.replace("ox...", "o....").replace("22 |##", "22 |x#"), "utf-8")
     obstacles: Obstacles = {}
-    ready = make_ready(pack, seconds=1.0, jobs=1, say=str, obstacles=obstacles)
+    ready = make_ready(pack, seconds=1.0, jobs=1, say=_quiet, obstacles=obstacles)
     told = "The search found none: exit at 30,18 (object 6): its switch was touched in no try of the solver"
     assert [finding.code for finding in ready.findings if finding.text.endswith(told)] == ["certificate"]
     level = Pack(pack).levels[FIRST].level
@@ -157,14 +161,14 @@ def test_what_was_searched_in_vain_or_is_accepted_is_not_searched_again(
         return [{} for _ in levels]
 
     monkeypatch.setattr("ninja_game.search.certify.certify_all", search)
-    ready = make_ready(pack, seconds=1.0, jobs=1, say=str, obstacles=obstacles)
+    ready = make_ready(pack, seconds=1.0, jobs=1, say=_quiet, obstacles=obstacles)
     assert searched == []
     assert {finding.code for finding in ready.findings} == {"no-gold-run"}
     assert len(ready.findings) == len(levels) - 1
     assert ready.findings[0].text.endswith("The search found none: 1 at most were collected at once, never gold")
     packs.take_back(pack, FIRST, "no-gold-run")
     assert "accept" not in (pack / "pack.toml").read_text("utf-8")
-    make_ready(pack, seconds=1.0, jobs=1, say=str, obstacles=obstacles)
+    make_ready(pack, seconds=1.0, jobs=1, say=_quiet, obstacles=obstacles)
     assert searched == ["First Steps"]
 
 
@@ -187,10 +191,10 @@ def test_a_broken_certificate_is_a_missing_run_of_its_own_kind(pack: Path, monke
     assert why
     assert why.text.endswith("gold")
     packs.take_back(pack, FIRST, "no-gold-run")
-    make_ready(pack, seconds=1.0, jobs=1, say=str)
+    make_ready(pack, seconds=1.0, jobs=1, say=_quiet)
     assert searched == ["First Steps"]
     packs.accept(pack, gold, "certificate", "it stays so")
-    make_ready(pack, seconds=1.0, jobs=1, say=str)
+    make_ready(pack, seconds=1.0, jobs=1, say=_quiet)
     assert searched == ["First Steps"], "what is accepted is not searched again"
 
 

@@ -44,11 +44,11 @@ from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.pack.files import PackFiles, is_pack
 from ninja_game.formats.pack.pack import Pack
-from ninja_game.runs.packs import lint
-from tests.support.own_pack import PACK
 from ninja_game.formats.replay.text import write_replay
+from ninja_game.runs.packs import lint
 from ninja_game.runs.recording_reader import texts_in
 from ninja_game.runs.verify import verify_recording
+from tests.support.own_pack import PACK
 from tests.support.reference import levels as levels_of_reference, recordings, require_reference
 
 LEVEL = parse_level_string("1" * 23 + "0" * 690 + "|5^60,564!11^708,540,396,540!0^396.1000000001,NaN")
@@ -216,7 +216,10 @@ def test_replay_in_a_link_reads_no_file(tmp_path: Path, monkeypatch: pytest.Monk
         replay_link([replace(recording.replay, level=None)])
 
 
-@pytest.mark.parametrize("name", ["../a.txt", "a/b.txt", "certificates/../a", "certificates/.a", ".hidden", "", "c:a.txt", "a\nb.txt", "n" * 200])
+@pytest.mark.parametrize(
+    "name",
+    ["../a.txt", "a/b.txt", "certificates/../a", "certificates/.a", ".hidden", "", "c:a.txt", "a\nb.txt", "n" * 200],
+)
 def test_pack_with_odd_names_is_refused(name: str) -> None:
     with pytest.raises(LinkError, match="a name that no file"):
         pack_texts(pack_link({"pack.toml": 'name = "x"', name: ""}))
