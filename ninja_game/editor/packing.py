@@ -117,7 +117,7 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstac
         say(f"Certifying, {done} of {len(files)} levels done. {left}", min(1.0, max(done / len(files), over / longest)))
 
     if levels:
-        say("The solver is made ready; the first time that takes a minute or two", None)
+        say("Getting the solver ready, which takes a minute or two the first time", None)
         compile_solver()
     began = monotonic()
     all_found = certify_all(list(levels.values()), files, wanted, jobs=jobs, report=report)

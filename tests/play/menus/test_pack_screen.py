@@ -78,6 +78,22 @@ def test_levels_and_episodes_are_dragged(driver: MenuDriver, path: Path) -> None
     assert driver.top() is screen
 
 
+def test_the_authors_run_of_ones_own_level_needs_no_medal(driver: MenuDriver, path: Path) -> None:
+    driver.app.change_settings(name="the ninja-game team")
+    (path / "certificates" / "00-1-mind-the-gap.exit.replay.txt").unlink()
+    driver.open("Levels")
+    browser = driver.shown(Browser)
+    seen = []
+    for name in ("the ninja-game team", "Ida"):
+        driver.app.change_settings(name=name)
+        for index in (0, 1):
+            browser.list.index = index
+            browser._select(index)
+            seen.append(browser.watch_author.hint or browser.watch_author.enabled)
+    certify = "none is known: Certify, in the editor, finds one"
+    assert seen == [True, certify, "earn a gold medal to watch it", "none is known"]
+
+
 def test_a_full_episode_says_so(driver: MenuDriver, path: Path) -> None:
     screen = opened(driver)
     driver.carry(screen.shelves.row_area(7), screen.shelves.row_area(2))
@@ -272,7 +288,7 @@ def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
     assert screen.packer.busy
     driver.press("escape")
     go_on.set()
-    driver.wait(lambda: driver.app.notice == "Laundry is ready to share", "it is told elsewhere")
+    driver.wait(lambda: driver.app.notice == "Laundry is ready to share", "it is said elsewhere")
     driver.choose("Packs")
     assert driver.shown(PackScreen).packer.text == f"Saved: {Path('exports', 'laundry-1.zip')}"
     assert driver.button("Make ready")
