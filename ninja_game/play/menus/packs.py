@@ -294,13 +294,12 @@ class PackScreen(ThumbnailScreen):
         notice = "Link copied: whoever opens it, or pastes it in Levels > Packs, gets the pack"
         link = partial(copy_link, self.app, copied.files.link, title=index.name, notice=notice)
         busy = self.packer.busy and self.packer.path == self.path
+        gone = "It is being made ready" if busy else "It goes to a folder beside your levels"
         rows: list[Row] = [
             ("Name, author, version...", self._form, ""),
             ("Copy of the pack...", lambda: self.ask("Name of the copy", f"{index.name} copy", copy), ""),
             ("Copy link", link, "Opens the pack; or Levels > Packs takes it in"),
-            ("Delete the pack...", None, "It is being made ready")
-            if busy
-            else ("Delete the pack...", self._delete, "It goes to a folder beside your levels"),
+            ("Delete the pack...", None if busy else self._delete, gone),
             CANCEL,
         ]
         self.app.push(Menu(self.app, index.name, rows))

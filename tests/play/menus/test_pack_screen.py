@@ -174,9 +174,7 @@ def test_everything_about_a_pack_is_named_again(driver: MenuDriver, path: Path) 
     driver.choose("About it...")
     driver.choose("Copy of the pack...")
     typed(driver, "Laundry")
-    assert [each.name for each in screen.mine] == [
-        "Laundry (laundry)", "Laundry (laundry-2)",
-    ]  # fmt: skip
+    assert [each.name for each in screen.mine] == ["Laundry (laundry)", "Laundry (laundry-2)"]
 
 
 def test_a_problem_leads_to_its_place_and_is_accepted_with_a_reason(driver: MenuDriver, path: Path) -> None:
