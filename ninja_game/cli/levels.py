@@ -110,7 +110,9 @@ def pack_up(pack: Path, seconds: float, jobs: int | None, zip_path: Path | None)
     path = zip_path or pack.resolve().with_name(f"{pack.resolve().name}.zip")
     check_output(path)
     with options.progress_line() as report:
-        ready = make_ready(pack, seconds=seconds, jobs=options.default_threads(jobs), say=report.say)
+        ready = make_ready(
+            pack, seconds=seconds, jobs=options.default_threads(jobs), say=lambda text, _: report.say(text)
+        )
     write_atomically(path, ready.zipped)
     _show(ready.findings)
     click.echo(

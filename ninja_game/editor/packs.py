@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import count
 from pathlib import Path
+from time import monotonic
 from typing import TYPE_CHECKING, Any
 
 from ninja_game.backend.memories import compiled_available
@@ -17,12 +18,13 @@ from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import SUFFIX, ascii_text, draft_of, open_source, save
 from ninja_game.errors import LinkError, NinjaGameError, PackError
 from ninja_game.files.reading import read_bytes, read_utf8
-from ninja_game.files.shown_text import file_stem, name_problem
+from ninja_game.files.shown_text import file_stem, name_problem, shown_text
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import free_path, how_to_install
+from ninja_game.formats.links import whole_certificate
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, MOST_EPISODES, parse_index
-from ninja_game.formats.pack.pack import INDEX, MOST_FILES, PARS, Pack, certificate_name
+from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, MOST_FILES, PARS, Pack, certificate_name
 from ninja_game.formats.pack.pars import write_pars
 from ninja_game.levels.findings import Finding, PackFinding
 from ninja_game.runs.packs import KINDS, file_of, is_certified, level_of, lint, make_pars
@@ -90,7 +92,8 @@ def copy_pack(pack: Pack, folder: Path, name: str) -> Path:
             raise PackError("a name that no file here can have", found=ascii(file[:40]), hint=problem)
     path = free_path(folder, file_stem(name, "pack"), "")
     for file in names:
-        Tree(path).write(file, pack.files.text(file))
+        text, level = pack.files.text(file), pack.levels.get(level_of(pack, file))
+        Tree(path).write(file, whole_certificate(text, level) if level else text)
     describe(path, {"name": name})
     return path
 
@@ -125,8 +128,12 @@ def bin_pack(path: Path, folder: Path) -> Path:
 
 
 def same_pack(pack: Pack, other: Pack) -> bool:
-    names = pack.files.own_names
-    return names == other.files.own_names and all(pack.files.text(name) == other.files.text(name) for name in names)
+    """Whether two packs have the same files, but for certificates, which a link has shorter."""
+    one, two = (
+        {name: each.files.text(name) for name in each.files.own_names if not name.startswith(CERTIFICATES)}
+        for each in (pack, other)
+    )
+    return one == two
 
 
 # --- episodes ---
@@ -242,10 +249,13 @@ def transfer(level: NamedLevel, path: Path, *, keep: bool) -> str:
     return new
 
 
+Say = Callable[[str, float | None], object]
+"""Gets what is being done, and the share of that which is done, None where nobody knows."""
+
 Obstacles = dict[tuple[Level, str], Finding]
 """By level and kind of certificate ("exit", "gold"): what kept the solver from such a run."""
 
-_MISSING = {"no-certificate": "exit", "certificate": "exit", "no-gold-run": "gold"}
+_MISSING = {"no-certificate": "exit", "no-gold-run": "gold"}
 """Findings that a run is not there, by code: of which kind."""
 
 
@@ -260,12 +270,10 @@ class ReadyPack:
     notes: list[str]
 
 
-def make_ready(
-    path: Path, *, seconds: float, jobs: int, say: Callable[[str], object], obstacles: Obstacles | None = None
-) -> ReadyPack:
+def make_ready(path: Path, *, seconds: float, jobs: int, say: Say, obstacles: Obstacles | None = None) -> ReadyPack:
     """Certify each level to the exit and with all gold, write the par times, lint; the zip and the link.
 
-    ``seconds``: for each search; ``jobs``: levels at a time; ``say`` gets what is being done, and may raise to end it.
+    ``seconds``: for each search; ``jobs``: levels at a time; ``say`` may raise to end it.
     ``obstacles``: of earlier searches, which are not done again; those of the new ones are put there.
     Raises NinjaGameError, OSError.
     """
@@ -278,11 +286,11 @@ def make_ready(
     try:
         for file, pars in make_pars(pack):
             made[file] = pars
-            say(f"Par times: {len(made)} of {len(pack.levels)} levels")
+            say(f"Par times: {len(made)} of {len(pack.levels)} levels", len(made) / len(pack.levels))
         Tree(path).write(PARS, write_pars(made))
     except NinjaGameError as error:
         notes.append(f"No par times: {error}")
-    say("Looking for problems")
+    say("Looking for problems", 1.0)
     pack, link = Pack(path), ""
     findings = problems_of(pack, obstacles)
     try:
@@ -298,9 +306,15 @@ def problems_of(pack: Pack, obstacles: Obstacles) -> list[PackFinding]:
 
 
 def obstacle_of(pack: Pack, finding: PackFinding, obstacles: Obstacles) -> Finding | None:
-    kind = _MISSING.get(finding.code)
-    level = pack.levels.get(level_of(pack, file_of(pack, finding))) if kind else None
-    return obstacles.get((level.level, kind)) if kind and level else None
+    file, kind = _missing(pack, file_of(pack, finding), finding.code)
+    return obstacles.get((pack.levels[file].level, kind)) if kind and file in pack.levels else None
+
+
+def _missing(pack: Pack, file: str, code: str) -> tuple[str, str]:
+    """The level file and the kind of the run that a finding about a file misses; no kind where it misses none."""
+    level = level_of(pack, file)
+    broken = [kind for kind in KINDS if code == "certificate" and certificate_name(level, kind) == file]
+    return level, next(iter(broken), _MISSING.get(code, ""))
 
 
 def _with_obstacle(pack: Pack, finding: PackFinding, obstacles: Obstacles) -> str:
@@ -308,14 +322,13 @@ def _with_obstacle(pack: Pack, finding: PackFinding, obstacles: Obstacles) -> st
     return f"{finding.text}. The search found none: {why.sentence}" if why else finding.text
 
 
-def _certify(
-    pack: Pack, path: Path, seconds: float, jobs: int, say: Callable[[str], object], obstacles: Obstacles
-) -> None:
+def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstacles: Obstacles) -> None:
     """Certify the levels of which anything is not known yet, nor accepted."""
     from ninja_game.search.certify import Wanted, certify_all
+    from ninja_game.search.solve import compile_solver
     from ninja_game.search.task import Progress, obstacle
 
-    accepted = {(each.file, _MISSING.get(each.code)) for each in pack.index.accepted}
+    accepted = {_missing(pack, each.file, each.code) for each in pack.index.accepted}
 
     def is_open(file: str, kind: str) -> bool:
         known = (pack.levels[file].level, kind) in obstacles or (file, kind) in accepted
@@ -324,16 +337,22 @@ def _certify(
     levels = {file: named for file, named in pack.levels.items() if any(is_open(file, kind) for kind in KINDS)}
     wanted = Wanted({"exit": 0, "gold": -1}, {"seconds": seconds})
     files = [{kind: path / certificate_name(file, kind) for kind in KINDS} for file in levels]
-    done = 0
+    names = {Path(file).stem: shown_text(named.name) for file, named in levels.items()}
+    done, longest = 0, max(1.0, -(-len(files) // jobs) * len(KINDS) * seconds)
 
     def report(name: str, progress: Progress) -> None:
-        say(f"Certifying, {done} of {len(files)} levels done. {name}: {progress.seconds:.0f} s")
+        over = monotonic() - began
+        left = f"{names[name]}: {progress.seconds:.0f} s; at most {max(0.0, longest - over):.0f} s left"
+        say(f"Certifying, {done} of {len(files)} levels done. {left}", min(1.0, max(done / len(files), over / longest)))
 
-    say("Certifying; the first time the solver is compiled, for a minute")
+    if levels:
+        say("Getting the solver ready, which takes a minute or two the first time", None)
+        compile_solver()
+    began = monotonic()
     all_found = certify_all(list(levels.values()), files, wanted, jobs=jobs, report=report)
     for named, found in zip(levels.values(), all_found, strict=True):
         for kind, each in found.items() if isinstance(found, dict) else ():
             if not each.run and each.progress:
                 obstacles[named.level, kind] = obstacle(named.level, each.gold, each.progress)
         done += 1
-        say(f"Certifying, {done} of {len(files)} levels done")
+        say(f"Certifying, {done} of {len(files)} levels done", done / len(files))

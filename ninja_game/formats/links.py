@@ -10,6 +10,7 @@ import re
 import zlib
 from base64 import urlsafe_b64decode, urlsafe_b64encode
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
@@ -20,6 +21,7 @@ from ninja_game.files.reading import PLACE, decoded
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.n14.level_file import write_level_file
 from ninja_game.formats.n14.level_string import level_digest
+from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.recording import Recording, parse_replays, record_of
 from ninja_game.formats.replay.text import (
     Replay,
@@ -177,6 +179,8 @@ def watched(fragment: str) -> list[str]:
 
 
 _NAME_LIMIT = 100  # characters of the name of a file in a pack
+_LEFT_OUT = re.compile(r"^(?:waypoints|level-data):\n(?:(?: .*)?\n)*", re.MULTILINE)
+"""Of certificates in links of packs: the pack has the levels, and the digest says the same as the waypoints."""
 
 
 def level_link(level: Level, **headers: Any) -> str:
@@ -216,8 +220,23 @@ def _recording_text(recording: Recording) -> str:
 
 
 def pack_link(texts: dict[str, str]) -> str:
-    """The link of a pack from its files by name: index, levels, par times; no certificates. Raises LinkError."""
-    return write_link("pack", [json.dumps(texts, ensure_ascii=False, separators=(",", ":"))])
+    """The link of a pack from its files by name: index, levels, par times, certificates as short as they can be.
+
+    Raises LinkError.
+    """
+    known = {name for name, text in texts.items() if is_replay(text) and "\nlevel-digest:" in text}
+    short = {name: _LEFT_OUT.sub("", text) if name in known else text for name, text in texts.items()}
+    return write_link("pack", [json.dumps(short, ensure_ascii=False, separators=(",", ":"))])
+
+
+def whole_certificate(text: str, level: NamedLevel) -> str:
+    """A certificate from a link with its level inside again; any other text as it is."""
+    with suppress(FormatError):
+        replay = parse_replay(text) if is_replay(text) else None
+        if replay and replay.level is None and replay.level_digest == level_digest(level.level):
+            own = replace(replay, level_path="", level_record=0, level=level.level)
+            return write_replay(replace(own, level_name=level.name, level_author=level.author))
+    return text
 
 
 def pack_texts(link: str | Path) -> dict[str, str]:
@@ -236,7 +255,8 @@ def pack_texts(link: str | Path) -> dict[str, str]:
 
 
 def _is_plain(name: str) -> bool:
-    """Whether a name is that of a file in a pack: no path, nothing hidden."""
+    """Whether a name is that of a file in a pack, or of a certificate: no other path, nothing hidden."""
+    name = name.removeprefix("certificates/")
     plain = name.isprintable() and not set(name) & set("/\\:") and not name.startswith(".")
     return plain and 0 < len(name) <= _NAME_LIMIT
 

@@ -91,7 +91,7 @@ LEVEL_RULES = {
 _MAKE_PARS = "Make it with `ninja-game levels pars`."
 PACK_RULES = {
     "unreadable": Rule("{why}", "Mend the file as the message says, or take it out of the pack."),
-    "no-author": Rule("no author", "Name one."),
+    "no-author": Rule("no author", "Name one: it is that of every level without its own."),
     "no-name": Rule("no name", "Give it one."),
     "column-without-name": Rule(
         "column {column} has episodes and no name; expected {needed} names in columns", "Name every column."

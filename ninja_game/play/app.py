@@ -80,6 +80,16 @@ class Screen:
         raise NotImplementedError
 
 
+class Aside:
+    """Work that goes on whatever screen is on top."""
+
+    def update(self) -> None:
+        """Called in each turn of the loop."""
+
+    def end(self) -> None:
+        """Called when the program ends."""
+
+
 class ScreenStack:
     def __init__(self) -> None:
         self._screens: list[Screen] = []
@@ -204,6 +214,7 @@ class App:
         self.overclock = 0
         self.tas_editor = tas_editor
         self.stack = ScreenStack()
+        self.aside: list[Aside] = []
         self.running = True
         self.frame_ms = 0.0
         self.mood = 0
@@ -329,6 +340,8 @@ class App:
                 if not simulated:
                     clock.tick(self.settings.frame_limit or pygame.display.get_current_refresh_rate() or FALLBACK_RATE)
         finally:
+            for each in self.aside:
+                each.end()
             self.stack.clear()
             if self.window.was_resized:
                 self.change_settings(window_width=self.surface.width, window_height=self.surface.height)
@@ -350,6 +363,8 @@ class App:
         if self.wipe.going_on:
             self.wipe.update(real_ms)
             self.stack.redraw_all()
+        for each in self.aside:
+            each.update()
         for screen in self.stack.running():
             screen.update(real_ms)
         if self.notice:
@@ -407,7 +422,8 @@ class App:
     def _draw_notice(self, theme: Theme) -> pygame.Rect:
         (left, _), (right, _) = theme.canvas.logical((0, 0)), theme.canvas.logical(theme.canvas.window)
         middle, lines = (left + right) / 2, wrapped(theme, self.notice, NOTICE_WIDE, NOTICE)[:NOTICE_LINES]
-        y, size, margin, high = 30.0, NOTICE, 6.0, 1.5 * NOTICE * theme.scales[0]
+        # Below the title, and what one goes back with.
+        y, size, margin, high = 44.0, NOTICE, 6.0, 1.5 * NOTICE * theme.scales[0]
         if self.top.plays and len(lines) == 1:
             # In the border: nothing is written over a level in which somebody runs.
             y, size, margin, high = 577.0, IN_BORDER, 1.0, 20.0

@@ -198,17 +198,18 @@ class Catalogue:
     def packs(self) -> list[EpisodeSet]:
         """The game's own pack, then the player's as they are now; what is wrong with them becomes ``problems``.
 
-        Of several packs of one name the first has the key that it would have alone; each is called by its author and
-        version too, and by its file where these are the same.
+        Of several packs of one name the first has the key that it would have alone; each is called by what tells it
+        from the others too: author, version, else its file.
         """
         read = {os.path.realpath(path): path for path in [*self.more, *self._pack_paths()]}
         packs = [(path, pack) for path in read.values() if (pack := self._pack_at(path))]
-        names = Counter(pack.name for _, pack in packs)
         titles = Counter(pack.index.title for _, pack in packs)
         found = {"": self.ours}
         for path, pack in packs:
-            name = pack.index.title if names[pack.name] > 1 else pack.name
-            name += f" ({path.name})" * (name != pack.name and titles[name] > 1)
+            alike = [each.index for _, each in packs if each.name == pack.name]
+            author, version = (len({getattr(each, key) for each in alike}) > 1 for key in ("author", "version"))
+            index = replace(pack.index, author=pack.index.author * author, version=pack.index.version * version)
+            name = index.title + f" ({path.name})" * (len(alike) > 1 < titles[pack.index.title])
             key = f"{pack.name} ({path.name})" if pack.name in found else pack.name
             found[key] = self._set_of(path, pack, key, name)
         self._known = found

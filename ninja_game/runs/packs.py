@@ -61,7 +61,7 @@ def certificate(pack: Pack, file: str, kind: str) -> Certificate | None:
     if name is None:
         return None
     place = pack.files.place(name)
-    recordings = parse_replays(pack.files.text(name), file=place)
+    recordings = parse_replays(pack.files.text(name), file=place, level=pack.levels[file].level)
     if len(recordings) != 1:
         raise ReplayError("a certificate is one replay", place, found=f"{len(recordings)} recordings")
     return Certificate(place, kind, pack.levels[file].level, recordings[0])
@@ -193,8 +193,6 @@ def _about_levels(pack: Pack) -> Iterator[PackFinding]:
         place = pack.files.place(file)
         if named.form == "ascii" and named.name == PurePath(file).stem:
             yield in_pack("no-name", place)
-        if not (named.author or pack.index.author):
-            yield in_pack("no-author", place)
         digest = level_digest(named.level)
         for code, key, seen in (("same-name", named.name, names), ("same-content", digest, levels)):
             if key in seen:

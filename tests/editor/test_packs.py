@@ -10,14 +10,22 @@ from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
 from ninja_game.editor import packs
-from ninja_game.editor.packs import Obstacles, make_ready
+from ninja_game.editor.packs import Obstacles, make_ready, obstacle_of
 from ninja_game.errors import NinjaGameError, PackError
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pack import Pack, PackFiles
 from ninja_game.levels.findings import found
+from ninja_game.runs.packs import lint
+from ninja_game.search.certify import kept_run
+from ninja_game.search.task import Task
 from tests.support.own_pack import PACK
 
 FIRST, LAST = "00-0-first-steps.txt", "01-2-the-works.txt"
+RUN = "certificates/00-0-first-steps.exit.replay.txt"
+
+
+def _quiet(_text: str, _share: float | None) -> None:
+    """Nobody listens."""
 
 
 @pytest.fixture(name="pack")
@@ -77,6 +85,12 @@ def test_a_pack_is_made_described_and_copied(pack: Path, tmp_path: Path) -> None
     copied = packs.copy_pack(Pack(pack), tmp_path, "Wände")
     assert copied.name == "wände-2"
     assert Pack(copied).files.names == Pack(pack).files.names
+    linked = Pack(packs.copy_pack(Pack(Path(PackFiles(pack).link())), tmp_path, "test pack"))
+    assert list(lint(linked)) == []
+    for kept in (linked, Pack(pack)):
+        assert kept_run(kept.levels[FIRST], kept.files.path / RUN, Task(kept.levels[FIRST].level))
+        assert "level-data:" in kept.files.text(RUN), "whole, where it is a file"
+    assert packs.same_pack(linked, Pack(pack))
     with pytest.raises(NinjaGameError):
         packs.describe(made, {"name": ""})
     assert Pack(made).name == "Wände"
@@ -105,7 +119,7 @@ def test_a_pack_is_made_ready_and_only_what_changed_is_done_again(pack: Path, tm
     kept = other.stat().st_mtime_ns
     certificate.unlink()
     said: list[str] = []
-    ready = make_ready(pack, seconds=1.0, jobs=1, say=said.append)
+    ready = make_ready(pack, seconds=1.0, jobs=1, say=lambda text, _: said.append(text))
     assert certificate.exists()
     assert other.stat().st_mtime_ns == kept
     assert "Par times: 8 of 8 levels" in said
@@ -125,7 +139,7 @@ def test_what_keeps_a_level_from_a_certificate_is_a_problem_of_the_pack(pack: Pa
     text = (pack / FIRST).read_text("utf-8")
     (pack / FIRST).write_text(text.replace("ox...", "o....").replace("22 |##", "22 |x#"), "utf-8")
     obstacles: Obstacles = {}
-    ready = make_ready(pack, seconds=1.0, jobs=1, say=str, obstacles=obstacles)
+    ready = make_ready(pack, seconds=1.0, jobs=1, say=_quiet, obstacles=obstacles)
     told = "The search found none: exit at 30,18 (object 6): its switch was touched in no try of the solver"
     assert [finding.code for finding in ready.findings if finding.text.endswith(told)] == ["certificate"]
     level = Pack(pack).levels[FIRST].level
@@ -146,15 +160,41 @@ def test_what_was_searched_in_vain_or_is_accepted_is_not_searched_again(
         return [{} for _ in levels]
 
     monkeypatch.setattr("ninja_game.search.certify.certify_all", search)
-    ready = make_ready(pack, seconds=1.0, jobs=1, say=str, obstacles=obstacles)
+    ready = make_ready(pack, seconds=1.0, jobs=1, say=_quiet, obstacles=obstacles)
     assert searched == []
     assert {finding.code for finding in ready.findings} == {"no-gold-run"}
     assert len(ready.findings) == len(levels) - 1
     assert ready.findings[0].text.endswith("The search found none: 1 at most were collected at once, never gold")
     packs.take_back(pack, FIRST, "no-gold-run")
     assert "accept" not in (pack / "pack.toml").read_text("utf-8")
-    make_ready(pack, seconds=1.0, jobs=1, say=str, obstacles=obstacles)
+    make_ready(pack, seconds=1.0, jobs=1, say=_quiet, obstacles=obstacles)
     assert searched == ["First Steps"]
+
+
+def test_a_broken_certificate_is_a_missing_run_of_its_own_kind(pack: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    searched: list[str] = []
+
+    def search(levels: list[NamedLevel], *_: object, **__: object) -> list[dict[str, object]]:
+        searched.extend(each.name for each in levels)
+        return [{} for _ in levels]
+
+    monkeypatch.setattr("ninja_game.search.certify.certify_all", search)
+    for file in Pack(pack).levels:
+        packs.accept(pack, file, "no-gold-run", "a joke")
+    gold = RUN.replace("exit", "gold")
+    shutil.copy(pack / RUN, pack / gold)
+    level = Pack(pack).levels[FIRST].level
+    obstacles: Obstacles = {(level, kind): found("gold-left", (2,), most=1, never=kind) for kind in ("exit", "gold")}
+    [broken] = [each for each in lint(Pack(pack)) if each.code == "certificate"]
+    why = obstacle_of(Pack(pack), broken, obstacles)
+    assert why
+    assert why.text.endswith("gold")
+    packs.take_back(pack, FIRST, "no-gold-run")
+    make_ready(pack, seconds=1.0, jobs=1, say=_quiet)
+    assert searched == ["First Steps"]
+    packs.accept(pack, gold, "certificate", "it stays so")
+    make_ready(pack, seconds=1.0, jobs=1, say=_quiet)
+    assert searched == ["First Steps"], "what is accepted is not searched again"
 
 
 def test_the_command_makes_a_pack_ready(pack: Path, tmp_path: Path) -> None:

@@ -22,7 +22,6 @@ from ninja_game.files.reading import PLACE, has_folder
 from ninja_game.files.user_folder import bundled_levels, bundled_replays, data_folder
 from ninja_game.formats.ascii.writer import headers_of
 from ninja_game.formats.links import (
-    MOST_BYTES,
     MOST_CHARACTERS,
     MOST_TEXTS,
     is_link,
@@ -40,10 +39,12 @@ from ninja_game.formats.links import (
 )
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
-from ninja_game.formats.pack.pack import Pack, PackFiles, is_pack
+from ninja_game.formats.pack.pack import MOST_BYTES, Pack, PackFiles, is_pack
 from ninja_game.formats.replay.text import write_replay
+from ninja_game.runs.packs import lint
 from ninja_game.runs.recording_reader import texts_in
 from ninja_game.runs.verify import verify_recording
+from tests.support.own_pack import PACK
 from tests.support.reference import levels as levels_of_reference, recordings, require_reference
 
 LEVEL = parse_level_string("1" * 23 + "0" * 690 + "|5^60,564!11^708,540,396,540!0^396.1000000001,NaN")
@@ -115,6 +116,16 @@ def test_pack_comes_back_with_episodes_and_par_times() -> None:
     assert [named.level for named in back.levels.values()] == [named.level for named in ours.levels.values()]
     assert not back.problems
     assert len(load_levels(link)) == len(ours.levels)
+
+
+def test_pack_brings_its_certificates_though_they_are_short() -> None:
+    link = PackFiles(PACK).link()
+    assert len(link) < 6100
+    back = Pack(Path(link))
+    assert list(lint(back)) == []
+    run = back.files.text("certificates/00-0-first-steps.exit.replay.txt")
+    assert "waypoints" not in run
+    assert "level-data" not in run
 
 
 def test_several_replays_are_one_link() -> None:
@@ -201,7 +212,10 @@ def test_replay_in_a_link_reads_no_file(tmp_path: Path, monkeypatch: pytest.Monk
         replay_link([replace(recording.replay, level=None)])
 
 
-@pytest.mark.parametrize("name", ["../a.txt", "a/b.txt", ".hidden", "", "c:a.txt", "a\nb.txt", "n" * 200])
+@pytest.mark.parametrize(
+    "name",
+    ["../a.txt", "a/b.txt", "certificates/../a", "certificates/.a", ".hidden", "", "c:a.txt", "a\nb.txt", "n" * 200],
+)
 def test_pack_with_odd_names_is_refused(name: str) -> None:
     with pytest.raises(LinkError, match="a name that no file"):
         pack_texts(pack_link({"pack.toml": 'name = "x"', name: ""}))

@@ -119,7 +119,7 @@ def test_odd_packs_are_named_and_stop_nothing(tmp_path: Path) -> None:
     assert "pack.toml:1:" in torn
 
 
-def test_packs_of_one_name_stand_side_by_side_with_author_and_version(tmp_path: Path) -> None:
+def test_packs_of_one_name_stand_side_by_side_with_what_tells_them_apart(tmp_path: Path) -> None:
     for file, more in (("a", 'author = "Ann"'), ("b", 'author = "Ann"\nversion = "2"'), ("c", 'author = "Ann"')):
         index = pack_of(tmp_path / file, "Same") / "pack.toml"
         index.write_text(f"{more}\n{index.read_text('utf-8')}", "utf-8")
@@ -127,13 +127,17 @@ def test_packs_of_one_name_stand_side_by_side_with_author_and_version(tmp_path: 
     catalogue = Catalogue(tmp_path)
     _, *packs = catalogue.packs()
     assert [(pack.key, pack.name) for pack in packs] == [
-        ("Same", "Same by Ann (a)"), ("Same (b)", "Same by Ann, 2"), ("Same (c)", "Same by Ann (c)"),
+        ("Same", "Same (a)"), ("Same (b)", "Same, 2"), ("Same (c)", "Same (c)"),
         ("Other", "Other"),
     ]  # fmt: skip
     assert {entry.source for entry in packs[1].levels} == {"Same (b)"}
     catalogue.more.append(tmp_path / "a")
     assert len(catalogue.packs()) == 5, "a pack of the folder that the command line names is there once"
     assert catalogue.problems == []
+    for file, author in (("b", "Ida"), ("c", "Zoe")):
+        index = tmp_path / file / "pack.toml"
+        index.write_text(index.read_text("utf-8").replace("Ann", author), "utf-8")
+    assert [pack.name for pack in catalogue.packs()[1:4]] == ["Same by Ann", "Same by Ida, 2", "Same by Zoe"]
 
 
 def test_next_episode_is_the_next_one_that_there_is(tmp_path: Path) -> None:

@@ -59,7 +59,7 @@ def test_index_is_looked_at(pack: Path) -> None:
     result = CliRunner().invoke(cli, ["levels", "lint", str(pack)])
     assert result.exit_code == 1
     assert "6 findings" in result.output
-    assert "pack.toml: no author. Name one. [no-author]\n" in result.output
+    assert "pack.toml: no author. Name one: it is that of every level without its own. [no-author]\n" in result.output
 
 
 def test_levels_are_looked_at(pack: Path) -> None:

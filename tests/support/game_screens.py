@@ -447,11 +447,13 @@ def _packs(driver: MenuDriver) -> Iterator[str]:
     yield "packs-dragging-an-episode"
     driver.press("escape")
     driver.mouse_up()
-    screen._said = "Certifying, 3 of 8 levels done"
-    with patch.object(type(screen._job), "idle", False):
+    packer = screen.packer
+    packer.path, packer.busy, packer._step = folder, True, ("Certifying, 3 of 8 levels done", 0.375, 0.0)
+    with patch.object(type(packer._job), "idle", False):
         driver.frames(2)
-    yield "packs-making-ready"
-    screen._said = screen.status = ""
+        yield "packs-making-ready"
+    packer.busy, packer.text = False, ""
+    driver.frames(2)
     driver.mouse(*screen.shelves.row_area(1)[:2], click=False)
     driver.press("right", "return")
     yield "packs-level-menu"

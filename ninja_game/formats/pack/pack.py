@@ -123,9 +123,8 @@ class PackFiles:
         return decoded(self._bytes(name), self.place(name))
 
     def link(self) -> str:
-        """The pack as a link, without its certificates. Raises LinkError for one that is too large."""
-        wanted = [name for name in self.own_names if not name.startswith(CERTIFICATES)]
-        return pack_link({name: self.text(name) for name in wanted})
+        """The pack as a link. Raises LinkError for one that is too large."""
+        return pack_link({name: self.text(name) for name in self.own_names})
 
     def _bytes(self, name: str) -> bytes:
         if self._zip is None and not self._texts:

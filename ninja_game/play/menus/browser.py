@@ -175,11 +175,14 @@ class Browser(ThumbnailScreen):
         self.play_it.enabled = self.practice.enabled = not lock
         self.play_it.hint, self.practice.hint = lock, lock or PRACTICE_HINT
         self.watch_best.enabled = selected is not None and selected.digest in self.bests
-        mine = selected is not None and selected.source == "yours"
-        run = mine and selected and self.player.catalogue.author_run(selected)
-        opened = selected is not None and opens_author(selected, self.marks.get(selected.digest))
-        self.watch_author.enabled = bool(run) if mine else opened
-        closed = "none is known: Certify, in the editor, finds one" if mine else "earn a gold medal to watch it"
+        name, ours = self.player.settings.name, selected is not None and selected.source == "game"
+        mine = selected is not None and not ours and (selected.source == "yours" or name == selected.named.author)
+        known = ours or bool(selected and self.player.catalogue.author_run(selected))
+        opened = mine or (selected is not None and opens_author(selected, self.marks.get(selected.digest)))
+        self.watch_author.enabled = known and opened
+        closed = (
+            "earn a gold medal to watch it" if known else "none is known" + ": Certify, in the editor, finds one" * mine
+        )
         self.watch_author.hint = "" if self.watch_author.enabled else closed
         self.watch_best.hint = "Your best run" if self.watch_best.enabled else "You have not passed this level yet"
 

@@ -12,10 +12,9 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.editor import packs
-from ninja_game.editor.packs import Obstacles, ReadyPack, make_ready, obstacle_of, problems_of
+from ninja_game.editor.packs import obstacle_of, problems_of
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.shown_text import counted, shown_text
-from ninja_game.files.writing import write_atomically
 from ninja_game.formats.links import link_kind
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, Accepted, EpisodeIndex
 from ninja_game.formats.pack.pack import INDEX, Pack, certificate_name
@@ -23,10 +22,11 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.generator.daily import FOLDER as DAILY
 from ninja_game.levels.findings import Finding, PackFinding
 from ninja_game.levels.warnings import level_findings
-from ninja_game.play.app import WARNING_MS, App
+from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link, pasted_text
 from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.menu_screen import CANCEL, FormPanel, Menu, Question, Row, ask_text
+from ninja_game.play.menus.packer import packer_of
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
@@ -41,8 +41,8 @@ from ninja_game.ui.widgets import Button, Choice, Widget, draw_all_gold
 
 WIDE, HIGH = 93, 106
 
-SECONDS = 20.0
-"""For each search of a run."""
+RENEW_MS = 500
+"""How often the pack is read again while it is made ready."""
 
 DELETED = "deleted"
 """The folder among the player's files into which packs go that are deleted."""
@@ -137,14 +137,12 @@ class PackScreen(ThumbnailScreen):
         self.states: dict[int, str] = {}
         self.held: Cell | None = None
         self.pointer: tuple[float, float] | None = None
-        self.status = ""
         self.shelves = Rack((36, 96, 6 * WIDE + BAR + 4, 4 * HIGH), 6, self, self._choose)
         self.tray = Rack((622, 126, WIDE + BAR + 24, 4 * HIGH - 28), 1, self, self._choose_beside)
-        self._stop = False
-        self._obstacles: Obstacles = {}
-        self._job: NewestJob[Path, ReadyPack] = NewestJob(self._make_ready)
-        self._seen: ReadyPack | None = None
-        self._said = ""
+        self.packer = packer_of(app)
+        self.packer.desk = self
+        self._told = False, ""
+        self._since_read = 0
         self._checks: NewestJob[Pack, _Checked] = NewestJob(self._check)
         self._checked: _Checked | None = None
         self._asked: Pack | None = None
@@ -159,12 +157,15 @@ class PackScreen(ThumbnailScreen):
 
     # --- what there is ---
 
-    def _read(self, shown: Path | None = None) -> None:
+    def _read(self, shown: Path | None = None, *, news: bool = False) -> None:
+        """All packs as they are now; this one on the shelves, or the one before. ``news``: only if that is another."""
         before, catalogue = shown or self.path, self.player.catalogue
         catalogue.problems.clear()
         self.sets = catalogue.packs()
         self.mine = [each for each in self.sets if each.changeable and each.path and each.path.name != DAILY]
-        self._show(next((each for each in self.mine if each.path == before), None))
+        now = next((each for each in self.mine if each.path == before), None)
+        if not (news and now is self.pack):
+            self._show(now)
 
     def _show(self, pack: EpisodeSet | None) -> None:
         self.pack = pack = pack or next(iter(self.mine), None)
@@ -194,22 +195,22 @@ class PackScreen(ThumbnailScreen):
         super().enter()
 
     def build(self) -> Sequence[Widget]:
-        names = [(each.name, each.key) for each in self.mine]
-        chosen = Choice((36, 60, 164, 28), "", names, lambda: self.pack.key if self.pack else "", self._choose_pack)
-        have = bool(self.pack)
+        names, have = [(each.name, each.key) for each in self.mine], self.pack and self.pack.pack
+        chosen = Choice((36, 60, 228, 28), "", names, lambda: self.pack.key if self.pack else "", self._choose_pack)
+        chosen.hint = f"{have.index.title}, in the folder {self.path.name}" if have else ""
         tray = [("In no episode", "none"), ("Your folder", "yours")]
         tray += [(each.name if each.key else "The game's own", each.key) for each in self.sets if each is not self.pack]
         beside = Choice((622, 96, 134, 26), "", tray, lambda: self.beside, self._choose_tray)
         self.shelves.hint = self.tray.hint = "Drag a level or an episode; Enter or a second click: what can be done"
-        ready = "Stop" if not self._job.idle else "Make ready"
+        ready = "Stop" if self.packer.busy else "Make ready"
         hint = "Certify all, measure par times, look for problems; zip and link. Only what changed is done again"
-        new = Button((208, 60, 88, 28), "New pack...", self._new_pack, size=10)
-        paste = Button((304, 60, 84, 28), "Paste link", self._paste, size=10)
+        new = Button((272, 60, 82, 28), "New pack...", self._new_pack, size=10)
+        paste = Button((360, 60, 76, 28), "Paste link", self._paste, size=10)
         paste.hint = "Ctrl+V: the pack whose link is in the clipboard becomes one of yours"
-        about = Button((396, 60, 92, 28), "About it...", self._about, size=10, hint="Name, author, version, link")
+        about = Button((442, 60, 78, 28), "About it...", self._about, size=10, hint="Name, author, version, link")
         show = partial(ProblemsScreen, self.app, self.problems)
-        problems = Button((492, 60, 84, 28), "Problems", lambda: self.app.push(show()), size=10)
-        make = Button((580, 60, 176, 28), ready, self._ready_or_stop, hint=hint)
+        problems = Button((526, 60, 78, 28), "Problems", lambda: self.app.push(show()), size=10)
+        make = Button((610, 60, 146, 28), ready, self._ready_or_stop, hint=hint)
         return [self.shelves, chosen, new, paste, about, problems, make, beside, self.tray] if have else [new, paste]
 
     def _choose_pack(self, key: str) -> None:
@@ -281,11 +282,13 @@ class PackScreen(ThumbnailScreen):
         copy = partial(packs.copy_pack, copied, self.folder)
         notice = "Link copied: whoever opens it, or pastes it in Levels > Packs, gets the pack"
         link = partial(copy_link, self.app, copied.files.link, title=index.name, notice=notice)
+        busy = self.packer.busy and self.packer.path == self.path
+        gone = "It is being made ready" if busy else "It goes to a folder beside your levels"
         rows: list[Row] = [
             ("Name, author, version...", self._form, ""),
             ("Copy of the pack...", lambda: self.ask("Name of the copy", f"{index.name} copy", copy), ""),
             ("Copy link", link, "Opens the pack; or Levels > Packs takes it in"),
-            ("Delete the pack...", self._delete, "It goes to a folder beside your levels"),
+            ("Delete the pack...", None if busy else self._delete, gone),
             CANCEL,
         ]
         self.app.push(Menu(self.app, index.name, rows))
@@ -438,7 +441,7 @@ class PackScreen(ThumbnailScreen):
     # --- problems, and what takes time ---
 
     def _check(self, pack: Pack) -> _Checked:
-        found = problems_of(pack, self._obstacles)
+        found = problems_of(pack, self.packer.obstacles)
         return _Checked(pack, found, frozenset(pack.files.place(file_of(pack, each)) for each in found))
 
     @property
@@ -461,7 +464,7 @@ class PackScreen(ThumbnailScreen):
 
     def _problem(self, pack: Pack, finding: PackFinding) -> Problem:
         file = file_of(pack, finding)
-        entry, why = self._entry(level_of(pack, file)), obstacle_of(pack, finding, self._obstacles)
+        entry, why = self._entry(level_of(pack, file)), obstacle_of(pack, finding, self.packer.obstacles)
         text = str(finding).replace(f"{self.path}{os.sep}", "")
         go: Callable[[], object] | None = self._about if file == INDEX else None
         if finding.code == "no-author":
@@ -489,62 +492,41 @@ class PackScreen(ThumbnailScreen):
         """How far a level is, in a word: its time where it is measured."""
         known, file = self.states.get(id(level)), Path(level.named.file)
         if known is None:
-            beside = file.parent / certificate_name(file.name, "exit")
-            run = level.pars or self.player.catalogue.author_run(level)
-            known = "certified" if run else "changed" if beside.is_file() else "no run yet"
-            known = self.states[id(level)] = f"{seconds_text(level.pars.exit)} s" if level.pars else known
+            beside = (file.parent / certificate_name(file.name, "exit")).is_file()
+            if level.pars and (beside or file.parent != self.path):
+                known = f"{seconds_text(level.pars.exit)} s"
+            else:
+                run = self.player.catalogue.author_run(level)
+                known = "certified" if run else "changed" if beside else "no run yet"
+            self.states[id(level)] = known
         return known
 
     def _ready_or_stop(self) -> None:
-        if self._job.idle:
-            self._stop, self._said = False, "Beginning"
-            self._job.ask(self.path)
+        if self.packer.busy:
+            self.packer.end()
         else:
-            self._stop = True
-        super().enter()
-
-    def _make_ready(self, path: Path) -> ReadyPack:
-        def say(text: str) -> None:
-            if self._stop:
-                raise NinjaGameError("Stopped; what was found is kept")
-            self._said = text
-
-        jobs = max(1, (os.cpu_count() or 2) - 1)
-        return make_ready(path, seconds=SECONDS, jobs=jobs, say=say, obstacles=self._obstacles)
+            self.packer.start(self.path)
 
     def update(self, real_ms: int) -> None:
         super().update(real_ms)
-        ready, idle = self._job.result, self._job.idle
-        if idle and self._said:
-            self._said = ""
-            self.status = self._job.problem
-            if ready and ready is not self._seen and not self._job.problem:
-                self._share(ready)
-            self._seen, self._asked = ready, None
+        packer, (busy, _) = self.packer, self._told
+        self._since_read += real_ms
+        if packer.busy != busy:
+            self._asked = None
             self.enter()
-        elif self._said and self._said != self.status:
-            self.status, self.redraw = self._said, True
+        elif busy and self._since_read >= RENEW_MS:
+            self._since_read = 0
+            self._read(news=True)
+        if self._told != (packer.busy, packer.text):
+            self._told, self.redraw = (packer.busy, packer.text), True
         if self._checks.result is not self._checked and self._checks.idle:
             self._checked, self.redraw = self._checks.result, True
-
-    def _share(self, ready: ReadyPack) -> None:
-        name = ready.pack.name
-        self.app.write_export(name, ".zip", lambda path: write_atomically(path, ready.zipped))
-        saved, codes = self.app.notice, dict.fromkeys(each.code.replace("-", " ") for each in ready.findings)
-        problems = counted(len(ready.findings), "open problem") + f" ({', '.join(codes)})" * bool(codes)
-        notes = [f"{saved}, with {problems}" if codes else saved, *ready.notes]
-        if ready.link:
-            copy_link(self.app, lambda: ready.link, title=name)
-            notes.insert(1, "the link is in the clipboard")
-        self.app.notify("; ".join(notes), ms=WARNING_MS)
 
     def leave(self) -> None:
         super().leave()
         self.held = self.pointer = None
-
-    def close(self) -> None:
-        self._stop = True
-        super().close()
+        if not self.packer.busy:
+            self.packer.text = ""
 
     # --- picture ---
 
@@ -553,7 +535,12 @@ class PackScreen(ThumbnailScreen):
         theme, faint = self.theme, self.theme.palette.faint
         if not (self.pack and self.pack.levels):
             theme.paragraph(surface, _NO_LEVELS if self.pack else _NO_PACK, (36, 360, 560, 90), 13, 20, align="centre")
-        theme.text(surface, self.status or self._counts(), 36, 530, size=10, colour=faint, width=720)
+        packer = self.packer
+        whose = f"{shown_text(packer.path.name)}: " * bool(packer.text and packer.path != self.path)
+        theme.paragraph(surface, [whose + packer.text or self._counts()], (36, 527, 720, 28), 10, 13.5, colour=faint)
+        if packer.busy:
+            theme.panel(surface, 36, 546, 720, 7)
+            theme.canvas.fill_rect(surface, theme.palette.accent, 36, 546, max(1.0, 720 * packer.share), 7, 3)
 
     def _counts(self) -> str:
         if self.pack is None:
@@ -599,11 +586,12 @@ class PackScreen(ThumbnailScreen):
 
     def _draw_state(self, surface: pygame.Surface, theme: Theme, level: Entry, x: float, y: float, w: float) -> None:
         palette, state = theme.palette, self.state(level)
-        colour = palette.good if level.pars else palette.bad if state == "changed" else palette.faint
+        done = level.pars and state not in NOT_CERTIFIED
+        colour = palette.good if done else palette.bad if state == "changed" else palette.faint
         theme.text(surface, state, x, y, size=8.5, colour=colour, width=w - 14)
-        if level.pars and level.pars.gold is not None:
+        if done and level.pars and level.pars.gold is not None:
             draw_all_gold(surface, theme, x + w - 5, y + 5, 8)
-        if self.findings and self._checked and level.named.file in self._checked.places:
+        if self._checked and level.named.file in self._checked.places:
             theme.text(surface, "!", x + w - 16, y - 1, size=11, bold=True, colour=palette.bad, align="centre")
 
     def _draw_head(self, surface: pygame.Surface, theme: Theme, cell: Cell, area: Area) -> None:

@@ -24,7 +24,7 @@ BUDGET = 0.006
 
 MOST_KEPT = 600
 
-Key = tuple[int, int, str]
+Key = tuple[str, int, str]
 
 
 class Thumbnails:
@@ -32,17 +32,16 @@ class Thumbnails:
 
     def __init__(self, app: App) -> None:
         self.app = app
-        self._made: dict[Key, tuple[Entry, pygame.Surface]] = {}
+        self._made: dict[Key, pygame.Surface] = {}
         self._wanted: dict[Key, Entry] = {}
 
     def get(self, entry: Entry, width: float) -> pygame.Surface | None:
         """The picture of a level, ``width`` logical px wide; None if it has yet to be made."""
         palette = self.app.palette_in(entry.mood)
-        key = id(entry.named.level), self.app.canvas.px(width), palette.name
+        key = entry.digest, self.app.canvas.px(width), palette.name
         if key not in self._made:
             self._wanted[key] = entry
-            return None
-        return self._made[key][1]
+        return self._made.get(key)
 
     def work(self) -> bool:
         """Make some of the pictures that were asked for; whether there are new ones."""
@@ -53,8 +52,7 @@ class Thumbnails:
             picture = thumbnail(entry.named.level, self.app.palette_in(entry.mood), key[1])
             if len(self._made) >= MOST_KEPT:
                 self._made.clear()
-            # The entry is kept too, so that its level's id stays its own.
-            self._made[key] = entry, picture
+            self._made[key] = picture
             made = True
         return made
 

@@ -7,6 +7,7 @@ import re
 import shutil
 from dataclasses import replace
 from pathlib import Path
+from threading import Event
 from unittest.mock import patch
 from zipfile import ZipFile
 
@@ -14,7 +15,7 @@ import pygame
 import pytest
 
 from ninja_game.editor import packs
-from ninja_game.editor.packs import ReadyPack
+from ninja_game.editor.packs import ReadyPack, Say
 from ninja_game.formats.links import write_link
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.levels.findings import in_pack
@@ -27,8 +28,10 @@ from ninja_game.play.menus.problems import ProblemsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.runs.packs import lint
 from ninja_game.ui.input.gamepad import BUTTONS
+from tests.support.draw_log import drawn
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK
+from tests.support.waiting import LONGEST
 
 
 @pytest.fixture(name="path")
@@ -72,6 +75,22 @@ def test_levels_and_episodes_are_dragged(driver: MenuDriver, path: Path) -> None
     driver.carry(shelves.row_area(1), (300, 530, 2, 2))
     assert layout(path)[0] == ["00-0"], "let go over nothing it stays"
     assert driver.top() is screen
+
+
+def test_the_authors_run_of_ones_own_level_needs_no_medal(driver: MenuDriver, path: Path) -> None:
+    driver.app.change_settings(name="the ninja-game team")
+    (path / "certificates" / "00-1-mind-the-gap.exit.replay.txt").unlink()
+    driver.open("Levels")
+    browser = driver.shown(Browser)
+    seen = []
+    for name in ("the ninja-game team", "Ida"):
+        driver.app.change_settings(name=name)
+        for index in (0, 1):
+            browser.list.index = index
+            browser._select(index)
+            seen.append(browser.watch_author.hint or browser.watch_author.enabled)
+    certify = "none is known: Certify, in the editor, finds one"
+    assert seen == [True, certify, "earn a gold medal to watch it", "none is known"]
 
 
 def test_a_full_episode_says_so(driver: MenuDriver, path: Path) -> None:
@@ -154,9 +173,7 @@ def test_everything_about_a_pack_is_named_again(driver: MenuDriver, path: Path) 
     driver.choose("About it...")
     driver.choose("Copy of the pack...")
     typed(driver, "Laundry")
-    assert [each.name for each in screen.mine] == [
-        "Laundry by the ninja-game developers, 2 (laundry)", "Laundry by the ninja-game developers, 2 (laundry-2)",
-    ]  # fmt: skip
+    assert [each.name for each in screen.mine] == ["Laundry (laundry)", "Laundry (laundry-2)"]
 
 
 def test_a_problem_leads_to_its_place_and_is_accepted_with_a_reason(driver: MenuDriver, path: Path) -> None:
@@ -193,40 +210,101 @@ def test_a_pack_is_made_ready_in_the_background(
     left = [in_pack("no-author", "pack.toml")]
     ready = ReadyPack(pack, left, pack.files.zipped(), pack.files.link(), ["No par times"])
     begun = []
+    go_on = Event()
 
-    def made(folder: Path, *, seconds: float, jobs: int, say: object, obstacles: object) -> ReadyPack:
+    def made(folder: Path, *, seconds: float, jobs: int, say: Say, obstacles: object) -> ReadyPack:
         begun.append(folder)
-        say("Certifying")  # type: ignore[operator]
+        say("Making the solver ready", None)
+        assert go_on.wait(LONGEST)
         return replace(ready)
 
-    monkeypatch.setattr("ninja_game.play.menus.packs.make_ready", made)
+    monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", made)
     screen = opened(driver)
     driver.choose("Make ready")
-    driver.wait(lambda: "1 open problem (no author)" in driver.app.notice, "the pack is ready")
+    driver.wait(lambda: re.fullmatch(r"Making the solver ready: \d+ s", screen.packer.text))
+    driver.wait(lambda: 0 < screen.packer.share < 1)
+    assert "Making the solver ready" in drawn(driver.app)
+    go_on.set()
+    driver.wait(lambda: "the link is in the clipboard" in driver.app.notice, "the pack is ready")
     zipped = driver.player.folder / "exports" / "laundry-1.zip"
     assert begun == [path]
     assert ZipFile(zipped).namelist()[0] == "laundry/pack.toml"
-    said = "laundry-1.zip, with 1 open problem (no author); the link is in the clipboard; No par times"
-    assert driver.app.notice.endswith(said)
+    saved, rest = f"Saved: {Path('exports', 'laundry-1.zip')}", "the link is in the clipboard"
+    assert driver.app.notice == f"{saved}; {rest}"
+    assert screen.packer.text == f"{saved}, with 1 open problem (no author); {rest}; No par times"
     driver.wait(lambda: screen.findings is not None, "the problems are known")
+    driver.choose("Problems")
+    assert driver.app.notice == "", "what is said there goes with the screen"
+    assert len(driver.shown(ProblemsScreen).problems) == 8
+    driver.press("escape")
     assert screen._counts() == "8 levels in 2 episodes; all certified and measured; 8 open problems"
-    assert len(screen.problems()) == 8
+    assert screen._counts() in drawn(driver.app)
     assert all(problem.go and problem.accept for problem in screen.problems())
     assert driver.button("Make ready")
 
 
-def test_making_ready_is_stopped(driver: MenuDriver, path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def endless(folder: Path, *, seconds: float, jobs: int, say: object, obstacles: object) -> ReadyPack:
-        while True:
-            say("Certifying")  # type: ignore[operator]
+def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
+    driver: MenuDriver, path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pack, go_on = Pack(path), Event()
+    certificate = path / "certificates" / "00-0-first-steps.exit.replay.txt"
+    run = certificate.read_text("utf-8")
+    certificate.unlink()
 
-    monkeypatch.setattr("ninja_game.play.menus.packs.make_ready", endless)
+    def made(folder: Path, *, seconds: float, jobs: int, say: Say, obstacles: object) -> ReadyPack:
+        say("Certifying, 0 of 1 levels done", 0.0)
+        assert go_on.wait(LONGEST)
+        go_on.clear()
+        certificate.write_text(run, "utf-8")
+        say("Certifying, 1 of 1 levels done", 1.0)
+        assert go_on.wait(LONGEST)
+        return ReadyPack(pack, [], pack.files.zipped(), pack.files.link(), [])
+
+    monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", made)
+    first = opened(driver)
+    driver.choose("Make ready")
+    driver.choose("About it...")
+    assert not driver.button("Delete the pack...").enabled
+    driver.press("escape", "escape")
+    driver.shown(Browser)
+    driver.choose("Packs")
+    screen = driver.shown(PackScreen)
+    assert screen is not first
+    driver.wait(lambda: screen.packer.text == "Certifying, 0 of 1 levels done")
+    assert driver.button("Stop")
+    [entry] = [cell.level for cell in screen.cells if cell.level and cell.level.title == "First Steps"]
+    assert screen.state(entry) == "no run yet", "though its time is measured"
+    assert screen._counts().startswith("8 levels in 2 episodes; 1 to certify; ")
+    go_on.set()
+
+    def state() -> str:
+        [entry] = [cell.level for cell in screen.cells if cell.level and cell.level.title == "First Steps"]
+        return screen.state(entry)
+
+    driver.wait(lambda: state() != "no run yet", "the card says so before all is done")
+    assert screen.packer.busy
+    driver.press("escape")
+    go_on.set()
+    driver.wait(lambda: driver.app.notice == "Laundry is ready to share", "it is said elsewhere")
+    driver.choose("Packs")
+    assert driver.shown(PackScreen).packer.text == f"Saved: {Path('exports', 'laundry-1.zip')}"
+    assert driver.button("Make ready")
+
+
+def test_making_ready_is_stopped(driver: MenuDriver, path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def endless(folder: Path, *, seconds: float, jobs: int, say: Say, obstacles: object) -> ReadyPack:
+        while True:
+            say("Certifying", 0.5)
+
+    monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", endless)
     screen = opened(driver)
     driver.choose("Make ready")
-    driver.wait(lambda: screen.status == "Certifying")
+    driver.wait(lambda: screen.packer.text == "Certifying")
     driver.choose("Stop")
-    driver.wait(lambda: "Stopped" in screen.status)
-    assert driver.button("Make ready")
+    driver.wait(lambda: "Stopped" in screen.packer.text)
+    driver.choose("Make ready")
+    driver.app.run(1)
+    driver.wait(lambda: screen.packer._job.idle, "it ends with the program")
 
 
 def test_what_changed_is_marked(driver: MenuDriver, path: Path) -> None:
@@ -235,7 +313,7 @@ def test_what_changed_is_marked(driver: MenuDriver, path: Path) -> None:
     screen = opened(driver)
     stale = [cell.level.title for cell in screen.cells if cell.level and cell.level.pars is None]
     assert stale == ["Mind the Gap"]
-    assert screen._counts() == "8 levels in 2 episodes; 1 to certify; looking for problems"
+    assert screen._counts().startswith("8 levels in 2 episodes; 1 to certify; ")
     driver.wait(lambda: screen.findings is not None, "the problems are known")
     assert [screen.state(cell.level) for cell in screen.cells if cell.level][1] == "changed"
     packs.place(path, packs.new_level(path, "Empty", "me"), 1)
@@ -293,6 +371,9 @@ def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path) 
         assert not screen.mine
         driver.choose("Paste link")
         assert "Laundry is among your packs now" in driver.app.notice
+        driver.wait(lambda: screen.findings is not None, "the problems are known")
+        assert screen._counts() == "8 levels in 2 episodes; all certified and measured; 8 open problems"
+        assert {finding.code for finding in screen.findings or ()} == {"no-gold-run"}
         assert [pack.name for pack in screen.mine] == ["Laundry"]
         first = layout(screen.path)
         driver.chord("v", pygame.KMOD_LCTRL)
@@ -351,7 +432,9 @@ def test_an_author_is_asked_for_once(driver: MenuDriver, path: Path) -> None:
         lines = file.read_text("utf-8").splitlines(keepends=True)
         file.write_text("".join(line for line in lines if not line.startswith("author")), "utf-8")
     screen = opened(driver)
-    assert [finding.code for finding in lint(Pack(path)) if finding.code == "no-author"] == ["no-author"] * 2
+    assert [finding.code for finding in lint(Pack(path)) if finding.code == "no-author"] == ["no-author"], (
+        "the pack's is that of all"
+    )
     driver.choose("Problems")
     driver.choose("Go there")
     form = driver.shown(FormPanel)
