@@ -37,7 +37,7 @@ from ninja_game.editor.stamp import (
     removed,
     reordered,
 )
-from ninja_game.editor.strokes import covered, curve, sloped, spread
+from ninja_game.editor.strokes import covered, curve, joined, sloped, spread
 from ninja_game.sim.kinds import GOLD, MINE, NINJA
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import WORLD_HEIGHT, WORLD_WIDTH
@@ -239,6 +239,8 @@ class EditorTools:
         """Tiles that fill it, or objects: a box is full of them, a line or an ellipse has them along it."""
         if not self.objects:
             cells = covered(self._doing, cell_of(*self._pressed_at), self.cell, self._bend)
+            if self.slopes and self._doing == "line" and self.tile in (EMPTY, FULL):
+                cells = joined(cells)
             self._change(Stamp(dict.fromkeys(cells, self.tile)), self.history.began)
             return
         ends = snapped(*self._pressed_at, self.snap), snapped(*self.pointer, self.snap)
