@@ -108,13 +108,13 @@ def filled(draft: Draft, cell: Cell) -> list[Cell]:
 
 
 def chosen_in(draft: Draft, area: CellArea) -> Selection:
-    """An area with all parts of objects that lie in it."""
+    """An area with all parts of objects that lie in it, or on its edge, as a launch pad on the floor of its cell."""
     column, row, columns, rows = area
     inside = {
         (number, part)
         for number, spec in enumerate(draft.objects)
         for part, (x, y) in points(spec).items()
-        if 24 * column <= x < 24 * (column + columns) and 24 * row <= y < 24 * (row + rows)
+        if 24 * column <= x <= 24 * (column + columns) and 24 * row <= y <= 24 * (row + rows)
     }
     return Selection(area, frozenset(inside))
 

@@ -276,10 +276,10 @@ class EditorTools:
             spec = with_switch(self._switchless, *self.pointer, self.snap)
             self._change(Stamp({}, (spec,)), self.history.began)
 
-    def delete_nearest(self) -> None:
+    def delete_nearest(self, reach: float = REACH) -> None:
         """Delete the object nearest to the pointer, and its images in the symmetry."""
         places = [self.pointer, *(motion.point(*self.pointer) for motion in SYMMETRIES[self.symmetry])]
-        found = [nearest(self.draft, *place, REACH) for place in places]
+        found = [nearest(self.draft, *place, reach) for place in places]
         self.history.change(removed(self.draft, Selection(parts=frozenset(filter(None, found)))))
 
     # --- choosing ---
@@ -377,13 +377,13 @@ class EditorTools:
             self.delete()
 
     def delete(self) -> None:
-        """Delete what is chosen, or else the object nearest to the pointer."""
+        """Delete what is chosen, or else the object on which the pointer is."""
         self.finish()
         if self.selection:
             self.history.change(removed(self.draft, self.selection))
             self.selection = Selection()
         else:
-            self.delete_nearest()
+            self.delete_nearest(PICK_REACH)
 
     def paste(self) -> bool:
         """Put what was copied under the pointer, and choose it; whether anything was copied."""

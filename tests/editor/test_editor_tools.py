@@ -331,7 +331,11 @@ def test_slopes_set_themselves_on_steps_and_corners(tools: EditorTools) -> None:
 
 def test_slopes_that_nobody_touched_stay_as_they_are(root: Path) -> None:
     level = open_source(root / "levels" / "00-1-mind-the-gap.txt").draft
-    for tool, tile, ends in (("line", 1, ((108, 228), (180, 228))), ("brush", 0, ((300, 300),)), ("brush", 1, ((132, 276),))):
+    for tool, tile, ends in (
+        ("line", 1, ((108, 228), (180, 228))),
+        ("brush", 0, ((300, 300),)),
+        ("brush", 1, ((132, 276),)),
+    ):
         tools = EditorTools(level)
         tools.slopes, tools.tool, tools.tile = True, tool, tile
         drag(tools, *ends)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -20,7 +20,7 @@ from ninja_game.files.user_folder import LEVELS, free_path
 from ninja_game.formats.ascii.writer import headers_of
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
-from ninja_game.play.editor.controls import COMMANDS
+from ninja_game.play.editor.controls import COMMANDS, TABLE
 from ninja_game.play.editor.messages import MessagesScreen
 from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.session import EditorSession
@@ -34,6 +34,7 @@ from ninja_game.play.menus.panels import CANCEL, Action, FormPanel, Menu, Row, n
 from ninja_game.play.workspace.document import DocumentCommands
 from ninja_game.player.catalogue import Entry
 from ninja_game.sim.level import COLUMNS, ROWS
+from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.widgets import following
 
 HELP = """\
@@ -48,7 +49,25 @@ W A S D turn them. Without a mouse: arrows move the pointer, Space draws, Shift 
 NAMELESS = "My level"
 """What a level is called if its maker gives it no name."""
 
+IN_MENU = {"save", "save_as", "open", "new", "about", "messages", "test", "certify"}
+
 _UNDO = "Undo brings back what was here"
+
+
+class LevelMenu(Menu):
+    """The file menu; the keys that it shows, and those beside them, do the same as without it."""
+
+    def __init__(self, app: App, rows: Sequence[Row], run: Callable[[str], object]) -> None:
+        super().__init__(app, "Level", rows)
+        self._run = run
+
+    def handle(self, event: InputEvent) -> None:
+        name = TABLE.meaning(event)
+        if name in IN_MENU and event.source and event.source[0] == "keys":
+            self.app.pop()
+            self._run(name)
+        else:
+            super().handle(event)
 
 
 class EditorCommands(DocumentCommands):
@@ -130,7 +149,7 @@ class EditorCommands(DocumentCommands):
 
     def go_to_finding(self, index: int) -> None:
         """Show one of the problems."""
-        findings = self.session.findings
+        findings = self.session.examine()
         if not findings:
             self.app.notify("No problems found")
             return
@@ -157,7 +176,8 @@ class EditorCommands(DocumentCommands):
         session = self.session
         level = session.level_to_test(here=here)
         try:
-            screen = TryScreen(self.app, session.name, level, partial(session.tried, level), says=session.draft.says)
+            tried, certifies = partial(session.tried, level), partial(session.passed, level)
+            screen = TryScreen(self.app, session.name, level, tried, certifies, says=session.draft.says)
         except LevelError as error:
             self.app.notify(f"{error.what}: key 9 among the objects places a ninja, F6 tests with one at the pointer")
             return
@@ -173,20 +193,6 @@ class EditorCommands(DocumentCommands):
             self.app.notify("Place a ninja and an exit with its switch first")
         else:
             certifier.start(self.session.draft.level)
-
-    def unless_unsaved(self, action: Action) -> None:
-        """Ask first if the solver is still looking for a run of the level, too."""
-        certifier, ask = self.session.certifier, super().unless_unsaved
-        if not certifier.busy or certifier.search.run:
-            ask(action)
-            return
-
-        def stop() -> None:
-            certifier.stop()
-            ask(action)
-
-        rows: list[Row] = [("Let it search on", nothing, "Stay here"), ("Stop the search", stop, "F7 begins another")]
-        self.app.push(Menu(self.app, "The solver is still looking for a run", rows))
 
     # --- files ---
 
@@ -206,7 +212,7 @@ class EditorCommands(DocumentCommands):
             ("Ten good levels", self.good_levels, "Ten of the game's, and what makes each of them good"),
             ("Leave the editor", self.leave, ""),
         ]  # fmt: skip
-        self.app.push(Menu(self.app, "Level", rows))
+        self.app.push(LevelMenu(self.app, rows, self.run))
 
     @property
     def _levels(self) -> Path:
@@ -294,7 +300,7 @@ class EditorCommands(DocumentCommands):
         def put(says: str) -> None:
             tools.history.change(replace(tools.draft, says=says))
 
-        self.app.push(MessagesScreen(self.app, tools.draft.says, here, pick, put, at))
+        self.app.push(MessagesScreen(self.app, tools.draft, here, pick, put, at))
 
     def open(self) -> None:
         self.unless_unsaved(lambda: self.app.push(LevelChoice(self.app, self.edit_entry)))

@@ -23,7 +23,7 @@ COMMANDS = (
     Command("cut", "Cut", ("ctrl+x",)),
     Command("paste", "Paste at the pointer", ("ctrl+v",)),
     Command("choose_all", "Select everything", ("ctrl+a",)),
-    Command("delete", "Delete what is selected, or nearest", ("delete", "backspace"), "x"),
+    Command("delete", "Delete what is selected, or pointed at", ("delete", "backspace"), "x"),
     Command("brush", "Brush", ("b",)),
     Command("rectangle", "Box: fill a rectangle", ("r",)),
     Command("line", "Line; the wheel bends it", ("shift+l",)),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Protocol
 
 from ninja_game.formats.named_level import NamedLevel
@@ -24,9 +25,11 @@ class Tried(Protocol):
 class TryContext(LevelContext):
     """A level that is only tried out: with practice tools and without a clock; nothing counts."""
 
-    def __init__(self, data: PlayerData, entry: Entry, tried: Tried) -> None:
+    onward = "back to the editor"
+
+    def __init__(self, data: PlayerData, entry: Entry, tried: Tried, certifies: Callable[[Attempt], bool]) -> None:
         super().__init__(data, entry, practice_mode=True)
-        self._tried = tried
+        self._tried, self._certifies = tried, certifies
 
     def ghosts(self) -> list[PacedRun]:
         """None: nobody has a best on a level that is being made."""
@@ -38,7 +41,7 @@ class TryContext(LevelContext):
 
     def passed(self, attempt: Attempt) -> list[str]:
         self._tried(bytes(attempt.inputs), over=True)
-        return ["It can be passed"]
+        return ["It can be passed" + ": this run certifies it" * self._certifies(attempt)]
 
     def died(self, attempt: Attempt) -> None:
         self._tried(bytes(attempt.inputs), over=True)
@@ -60,10 +63,12 @@ class TryScreen(LevelScreen):
 
     music = SILENCE
 
-    def __init__(self, app: App, name: str, level: Level, tried: Tried, *, says: str = "") -> None:
+    def __init__(
+        self, app: App, name: str, level: Level, tried: Tried, certifies: Callable[[Attempt], bool], *, says: str = ""
+    ) -> None:
         title = f"{name} ({app.controls.name('back')}: back to the editor)"
         named = NamedLevel(title, "", "", level, "", says=says)
-        self._trying = TryContext(app.player, Entry(named, "yours"), tried)
+        self._trying = TryContext(app.player, Entry(named, "yours"), tried, certifies)
         super().__init__(app, self._trying)
 
     def leave(self) -> None:
