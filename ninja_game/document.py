@@ -130,6 +130,11 @@ class History(Generic[Draft]):
         if alone:
             self.end()
 
+    def amend(self, change: Callable[[Draft], Draft]) -> None:
+        """Change the draft, and in the same way all that undo and redo lead to."""
+        self.draft = change(self.draft)
+        self._done[:], self._undone[:] = map(change, self._done), map(change, self._undone)
+
     def end(self) -> None:
         began, self._began = self._began, None
         if began not in (None, self.draft):

@@ -62,13 +62,13 @@ def run_in_background(work: Callable[[], object], failed: Callable[[str], object
 
 
 class NewestJob(Generic[Job, Result]):
-    """Calls ``work`` with the newest job, in a thread that ends when there is none.
+    """Calls ``work`` with the newest job, in a thread that ends when there is none. ``every``: with each, in turn.
 
     ``result``: of the job that was finished last, None so far. ``problem``: why the last one failed, "" if it did not.
     """
 
-    def __init__(self, work: Callable[[Job], Result]) -> None:
-        self._work = work
+    def __init__(self, work: Callable[[Job], Result], *, every: bool = False) -> None:
+        self._work, self._every = work, every
         self._news = Condition()
         self._waiting: list[Job] = []
         self._busy = False
@@ -76,9 +76,9 @@ class NewestJob(Generic[Job, Result]):
         self.problem = ""
 
     def ask(self, job: Job) -> None:
-        """Do this job next, instead of any that still waits."""
+        """Do this job next: instead of any that still waits, or after those."""
         with self._news:
-            self._waiting[:] = [job]
+            self._waiting[:] = [*self._waiting * self._every, job]
             if not self._busy:
                 self._busy = True
                 run_in_background(self._run, self._fail)
@@ -104,7 +104,7 @@ class NewestJob(Generic[Job, Result]):
     def _next(self) -> list[Job]:
         """The job that waits, in a list; with an empty one the thread is over."""
         with self._news:
-            job, self._waiting[:] = self._waiting[:], []
+            job, self._waiting[:] = self._waiting[:1], self._waiting[1:]
             if not job:
                 self._busy = False
                 self._news.notify_all()

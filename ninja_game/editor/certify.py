@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -11,7 +11,7 @@ from itertools import takewhile
 from math import isfinite
 from struct import iter_unpack
 from time import monotonic
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from ninja_game.backend.memories import compiled_available, open_worlds
 from ninja_game.editor.brush import object_of_type, placed
@@ -32,8 +32,8 @@ if TYPE_CHECKING:
     from ninja_game.formats.replay.text import Replay
     from ninja_game.search.task import Progress
 
-SECONDS, CLOSING_SECONDS = 20.0, 0.5
-"""How long the solver looks for better runs, and how long it is waited for when the editor is left."""
+SECONDS, STOPPED = 20.0, "Stopped"
+"""How long the solver looks for better runs; the end of a search that nobody wants any more."""
 
 
 Route = tuple[tuple[float, float], ...]
@@ -91,10 +91,10 @@ class _StoppedError(Exception):
 
 @dataclass(eq=False)
 class Search:
-    """The solver's work on a level: ``run``, the best one found, and its ``route``.
+    """The solver's work on a level: ``run``, the best one found, and its ``route``; ``full``: the best with all gold.
 
     ``progress``: the newest one, None until the solver is ready. ``end``: why it is over, "" as long as it is not;
-    ``obstacles``: what kept it from a run in all its ``seconds``.
+    ``obstacles``: what kept it from a run in all its ``seconds``. ``then``: called at the end, in the solver's thread.
     """
 
     level: Level | None = None
@@ -105,6 +105,16 @@ class Search:
     end: str = ""
     seconds: float = 0.0
     obstacles: tuple[Finding, ...] = ()
+    full: Replay | None = None
+    then: Callable[[Search], object] | None = None
+
+    def take(self, run: Replay) -> None:
+        """A run of the level is kept if it is the fastest, or the fastest with all gold."""
+        assert self.level is not None  # noqa: S101 - for the type checker
+        if self.run is None or run.end_tick < self.run.end_tick:
+            self.run, self.route = run, route_of(self.level, run.inputs)
+        if run.gold >= self.level.gold and (self.full is None or run.end_tick < self.full.end_tick):
+            self.full = run
 
     @property
     def share(self) -> float:
@@ -112,12 +122,17 @@ class Search:
 
 
 class Certifier:
-    """The solver in its own thread. ``search``: the newest one; one before it can change nothing any more."""
+    """The solver in its own thread, the same for all editors: what it has made ready once stays so.
+
+    ``search``: the newest one of the level under edit. Those of levels that were left go on, one after the other.
+    """
+
+    _left: ClassVar[list[Search]] = []
+    _at_work: ClassVar[Search] = Search(end=STOPPED)
 
     def __init__(self, seconds: float = SECONDS) -> None:
         self.seconds = seconds
         self.search = Search()
-        self._job: NewestJob[Search, None] = NewestJob(self._work)
 
     @property
     def text(self) -> str:
@@ -132,7 +147,10 @@ class Certifier:
         if search.end or search.level is None:
             return search.end
         if search.progress is None:
-            return f"Getting ready, {monotonic() - search.began:.0f} s: minutes the first time. Go on editing"
+            if search is not self._at_work and not self._at_work.end:
+                return "Another level's search comes first. Go on editing, or save and leave: it goes on"
+            waited = f"{monotonic() - search.began:.0f} s"
+            return f"Getting ready, {waited}: minutes the first time. Go on editing, or save and leave: it goes on"
         return f"Looking for a run: {search.progress.worlds // 1000} thousand moments tried"
 
     @property
@@ -144,51 +162,71 @@ class Certifier:
         return self.search.level is not None and level != self.search.level
 
     def start(self, level: Level) -> None:
-        """Begin with a level, for twice as long as a time that found nothing; what was found before is forgotten."""
+        """Begin with a level, for twice as long as a time that found nothing; known runs of this level stay."""
         self.stop()
+        before = self.search
         longer = 2 * self.search.seconds if self.search.obstacles and self.search.level == level else self.seconds
         if not compiled_available():
             self.search = Search(end=f"Certifying needs Numba: {how_to_install('fast')}")
             return
         self.search, self._job.problem = Search(level, seconds=longer), ""
+        for run in (before.run, before.full) if before.level == level else ():
+            if run:
+                self.search.take(run)
         self._job.ask(self.search)
+
+    def passed(self, level: Level, run: Replay) -> None:
+        """A player's own run certifies a level, until the solver has a better one."""
+        if self.search.level != level:
+            self.stop()
+            self.search = Search(level, end="Done")
+        self.search.take(run)
 
     def stop(self) -> None:
         """End the search; what was found stays. Nobody waits: a solver that is being compiled ends when it is ready."""
         if self.busy:
-            self.search.end = "Stopped"
+            self.search.end = STOPPED
 
-    def forget(self) -> None:
-        """Stop, and know of no level any more."""
-        self.stop()
-        self.search, self._job.problem = Search(), ""
+    def leave(self, then: Callable[[Search], object] | None) -> None:
+        """The level is left. ``then``: called when its search, which goes on, has ended; None: it is stopped."""
+        self.search.then = then
+        if then is None:
+            self.stop()
+        self._left[:] = [each for each in (*self._left, self.search) if each.then and not each.end]
 
-    def close(self) -> None:
-        self.stop()
-        self._job.finish(CLOSING_SECONDS)
+    def edit(self, level: Level) -> None:
+        """Another level is under edit, perhaps one whose search goes on."""
+        self.search = next((each for each in self._left if each.level == level and not each.end), Search())
+        self._job.problem = ""
 
-    def _work(self, search: Search) -> None:
+    @staticmethod
+    def _work(search: Search) -> None:
         def report(progress: Progress) -> None:
             if search.end:
                 raise _StoppedError
             search.progress = progress
 
         def better(run: Replay) -> None:
-            if search.end or search.level is None:
+            if search.end:
                 raise _StoppedError
-            search.run, search.route = run, route_of(search.level, run.inputs)
+            search.take(run)
 
         if search.end or search.level is None:
             return
+        Certifier._at_work = search
         with suppress(_StoppedError):
             from ninja_game.search.solve import Task, solve
             from ninja_game.search.task import obstacle
 
             found = solve(Task(search.level, seconds=search.seconds), report=report, on_better=better)
-            if not found and search.progress:
+            if not (found or search.run) and search.progress:
                 search.obstacles = (obstacle(search.level, 0, search.progress),)
         nothing = f"No run in {search.seconds:.0f} s: the first problem says why. F7 looks twice as long"
         search.end = search.end or ("Done" if search.run else nothing)
+        if search.then and search.end != STOPPED:
+            search.then(search)
+
+    _job: ClassVar[NewestJob[Search, None]] = NewestJob(_work, every=True)
 
 
 TICKS = TICKS_PER_SECOND

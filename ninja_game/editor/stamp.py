@@ -105,13 +105,13 @@ def filled(draft: Draft, cell: Cell) -> list[Cell]:
 
 
 def chosen_in(draft: Draft, area: CellArea) -> Selection:
-    """An area with all parts of objects that lie in it."""
+    """An area with all parts of objects that lie in it, or on its edge, as a launch pad on the floor of its cell."""
     column, row, columns, rows = area
     inside = {
         (number, part)
         for number, spec in enumerate(draft.objects)
         for part, (x, y) in points(spec).items()
-        if 24 * column <= x < 24 * (column + columns) and 24 * row <= y < 24 * (row + rows)
+        if 24 * column <= x <= 24 * (column + columns) and 24 * row <= y <= 24 * (row + rows)
     }
     return Selection(area, frozenset(inside))
 
@@ -209,6 +209,13 @@ _SOFT = {FULL, *(tile for tiles in _SLOPES.values() for tile in tiles)}
 """Tiles that are rock whose shape is found; other ones stay as they are."""
 _AIR = dict(zip(((1, 1), (-1, 1), (1, -1), (-1, -1)), range(len(QUARTERS)), strict=True))
 """The quarter of a slope by the sides, right or left and below or above, where it has air."""
+_OTHER_HALF = {
+    _SLOPES[key][quarter]: (dx * sign * along, dy * sign * (1 - along))
+    for keys, along in ((_STEEP, 0), (_GENTLE, 1))
+    for key, sign in zip(keys, (-1, 1), strict=True)
+    for (dx, dy), quarter in _AIR.items()
+}
+"""Where the other half of a slope of two tiles is, cells from it."""
 _LONGEST = 4
 """Steps that are longer, or end on both sides farther apart, are all alike."""
 
@@ -258,26 +265,32 @@ def covered(shape: str, a: Cell, b: Cell, bend: float) -> list[Cell]:
     ]
 
 
+def joined(cells: list[Cell]) -> list[Cell]:
+    """A line of cells, and if it slants those beside it, so that they touch at their sides: two make a ramp."""
+    (left, right), (top, bottom) = ((min(along), max(along)) for along in zip(*cells, strict=True))
+    dx, dy = (0, 1) if right - left >= bottom - top else (1, 0)
+    return cells if left == right or top == bottom else [*cells, *((x + dx, y + dy) for x, y in cells)]
+
+
 def sloped(before: Draft, after: Draft) -> Draft:
-    """The draft after a stroke of full or empty tiles, with slopes at corners of the rock near what changed.
+    """The draft after a stroke of full or empty tiles, with slopes at corners of the rock that it has touched.
 
     Steps of one cell become slopes of 45°, longer ones end in a slope of 22° or 67°; other corners are cut at 45°.
+    Only what changed and the cells round it become other tiles, with the other halves of slopes of two tiles there.
     """
-    near = _around(changed_cells(before, after), _LONGEST - 1)
+    steps = (-1, 0, 1)
+    near = {(x + i, y + j) for x, y in changed_cells(before, after) for i in steps for j in steps}
+    halves = {(x, y): _OTHER_HALF.get(after.tile((x, y)), (0, 0)) for x, y in near}
+    near = {cell for cell in near.union((x + i, y + j) for (x, y), (i, j) in halves.items()) if is_inside(cell)}
     tiles: Tiles = dict.fromkeys(near, FULL)
-    for cell in _around(near, 1):
+    for cell in near:
         if after.tile(cell) in _SOFT:
-            tiles |= {place: tile for place, tile in _corner(after, cell).items() if place in near}
+            tiles |= _corner(after, cell, near)
     return after.with_tiles({cell: tile for cell, tile in tiles.items() if after.tile(cell) in _SOFT})
 
 
-def _around(cells: list[Cell] | set[Cell], reach: int) -> set[Cell]:
-    steps = range(-reach, reach + 1)
-    return {(x + i, y + j) for x, y in cells for i in steps for j in steps if is_inside((x + i, y + j))}
-
-
-def _corner(draft: Draft, cell: Cell) -> Tiles:
-    """The slope of a cell with air on two sides that meet, and the thick end behind it, if it has one."""
+def _corner(draft: Draft, cell: Cell, near: set[Cell]) -> Tiles:
+    """The slope of a cell with air on two sides that meet, and the thick end behind it, if it has one there."""
     column, row = cell
 
     def rock(i: int, j: int) -> bool:
@@ -293,10 +306,7 @@ def _corner(draft: Draft, cell: Cell) -> Tiles:
     high = next((n for n in range(1, _LONGEST) if rock(dx, -dy * n) and rock(0, -dy * n)), _LONGEST)
     wide *= all(rock(-dx * n, 0) for n in range(1, wide))
     high *= all(rock(0, -dy * n) for n in range(1, high))
-    if wide > high == 1:
-        thin, thick, behind = *_GENTLE, (column - dx, row)
-    elif high > wide == 1:
-        thin, thick, behind = *_STEEP, (column, row - dy)
-    else:
+    thin, thick, behind = (*_GENTLE, (column - dx, row)) if wide > high else (*_STEEP, (column, row - dy))
+    if min(wide, high) != 1 or wide == high or behind not in near:
         return {cell: _SLOPES["1"][quarter]}
     return {cell: _SLOPES[thin][quarter], behind: _SLOPES[thick][quarter]}

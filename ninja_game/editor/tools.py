@@ -210,6 +210,8 @@ class EditorTools:
         """Tiles that fill it, or objects: a box is full of them, a line or an ellipse has them along it."""
         if not self.objects:
             cells = stamps.covered(self._doing, cell_of(*self._pressed_at), self.cell, self._bend)
+            if self.slopes and self._doing == "line" and self.tile in (brush.EMPTY, brush.FULL):
+                cells = stamps.joined(cells)
             self._change(stamps.Stamp(dict.fromkeys(cells, self.tile)), self.history.began)
             return
         ends = brush.snapped(*self._pressed_at, self.snap), brush.snapped(*self.pointer, self.snap)
@@ -245,10 +247,10 @@ class EditorTools:
             spec = brush.with_switch(self._switchless, *self.pointer, self.snap)
             self._change(stamps.Stamp({}, (spec,)), self.history.began)
 
-    def delete_nearest(self) -> None:
+    def delete_nearest(self, reach: float = REACH) -> None:
         """Delete the object nearest to the pointer, and its images in the symmetry."""
         places = [self.pointer, *(motion.point(*self.pointer) for motion in SYMMETRIES[self.symmetry])]
-        found = [stamps.nearest(self.draft, *place, REACH) for place in places]
+        found = [stamps.nearest(self.draft, *place, reach) for place in places]
         self.history.change(stamps.removed(self.draft, stamps.Selection(parts=frozenset(filter(None, found)))))
 
     # --- choosing ---
@@ -343,13 +345,13 @@ class EditorTools:
             self.delete()
 
     def delete(self) -> None:
-        """Delete what is chosen, or else the object nearest to the pointer."""
+        """Delete what is chosen, or else the object on which the pointer is."""
         self.finish()
         if self.selection:
             self.history.change(stamps.removed(self.draft, self.selection))
             self.selection = stamps.Selection()
         else:
-            self.delete_nearest()
+            self.delete_nearest(PICK_REACH)
 
     def paste(self) -> bool:
         """Put what was copied under the pointer, and choose it; whether anything was copied."""

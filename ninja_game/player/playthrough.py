@@ -51,7 +51,10 @@ class LevelContext:
     """A level by itself, of a file, of an episode. Subclasses, below, say what follows.
 
     ``entry``: the level to play now. ``lifetime``: ticks at its start. ``notices``: of what was saved.
+    ``onward``: where it goes from a level that is passed, in words.
     """
+
+    onward = "next level"
 
     def __init__(self, data: PlayerData, entry: Entry, *, body: Body = "circle", practice_mode: bool = False) -> None:
         self.data = data

@@ -9,11 +9,15 @@ from pathlib import Path
 
 from ninja_game.budget import NO_LIMIT
 from ninja_game.errors import ArgumentError, NinjaGameError
+from ninja_game.files.reading import read_text
+from ninja_game.files.tree import Tree
 from ninja_game.files.writing import write_atomically
-from ninja_game.formats.recording import Recording
+from ninja_game.formats.n14.level_string import level_digest
+from ninja_game.formats.named_level import NamedLevel
+from ninja_game.formats.pack.pack import certificate_name
+from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.formats.replay.notations import Marker
 from ninja_game.formats.replay.text import Replay, write_replay
-from ninja_game.runs.compare import aligned
 from ninja_game.runs.run import record_replay, run_level
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
 from ninja_game.sim.level import Level
@@ -52,9 +56,48 @@ def with_plain_triggers(level: Level, inputs: bytes, *, body: Body = "circle", g
 
 
 def named_run(run: Replay, command: str, *, name: str = "", author: str = "", level_author: str = "") -> Replay:
-    """A run that a command found, under a name, which its level has too."""
-    made = run.made.searched(command)
+    """A run that a command found, under a name, which its level has too; one that was played stays its player's."""
+    made, author = (run.made, run.author) if run.made.played else (run.made.searched(command), author)
     return replace(run, name=name, author=author, level_name=name, level_author=level_author, made=made)
+
+
+AUTHOR = "ninja-game check"
+
+
+def kept_run(level: NamedLevel, path: Path, *, body: Body = "circle", gold: int = 0) -> tuple[Replay, bool] | None:
+    """A replay's run, if it still does on a level what is wanted, and whether it was made on just this level.
+
+    None if the file is missing, or if its run does not pass this level any more. Raises NinjaGameError for a file that
+    is not a replay.
+    """
+    if not path.exists():
+        return None
+    kept = parse_replays(read_text(path), file=str(path), level=level.level)[0]
+    same = level_digest(kept.level) == level_digest(level.level) and kept.body == body
+    try:
+        run = verified_run(level.level, kept.inputs, body=body, gold=gold)
+    except UnverifiedRunError:
+        return None
+    return replace(run, author=kept.player, made=kept.replay.made), same
+
+
+def keep_run(level: NamedLevel, run: Replay) -> None:
+    """Make a run of a level file the certificate beside it, for each goal that it serves better than the one there.
+
+    Raises NinjaGameError for a certificate that cannot be read; OSError.
+    """
+    for kind, gold in (("exit", 0), ("gold", level.level.gold)):
+        if run.gold < gold:
+            continue
+        path = Path(level.file).parent / certificate_name(Path(level.file).name, kind)
+        kept, of_this_level = kept_run(level, path, gold=gold) or (None, False)
+        if not (kept and of_this_level and kept.end_tick <= run.end_tick):
+            write_certificate(level, path, run)
+
+
+def write_certificate(level: NamedLevel, path: Path, run: Replay) -> None:
+    replay = named_run(run, "check", name=level.name, author=AUTHOR, level_author=level.author)
+    Tree(path.parent).write(path.name, write_replay(replay))
 
 
 def better_run(run: Replay, recording: Recording, command: str) -> Replay:
@@ -73,6 +116,8 @@ def moved_markers(recording: Recording, inputs: bytes) -> tuple[Marker, ...]:
     old, body = recording.replay.markers, recording.body
     if not old:
         return ()
+    from ninja_game.runs.compare import aligned  # which a page has not
+
     runs = [run_level(recording.level, each, body=body).positions for each in (recording.inputs, inputs)]
     there = [-1] * len(runs[0])
     with suppress(ArgumentError):

@@ -12,18 +12,10 @@ from threading import Event
 from typing import Any
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.files.reading import read_text
-from ninja_game.files.tree import Tree
-from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.formats.pack.pack import certificate_name
-from ninja_game.formats.recording import parse_replays
-from ninja_game.formats.replay.text import Replay, write_replay
-from ninja_game.runs.packs import KINDS
-from ninja_game.search.certificate import UnverifiedRunError, named_run, verified_run
+from ninja_game.formats.replay.text import Replay
+from ninja_game.search.certificate import UnverifiedRunError, kept_run, write_certificate
 from ninja_game.search.solve import Progress, Task, solve
-
-AUTHOR = "ninja-game check"
 
 
 @dataclass(frozen=True)
@@ -91,7 +83,7 @@ def _certify(
     amounts = {name: level.level.gold if gold < 0 else gold for name, gold in wanted.goals.items()}
     for name, gold in amounts.items():
         task = Task(level.level, gold=gold, **wanted.task)
-        kept = kept_run(level, where[name], task) if where else None
+        kept = kept_run(level, where[name], body=task.body, gold=task.gold) if where else None
         found[name] = _certify_goal(level, where.get(name), task, kept, found, report, stop, wanted.improve)
     for name, other in [(name, other) for name in found for other in found if name != other]:
         run, best = found[other].run, found[name].run
@@ -137,38 +129,6 @@ def _certify_goal(
     return Certified(best, task.gold, how, *last)
 
 
-def kept_run(level: NamedLevel, path: Path, task: Task) -> tuple[Replay, bool] | None:
-    """A replay's run, if it still does on a level what is wanted, and whether it was made on just this level.
-
-    None if the file is missing, or if its run does not pass this level any more. Raises NinjaGameError for a file that
-    is not a replay.
-    """
-    if not path.exists():
-        return None
-    recordings = parse_replays(read_text(path), file=str(path), level=level.level)
-    inputs = recordings[0].inputs
-    same = level_digest(recordings[0].level) == level_digest(level.level) and recordings[0].body == task.body
-    try:
-        return verified_run(level.level, inputs, body=task.body, gold=task.gold), same
-    except UnverifiedRunError:
-        return None
-
-
-def keep_run(level: NamedLevel, run: Replay) -> None:
-    """Make a run of a level file the certificate beside it, for each goal that it serves better than the one there.
-
-    Raises NinjaGameError for a certificate that cannot be read; OSError.
-    """
-    for kind, gold in zip(KINDS, (0, level.level.gold), strict=True):
-        if run.gold < gold:
-            continue
-        path = Path(level.file).parent / certificate_name(Path(level.file).name, kind)
-        kept, of_this_level = kept_run(level, path, Task(level.level, gold=gold)) or (None, False)
-        if not (kept and of_this_level and kept.end_tick <= run.end_tick):
-            _write(level, path, run)
-
-
 def _write(level: NamedLevel, path: Path | None, run: Replay) -> None:
     if path:
-        replay = named_run(run, "check", name=level.name, author=AUTHOR, level_author=level.author)
-        Tree(path.parent).write(path.name, write_replay(replay))
+        write_certificate(level, path, run)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from pathlib import Path
 
 import pytest
 
@@ -16,10 +17,11 @@ from ninja_game.editor.brush import (
     tile_key,
     tile_name,
 )
-from ninja_game.editor.draft import Draft, changed_cells
+from ninja_game.editor.draft import Draft, cell_of, changed_cells
+from ninja_game.editor.files import open_source
 from ninja_game.editor.motion import CLOCKWISE, MIRROR
 from ninja_game.editor.specs import points, word
-from ninja_game.editor.stamp import Selection, chosen_in
+from ninja_game.editor.stamp import Selection, chosen_in, covered
 from ninja_game.editor.tools import EditorTools
 from ninja_game.formats.ascii.legend import TILE_CHARS
 from ninja_game.formats.ascii.writer import best_form
@@ -317,13 +319,53 @@ def test_slopes_set_themselves_on_steps_and_corners(tools: EditorTools) -> None:
     drag(tools, (372, 564), (756, 564))
     for left, row in ((16, 22), (18, 21), (19, 20), (20, 19), (20, 18), (21, 17)):
         drag(tools, (24 * left + 12, 24 * row + 12), (732, 24 * row + 12))
-    hill = ["......fF###", ".....h#####", ".....H#####", "....s######", "...s#######", ".fF########", "s##########"]
+    hill = ["......fF###", ".....s#####", ".....######", "....s######", "...s#######", ".fF########", "s##########"]
     assert picture(tools, range(15, 26), range(17, 24)) == hill
     tools.tile = 0
     drag(tools, (588, 420), (660, 492))
-    assert picture(tools, range(15, 26), range(17, 24))[:2] == ["......s#a..", ".....h###.."]
+    assert picture(tools, range(15, 26), range(17, 24))[:2] == ["......fFa..", ".....s###.."]
     tools.undo()
     assert picture(tools, range(15, 26), range(17, 24)) == hill
+
+
+def test_slopes_that_nobody_touched_stay_as_they_are(root: Path) -> None:
+    level = open_source(root / "levels" / "00-1-mind-the-gap.txt").draft
+    for tool, tile, ends in (
+        ("line", 1, ((108, 228), (180, 228))),
+        ("brush", 0, ((300, 300),)),
+        ("brush", 1, ((132, 276),)),
+    ):
+        tools = EditorTools(level)
+        tools.slopes, tools.tool, tools.tile = True, tool, tile
+        drag(tools, *ends)
+        drawn = covered("line", cell_of(*ends[0]), cell_of(*ends[-1]), 0.0)
+        changed = changed_cells(level, tools.draft)
+        assert changed
+        assert all(min(max(abs(x - a), abs(y - b)) for a, b in drawn) <= 1 for x, y in changed), changed
+
+
+def test_both_halves_of_a_slope_of_two_tiles_change_together(tools: EditorTools) -> None:
+    tools.slopes, tools.tool = True, "line"
+    drag(tools, (60, 564), (756, 564))
+    drag(tools, (156, 540), (756, 540))
+    assert picture(tools, range(4, 10), range(22, 23)) == ["..fF##"]
+    drag(tools, (132, 540), (132, 540))
+    assert picture(tools, range(4, 10), range(22, 23)) == [".fF###"], "no dent stays"
+
+
+def test_a_line_that_slants_is_a_ramp_where_slopes_set_themselves(tools: EditorTools) -> None:
+    tools.tool = "line"
+    ends = (60, 180), (132, 108)
+    drag(tools, *ends)
+    assert picture(tools, range(2, 6), range(4, 9)) == ["...#", "..#.", ".#..", "#...", "...."]
+    tools.undo()
+    tools.slopes = True
+    drag(tools, *ends)
+    assert picture(tools, range(2, 6), range(4, 9)) == ["...#", "..sq", ".sq.", "sq..", "#..."]
+    tools.undo()
+    drag(tools, (60, 60), (252, 132))
+    gentle = ["sa........", "w#Dd......", "..rR#Dd...", "....rR##a.", ".......wq."]
+    assert picture(tools, range(2, 12), range(2, 7)) == gentle, "22°"
 
 
 def test_an_ellipse_has_gentle_and_steep_ends_where_its_steps_are_long(tools: EditorTools) -> None:

@@ -16,8 +16,7 @@ from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pack import Pack, PackFiles
 from ninja_game.levels.findings import found
 from ninja_game.runs.packs import lint
-from ninja_game.search.certify import kept_run
-from ninja_game.search.task import Task
+from ninja_game.search.certificate import kept_run
 from tests.support.own_pack import PACK
 
 FIRST, LAST = "00-0-first-steps.txt", "01-2-the-works.txt"
@@ -88,7 +87,7 @@ def test_a_pack_is_made_described_and_copied(pack: Path, tmp_path: Path) -> None
     linked = Pack(packs.copy_pack(Pack(Path(PackFiles(pack).link())), tmp_path, "test pack"))
     assert list(lint(linked)) == []
     for kept in (linked, Pack(pack)):
-        assert kept_run(kept.levels[FIRST], kept.files.path / RUN, Task(kept.levels[FIRST].level))
+        assert kept_run(kept.levels[FIRST], kept.files.path / RUN)
         assert "level-data:" in kept.files.text(RUN), "whole, where it is a file"
     assert packs.same_pack(linked, Pack(pack))
     with pytest.raises(NinjaGameError):

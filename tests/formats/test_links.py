@@ -22,6 +22,7 @@ from ninja_game.files.reading import PLACE, has_folder
 from ninja_game.files.user_folder import bundled_levels, bundled_replays, data_folder
 from ninja_game.formats.ascii.writer import headers_of
 from ninja_game.formats.links import (
+    MOST_BYTES,
     MOST_CHARACTERS,
     MOST_TEXTS,
     is_link,
@@ -39,7 +40,7 @@ from ninja_game.formats.links import (
 )
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
-from ninja_game.formats.pack.pack import MOST_BYTES, Pack, PackFiles, is_pack
+from ninja_game.formats.pack.pack import Pack, PackFiles, is_pack
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.runs.packs import lint
 from ninja_game.runs.recording_reader import texts_in

@@ -166,7 +166,7 @@ def test_each_screen_asks_for_its_music() -> None:
         play_level(app, replace(entry, episode=""))
         assert app.top.music in BY_COLUMN
         app.pop()
-        app.push(TryScreen(app, "mine", entry.named.level, lambda inputs, over: None))
+        app.push(TryScreen(app, "mine", entry.named.level, lambda inputs, over: None, lambda _: False))
         assert app.top.music == SILENCE
         app.pop()
         play_level(app, entry, practice=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -40,6 +40,7 @@ from ninja_game.player.player_data import PlayerData
 from ninja_game.player.playthrough import LevelContext, Navigation, PacedRun
 from ninja_game.sim.level import COLUMNS, ROWS, Level
 from ninja_game.ui.audio.music import SILENCE
+from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.widgets import following
 
 COMMANDS = (
@@ -60,7 +61,7 @@ COMMANDS = (
     Command("cut", "Cut", ("ctrl+x",)),
     Command("paste", "Paste at the pointer", ("ctrl+v",)),
     Command("choose_all", "Select everything", ("ctrl+a",)),
-    Command("delete", "Delete what is selected, or nearest", ("delete", "backspace"), "x"),
+    Command("delete", "Delete what is selected, or pointed at", ("delete", "backspace"), "x"),
     Command("brush", "Brush", ("b",)),
     Command("rectangle", "Box: fill a rectangle", ("r",)),
     Command("line", "Line; the wheel bends it", ("shift+l",)),
@@ -125,7 +126,25 @@ W A S D turn them. Without a mouse: arrows move the pointer, Space draws, Shift 
 NAMELESS = "My level"
 """What a level is called if its maker gives it no name."""
 
+IN_MENU = {"save", "save_as", "open", "new", "about", "messages", "test", "certify"}
+
 _UNDO = "Undo brings back what was here"
+
+
+class LevelMenu(Menu):
+    """The file menu; the keys that it shows, and those beside them, do the same as without it."""
+
+    def __init__(self, app: App, rows: Sequence[Row], run: Callable[[str], object]) -> None:
+        super().__init__(app, "Level", rows)
+        self._run = run
+
+    def handle(self, event: InputEvent) -> None:
+        name = TABLE.meaning(event)
+        if name in IN_MENU and event.source and event.source[0] == "keys":
+            self.app.pop()
+            self._run(name)
+        else:
+            super().handle(event)
 
 
 class EditorCommands(DocumentCommands):
@@ -204,7 +223,7 @@ class EditorCommands(DocumentCommands):
         self.view.hint = f"What can be reached within a second from the pointer: {self.session.start}. Y: the next"
 
     def go_to_finding(self, index: int) -> None:
-        findings = self.session.findings
+        findings = self.session.examine()
         if not findings:
             self.app.notify("No problems found")
             return
@@ -230,7 +249,8 @@ class EditorCommands(DocumentCommands):
         session = self.session
         level = session.level_to_test(here=here)
         try:
-            screen = TryScreen(self.app, session.name, level, partial(session.tried, level), says=session.draft.says)
+            tried, certifies = partial(session.tried, level), partial(session.passed, level)
+            screen = TryScreen(self.app, session.name, level, tried, certifies, says=session.draft.says)
         except LevelError as error:
             self.app.notify(f"{error.what}: key 9 among the objects places a ninja, F6 tests with one at the pointer")
             return
@@ -245,20 +265,6 @@ class EditorCommands(DocumentCommands):
             self.app.notify("Place a ninja and an exit with its switch first")
         else:
             certifier.start(self.session.draft.level)
-
-    def unless_unsaved(self, action: Action) -> None:
-        """Ask first if the solver is still looking for a run of the level, too."""
-        certifier, ask = self.session.certifier, super().unless_unsaved
-        if not certifier.busy or certifier.search.run:
-            ask(action)
-            return
-
-        def stop() -> None:
-            certifier.stop()
-            ask(action)
-
-        rows: list[Row] = [("Let it search on", nothing, "Stay here"), ("Stop the search", stop, "F7 begins another")]
-        self.app.push(Menu(self.app, "The solver is still looking for a run", rows))
 
     # --- files ---
 
@@ -278,7 +284,7 @@ class EditorCommands(DocumentCommands):
             ("Ten good levels", self.good_levels, "Ten of the game's, and what makes each of them good"),
             ("Leave the editor", self.leave, ""),
         ]  # fmt: skip
-        self.app.push(Menu(self.app, "Level", rows))
+        self.app.push(LevelMenu(self.app, rows, self.run))
 
     @property
     def _levels(self) -> Path:
@@ -363,7 +369,7 @@ class EditorCommands(DocumentCommands):
         def put(says: str) -> None:
             tools.history.change(replace(tools.draft, says=says))
 
-        self.app.push(MessagesScreen(self.app, tools.draft.says, here, pick, put, at))
+        self.app.push(MessagesScreen(self.app, tools.draft, here, pick, put, at))
 
     def open(self) -> None:
         self.unless_unsaved(lambda: self.app.push(LevelChoice(self.app, self.edit_entry)))
@@ -416,9 +422,11 @@ class Tried(Protocol):
 class TryContext(LevelContext):
     """A level that is only tried out: with practice tools and without a clock; nothing counts."""
 
-    def __init__(self, data: PlayerData, entry: Entry, tried: Tried) -> None:
+    onward = "back to the editor"
+
+    def __init__(self, data: PlayerData, entry: Entry, tried: Tried, certifies: Callable[[Attempt], bool]) -> None:
         super().__init__(data, entry, practice_mode=True)
-        self._tried = tried
+        self._tried, self._certifies = tried, certifies
 
     def ghosts(self) -> list[PacedRun]:
         """None: nobody has a best on a level that is being made."""
@@ -430,7 +438,7 @@ class TryContext(LevelContext):
 
     def passed(self, attempt: Attempt) -> list[str]:
         self._tried(bytes(attempt.inputs), over=True)
-        return ["It can be passed"]
+        return ["It can be passed" + ": this run certifies it" * self._certifies(attempt)]
 
     def died(self, attempt: Attempt) -> None:
         self._tried(bytes(attempt.inputs), over=True)
@@ -452,10 +460,12 @@ class TryScreen(LevelScreen):
 
     music = SILENCE
 
-    def __init__(self, app: App, name: str, level: Level, tried: Tried, *, says: str = "") -> None:
+    def __init__(
+        self, app: App, name: str, level: Level, tried: Tried, certifies: Callable[[Attempt], bool], *, says: str = ""
+    ) -> None:
         title = f"{name} ({app.controls.name('back')}: back to the editor)"
         named = NamedLevel(title, "", "", level, "", says=says)
-        self._trying = TryContext(app.player, Entry(named, "yours"), tried)
+        self._trying = TryContext(app.player, Entry(named, "yours"), tried, certifies)
         super().__init__(app, self._trying)
 
     def leave(self) -> None:

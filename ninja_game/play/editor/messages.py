@@ -8,18 +8,24 @@ from functools import partial
 
 import pygame
 
-from ninja_game.editor.draft import Cell
+from ninja_game.editor.draft import Cell, Draft
+from ninja_game.editor.specs import BODY, SWITCH, points
 from ninja_game.errors import LevelError
 from ninja_game.formats.sayings import BAR, KEYS, MOST_LETTERS, MOST_SAYINGS, THINGS, named_keys, read_sayings
 from ninja_game.play.app import App
+from ninja_game.play.editor.sheet import LevelSheet
 from ninja_game.play.level.hud import Hud
+from ninja_game.play.level.play import MAY, MUST, tag_top
 from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuScreen, Row
-from ninja_game.sim.level import Level
-from ninja_game.ui.canvas import WIDTH
+from ninja_game.sim.kinds import EXIT, GOLD
+from ninja_game.ui.canvas import HEIGHT, WIDTH, Point
 from ninja_game.ui.text_entry import TextEntry
+from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Choice, Widget
 
-ROW, TOP = 78, 66
+ROW, TOP, WIDE = 78, 66, 384
+PICTURE: Area = (436, 66, 320, 320 * HEIGHT / WIDTH)
+"""Rows of the messages; where the level is shown with the selected one."""
 
 _WHEN = [
     ("At the start", "start"), ("The exit opens", "switch"), ("The first gold", "gold"), ("After deaths", "death"),
@@ -81,11 +87,12 @@ class MessagesScreen(MenuScreen):
     title = "Messages to the player"
 
     def __init__(
-        self, app: App, says: str, here: Cell, pick: Callable[[Callable[[Cell | None], None]], object],
+        self, app: App, draft: Draft, here: Cell, pick: Callable[[Callable[[Cell | None], None]], object],
         put: Callable[[str], object], at: Cell | None = None,
     ) -> None:  # fmt: skip
         super().__init__(app)
-        self.messages = messages_of(says)
+        self.messages = messages_of(draft.says)
+        self._draft = draft
         self._selected = 0
         self._before = self.source
         self._wanted = "{},{}".format(*at) if at else ""
@@ -113,22 +120,26 @@ class MessagesScreen(MenuScreen):
 
     def _row(self, number: int) -> list[Widget]:
         message, y = self.messages[number], TOP + ROW * number
-        text = TextEntry(
-            (36, y + 34, 720, 30), "What is said", message.text, partial(setattr, message, "text"),
-            longest=MOST_LETTERS, hint="{jump} becomes the key or button of whoever plays",
-        )  # fmt: skip
-        moment = Choice((36, y, 220, 28), "", _WHEN, lambda: message.when, partial(self._choose, message))
+        text = TextEntry((36, y + 34, WIDE, 30), "What is said", message.text, lambda _: None, longest=MOST_LETTERS)
+
+        def put(typed: str) -> None:
+            message.text = typed
+            text.hint = "{jump} becomes the key or button of whoever plays" if "{" in typed else ""
+
+        put(message.text)
+        text.put = put
+        moment = Choice((36, y, 140, 28), "", _WHEN, lambda: message.when, partial(self._choose, message))
         moment.hint = f"When it is said: {', '.join(words[0].lower() + words[1:] for words, _ in _WHEN)}"
         about: list[Widget] = []
         if message.when in ("death", "at"):
             hint = "Column and row of the cell" if message.when == "at" else "How many deaths"
             detail = partial(setattr, message, "detail")
-            about.append(TextEntry((264, y, 80, 28), hint, message.detail, detail, longest=6, hint=hint))
+            about.append(TextEntry((180, y, 56, 28), hint, message.detail, detail, longest=6, hint=hint))
         if message.when == "at":
-            show = Button((352, y, 150, 28), "Pick a place...", partial(self._point, message), size=10)
+            show = Button((240, y, 104, 28), "Pick a place...", partial(self._point, message), size=10)
             show.hint = "The next click in the level says where"
             about.append(show)
-        remove = Button((656, y, 100, 28), "Remove", lambda: self._remove(message), size=10)
+        remove = Button((348, y, 72, 28), "Remove", lambda: self._remove(message), size=10)
         return [moment, *about, remove, text]
 
     def _choose(self, message: Message, when: str) -> None:
@@ -188,16 +199,36 @@ class MessagesScreen(MenuScreen):
             row, length = TOP + ROW * number, len(message.text)
             colour = theme.palette.faint if length < MOST_LETTERS else theme.palette.bad
             count = f"{length} of {MOST_LETTERS}"
-            theme.text(surface, count, 646, row + 9, size=10, colour=colour, align="right")
+            theme.text(surface, count, 36 + WIDE, row + 65, size=8.5, colour=colour, align="right")
             if self.focus in self._row_widgets[number]:
                 self._selected = number
-        y = TOP + ROW * len(self.messages) + 40
-        shown = self.messages[self._selected].text.strip() if self._selected < len(self.messages) else ""
-        if shown:
-            hud = Hud(theme)
-            lines, _, _, w, high, margin, size = hud.box(
-                named_keys(shown, lambda name: self.app.controls.name(name) if name in KEYS else f"{{{name}}}"),
-                Level().tiles, (), None, covers=True,
-            )  # fmt: skip
-            hud.said(surface, (lines, (WIDTH - w) / 2, y, w, high, margin, size))
+        if self._selected < len(self.messages):
+            self._draw_level(surface, self.messages[self._selected])
         theme.paragraph(surface, _HELP, (36, 506, 720, 54), 11, 15, colour=theme.palette.faint)
+
+    def _draw_level(self, surface: pygame.Surface, message: Message) -> None:
+        """The level with a message in the place where it lies in play."""
+        place = self.theme.canvas.rect(*PICTURE)
+        sheet = LevelSheet(place.size, self.theme.palette)
+        sheet.show(self._draft)
+        sheet.paint()
+        said = named_keys(
+            message.text.strip(), lambda name: self.app.controls.name(name) if name in KEYS else f"{{{name}}}"
+        )
+        if said:
+            hud = Hud(Theme(self.theme.palette, sheet.canvas, self.app.settings.text_size))
+            spots = [(spec.kind, part, *at) for spec in self._draft.objects for part, at in points(spec).items()]
+            things = [(x, y, MAY if kind == GOLD else MUST) for kind, _, x, y in spots]
+            things += [(x + dx, tag_top(y) + 8, MUST) for kind, _, x, y in spots if kind == EXIT for dx in (-12, 12)]
+            hud.said(
+                sheet.surface,
+                hud.box(said, self._draft.level.tiles, tuple(things), self._eye(message), message.when == "start"),
+            )
+        surface.blit(sheet.surface, place)
+
+    def _eye(self, message: Message) -> Point | None:
+        """Where the ninja is when a message is said, px; None at the start, or where that is not known."""
+        if message.when == "at" and not message.problem[0]:
+            return next((24.0 * x + 12.0, 24.0 * y + 12.0) for x, y in [map(int, message.detail.split(","))])
+        kind, part = {"switch": (EXIT, SWITCH), "gold": (GOLD, BODY)}.get(message.when, (-1, BODY))
+        return next((points(spec).get(part) for spec in self._draft.objects if spec.kind == kind), None)

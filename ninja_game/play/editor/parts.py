@@ -445,6 +445,7 @@ class ObjectList(EditorPart):
         if chosen:
             theme.row(surface, (x, y, w, h), chosen=True, focused=False, radius=2)
         faint = theme.palette.faint
-        theme.text(surface, str(number), x + 22, y + 3, size=8.5, colour=faint, align="right", width=20)
-        text = object_text(tools.draft.objects[number])
-        theme.text(surface, text, x + 28, y + 3, size=9, bold=chosen, width=w - 30)
+        theme.text(surface, str(number), x + 19, y + 3, size=8.5, colour=faint, align="right", width=19)
+        text, room = object_text(tools.draft.objects[number]), w - 24
+        size = max(7.0, min(9.0, 9 * room / theme.width(text, 9, bold=chosen)))
+        theme.text(surface, text, x + 22, y + 3 + (9 - size) / 2, size=size, bold=chosen, width=room)

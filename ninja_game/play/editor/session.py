@@ -3,11 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from time import monotonic
 
 from ninja_game.editor.brush import object_of_type, placed
-from ninja_game.editor.certify import STARTS, Ask, Certifier, Reach, Route, TestMap, Try, find_reach, map_of, route_of
+from ninja_game.editor.certify import (
+    STARTS,
+    Ask,
+    Certifier,
+    Reach,
+    Route,
+    Search,
+    TestMap,
+    Try,
+    find_reach,
+    map_of,
+    route_of,
+)
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Autosave, RecoveredDraft, Source, draft_of_text, new_source, open_source, save
 from ninja_game.editor.stamp import Stamp, put
@@ -18,15 +31,17 @@ from ninja_game.files.user_folder import LEVELS
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.pack.pack import is_pack
-from ninja_game.formats.replay.text import Replay
+from ninja_game.formats.replay.made import Made
 from ninja_game.levels.findings import Finding
 from ninja_game.levels.warnings import level_findings
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link, copy_text, pasted_text
 from ninja_game.play.window import save_picture
+from ninja_game.player.attempt import Attempt
 from ninja_game.player.player_data import keep_replay
 from ninja_game.runtime import NewestJob
 from ninja_game.sim.level import Level
+from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.ui.widgets import following
 from ninja_game.view.sprites.thumbnail import thumbnail
 
@@ -59,21 +74,23 @@ class EditorSession:
         self.app = app
         self.certifier = Certifier()
         self.tools = EditorTools(new_source().draft)
-        self._checks: NewestJob[Question, Examined] = NewestJob(_examine)
-        self._reaches: NewestJob[Ask, Reach] = NewestJob(find_reach)
-        self._maps: NewestJob[tuple[Try, ...], TestMap] = NewestJob(map_of)
         self.start = "off"
-        self._start_asked: Ask | None = None
         self._begin(source or new_source(app.settings.name))
 
     def _begin(self, source: Source, found: RecoveredDraft | None = None) -> None:
         self.autosave = Autosave(self.app.player.folder, found.file if found else None)
         self.source = found.source if found else source
         self.tools.load(found.draft if found else source.draft)
+        self.certifier.edit(self.draft.level)
+        # What is still being found out is of another level.
+        self._checks: NewestJob[Question, Examined] = NewestJob(_examine)
+        self._reaches: NewestJob[Ask, Reach] = NewestJob(find_reach)
+        self._maps: NewestJob[tuple[Try, ...], TestMap] = NewestJob(map_of)
+        self._start_asked: Ask | None = None
         self.tries: tuple[Try, ...] = ()
         self.last_try: Route = ()
         self._file_stamp, self._looked_at = NO_FILE, 0.0
-        self._certified: tuple[Replay | None, Path | None] = None, None
+        self._certified: tuple[object, ...] = ()
         self._asked: Question | None = None
         self._asked_at = 0.0
 
@@ -83,10 +100,8 @@ class EditorSession:
         Raises FileError for what another window continues with.
         """
         before = self.autosave
-        self.certifier.stop()
-        self.certify_file()
+        self._leave_search()
         self._begin(source, found)
-        self.certifier.forget()
         before.close()
 
     @property
@@ -151,6 +166,13 @@ class EditorSession:
             self._asked, self._asked_at = (level, found), monotonic()
             self._checks.ask(self._asked)
 
+    def examine(self) -> list[Finding]:
+        """The findings of the level as it is now."""
+        self._asked_at = 0.0
+        self.update()
+        self._checks.finish()
+        return self.findings
+
     @property
     def test_map(self) -> TestMap | None:
         return self._maps.result if self.tries else None
@@ -187,23 +209,41 @@ class EditorSession:
         return path.parent == self.app.player.folder / LEVELS or is_pack(path.parent)
 
     def certify_file(self) -> None:
-        """Put the solver's run beside the level's file if that holds its level: packs need no other then."""
-        run, path = self.certifier.search.run, self.source.path
-        done = (run, path) == self._certified
-        if run is None or path is None or done or not self.is_saved or self.certifier.is_stale(self.draft.level):
-            return
-        self._certified = run, path
-        if self._keeps_runs(path):
-            from ninja_game.search.certify import keep_run
+        """Put the runs that are known beside the level's file if that holds its level: packs need no other then."""
+        search, path = self.certifier.search, self.source.path
+        known = search.run, search.full, path
+        if path and search.run and known != self._certified and self.is_saved:
+            self._certified = known
+            self._keep(path, search)
 
-            try:
-                keep_run(load_levels(path)[0], run)
-            except (NinjaGameError, OSError) as error:
-                self.app.notify(f"No certificate: {reason(error)}")
+    def _keep(self, path: Path, search: Search, *, name: str = "") -> None:
+        """Put the runs of a search beside a file that holds its level. ``name``: what is left by now, to be told of."""
+        from ninja_game.search.certificate import keep_run
+
+        try:
+            named = load_levels(path)[0]
+            for run in filter(None, (search.run, search.full)):
+                if named.level == search.level and self._keeps_runs(path):
+                    keep_run(named, run)
+        except (NinjaGameError, OSError) as error:
+            self.app.notify(f"No certificate: {reason(error)}")
+        else:
+            time = search.run.end_tick / TICKS_PER_SECOND if search.run else 0.0
+            how = f"certified, {time:.2f} s, kept with the level" if time else f"no run in {search.seconds:.0f} s"
+            if name:
+                self.app.notify(f"{name}: {how}")
+
+    def _leave_search(self) -> None:
+        """The level is left: a search of what its file holds goes on without the editor, any other one ends."""
+        path, level = self.source.path, self.source.draft.level
+        if path and self._keeps_runs(path) and self.certifier.busy and not self.certifier.is_stale(level):
+            self.certifier.leave(partial(self._keep, path, name=self.source.draft.name or path.stem))
+        else:
+            self.certifier.leave(None)
+        self.certify_file()
 
     def close(self) -> None:
-        self.certifier.close()
-        self.certify_file()
+        self._leave_search()
         self.autosave.close()
 
     def end(self) -> None:
@@ -217,7 +257,8 @@ class EditorSession:
         self.tools.finish()
         named = self.draft if name is None else replace(self.draft, name=name)
         self.source = save(self.source, named, path, replacing=replacing)
-        self.tools.history.change(named)
+        # The file has the name, whatever is undone.
+        self.tools.history.amend(lambda draft: replace(draft, name=named.name))
 
     def export_picture(self) -> None:
         surface = thumbnail(self.draft.level, self.app.theme.palette, PICTURE_WIDTH)
@@ -261,6 +302,15 @@ class EditorSession:
         self.tries = (*(self.tries[:-1] if goes_on else self.tries), Try(level, inputs, over))
         self.last_try = route_of(level, inputs)
         self._maps.ask(self.tries)
+
+    def passed(self, level: Level, attempt: Attempt) -> bool:
+        """A test came to the exit; whether that certifies the level as it is: played from its start, in its time."""
+        helped = attempt.assists - {"practice"} or attempt.lifetime <= attempt.ended_tick
+        if helped or level != self.draft.level:
+            return False
+        replay = attempt.replay(self.name, self.app.settings.name)
+        self.certifier.passed(level, replace(replay, made=Made(played=True)))
+        return True
 
     def keep_certificate(self) -> None:
         run = self.certifier.search.run

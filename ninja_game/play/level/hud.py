@@ -444,7 +444,7 @@ def hud_view(play: LevelPlay) -> HudView:
         cause, _, why = cause_of_death(play).partition(". ")
         message = cause.rstrip("."), [*filter(None, [why]), _after_death(play, key)], *_covering(play)
     if play.phase is Phase.PASSED:
-        onward = "go on" if context.way_out is Navigation.EPISODE_END else "next level"
+        onward = "go on" if context.way_out is Navigation.EPISODE_END else context.onward
         keys = f"{key('confirm')}: {onward}    {key('retry')}: play again    {key('replay')}: replay"
         if not context.leads_on:
             keys = f"{key('confirm')}: play again    {key('replay')}: replay    {key('back')}: leave"

@@ -277,7 +277,8 @@ class LevelPlay:
 
     def run_ticks(self, due: int) -> None:
         """So many ticks, each with the keys of its moment."""
-        if due and self.phase is Phase.PLAY and self.app.settings.game_speed < 100:
+        slow = self.app.settings.game_speed < 100 or self.tools.slow or self.tools.stepping
+        if due and self.phase is Phase.PLAY and slow:
             self.attempt.assists.add("slow motion")
         for _ in range(due):
             # Sampled right before the tick: as late as can be.

@@ -379,7 +379,7 @@ class Question(Menu):
 class FormPanel(Menu):
     """Fields to fill in above two buttons. ``fields``: prompt, text, how many characters fit in.
 
-    The text of a single field is a proposal.
+    The text of the first is a proposal.
     """
 
     def __init__(
@@ -396,10 +396,9 @@ class FormPanel(Menu):
 
     def build(self) -> Sequence[Widget]:
         x, y, w, _ = self._box
-        alone = len(self._fields) == 1
         places = [(x + 30, y + 48 + ROW * k, w - 60, 30) for k in range(len(self._fields))]
         entries = [
-            TextEntry(places[k], prompt, text, self._taker(k), longest=longest, proposed=alone)
+            TextEntry(places[k], prompt, text, self._taker(k), longest=longest, proposed=k == 0)
             for k, (prompt, text, longest) in enumerate(self._fields)
         ]
         return [*entries, *list(super().build())[len(entries) :]]

@@ -20,7 +20,9 @@ def driver(tmp_path: Path) -> Iterator[Maker]:
     finally:
         for screen in made.app.stack._screens:
             if isinstance(screen, EditorScreen):
+                screen.session.certifier.stop()
                 screen.session.close()
+                screen.session.certifier._left.clear()
         made.close()
 
 

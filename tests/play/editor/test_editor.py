@@ -15,9 +15,10 @@ from ninja_game.backend.memories import compiled_available
 from ninja_game.editor import packs
 from ninja_game.editor.brush import OBJECT_TYPES, object_of_type, placed
 from ninja_game.editor.certify import LANDED, SQUARE, STARTS, Reach, Search
+from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Source, open_source
 from ninja_game.editor.specs import SWITCH, points
-from ninja_game.editor.stamp import Selection, Stamp, put
+from ninja_game.editor.stamp import Selection, Stamp, chosen_in, put
 from ninja_game.formats.ascii.places import place_text
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.pack import Pack
@@ -35,7 +36,7 @@ from ninja_game.search.certificate import verified_run
 from ninja_game.search.task import Progress, obstacle
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.kinds import EXIT, NINJA
-from ninja_game.sim.level import ObjectSpec
+from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.ui.input.keys import SCANCODES
 from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Theme
@@ -657,17 +658,13 @@ def test_keys_of_objects_and_tiles_work_whatever_is_selected_or_in_hand(room: Ma
     assert tools.spec != before, "it has a movement"
 
 
-def test_a_search_is_left_only_if_that_is_meant_and_its_run_is_kept(room: Maker, tmp_path: Path) -> None:
+def test_what_a_search_has_found_is_kept_when_its_level_is_left(room: Maker, tmp_path: Path) -> None:
     session = room.editor.session
     certifier = session.certifier
     room.chord("s", pygame.KMOD_LCTRL)
     kept = tmp_path / "levels" / "certificates" / "room.exit.replay.txt"
     with patch.object(type(certifier._job), "idle", False):
         certifier.search = Search(session.draft.level)
-        room.chord("n", pygame.KMOD_LCTRL)
-        assert room.shown(Menu).title == "The solver is still looking for a run"
-        room.choose("Let it search on")
-        assert certifier.busy
         certifier.search.run = verified_run(session.draft.level, with_press_bits(bytes([2]) * 100))
         room.frames()
         assert certifier.text.endswith(", shortening")
@@ -713,3 +710,52 @@ def test_a_problem_is_shown_whole_where_there_is_room(room: Maker) -> None:
     x, y, w, h = part.list.row_area(2)
     room.mouse(x + w / 2, y + h / 2)
     assert room.editor.view.hint.startswith("Word word")
+
+
+def test_keys_of_the_file_menu_work_while_it_is_open(room: Maker) -> None:
+    room.press("escape")
+    room.chord("s", pygame.KMOD_LCTRL)
+    assert room.editor.session.is_saved
+    assert isinstance(room.top(), EditorScreen)
+    room.press("escape")
+    room.press("f2")
+    form = room.shown(FormPanel)
+    room.type("New")
+    assert form.texts[0] == "New", "the name was selected"
+
+
+def test_undo_does_not_take_back_the_name_that_a_file_has(room: Maker, tmp_path: Path) -> None:
+    session = room.editor.session
+    room.drag((300, 300))
+    session.save(tmp_path / "levels" / "other.txt", name="Other")
+    room.chord("z", pygame.KMOD_LCTRL)
+    assert (room.draft.name, room.draft.level) == ("Other", ROOM.level)
+
+
+def test_without_a_selection_delete_takes_only_what_is_pointed_at(room: Maker) -> None:
+    count = len(room.draft.objects)
+    room.mouse(*room.at(60 + 15, 542), click=False)
+    room.press("delete")
+    assert len(room.draft.objects) == count
+    room.mouse(*room.at(60 + 9, 542), click=False)
+    room.press("delete")
+    assert len(room.draft.objects) == count - 1
+
+
+def test_a_frame_over_its_cell_takes_a_launch_pad(room: Maker) -> None:
+    tools = room.editor.session.tools
+    tools.pick_up(object_of_type("launch pad"))
+    tools.spec = tools.spec._replace(values=(*tools.spec.values[:2], 0.0, -1.0))
+    room.drag((12 * 24 + 12, 22 * 24 + 12))
+    pad = len(room.draft.objects) - 1
+    assert pad in chosen_in(room.draft, (12, 22, 1, 1)).numbers
+
+
+def test_what_is_known_of_one_level_is_not_said_of_the_next(room: Maker) -> None:
+    session = room.editor.session
+    room.wait(lambda: session.examined is room.draft.level, "findings")
+    session.begin(Source(put(Draft(Level()), Stamp({(3, 3): 1}))))
+    assert (session.examined, session._reaches.result, session.findings) == (None, None, [])
+    room.press("f4")
+    assert "No problems" not in room.app.notice
+    assert session.examined is room.draft.level

@@ -14,6 +14,7 @@ from ninja_game.play.editor.commands import TryScreen
 from ninja_game.play.editor.messages import Message, MessagesScreen, messages_of
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import said_places
+from ninja_game.play.level.hud import Box, Hud
 from ninja_game.play.level.sayings import Sayings
 from ninja_game.sim.events import LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.kinds import GOLD
@@ -183,3 +184,35 @@ def test_a_locked_door_and_a_trap_have_their_words() -> None:
     world.events[0].kind = TRAP_CLOSED
     assert told.on_tick(world)  # type: ignore[arg-type]
     assert told.text == "Shut"
+
+
+def test_the_selected_message_lies_in_the_level_where_it_does_in_play(
+    room: Maker, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shown: list[tuple[str, float, float]] = []
+
+    def said(_: Hud, __: pygame.Surface, box: Box, *___: object) -> pygame.Rect:
+        shown.append((box[0][0], box[1], box[2]))
+        return pygame.Rect(0, 0, 1, 1)
+
+    monkeypatch.setattr(Hud, "said", said)
+    room.editor.session.tools.history.change(replace(room.draft, says="start: Go | at 20,12: Here"))
+    screen = opened(room)
+    room.frames()
+    start = shown[-1]
+    assert not screen._row_widgets[0][-1].hint, "no braces in it"
+    field = screen._row_widgets[1][-1]
+    room.mouse(*field.centre)
+    assert isinstance(field, TextEntry)
+    field.put("{jump}")
+    assert "jump" in field.hint
+    screen.messages[1].text = "Here"
+    room.frames()
+    screen.redraw = True
+    room.frames()
+    assert shown[-1][0] == "Here"
+    room.press("escape")
+    shown.clear()
+    room.press("f5")
+    room.frames(2)
+    assert [each for each in shown if each[0] == "Go"][-1][1:] == pytest.approx(start[1:], abs=4), "but for its letters"

@@ -1,0 +1,122 @@
+"""What certifies a level in the editor: the solver's runs, also of levels that were left, and the maker's own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from threading import Event
+
+import pygame
+import pytest
+
+from ninja_game.editor import packs
+from ninja_game.editor.files import open_source
+from ninja_game.formats.load import load_levels
+from ninja_game.formats.pack.pack import Pack
+from ninja_game.formats.replay.text import Replay, parse_replay
+from ninja_game.runs.packs import lint, make_pars
+from ninja_game.search.certificate import verified_run
+from ninja_game.search.task import Progress, Task
+from ninja_game.sim.inputs import with_press_bits
+from tests.support.level_maker import ROOM, Maker
+from tests.support.waiting import LONGEST
+
+
+def test_searches_of_levels_that_were_left_go_on_one_after_the_other(
+    room: Maker, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
+) -> None:
+    ready, at_once = Event(), list[bool]()
+    request.addfinalizer(ready.set)
+    run = verified_run(ROOM.level, with_press_bits(bytes([2]) * 100))
+
+    def solve(
+        task: Task, *, report: Callable[[Progress], object], on_better: Callable[[Replay], object]
+    ) -> Replay | None:
+        at_once.append(ready.is_set())
+        ready.wait(LONGEST)
+        report(Progress())
+        if task.level != ROOM.level:
+            return None
+        on_better(run)
+        return run
+
+    monkeypatch.setattr("ninja_game.search.solve.solve", solve)
+    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
+    told: list[str] = []
+    monkeypatch.setattr(room.app, "notify", lambda text, **_: told.append(text))
+    session, levels = room.editor.session, tmp_path / "levels"
+    room.chord("s", pygame.KMOD_LCTRL)
+    room.press("f7")
+    assert session.certifier.text.startswith("Getting ready, ")
+    room.chord("n", pygame.KMOD_LCTRL)
+    room.choose("A room")
+    assert session.certifier.text == "", "nothing is asked, and the new level has no search"
+    session.save(levels / "other.txt", name="Other")
+    room.press("f7")
+    assert session.certifier.text.startswith("Another level's search comes first")
+    room.chord("n", pygame.KMOD_LCTRL)
+    room.choose("Empty")
+    session.begin(open_source(levels / "room.txt"))
+    assert session.certifier.busy, "it is this level's again"
+    session.close()
+    kept = levels / "certificates" / "room.exit.replay.txt"
+    assert not kept.exists()
+    ready.set()
+    session.certifier._job.finish(LONGEST)
+    assert (at_once, kept.exists()) == ([False, True], True)
+    assert told[-2:] == ["Room: certified, 0.97 s, kept with the level", "Other: no run in 20 s"]
+
+
+def test_a_search_of_what_no_file_holds_ends_with_the_level(room: Maker) -> None:
+    certifier = room.editor.session.certifier
+    search = certifier.search = type(certifier.search)(room.draft.level)
+    with pytest.MonkeyPatch.context() as busy:
+        busy.setattr(type(certifier._job), "idle", False)
+        room.chord("n", pygame.KMOD_LCTRL)
+        room.choose("Empty")
+    assert (search.end, certifier.text) == ("Stopped", "")
+
+
+def passed(room: Maker, *, begin: str = "f5", late: int = 0, helped: str = "") -> str:
+    """Pass a test, and what the editor says then."""
+    room.press(begin)
+    room.keys.script = [0] * late + [2] * 200
+    room.press("space")
+    room.frames(10)
+    if helped:
+        room.press(helped)
+        room.press("space")
+    room.frames(100 + late)
+    room.press("escape")
+    room.frames()
+    return room.editor.session.certifier.text
+
+
+def test_a_pass_of_ones_own_certifies_the_level_as_it_is(room: Maker, tmp_path: Path) -> None:
+    room.app.change_settings(name="Mia")
+    session, kept = room.editor.session, tmp_path / "levels" / "certificates" / "room.exit.replay.txt"
+    room.mouse(*room.at(66, 545), click=False)
+    assert passed(room, begin="f6") == "", "not from its start"
+    text = passed(room, late=12)
+    assert text.startswith("Certified: 1.")
+    assert passed(room) < text, "a faster one"
+    faster = session.certifier.text
+    session.certifier.search.take(verified_run(ROOM.level, with_press_bits(bytes(30) + bytes([2]) * 100)))
+    assert session.certifier.text == faster, "a slower one of the solver"
+    room.chord("s", pygame.KMOD_LCTRL)
+    room.frames()
+    replay = parse_replay(kept.read_text())
+    assert (replay.author, str(replay.made), replay.name) == ("Mia", "played", "Room")
+    pack = packs.new_pack(tmp_path / "levels", "Pack", "me")
+    file = packs.transfer(load_levels(tmp_path / "levels" / "room.txt")[0], pack, keep=False)
+    packs.place(pack, file, 0)
+    assert not [finding for finding in lint(Pack(pack)) if "certificate" in finding.code]
+    ((_, pars),) = make_pars(Pack(pack), tries=1)
+    assert (pars.exit, pars.difficulty is not None) == (replay.end_tick, True)
+    room.drag((300, 300))
+    assert session.certifier.is_stale(room.draft.level)
+
+
+def test_a_pass_with_help_certifies_nothing(room: Maker) -> None:
+    assert passed(room, helped="period") == "", "a single step"
+    assert passed(room) != ""
