@@ -8,7 +8,7 @@ from math import cos, pi, sin
 
 import pygame
 
-from ninja_game.ui.canvas import Point
+from ninja_game.ui.canvas import Colour, Point
 from ninja_game.ui.theme import GROUND_ROLES, Palette, mixed
 
 _WIDE, _HIGH = 396, 300
@@ -73,10 +73,14 @@ def painted(palette: Palette) -> pygame.Surface:
 
 
 @lru_cache(maxsize=_SHEETS)
-def grain(palette: Palette) -> pygame.Surface:
-    """White where the rock of a palette that has a scenery is plain, the rest in its kind; nobody may draw on it."""
+def grain(palette: Palette, role: str) -> pygame.Surface:
+    """What to take from rock of a role's colour, of a palette that has a scenery, so that its marks are left.
+
+    Nobody may draw on it.
+    """
     sheet = pygame.Surface((_WIDE, _HIGH), pygame.SRCALPHA)
     GRAINS[palette.scenery](sheet, _numbers(f"rock of {palette.name}"))
+    sheet.fill(getattr(palette, role), special_flags=pygame.BLEND_RGBA_MULT)
     # Made small and large again, it is soft.
     return pygame.transform.smoothscale(pygame.transform.smoothscale(sheet, (_WIDE // 2, _HIGH // 2)), (_WIDE, _HIGH))
 
@@ -89,15 +93,9 @@ def _white(numbers: Numbers) -> tuple[int, int, int, int]:
 def _strata(sheet: pygame.Surface, numbers: Numbers, slant: float = 0.1, wave: float = 7.0) -> None:
     """Layers of earth, one on another."""
     top, start = -160.0, 2 * pi * next(numbers)
-
-    def surface_at(top: float) -> list[Point]:
-        return [(x, top + slant * x + wave * sin(start + top / 60 + x / 45)) for x in range(-4, _WIDE + 8, 4)]
-
     while top < _HIGH:
-        # Each only as far as the next one: where a page draws one over another, both are seen.
-        white, upper = _white(numbers), surface_at(top)
+        _ridge(sheet, _white(numbers), lambda x, top=top: top + slant * x + wave * sin(start + top / 60 + x / 45))
         top += 9 + 26 * next(numbers)
-        pygame.draw.polygon(sheet, white, [*upper, *reversed(surface_at(top if top < _HIGH else 2.0 * _HIGH))])
     for _ in range(70):
         # Stones lie in it, and cracks run down from some of them.
         x, y, wide = _WIDE * next(numbers), _HIGH * next(numbers), 3 + 5 * next(numbers)
@@ -148,7 +146,7 @@ def _numbers(name: str) -> Numbers:
         yield (state >> 8) / 2**23
 
 
-def _ridge(sheet: pygame.Surface, colour: pygame.Color, height: Callable[[float], float]) -> None:
+def _ridge(sheet: pygame.Surface, colour: Colour, height: Callable[[float], float]) -> None:
     """Everything below a line."""
     line: list[Point] = [(x, height(x)) for x in range(-4, _WIDE + 8, 4)]
     pygame.draw.polygon(sheet, colour, [*line, (_WIDE + 4, _HIGH), (-4, _HIGH)])

@@ -12,8 +12,8 @@ EDGES = (("bright", 2, 0, 120), ("outline", -3, 0, 80), ("bright", 8, 30, 88))
 """What is left of the tiles in a colour when they are taken away: so much lower, or higher, and so soft, logical px;
 how strong it is. The last lights rock near its other edges too, so that it is darker in the depth of a mass."""
 
-GRAIN = 13
-"""By how much the rock's marks differ from it, of 255 a channel: never enough to be taken for a thing."""
+GRAIN = {"bright": 13, "outline": 18}
+"""By how much the rock's marks of an ink differ from it, of 255 a channel: never enough to be taken for a thing."""
 
 SHADOW, SHADOW_AT = 76, (4, 6)
 """The shadow's strength, and where it falls, logical px."""
@@ -53,9 +53,9 @@ def _add_grain(sheet: TileSheet, palette: Palette, inks: dict[str, pygame.Surfac
     """Mark the rock: darker where it is dark on light, lighter where it is not, so that it keeps off the scenery."""
     role = "bright" if sum(palette.text[:3]) > sum(palette.background[:3]) else "outline"
     away = max(abs(ink - rock) for ink, rock in zip(getattr(palette, role)[:3], palette.tile[:3], strict=True))
-    pattern = grain(palette)
+    pattern = grain(palette, role)
     marks = pygame.transform.smoothscale(inks[role], pattern.get_size())
     marks.blit(pattern, (0, 0), special_flags=pygame.BLEND_RGBA_SUB)
-    marks.fill((round(255 * GRAIN / away),) * 4, special_flags=pygame.BLEND_RGBA_MULT)
+    marks.fill((round(255 * GRAIN[role] / away),) * 4, special_flags=pygame.BLEND_RGBA_MULT)
     marks = pygame.transform.smoothscale(marks, sheet.surface.size)
     sheet.surface.blit(marks, (0, 0), special_flags=pygame.BLEND_PREMULTIPLIED)

@@ -6,7 +6,7 @@ const CLIP = 4; // x, y, width, height
 const IMAGE = 5; // canvas, x, y, width, height, to x, to y, opacity; below 0: take away
 const STRETCH = 6; // canvas, width, height, to width, to height, opacity
 const FILL = 7; // colour, x, y, width, height: in the place of what is there
-const SHIFT = 8; // scale, x, y: of the entries up to UNSHIFT
+const SHIFT = 8; // scale, x, y: of the entries up to UNSHIFT; with a scale of 1 they are a copy, which is blended
 const UNSHIFT = 9;
 const POLYGON = 10; // colour, count of corners, x, y, ...: whole px, those of the corners included
 const DISC = 11; // colour, x, y, radius
@@ -48,6 +48,7 @@ export class Painter {
     this.x = 0;
     this.y = 0;
     this.stack = [];
+    this.copies = 0; // how many of the shifts that are open copy a picture onto another, which is blended
     this.rest = null; // of a list that takes longer than a turn may
   }
 
@@ -113,7 +114,7 @@ export class Painter {
       else context.fill();
     };
     if (wide) Object.assign(context, { lineWidth: wide, lineCap: "round", lineJoin: "round" });
-    if (this.colour % 256 !== 255 && this.stack.length === 0) {
+    if (this.colour % 256 !== 255 && this.copies === 0) {
       // A shape takes the place of what is there, also where one can look through it.
       context.globalCompositeOperation = "destination-out";
       draw("black");
@@ -189,7 +190,7 @@ export class Painter {
   fillBox(colour, left, top, width, height) {
     const { context, scale, x, y } = this;
     const box = [left * scale + x, top * scale + y, width * scale, height * scale];
-    if (colour % 256 !== 255 && this.stack.length === 0) context.clearRect(...box);
+    if (colour % 256 !== 255 && this.copies === 0) context.clearRect(...box);
     if (colour % 256 === 0) return;
     context.fillStyle = colourOf(colour);
     context.fillRect(...box);
@@ -260,7 +261,8 @@ export class Painter {
   }
 
   shift(scale, x, y) {
-    this.stack.push([this.scale, this.x, this.y]);
+    this.stack.push([this.scale, this.x, this.y, this.copies]);
+    if (scale === 1) this.copies += 1;
     [this.x, this.y] = [x * this.scale + this.x, y * this.scale + this.y];
     this.scale *= scale;
   }
@@ -314,7 +316,7 @@ export class Painter {
       }
       if (this.stack.length <= 1) this.finish();
       if (kind === UNSHIFT) {
-        [this.scale, this.x, this.y] = this.stack.pop();
+        [this.scale, this.x, this.y, this.copies] = this.stack.pop();
         at += 1;
         continue;
       }
