@@ -47,8 +47,9 @@ export class Sounds {
     return this.audio && this.buffers[sound] ? this.buffers[sound].duration : 0;
   }
 
-  // Browsers allow sound only after the player pressed something.
+  // Browsers allow sound only after the player pressed something, which Escape and the start of a touch are not.
   unlock() {
+    if (!navigator.userActivation.hasBeenActive) return;
     if (!this.audio) this.audio = new AudioContext();
     if (this.audio.state === "suspended" && !this.muted) this.audio.resume();
   }
