@@ -100,7 +100,7 @@ class Canvas:
         return rect
 
 
-def draw_limb(surface: pygame.Surface, colour: Colour, points: Sequence[Point], radii: Sequence[float]) -> None:
+def _drawn_limb(surface: pygame.Surface, colour: Colour, points: Sequence[Point], radii: Sequence[float]) -> None:
     """A line through points (px), round at each of them and as thick there as its radius says; no edge is smoothed."""
     circle, polygon = pygame.draw.circle, pygame.draw.polygon
     before = None
@@ -115,6 +115,10 @@ def draw_limb(surface: pygame.Surface, colour: Colour, points: Sequence[Point], 
                 ax, ay, cx, cy = nx * begin, ny * begin, nx * radius, ny * radius
                 polygon(surface, colour, ((bx + ax, by + ay), (x + cx, y + cy), (x - cx, y - cy), (bx - ax, by - ay)))
         before = x, y, radius
+
+
+draw_limb = getattr(pygame.draw, "limb", _drawn_limb)
+"""The page has it as one shape: a text is made of some hundred, a figure of twenty."""
 
 
 class Lens(Canvas):

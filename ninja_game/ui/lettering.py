@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Sequence
 from functools import lru_cache
 from math import ceil, cos, floor, radians, sin
 from typing import NamedTuple
@@ -155,14 +154,6 @@ def _arc(x: float, y: float, rx: float, ry: float, start: float, end: float) -> 
     return [(x + rx * cos(angle), y + ry * sin(angle)) for angle in angles]
 
 
-def _drawn_round_line(surface: pygame.Surface, colour: Colour, points: Sequence[Point], radius: float) -> None:
-    draw_limb(surface, colour, points, [radius] * len(points))
-
-
-_round_line = getattr(pygame.draw, "round_line", _drawn_round_line)
-"""The page has it as one shape: a text is made of some hundred."""
-
-
 class StrokeFont:
     """Letters of one size (px) and weight."""
 
@@ -205,7 +196,7 @@ class StrokeFont:
             points = [(left + x * zoom, top + y * zoom) for x, y in line]
             # Small dots would be lost.
             radius = max(width * 0.66, 0.85 * _FINE) if len(points) == 1 else width / 2
-            _round_line(fine, colour, points, radius)
+            draw_limb(fine, colour, points, [radius] * len(points))
         return pygame.transform.smoothscale(fine, size)
 
     def render(self, text: str, colour: Colour) -> pygame.Surface:

@@ -4,7 +4,7 @@ const CANVAS = 2; // canvas, width, height, opaque: a new canvas, which becomes 
 const FREE = 3; // canvas: no longer needed
 const CLIP = 4; // x, y, width, height
 const IMAGE = 5; // canvas, x, y, width, height, to x, to y, opacity; below 0: take away
-const STRETCH = 6; // canvas, width, height, to width, to height, opacity
+const STRETCH = 6; // canvas, width, height, to width, to height
 const FILL = 7; // colour, x, y, width, height: in the place of what is there
 const SHIFT = 8; // scale, x, y: of the entries up to UNSHIFT; with a scale of 1 they are a copy, which is blended
 const UNSHIFT = 9;
@@ -15,6 +15,7 @@ const LINE = 13; // colour, x, y, to x, to y, width: across or down, whichever t
 const FRAME = 14; // colour, x, y, width, height, line width (0: filled), corner radius
 const TEXT = 15; // colour, text, size, height
 const STROKE = 16; // colour, count of points, width, x, y, ...: round at its ends and bends
+const LIMB = 17; // colour, count of points, x, y, radius, ...: the same, of a width that changes
 
 const SCREEN = 1;
 const GRAIN = 32; // sizes of canvases are multiples of it, so that freed ones fit again
@@ -187,6 +188,22 @@ export class Painter {
     for (let k = at; k < at + 2 * count; k += 2) context.lineTo(list[k] * scale + x, list[k + 1] * scale + y);
   }
 
+  // Points at list[at...], whole px as ui/canvas.py has it where there is no such shape.
+  limb(list, at, count) {
+    for (let k = at; k < at + 3 * count; k += 3) {
+      const [x, y, radius] = [list[k], list[k + 1], list[k + 2]];
+      if (radius >= 1) this.disc(Math.trunc(x), Math.trunc(y), Math.trunc(radius));
+      if (k === at) continue;
+      const [bx, by, before] = [list[k - 3], list[k - 2], list[k - 1]];
+      const length = Math.hypot(x - bx, y - by);
+      if (length === 0) continue;
+      const [nx, ny] = [(by - y) / length, (x - bx) / length];
+      const [ax, ay, cx, cy] = [nx * before, ny * before, nx * radius, ny * radius];
+      const corners = [bx + ax, by + ay, x + cx, y + cy, x - cx, y - cy, bx - ax, by - ay];
+      this.polygon(corners.map(Math.trunc), 0, 4, 0.5);
+    }
+  }
+
   fillBox(colour, left, top, width, height) {
     const { context, scale, x, y } = this;
     const box = [left * scale + x, top * scale + y, width * scale, height * scale];
@@ -226,15 +243,13 @@ export class Painter {
   }
 
   // Larger as pygame does it: the first px lies on the first one, and between two there is a line.
-  stretch(source, width, height, toWidth, toHeight, opacity) {
+  stretch(source, width, height, toWidth, toHeight) {
     const { context } = this;
     const larger = toWidth > width && height > 1;
     const from = (few, many) => (larger ? [(1 - (few - 1) / many) / 2, few - 1] : [0, few]);
     const [[x, wide], [y, high]] = [from(width, toWidth), from(height, toHeight)];
-    context.globalAlpha = opacity;
     context.imageSmoothingQuality = larger ? "low" : "high";
     context.drawImage(source, x, y, wide, high, 0, 0, toWidth, toHeight);
-    context.globalAlpha = 1;
   }
 
   clip(x, y, width, height) {
@@ -308,6 +323,12 @@ export class Painter {
         at += 4 + 2 * list[at + 2];
         continue;
       }
+      if (kind === LIMB) {
+        this.begin(list[at + 1]);
+        this.limb(list, at + 3, list[at + 2]);
+        at += 3 + 3 * list[at + 2];
+        continue;
+      }
       if (kind === SHIFT) {
         if (this.stack.length === 0) this.finish();
         this.shift(list[at + 1], list[at + 2], list[at + 3]);
@@ -344,8 +365,8 @@ export class Painter {
           at += 9;
           break;
         case STRETCH:
-          this.stretch(sheets[list[at + 1]].canvas, ...list.slice(at + 2, at + 7));
-          at += 7;
+          this.stretch(sheets[list[at + 1]].canvas, ...list.slice(at + 2, at + 6));
+          at += 6;
           break;
         case FILL:
           this.fillBox(list[at + 1], list[at + 2], list[at + 3], list[at + 4], list[at + 5]);

@@ -9,7 +9,7 @@ from typing import Any
 
 from .color import packed
 from .rect import Rect, make
-from .surface import DISC, FILL, FRAME, LINE, POLYGON, RING, STROKE, Surface
+from .surface import DISC, FILL, FRAME, LIMB, LINE, POLYGON, RING, STROKE, Surface
 
 
 def _clipped(surface: Surface, x: int, y: int, right: int, bottom: int) -> Rect:
@@ -31,12 +31,15 @@ def polygon(surface: Surface, color: Any, points: Sequence[Any]) -> Rect:
     return _clipped(surface, min(xs), min(ys), max(xs) + 1, max(ys) + 1)
 
 
-def round_line(surface: Surface, color: Any, points: Sequence[Any], radius: float) -> None:
-    """A line with round ends and bends, which pygame-ce does not have."""
+def limb(surface: Surface, color: Any, points: Sequence[Any], radii: Sequence[float]) -> None:
+    """A line through points, round and as thick at each as its radius says, which pygame-ce does not have."""
     xs, ys = zip(*points, strict=True)
-    surface.entries().extend((STROKE, packed(color), len(xs), 2 * radius, *chain.from_iterable(points)))
-    box = [min(xs) - radius, min(ys) - radius, max(xs) + radius + 1, max(ys) + radius + 1]
-    _clipped(surface, *map(floor, box))
+    most = max(radii)
+    if min(radii) == most:
+        surface.entries().extend((STROKE, packed(color), len(xs), 2 * most, *chain.from_iterable(points)))
+    else:
+        surface.entries().extend((LIMB, packed(color), len(xs), *chain.from_iterable(zip(xs, ys, radii, strict=True))))
+    _clipped(surface, *map(floor, (min(xs) - most, min(ys) - most, max(xs) + most + 1, max(ys) + most + 1)))
 
 
 def circle(surface: Surface, color: Any, center: Any, radius: float, width: int = 0, smooth: int = 0) -> Rect:

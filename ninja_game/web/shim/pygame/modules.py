@@ -42,7 +42,7 @@ def _flip(rectangles: Any = None) -> None:
     """Paint what was drawn since the last time."""
     address, count = LIST.numbers.buffer_info()
     LINK.page.paint(address, count)
-    LIST.clear()
+    del LIST.numbers[:]
 
 
 display = SimpleNamespace(

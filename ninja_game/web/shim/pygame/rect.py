@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import reduce
 from typing import Any
 
@@ -37,10 +37,6 @@ class Rect:
     def __bool__(self) -> bool:
         return self.w != 0 and self.h != 0
 
-    left = property(lambda self: self.x, lambda self, value: setattr(self, "x", int(value)))
-    top = property(lambda self: self.y, lambda self, value: setattr(self, "y", int(value)))
-    width = property(lambda self: self.w, lambda self, value: setattr(self, "w", int(value)))
-    height = property(lambda self: self.h, lambda self, value: setattr(self, "h", int(value)))
     right = property(lambda self: self.x + self.w, lambda self, value: setattr(self, "x", int(value) - self.w))
     bottom = property(lambda self: self.y + self.h, lambda self, value: setattr(self, "y", int(value) - self.h))
     size = property(lambda self: (self.w, self.h))
@@ -52,7 +48,9 @@ class Rect:
     def move(self, x: Any, y: float = 0) -> Rect:
         if x.__class__ is tuple:
             x, y = x
-        return make(self.x + int(x), self.y + int(y), self.w, self.h)
+        rect = _new(Rect)
+        rect.x, rect.y, rect.w, rect.h = self.x + int(x), self.y + int(y), self.w, self.h
+        return rect
 
     def inflate(self, x: float, y: float) -> Rect:
         x, y = int(x), int(y)
@@ -77,14 +75,13 @@ class Rect:
             return make(self.x, self.y, 0, 0)
         return make(x, y, right - x, bottom - y)
 
-    def colliderect(self, other: Any) -> bool:
-        left, top, w, h = other
-        if not (w and h and self.w and self.h):
-            return False
-        return bool(self.x < left + w and left < self.x + self.w and self.y < top + h and top < self.y + self.h)
+    def colliderect(self, other: Rect) -> bool:
+        return bool(self.collidelistall((other,)))
 
-    def collidelistall(self, others: Any) -> list[int]:
-        return [k for k, other in enumerate(others) if self.colliderect(other)]
+    def collidelistall(self, others: Sequence[Rect]) -> list[int]:
+        x, y, right, bottom = self.x, self.y, self.x + self.w, self.y + self.h
+        boxes = enumerate((each.x, each.y, each.w, each.h) for each in others) if self else ()
+        return [k for k, (a, b, w, h) in boxes if a < right and x < a + w and b < bottom and y < b + h and w and h]
 
     def collidelist(self, others: Any) -> int:
         return next(iter(self.collidelistall(others)), -1)
@@ -96,11 +93,13 @@ class Rect:
 
     def contains(self, other: Any) -> bool:
         left, top, w, h = other
-        return bool(
-            self.x <= left and self.y <= top and self.x + self.w >= left + w and self.y + self.h >= top + h
-            and self.x + self.w > left and self.y + self.h > top
-        )  # fmt: skip
+        across = self.x <= left < self.x + self.w >= left + w
+        return bool(across and self.y <= top < self.y + self.h >= top + h)
 
+
+# Other names of the same places in memory, which are read without a call.
+for _name, _slot in ("left", "x"), ("top", "y"), ("width", "w"), ("height", "h"):
+    setattr(Rect, _name, getattr(Rect, _slot))
 
 _new = Rect.__new__
 

@@ -20,9 +20,8 @@ LONGEST_COPY, LARGEST_COPY, ONE_SHAPE, A_PART = 3000, 65536, 8, 160
 """Fresh surfaces of at most this many numbers and px, or of one simple shape, are copied to where they are blitted. Of
 a fresh one they are parts, letters of a text say, as often as they are blitted there if their numbers are that few."""
 
-(TARGET, CANVAS, FREE, CLIP, IMAGE, STRETCH, FILL, SHIFT, UNSHIFT, POLYGON, DISC, RING, LINE, FRAME, TEXT, STROKE) = (
-    range(1, 17)
-)
+TARGET, CANVAS, FREE, CLIP, IMAGE, STRETCH, FILL, SHIFT, UNSHIFT = range(1, 10)
+POLYGON, DISC, RING, LINE, FRAME, TEXT, STROKE, LIMB = range(10, 18)
 """Kinds of entries, each followed by its numbers (painter.js says which)."""
 
 SCREEN = 1
@@ -51,9 +50,6 @@ class DisplayList:
         self.freed.append(number)
         if self.target == number:
             self.target = 0
-
-    def clear(self) -> None:
-        del self.numbers[:]
 
 
 LIST = DisplayList()
@@ -187,9 +183,10 @@ class Surface:
         w, h = source.w, source.h
         if area is not None:
             x, y, w, h = (area.x, area.y, area.w, area.h) if area.__class__ is Rect else Rect(area)
-            left, top, w, h = left + max(0, -x), top + max(0, -y), w + min(0, x), h + min(0, y)
-            x, y = max(0, x), max(0, y)
-            w, h = min(w, source.w - x), min(h, source.h - y)
+            if x < 0 or y < 0 or x + w > source.w or y + h > source.h:
+                left, top, w, h = left + max(0, -x), top + max(0, -y), w + min(0, x), h + min(0, y)
+                x, y = max(0, x), max(0, y)
+                w, h = min(w, source.w - x), min(h, source.h - y)
         x1, y1, x2, y2 = self._bounds
         cut = left < x1 or top < y1 or left + w > x2 or top + h > y2
         if cut:
@@ -236,5 +233,6 @@ class Surface:
         else:
             number = self.settle()
             small.settle()
-            small.entries().extend((STRETCH, number, self.w, self.h, small.w, small.h, self.opacity))
+            small.entries().extend((STRETCH, number, self.w, self.h, small.w, small.h))
+            small.opacity = self.opacity
         return small
