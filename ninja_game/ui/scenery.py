@@ -99,7 +99,7 @@ def _strata(sheet: pygame.Surface, numbers: Numbers, slant: float = 0.1, wave: f
     """Layers of earth, one on another."""
     top, start = -160.0, 2 * pi * next(numbers)
     while top < _HIGH:
-        _ridge(sheet, _white(numbers), partial(_layer, top, start, slant, wave))
+        _ridge(sheet, _white(numbers), lambda x, top=top: top + slant * x + wave * sin(start + top / 60 + x / 45))
         top += 9 + 26 * next(numbers)
     for _ in range(70):
         # Stones lie in it, and cracks run down from some of them.

@@ -225,8 +225,25 @@ def test_the_pace_is_right_on_every_display(rate: float, limit: int, page: Any) 
     assert max(passed) <= 2.1 * 1000 / min(rate, limit or rate)
 
 
+UNLOCKED = """
+async (active) => {
+  const { Sounds } = await import(app + "sound.js");
+  const sounds = new Sounds();
+  Object.defineProperty(navigator, "userActivation", { value: { hasBeenActive: active }, configurable: true });
+  sounds.unlock();
+  delete navigator.userActivation;
+  return sounds.audio !== null;
+}
+"""
+
+
+def test_the_sound_device_waits_for_a_press_that_the_browser_counts(page: Any) -> None:
+    """Escape and the start of a touch are none: a device made then is refused, with a warning."""
+    assert [page.evaluate(UNLOCKED, active) for active in (False, True)] == [False, True]
+
+
 def test_a_sound_is_heard_as_long_as_it_lasts(page: Any) -> None:
-    page.keyboard.press("Escape")
+    page.keyboard.press("x")
     page.evaluate(
         """text => { python.runPython(text); }""",
         """

@@ -17,8 +17,8 @@ from tests.support.page_scenes import Scene, scenes, show_scene
 from tests.support.web_page import BUSY, SCENES, SIZE, run_in
 from tools.measure.busy import BusyRun, Restless, busy_level
 
-MOST = 1.0
-"""Mean difference of a channel, of 255: soft light along rock is made small by other means in a page."""
+MOST = 1.6
+"""Mean difference of a channel, of 255: a page rounds faint layers down, a desktop up, so that rock is darker there."""
 MOST_IN_A_CELL = 9.0
 """The same of a square of 24 px, of rock with a stone in it say; most sprites that are missing differ by more."""
 

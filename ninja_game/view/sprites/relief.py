@@ -15,9 +15,6 @@ how strong it is. The last lights rock near its other edges too, so that it is d
 GRAIN = {"bright": 13, "outline": 18}
 """By how much the rock's marks of an ink differ from it, of 255 a channel: never enough to be taken for a thing."""
 
-STRIP = 128
-"""Height of the strips in which edges are drawn, px."""
-
 SHADOW, SHADOW_AT = 76, (4, 6)
 """The shadow's strength, and where it falls, logical px."""
 

@@ -38,8 +38,7 @@ def limb(surface: Surface, color: Any, points: Sequence[Any], radii: Sequence[fl
     if min(radii) == most:
         surface.entries().extend((STROKE, packed(color), len(xs), 2 * most, *chain.from_iterable(points)))
     else:
-        each = chain.from_iterable(zip(xs, ys, radii, strict=True))
-        surface.entries().extend((LIMB, packed(color), len(xs), *each))
+        surface.entries().extend((LIMB, packed(color), len(xs), *chain.from_iterable(zip(xs, ys, radii, strict=True))))
     _clipped(surface, *map(floor, (min(xs) - most, min(ys) - most, max(xs) + most + 1, max(ys) + most + 1)))
 
 
