@@ -29,10 +29,10 @@ from ninja_game.web.board.collect import MOST_RECORDS
 from ninja_game.web.board.pages import BoardPages
 from ninja_game.web.board.ranking import Ranking
 from ninja_game.web.board.report import DATE, read_board
-from ninja_game.web.board.rules import FASTEST, HIGHEST
+from ninja_game.web.board.rules import FASTEST, HIGHEST, Category
 from ninja_game.web.board.runs import ASSISTED, PLAYED, Key, ValidatedRuns, judge
 from ninja_game.web.pages.frame import POLICY, tag
-from ninja_game.web.pages.gallery import published_levels
+from ninja_game.web.pages.gallery import page_name, published_levels
 from tests.support.forgeries import FORGERIES, GOLD_LATER, PRACTISED, WALKING, record, replay
 from tests.support.own_pack import PACK
 from tests.support.samples import SPIKED, WALK, WALK_END
@@ -133,6 +133,20 @@ def test_a_record_says_by_how_much_it_is_better(runs: Path, levels: Path, tmp_pa
         "Fastest: 0.700 s, first", "Highest score: 91.300 points, first",
     ]  # fmt: skip
     assert newest.count("<tr>") == 3, "a new record fills one row"
+    assert re.findall("20.. UTC|<td>([0-9-]+ [0-9:]+ UTC)", newest) == ["1970-01-03 00:00 UTC", "1970-01-02 00:00 UTC"]
+
+
+def test_who_has_only_assisted_runs_is_among_the_players_too(runs: Path, levels: Path, tmp_path: Path) -> None:
+    put(runs, "a.txt", slow_walk(author="Ann"))
+    put(runs, "b.txt", replay(author="Bot", made=Made(edits=7)))
+    pages = board_of(runs, levels, tmp_path / "site")
+    index, played, assisted = (
+        (pages / f"{name}.html").read_text("utf-8") for name in ("index", "players", "assisted")
+    )
+    for ladder, player in (("played", "Ann"), ("assisted", "Bot")):
+        assert f">{player}</a>" in index.partition(f"<h2>Players, {ladder}</h2>")[2].partition("</table>")[0]
+    assert '<p><a href="assisted.html">Players, assisted</a></p>' in played
+    assert '<p><a href="players.html">Players, played</a></p>' in assisted
 
 
 def test_a_better_time_goes_down_and_a_better_score_up(runs: Path, levels: Path, tmp_path: Path) -> None:
@@ -148,12 +162,22 @@ def test_a_better_time_goes_down_and_a_better_score_up(runs: Path, levels: Path,
 def test_tables_of_a_level_have_no_empty_column_and_say_a_remark_once(runs: Path, levels: Path, tmp_path: Path) -> None:
     put(runs, "ann.txt", slow_walk(40, author="Ann"))
     put(runs, "bob.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Bob"))
-    page = (board_of(runs, levels, tmp_path / "site") / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
+    put(runs, "cid.txt", slow_walk(90, author="Cid"))
+    shown, slowest = published_levels(levels), Category("Slowest", ("-ticks",))
+    ranking = Ranking(judge(runs, shown, jobs=1), shown, (FASTEST, HIGHEST, slowest))
+    BoardPages(tmp_path / "site", ranking).write()
+    page = (tmp_path / "site" / "board" / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
     tables = page.split("<caption>Best run of each player</caption>")[1:]
     heads = [re.findall("<th [^>]*>([^<]+)", each.partition("</thead>")[0]) for each in tables]
-    assert heads == [
-        ["Place", "Player", unit, "Watch", "Share", "Gold", "Made", "Remark"] for unit in ("Time", "Score")
-    ]
+    others = ["Watch", "Share", "Gold", "Made", "Remark"]
+    assert heads == [["Place", "Player", *units, *others] for units in (["Time", "Score"], ["Time"])], "same order, once"
+    assert re.findall('<a href="#([^"]+)">([^<]+)</a>', page.partition('aria-label="On this page"')[2]) == [
+        ("ranks-1", "Fastest: Ann, 1.575"), ("ranks-1", "Highest score: Ann, 90.425"), ("ranks-2", "Slowest: Cid, 2.825"),
+        ("paths", "Paths"), ("records", "Records"), ("splits", "Splits"),
+    ]  # fmt: skip
+    anchors = re.findall('<section id="([^"]+)">', page)
+    assert anchors == ["paths", "ranks-1", "ranks-2", "records", "splits"], "paths come first"
+    assert page.count("<details>") == 1
     said = "64 of its 65 ticks have the inputs of"
     assert [(each.count(said), each.count("as above")) for each in tables] == [(1, 0), (0, 1)]
     assert "Sum of the fastest segments, each from the row above: 1.575 s." in page
@@ -320,11 +344,11 @@ def test_a_near_copy_stays_one_where_the_first_run_is_withdrawn_and_comes_back(
     put(runs, "z.txt", hers)
     for _ in range(2):
         assert ranked() == [(1, "Ann", ""), (2, "Hal", said.replace("ann.txt", "z.txt"))]
-    data.write_text(re.sub(', "near": "[^"]*"', "", data.read_text("utf-8")), "utf-8")
-    (runs / "z.txt").unlink()
-    check(runs, levels, "--json", str(data))
-    data.write_text(re.sub(', "near": "[^"]*"', "", data.read_text("utf-8")), "utf-8")
-    put(runs, "z.txt", hers)
+    for change in ((runs / "z.txt").unlink, lambda: put(runs, "z.txt", hers)):
+        old = re.sub(', "near": "[^"]*"', "", data.read_text("utf-8"))
+        data.write_text(re.sub('"added": "[^"]*"', '"added": "2026-01-31T12:00:00Z"', old), "utf-8")
+        change()
+        check(runs, levels, "--json", str(data))
     assert ranked()[0] == (1, "Ann", ""), "also where a ledger of an earlier version kept no remark"
 
 
@@ -372,10 +396,14 @@ def test_medals_stand_where_the_time_ranks_and_every_record_that_fell_is_told(
         put(runs, f"{number}.txt", write_replay(record_replay(recording.level, inputs, author=f"Ann {number}")))
     pages = [path.read_text("utf-8") for path in board_of(runs, PACK, tmp_path / "site").glob("levels/*.html")]
     (page,) = (each for each in pages if "The first 2 runs" in each)
-    fastest, highest = (
-        page.partition(f"<h2>{name}</h2>")[2].partition("</table>")[0] for name in ("Fastest", "Highest score")
+    shown = published_levels(PACK)
+    BoardPages(tmp_path / "other", Ranking(judge(runs, shown, jobs=1), shown, (HIGHEST,))).write()
+    texts = page, (tmp_path / "other" / "board" / page_name(level_digest(recording.level))).read_text("utf-8")
+    names = "Fastest; Highest score", "Highest score"
+    both, highest = (
+        text.partition(f"<h2>{name}</h2>")[2].partition("</table>")[0] for text, name in zip(texts, names, strict=True)
     )
-    assert ("medal" in fastest, "medal" in highest) == (True, False)
+    assert ("medal" in both, "medal" in highest, "Ann 1" in highest) == (True, False, True)
     assert re.findall("How the record (f?r?[eo][ls][le]: [^<]+)", page) == ["fell: Fastest", "rose: Highest score"]
     assert "The first 2 runs: Fastest" in page
 

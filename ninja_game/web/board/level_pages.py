@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from datetime import datetime
 from itertools import compress, pairwise
@@ -23,6 +24,8 @@ from ninja_game.web.pages.gallery import level_page, page_name, picture, picture
 
 FIRST, TOGETHER, MOST_SPLITS = 10, 5, 60
 """Rows of a table; runs side by side; rows of splits, and where there were more, gold is left out."""
+
+PATHS, RECORDS, SPLITS = "paths", "records", "splits"
 
 NEAR = "A run that is nearly somebody else's is never first, until the keeper of the board confirms it."
 
@@ -62,36 +65,53 @@ class LevelPages(Parts):
         link = tag("p", tag("a", said, href=f"{entry.digest[:16]}-runs.html"))
         part, ranked = next(iter(tables.items()))
         runs = [each.run for each in ranked[:TOGETHER]]
-        beside = self._side_by_side(runs, self.part_name(part)) if len(runs) > 1 else None
+        over, beside = self._side_by_side(runs, self.part_name(part)) if len(runs) > 1 else (None, None)
         fell = [each for each in tables if len(self.ranking.history[entry.digest, each]) > (each != part)]
-        records = [self._progression(entry, each) for each in fell]
+        first, *others = [self._progression(entry, each, RECORDS * (not at)) for at, each in enumerate(fell)] or [None]
+        folded = tag("details", tag("summary", "How the other records went"), *others) if others else None
+        same: dict[str, dict[Part, list[Ranked]]] = defaultdict(dict)
+        for each, rows in tables.items():
+            same[f"{each[0]} {[(row.place, row.run.key) for row in rows[:FIRST]]}"][each] = rows[:FIRST]
         told: set[str] = set()
-        shown = [self._table(part, ranked, told) for part, ranked in tables.items()]
-        near = any(each.run.near for ranked in tables.values() for each in ranked[:FIRST])
-        return joined(*shown, tag("p", NEAR) if near else None, link, *records, beside)
+        shown, leads = list[Content](), list[tuple[str, str]]()
+        for number, parts in enumerate(same.values(), 1):
+            shown.append(self._table(parts, told, anchor := f"ranks-{number}"))
+            for each, (best, *_) in parts.items():
+                leads.append((anchor, f"{self.part_name(each)}: {self.name(best.run.player)}, {each[1].text(best.values[0])}"))
+        near = any(row.run.near for rows in tables.values() for row in rows[:FIRST])
+        there = (PATHS, over), (RECORDS, first), (SPLITS, beside)
+        leads += [(anchor, anchor.capitalize()) for anchor, content in there if content]
+        links = [tag("li", tag("a", text, href=f"#{anchor}")) for anchor, text in leads]
+        contents = tag("nav", tag("ul", *links), class_="contents", aria_label="On this page")
+        return joined(contents, over, *shown, tag("p", NEAR) if near else None, link, first, folded, beside)
 
-    def _table(self, part: Part, ranked: Sequence[Ranked], told: set[str]) -> Markup:
-        """A table without columns that are empty. ``told``: remarks that a table above has."""
-        rows = []
-        for each in ranked[:FIRST]:
-            run = each.run
+    def _table(self, parts: Mapping[Part, Sequence[Ranked]], told: set[str], anchor: str) -> Markup:
+        """A table of categories with the same runs in the same order, without columns that are empty.
+
+        ``told``: remarks that a table above has.
+        """
+        rows, categories = [], [category for _, category in parts]
+        for same in zip(*parts.values(), strict=True):
+            place, run = same[0].place, same[0].run
             shown = replace(run, remark="as above") if run.remark in told else run
-            rows.append(
-                (each.place, *self.run(shown, part[1].text(each.values[0]), timed=part[1].unit == FASTEST.unit))
-            )
+            results = [category.text(each.values[0]) for category, each in zip(categories, same, strict=True)]
+            timed = any(category.unit == FASTEST.unit for category in categories)
+            rows.append((place, *self.run(shown, *results, timed=timed)))
             told |= {run.remark} - {""}
-        heads = ("Place", "Player", part[1].unit, *RUN_HEADS)
+        units = [category.unit for category in categories]
+        names = units if len({*units}) == len(units) else [category.name for category in categories]
+        heads = ("Place", "Player", *names, *RUN_HEADS)
         filled = [any(cell != "" for cell in column) for column in zip(*rows, strict=True)]
-        lines = [compress(row, filled) for row in rows]
-        return section(self.part_name(part), table("Best run of each player", compress(heads, filled), lines))
+        lines, title = [compress(row, filled) for row in rows], "; ".join(map(self.part_name, parts))
+        return section(title, table("Best run of each player", compress(heads, filled), lines), anchor=anchor)
 
-    def _progression(self, entry: Entry, part: Part) -> Content:
+    def _progression(self, entry: Entry, part: Part, anchor: str) -> Content:
         category, runs = part[1], self.ranking.history[entry.digest, part]
         moved = "rose" if category.rising else "fell"
         numbers = [self.ranking.number(category, run) for run in runs]
         better = ["", *(category.difference(before - now) for before, now in pairwise(numbers))]
         rows = [
-            (run.day, self.player_link(run.player, UP), category.text(number), gain, self.watch([run], UP))
+            (run.moment, self.player_link(run.player, UP), category.text(number), gain, self.watch([run], UP))
             for run, number, gain in zip(runs, numbers, better, strict=True)
         ]
         chart = None
@@ -105,10 +125,10 @@ class LevelPages(Parts):
             chart = steps(list(zip(moments, heights, strict=True)), start, end, said)
         heads = ("Date", "Player", category.unit, "Better by", "Watch")
         title = f"How the record {moved}: {self.part_name(part)}"
-        return section(title, chart, table("Newest first", heads, rows[: -FIRST - 1 : -1]))
+        return section(title, chart, table("Newest first", heads, rows[: -FIRST - 1 : -1]), anchor=anchor or None)
 
-    def _side_by_side(self, runs: Sequence[Run], name: str) -> Markup:
-        """The first runs of what is called so: their paths, any two of them, their splits."""
+    def _side_by_side(self, runs: Sequence[Run], name: str) -> tuple[Markup, Markup]:
+        """The first runs of what is called so: their paths; any two of them, and their splits."""
         names = [self.name(run.player) for run in runs]
         found = [run_splits(Recording(run.entry.named.level, run.replay), memory="auto") for run in runs]
         known = [
@@ -125,8 +145,9 @@ class LevelPages(Parts):
         lines = [(split_name(str(row.split)), *_cells(row)) for row in rows]
         splits = table("Seconds; later than the first: +", ("Split", names[0], "Fastest segment", *names[1:]), lines)
         best = tag("p", f"Sum of the fastest segments, each from the row above: {seconds_text(sum_of_best(rows))} s.")
-        first = section(f"The first {len(runs)} runs: {name}", together, drawn)
-        return joined(first, section("Any two of them", races), section("Splits", splits, best))
+        first = section(f"The first {len(runs)} runs: {name}", together, drawn, anchor=PATHS)
+        pairs_of = section(f"Any two of the first {len(runs)}", races)
+        return first, joined(pairs_of, section("Splits", splits, best, anchor=SPLITS))
 
     def _pair(self, run: Run, other: Run) -> Content:
         return "" if run is other else self.watch([run, other], UP, signed(run.tick - other.tick))

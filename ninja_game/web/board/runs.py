@@ -152,6 +152,11 @@ class Run:
         return self.added.partition("T")[0]
 
     @property
+    def moment(self) -> str:
+        """The date of ``added`` with the time of day."""
+        return self.added and f"{self.added[:16].replace('T', ' ')} UTC"
+
+    @property
     def ladder(self) -> str:
         """Where it is ranked."""
         return ASSISTED if self.assisted else PLAYED
