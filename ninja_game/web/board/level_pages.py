@@ -25,7 +25,7 @@ from ninja_game.web.pages.gallery import level_page, page_name, picture, picture
 FIRST, TOGETHER, MOST_SPLITS = 10, 5, 60
 """Rows of a table; runs side by side; rows of splits, and where there were more, gold is left out."""
 
-PATHS, RECORDS, SPLITS = "paths", "records", "splits"
+RECORDS, SPLITS = "records", "splits"
 
 NEAR = "A run that is nearly somebody else's is never first, until the keeper of the board confirms it."
 
@@ -41,7 +41,8 @@ class LevelPages(Parts):
         about = [named.name, named.author, named.comment, entry.episode, repr(entry.pars), digest, self.ranking.ladders]
 
         def content() -> str:
-            return level_page(entry, {}, UP + self.game, self.deeper, self._runs(entry), site=self.site)
+            top, drawn, more = self._runs(entry)
+            return level_page(entry, {}, UP + self.game, self.deeper, more, site=self.site, top=top, drawn=drawn)
 
         self.pages.make(picture_name(digest), digest, lambda: picture(named.level))
         self.pages.make(page_name(digest), [about, told, rules, self.deeper, self.site], content)
@@ -57,15 +58,16 @@ class LevelPages(Parts):
             name, caption = f"levels/{digest[:16]}-runs", "All runs, the fastest first"
             self.list(name, entry.title, caption, heads, rows, tag("p", back), cells=cells)
 
-    def _runs(self, entry: Entry) -> Content:
+    def _runs(self, entry: Entry) -> tuple[Content, Content, Content]:
+        """What leads to the tables, the paths of the first runs over the level, and all that stands below."""
         tables = self.ranking.tables.get(entry.digest, {})
         if not tables:
-            return section("Runs", tag("p", "Nobody has passed this level here yet."))
+            return None, None, section("Runs", tag("p", "Nobody has passed this level here yet."))
         said = f"All runs: {len(self.ranking.by_level[entry.digest])}"
         link = tag("p", tag("a", said, href=f"{entry.digest[:16]}-runs.html"))
         part, ranked = next(iter(tables.items()))
         runs = [each.run for each in ranked[:TOGETHER]]
-        over, beside = self._side_by_side(runs, self.part_name(part)) if len(runs) > 1 else (None, None)
+        drawn, beside = self._side_by_side(runs, self.part_name(part)) if len(runs) > 1 else (None, None)
         fell = [each for each in tables if len(self.ranking.history[entry.digest, each]) > (each != part)]
         first, *others = [self._progression(entry, each, RECORDS * (not at)) for at, each in enumerate(fell)] or [None]
         folded = tag("details", tag("summary", "How the other records went"), *others) if others else None
@@ -77,13 +79,14 @@ class LevelPages(Parts):
         for number, parts in enumerate(same.values(), 1):
             shown.append(self._table(parts, told, anchor := f"ranks-{number}"))
             for each, (best, *_) in parts.items():
-                leads.append((anchor, f"{self.part_name(each)}: {self.name(best.run.player)}, {each[1].text(best.values[0])}"))
+                leader = f": {self.name(best.run.player)}, {each[1].text(best.values[0])}" if best.place == 1 else ""
+                leads.append((anchor, self.part_name(each) + leader))
         near = any(row.run.near for rows in tables.values() for row in rows[:FIRST])
-        there = (PATHS, over), (RECORDS, first), (SPLITS, beside)
+        there = (RECORDS, first), (SPLITS, beside)
         leads += [(anchor, anchor.capitalize()) for anchor, content in there if content]
         links = [tag("li", tag("a", text, href=f"#{anchor}")) for anchor, text in leads]
         contents = tag("nav", tag("ul", *links), class_="contents", aria_label="On this page")
-        return joined(contents, over, *shown, tag("p", NEAR) if near else None, link, first, folded, beside)
+        return contents, drawn, joined(*shown, tag("p", NEAR) if near else None, link, first, folded, beside)
 
     def _table(self, parts: Mapping[Part, Sequence[Ranked]], told: set[str], anchor: str) -> Markup:
         """A table of categories with the same runs in the same order, without columns that are empty.
@@ -98,8 +101,7 @@ class LevelPages(Parts):
             timed = any(category.unit == FASTEST.unit for category in categories)
             rows.append((place, *self.run(shown, *results, timed=timed)))
             told |= {run.remark} - {""}
-        units = [category.unit for category in categories]
-        names = units if len({*units}) == len(units) else [category.name for category in categories]
+        names = [category.name if len(parts) > 1 else category.unit for category in categories]
         heads = ("Place", "Player", *names, *RUN_HEADS)
         filled = [any(cell != "" for cell in column) for column in zip(*rows, strict=True)]
         lines, title = [compress(row, filled) for row in rows], "; ".join(map(self.part_name, parts))
@@ -145,9 +147,8 @@ class LevelPages(Parts):
         lines = [(split_name(str(row.split)), *_cells(row)) for row in rows]
         splits = table("Seconds; later than the first: +", ("Split", names[0], "Fastest segment", *names[1:]), lines)
         best = tag("p", f"Sum of the fastest segments, each from the row above: {seconds_text(sum_of_best(rows))} s.")
-        first = section(f"The first {len(runs)} runs: {name}", together, drawn, anchor=PATHS)
-        pairs_of = section(f"Any two of the first {len(runs)}", races)
-        return first, joined(pairs_of, section("Splits", splits, best, anchor=SPLITS))
+        drawn = joined(drawn, tag("p", f"The first {len(runs)} runs: {name}"), together)
+        return drawn, joined(section(f"Any two of the first {len(runs)}", races), section("Splits", splits, best, anchor=SPLITS))
 
     def _pair(self, run: Run, other: Run) -> Content:
         return "" if run is other else self.watch([run, other], UP, signed(run.tick - other.tick))

@@ -31,7 +31,7 @@ NEWEST, LEADING, CONTESTED = 30, 20, 10
 """Rows on the first page of records, players and levels."""
 
 FEED = "feed.xml"
-NEWEST_FIRST = "Newest first; those of one moment by file, the last name first"
+ONE_MOMENT = "Those of one moment go by their files, the last name first."
 BY_LEVELS = "By levels led, then by levels passed"
 WHY_REJECTED = {
     "practice": "Practice runs",
@@ -104,7 +104,7 @@ class BoardPages(LevelPages):
         ]  # fmt: skip
         heads = ("Level", "Watch", "Player", "Record", "Date")
         feed = tag("p", tag("a", "Feed of new records (Atom)", href=FEED))
-        newest = section("Newest records", table(NEWEST_FIRST, heads, rows), feed) if rows else None
+        newest = section("Newest records", table("Newest first", heads, rows), tag("p", ONE_MOMENT), feed) if rows else None
         leaders = [
             section(self._players_of(ladder), table(BY_LEVELS, self._heads(), map(self._standing, standings[:LEADING])))
             for ladder, standings in self.ranking.standings.items() if standings
