@@ -140,9 +140,7 @@ def test_who_has_only_assisted_runs_is_among_the_players_too(runs: Path, levels:
     put(runs, "a.txt", slow_walk(author="Ann"))
     put(runs, "b.txt", replay(author="Bot", made=Made(edits=7)))
     pages = board_of(runs, levels, tmp_path / "site")
-    index, played, assisted = (
-        (pages / f"{name}.html").read_text("utf-8") for name in ("index", "players", "assisted")
-    )
+    index, played, assisted = ((pages / f"{name}.html").read_text("utf-8") for name in ("index", "players", "assisted"))
     for ladder, player in (("played", "Ann"), ("assisted", "Bot")):
         assert f">{player}</a>" in index.partition(f"<h2>Players, {ladder}</h2>")[2].partition("</table>")[0]
     assert '<p><a href="assisted.html">Players, assisted</a></p>' in played
@@ -170,9 +168,12 @@ def test_tables_of_a_level_have_no_empty_column_and_say_a_remark_once(runs: Path
     tables = page.split("<caption>Best run of each player</caption>")[1:]
     heads = [re.findall("<th [^>]*>([^<]+)", each.partition("</thead>")[0]) for each in tables]
     others = ["Watch", "Share", "Gold", "Made", "Remark"]
-    assert heads == [["Place", "Player", *units, *others] for units in (["Fastest", "Highest score"], ["Time"])], "same order, once"
+    assert heads == [["Place", "Player", *units, *others] for units in (["Fastest", "Highest score"], ["Time"])], (
+        "same order, once"
+    )
     assert re.findall('<a href="#([^"]+)">([^<]+)</a>', page.partition('aria-label="On this page"')[2]) == [
-        ("ranks-1", "Fastest: Ann, 1.575"), ("ranks-1", "Highest score: Ann, 90.425"), ("ranks-2", "Slowest: Cid, 2.825"),
+        ("ranks-1", "Fastest: Ann, 1.575"), ("ranks-1", "Highest score: Ann, 90.425"),
+        ("ranks-2", "Slowest: Cid, 2.825"),
         ("records", "Records"), ("splits", "Splits"),
     ]  # fmt: skip
     assert re.findall('<section id="([^"]+)">', page) == ["ranks-1", "ranks-2", "records", "splits"]

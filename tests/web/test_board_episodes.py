@@ -70,10 +70,14 @@ def test_a_whole_episode_is_ranked_and_its_levels_count_too(folder: Path, tmp_pa
     (tmp_path / "rules.toml").write_text('[[category]]\nname = "Most"\nrank = ["-score"]\nepisodes = true\n')
     board(folder, PACK, "--site", str(tmp_path / "most"), "--rules", str(tmp_path / "rules.toml"))
     heads = [
-        re.findall("<th[^>]*>([^<]+)", (tmp_path / out / "board" / "episodes.html").read_text().partition("</thead>")[0])
+        re.findall(
+            "<th[^>]*>([^<]+)", (tmp_path / out / "board" / "episodes.html").read_text().partition("</thead>")[0]
+        )
         for out in ("site", "most")
     ]
-    assert heads == [[*EPISODE_HEADS], [each for each in EPISODE_HEADS if each != "Sum"]], "a sum of scores is no number"
+    assert heads == [[*EPISODE_HEADS], [each for each in EPISODE_HEADS if each != "Sum"]], (
+        "a sum of scores is no number"
+    )
     assert "Score: 90 s, and 2 s for each piece of gold" in page
     assert f"{(runs[4].lifetime + 80 * runs[4].replay.gold - runs[4].replay.final_tick) / 40:.3f}" in page
 

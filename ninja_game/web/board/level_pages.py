@@ -26,7 +26,6 @@ FIRST, TOGETHER, MOST_SPLITS = 10, 5, 60
 """Rows of a table; runs side by side; rows of splits, and where there were more, gold is left out."""
 
 RECORDS, SPLITS = "records", "splits"
-
 NEAR = "A run that is nearly somebody else's is never first, until the keeper of the board confirms it."
 
 
@@ -36,7 +35,7 @@ class LevelPages(Parts):
     def level(self, entry: Entry) -> None:
         """A level's page, and the list of all its runs."""
         digest, named, runs = entry.digest, entry.named, self.ranking.by_level.get(entry.digest, [])
-        told: list[list[Any]] = [[self.stems[run.key], run.day, run.remark, run.near, run.tick] for run in runs]
+        told: list[list[Any]] = [[self.stems[run.key], run.added, run.remark, run.near, run.tick] for run in runs]
         rules = [[each.name, each.rank, each.when] for each in self.ranking.categories]
         about = [named.name, named.author, named.comment, entry.episode, repr(entry.pars), digest, self.ranking.ladders]
 
@@ -82,23 +81,19 @@ class LevelPages(Parts):
                 leader = f": {self.name(best.run.player)}, {each[1].text(best.values[0])}" if best.place == 1 else ""
                 leads.append((anchor, self.part_name(each) + leader))
         near = any(row.run.near for rows in tables.values() for row in rows[:FIRST])
-        there = (RECORDS, first), (SPLITS, beside)
-        leads += [(anchor, anchor.capitalize()) for anchor, content in there if content]
+        leads += [(each, each.capitalize()) for each, content in ((RECORDS, first), (SPLITS, beside)) if content]
         links = [tag("li", tag("a", text, href=f"#{anchor}")) for anchor, text in leads]
         contents = tag("nav", tag("ul", *links), class_="contents", aria_label="On this page")
         return contents, drawn, joined(*shown, tag("p", NEAR) if near else None, link, first, folded, beside)
 
     def _table(self, parts: Mapping[Part, Sequence[Ranked]], told: set[str], anchor: str) -> Markup:
-        """A table of categories with the same runs in the same order, without columns that are empty.
-
-        ``told``: remarks that a table above has.
-        """
+        """A table of categories with the same runs in order, of filled columns. ``told``: remarks of tables above."""
         rows, categories = [], [category for _, category in parts]
+        timed = any(category.unit == FASTEST.unit for category in categories)
         for same in zip(*parts.values(), strict=True):
             place, run = same[0].place, same[0].run
             shown = replace(run, remark="as above") if run.remark in told else run
             results = [category.text(each.values[0]) for category, each in zip(categories, same, strict=True)]
-            timed = any(category.unit == FASTEST.unit for category in categories)
             rows.append((place, *self.run(shown, *results, timed=timed)))
             told |= {run.remark} - {""}
         names = [category.name if len(parts) > 1 else category.unit for category in categories]
@@ -148,7 +143,7 @@ class LevelPages(Parts):
         splits = table("Seconds; later than the first: +", ("Split", names[0], "Fastest segment", *names[1:]), lines)
         best = tag("p", f"Sum of the fastest segments, each from the row above: {seconds_text(sum_of_best(rows))} s.")
         drawn = joined(drawn, tag("p", f"The first {len(runs)} runs: {name}"), together)
-        return drawn, joined(section(f"Any two of the first {len(runs)}", races), section("Splits", splits, best, anchor=SPLITS))
+        return drawn, joined(section("Any two of the first", races), section("Splits", splits, best, anchor=SPLITS))
 
     def _pair(self, run: Run, other: Run) -> Content:
         return "" if run is other else self.watch([run, other], UP, signed(run.tick - other.tick))

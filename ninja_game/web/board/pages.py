@@ -104,7 +104,8 @@ class BoardPages(LevelPages):
         ]  # fmt: skip
         heads = ("Level", "Watch", "Player", "Record", "Date")
         feed = tag("p", tag("a", "Feed of new records (Atom)", href=FEED))
-        newest = section("Newest records", table("Newest first", heads, rows), tag("p", ONE_MOMENT), feed) if rows else None
+        shown = table("Newest first", heads, rows), tag("p", ONE_MOMENT), feed
+        newest = section("Newest records", *shown) if rows else None
         leaders = [
             section(self._players_of(ladder), table(BY_LEVELS, self._heads(), map(self._standing, standings[:LEADING])))
             for ladder, standings in self.ranking.standings.items() if standings

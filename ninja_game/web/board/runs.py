@@ -102,11 +102,9 @@ class Ledger(NamedTuple):
 
     @property
     def owners(self) -> Rows:
-        """By level and way the row of who did it first.
-
-        Such a row may have ``near``, whose it nearly was, and ``confirmed``, that it is the player's own.
-        """
+        """By level and way the row of who did it first; it may have ``near`` and ``confirmed``, as a run has."""
         return self.withdrawn | {(row["level"], row["way"]): row for row in self.runs.values()}
+
 
 NO_LEDGER = Ledger({}, {}, {})
 
@@ -250,9 +248,9 @@ def judge(
         # A run that was withdrawn, or comes in another file, is still its player's.
         owner = owners.get(way := (run.entry.digest, run.way))
         if owner and (*way, owner["added"]) not in known and folded(owner["player"]) == folded(run.player):
-            run = runs[number] = replace(run, added=owner["added"], turn=-1)
+            runs[number] = replace(run, added=owner["added"], turn=-1)
         if owner and owner.get("near"):
-            runs[number] = replace(run, turn=1)
+            runs[number] = replace(runs[number], turn=1)
     told = _of_players(sorted(runs, key=_first), players)
     counted, copies = _without_copies(told, memo, owners)
     counted = [_with_row(run, owners.get((run.entry.digest, run.way), {})) for run in counted]
@@ -382,7 +380,7 @@ def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
     if not isinstance(result, Unreadable) and not sent.replay and not result.made:
         # A record of N names who made the level, and nobody who played; one of ours says how it was made, too.
         place = result.file + f", record {result.record}" * (result.record > 0)
-        result = replace(result, author=f"unknown ({place[-MOST_NAME // 2:]})")
+        result = replace(result, author=f"unknown ({place[-MOST_NAME // 2 :]})")
     if isinstance(result, Unreadable):
         why = _without_name(result.message, sent.chunk.file).partition("; --budget")[0]  # which a board has not
         return Judged(sent.chunk.first, "unreadable", why)
