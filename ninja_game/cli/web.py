@@ -219,7 +219,7 @@ def board(
     if not check:
         for each in judged.rejected:
             click.echo(f"{each.kind}: {plain(each.file)}: {plain(each.why)}")
-        for line in gone(judged, before):
+        for line in gone(ranking, before):
             click.echo(line)
         click.echo(summary(judged))
         return 0

@@ -29,10 +29,10 @@ from ninja_game.web.board.collect import MOST_RECORDS
 from ninja_game.web.board.pages import BoardPages
 from ninja_game.web.board.ranking import Ranking
 from ninja_game.web.board.report import DATE, read_board
-from ninja_game.web.board.rules import FASTEST, HIGHEST
+from ninja_game.web.board.rules import FASTEST, HIGHEST, Category
 from ninja_game.web.board.runs import ASSISTED, PLAYED, Key, ValidatedRuns, judge
 from ninja_game.web.pages.frame import POLICY, tag
-from ninja_game.web.pages.gallery import published_levels
+from ninja_game.web.pages.gallery import page_name, published_levels
 from tests.support.forgeries import FORGERIES, GOLD_LATER, PRACTISED, WALKING, record, replay
 from tests.support.own_pack import PACK
 from tests.support.samples import SPIKED, WALK, WALK_END
@@ -45,6 +45,13 @@ Array.from(document.querySelectorAll("td, th")).filter((cell) => {
 }).map((cell) => cell.textContent)
 """
 """Cells that have more than a line, and no long text or name."""
+
+SAID = """
+Array.from(new Set(Array.from(document.querySelectorAll(".wide"))
+  .filter((each) => each.querySelector("th:nth-child(7)"))
+  .map((each) => getComputedStyle(each, "::before").content).filter((each) => each !== "none").map(JSON.parse)))
+"""
+"""What stands above tables of many columns: that they go on at the side of the page."""
 
 DIGEST = level_digest(parse_level_string(WALK))
 HOSTILE = "<script>document.title='owned'</script><img src=x onerror=\"document.title='owned'\">\"'`&amp;\u202e"
@@ -107,7 +114,7 @@ def test_runs_are_ranked_by_what_the_simulation_says(runs: Path, levels: Path) -
     ranking = Ranking(with_demands(runs, levels), published_levels(levels))
     table = ranking.tables[DIGEST][PLAYED, FASTEST]
     assert [(each.place, each.run.player, each.run.tick) for each in table] == [
-        (1, "Ann", WALK_END), (2, "me", WALK_END + 2), (3, "Bea", WALK_END + 5),
+        (1, "Ann", WALK_END), (2, "unknown (c/record.txt)", WALK_END + 2), (3, "Bea", WALK_END + 5),
     ]  # fmt: skip
     assert [each.run.score for each in ranking.tables[DIGEST][PLAYED, HIGHEST]] == [
         3600 + 80 - WALK_END - late for late in (0, 2, 5)
@@ -116,7 +123,7 @@ def test_runs_are_ranked_by_what_the_simulation_says(runs: Path, levels: Path) -
         ("Ann", [5.0, 5.0]), ("Bea", [None, None]),
     ]  # fmt: skip
     assert [(each.player, each.levels, each.ranks) for each in ranking.standings[PLAYED]] == [
-        ("Ann", 1, [1]), ("Bea", 1, [3]), ("me", 1, [2]),
+        ("Ann", 1, [1]), ("Bea", 1, [3]), ("unknown (c/record.txt)", 1, [2]),
     ]  # fmt: skip
     (episode,) = ranking.shown.levels.episodes.values()
     assert ranking.episode(episode, (PLAYED, FASTEST))[0][:2] == ("Ann", WALK_END)
@@ -133,6 +140,18 @@ def test_a_record_says_by_how_much_it_is_better(runs: Path, levels: Path, tmp_pa
         "Fastest: 0.700 s, first", "Highest score: 91.300 points, first",
     ]  # fmt: skip
     assert newest.count("<tr>") == 3, "a new record fills one row"
+    assert re.findall("20.. UTC|<td>([0-9-]+ [0-9:]+ UTC)", newest) == ["1970-01-03 00:00 UTC", "1970-01-02 00:00 UTC"]
+
+
+def test_who_has_only_assisted_runs_is_among_the_players_too(runs: Path, levels: Path, tmp_path: Path) -> None:
+    put(runs, "a.txt", slow_walk(author="Ann"))
+    put(runs, "b.txt", replay(author="Bot", made=Made(edits=7)))
+    pages = board_of(runs, levels, tmp_path / "site")
+    index, played, assisted = ((pages / f"{name}.html").read_text("utf-8") for name in ("index", "players", "assisted"))
+    for ladder, player in (("played", "Ann"), ("assisted", "Bot")):
+        assert f">{player}</a>" in index.partition(f"<h2>Players, {ladder}</h2>")[2].partition("</table>")[0]
+    assert '<p><a href="assisted.html">Players, assisted</a></p>' in played
+    assert '<p><a href="players.html">Players, played</a></p>' in assisted
 
 
 def test_a_better_time_goes_down_and_a_better_score_up(runs: Path, levels: Path, tmp_path: Path) -> None:
@@ -148,12 +167,26 @@ def test_a_better_time_goes_down_and_a_better_score_up(runs: Path, levels: Path,
 def test_tables_of_a_level_have_no_empty_column_and_say_a_remark_once(runs: Path, levels: Path, tmp_path: Path) -> None:
     put(runs, "ann.txt", slow_walk(40, author="Ann"))
     put(runs, "bob.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Bob"))
-    page = (board_of(runs, levels, tmp_path / "site") / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
+    put(runs, "cid.txt", slow_walk(90, author="Cid"))
+    shown, slowest = published_levels(levels), Category("Slowest", ("-ticks",))
+    ranking = Ranking(judge(runs, shown, jobs=1), shown, (FASTEST, HIGHEST, slowest))
+    BoardPages(tmp_path / "site", ranking).write()
+    page = (tmp_path / "site" / "board" / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
     tables = page.split("<caption>Best run of each player</caption>")[1:]
     heads = [re.findall("<th [^>]*>([^<]+)", each.partition("</thead>")[0]) for each in tables]
-    assert heads == [
-        ["Place", "Player", unit, "Watch", "Share", "Gold", "Made", "Remark"] for unit in ("Time", "Score")
-    ]
+    others = ["Watch", "Share", "Gold", "Made", "Remark"]
+    assert heads == [["Place", "Player", *units, *others] for units in (["Fastest", "Highest score"], ["Time"])], (
+        "same order, once"
+    )
+    assert re.findall('<a href="#([^"]+)">([^<]+)</a>', page.partition('aria-label="On this page"')[2]) == [
+        ("ranks-1", "Fastest: Ann, 1.575"), ("ranks-1", "Highest score: Ann, 90.425"),
+        ("ranks-2", "Slowest: Cid, 2.825"),
+        ("records", "Records"), ("splits", "Splits"),
+    ]  # fmt: skip
+    assert re.findall('<section id="([^"]+)">', page) == ["ranks-1", "ranks-2", "records", "splits"]
+    picture, parts = page.partition("<main")[2].partition("<section")[::2]
+    assert ('class="paths"' in picture, "<img" in picture, 'class="paths"' in parts) == (True, False, False)
+    assert page.count("<details>") == 1
     said = "64 of its 65 ticks have the inputs of"
     assert [(each.count(said), each.count("as above")) for each in tables] == [(1, 0), (0, 1)]
     assert "Sum of the fastest segments, each from the row above: 1.575 s." in page
@@ -295,13 +328,56 @@ def test_a_near_copy_is_not_first_until_somebody_confirms_it(runs: Path, levels:
     assert found == [doubted, ([(1, "Bob"), (2, "Ann"), (3, "Cid")], ["Ann", "Bob"]), doubted]
 
 
+def test_a_near_copy_stays_one_where_the_first_run_is_withdrawn_and_comes_back(
+    runs: Path, levels: Path, tmp_path: Path
+) -> None:
+    """Both are taken in by one command; hers comes back in a file whose name is after that of its near copy."""
+    data, shown = tmp_path / "board.json", published_levels(levels)
+    hers = replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Ann")
+    put(runs, "ann.txt", hers)
+    put(runs, "hal.txt", slow_walk(40, author="Hal"))
+
+    def ranked() -> list[tuple[int, str, str]]:
+        assert check(runs, levels, "--json", str(data), "--site", str(tmp_path / "site"))[0] == 0
+        assert check(runs, levels, "--check", str(data))[1].startswith("nothing has changed")
+        ranking = Ranking(judge(runs, shown, jobs=1, ledger=read_board(data, datetime.now(UTC))), shown)
+        assert "Hal" not in {each.run.player for each in ranking.records}
+        return [(each.place, each.run.player, each.run.remark) for each in ranking.tables[DIGEST][PLAYED, FASTEST]]
+
+    first, (_, _, said) = ranked()
+    assert (first, "the run by Ann in ann.txt" in said) == ((1, "Ann", ""), True)
+    (runs / "ann.txt").unlink()
+    assert ranked() == [(2, "Hal", f"{said} (found earlier)")]
+    (runs / "hal.txt").rename(runs / "again.txt")
+    assert ranked() == [(2, "Hal", f"{said} (found earlier)")], "another file is no way out"
+    put(runs, "z.txt", hers)
+    for _ in range(2):
+        assert ranked() == [(1, "Ann", ""), (2, "Hal", said.replace("ann.txt", "z.txt"))]
+    for change in ((runs / "z.txt").unlink, lambda: put(runs, "z.txt", hers)):
+        old = re.sub(', "near": "[^"]*"', "", data.read_text("utf-8"))
+        data.write_text(re.sub('"added": "[^"]*"', '"added": "2026-01-31T12:00:00Z"', old), "utf-8")
+        change()
+        check(runs, levels, "--json", str(data))
+    assert ranked()[0] == (1, "Ann", ""), "also where a ledger of an earlier version kept no remark"
+
+
+def test_who_played_a_record_of_n_is_unknown(runs: Path, levels: Path) -> None:
+    """It names the maker of the level; two in one file need not be by one player. One of ours says how it was made."""
+    put(runs, "a.txt", record(bytes(2) + WALKING) + record(bytes(3) + WALKING))
+    put(runs, "b.txt", record(bytes(4) + WALKING))
+    put(runs, "c.txt", record(bytes(5) + WALKING).replace("#test#", "#test [made: played]#"))
+    assert [run.player for run in with_demands(runs, levels).runs] == [
+        "unknown (a.txt)", "unknown (a.txt, record 1)", "unknown (b.txt)", "me",
+    ]  # fmt: skip
+
+
 def test_a_near_copy_shares_no_place(runs: Path, levels: Path) -> None:
     put(runs, "ann.txt", replay(author="Ann"))
     judged, shown = with_demands(runs, levels), published_levels(levels)
     (ann,) = judged.runs
     bob, cid = (
         replace(ann, player=player, near=near, file=f"{player.lower()}.txt")
-        for player, near in (("Bob", True), ("Cid", False))
+        for player, near in (("Bob", "nearly Ann's"), ("Cid", ""))
     )
     for given, places in (((ann, bob, cid), [(1, "Ann"), (1, "Cid"), (3, "Bob")]), ((bob,), [(2, "Bob")])):
         table = Ranking(replace(judged, runs=given), shown).tables[DIGEST][PLAYED, FASTEST]
@@ -329,10 +405,14 @@ def test_medals_stand_where_the_time_ranks_and_every_record_that_fell_is_told(
         put(runs, f"{number}.txt", write_replay(record_replay(recording.level, inputs, author=f"Ann {number}")))
     pages = [path.read_text("utf-8") for path in board_of(runs, PACK, tmp_path / "site").glob("levels/*.html")]
     (page,) = (each for each in pages if "The first 2 runs" in each)
-    fastest, highest = (
-        page.partition(f"<h2>{name}</h2>")[2].partition("</table>")[0] for name in ("Fastest", "Highest score")
+    shown = published_levels(PACK)
+    BoardPages(tmp_path / "other", Ranking(judge(runs, shown, jobs=1), shown, (HIGHEST,))).write()
+    texts = page, (tmp_path / "other" / "board" / page_name(level_digest(recording.level))).read_text("utf-8")
+    names = "Fastest; Highest score", "Highest score"
+    both, highest = (
+        text.partition(f"<h2>{name}</h2>")[2].partition("</table>")[0] for text, name in zip(texts, names, strict=True)
     )
-    assert ("medal" in fastest, "medal" in highest) == (True, False)
+    assert ("medal" in both, "medal" in highest, "Ann 1" in highest) == (True, False, True)
     assert re.findall("How the record (f?r?[eo][ls][le]: [^<]+)", page) == ["fell: Fastest", "rose: Highest score"]
     assert "The first 2 runs: Fastest" in page
 
@@ -386,6 +466,8 @@ def test_no_number_and_no_date_is_broken(width: int, chromium: Any, runs: Path, 
         broken = page.evaluate(BROKEN)
         assert broken == [], name
         assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+        told = width < 700 and name != "levels"  # which has six columns
+        assert page.evaluate(SAID) == ["Scroll sideways for more columns"] * told, name
     page.close()
 
 
@@ -509,9 +591,12 @@ def test_check_tells_what_a_change_does(runs: Path, levels: Path, tmp_path: Path
     code, text = check(runs, levels, "--check", str(data))
     assert code == 1
     assert "refused: cid.txt: outcome is running" in text
-    assert "gone: bea.txt: Bea on Walk" in text
+    gone = "gone: bea.txt: Bea on Walk; first now: Fastest A'nn, 0.575; Highest score A'nn, 91.425\n"
+    assert gone in text
     for lines in (1, 0):
-        assert check(runs, levels, "--json", str(data))[1].count("gone: bea.txt: Bea on Walk\n") == lines
+        assert check(runs, levels, "--json", str(data))[1].count(gone) == lines
+    (runs / "ann.txt").unlink()
+    assert "gone: ann.txt: A'nn on Walk; first now: nobody\n" in check(runs, levels, "--check", str(data))[1]
 
 
 def test_check_refuses_a_changed_run(runs: Path, levels: Path, tmp_path: Path) -> None:

@@ -209,6 +209,8 @@ BROKEN: dict[str, dict[str, object]] = {
     "a truth for a record": {"record": True},
     "no file": {"file": None},
     "a list for a way": {"way": []},
+    "a number for whose it nearly is": {"near": 3},
+    "a word for a truth": {"confirmed": "yes"},
 }
 
 
@@ -278,7 +280,7 @@ def test_a_run_that_cannot_be_written_stops_no_page(
 def test_a_record_without_a_level_counts_where_one_level_does(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
     put(runs, "ann.txt", record(level=""))
     found = judge(runs, published_levels(levels / "00-0-level.txt"), jobs=1)
-    assert [run.player for run in found.runs] == ["me"]
+    assert [run.player for run in found.runs] == ["unknown (ann.txt)"]
 
 
 def test_a_run_of_six_lines_asks_for_no_second_of_work(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,7 @@ from ninja_game.cli.main import cli
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.runs.run import record_replay
+from ninja_game.web.board.pages import EPISODE_HEADS
 from ninja_game.web.board.ranking import Ranking
 from ninja_game.web.board.rules import FASTEST
 from ninja_game.web.board.runs import PLAYED, ValidatedRuns, judge
@@ -65,6 +67,17 @@ def test_a_whole_episode_is_ranked_and_its_levels_count_too(folder: Path, tmp_pa
     board(folder, PACK, "--site", str(tmp_path / "site"))
     page = (tmp_path / "site" / "board" / "episodes.html").read_text("utf-8")
     assert "in one recording" in page
+    (tmp_path / "rules.toml").write_text('[[category]]\nname = "Most"\nrank = ["-score"]\nepisodes = true\n')
+    board(folder, PACK, "--site", str(tmp_path / "most"), "--rules", str(tmp_path / "rules.toml"))
+    heads = [
+        re.findall(
+            "<th[^>]*>([^<]+)", (tmp_path / out / "board" / "episodes.html").read_text().partition("</thead>")[0]
+        )
+        for out in ("site", "most")
+    ]
+    assert heads == [[*EPISODE_HEADS], [each for each in EPISODE_HEADS if each != "Sum"]], (
+        "a sum of scores is no number"
+    )
     assert "Score: 90 s, and 2 s for each piece of gold" in page
     assert f"{(runs[4].lifetime + 80 * runs[4].replay.gold - runs[4].replay.final_tick) / 40:.3f}" in page
 

@@ -22,6 +22,7 @@ from ninja_game.web.board.level_pages import FIRST, LevelPages
 from ninja_game.web.board.parts import UP, level_link, player_page
 from ninja_game.web.board.ranking import Record, Standing
 from ninja_game.web.board.report import summary
+from ninja_game.web.board.rules import HIGHEST
 from ninja_game.web.board.runs import PLAYED, Key, Run
 from ninja_game.web.pages.frame import REPLAYS, Content, page, section, table, tag
 from ninja_game.web.pages.gallery import BOARD, medal_mark, page_name, shared_text
@@ -30,6 +31,7 @@ NEWEST, LEADING, CONTESTED = 30, 20, 10
 """Rows on the first page of records, players and levels."""
 
 FEED = "feed.xml"
+ONE_MOMENT = "Those of one moment go by their files, the last name first."
 BY_LEVELS = "By levels led, then by levels passed"
 WHY_REJECTED = {
     "practice": "Practice runs",
@@ -61,7 +63,7 @@ def is_in(path: Path, folder: Path) -> bool:
 
 EPISODE_NUMBERS = (
     "Sum: what ranks the runs, such as their times, added up over the levels. Score: 90 s, and 2 s for each piece of "
-    "gold, less the times of all levels, since the clock of an episode runs on from level to level."
+    "gold, less the times of all levels, as the clock of an episode runs on; it ranks where there is no sum."
 )
 EPISODE_HEADS = ("Place", "Player", "Sum", "Score", "Levels", "Watch")
 
@@ -96,17 +98,21 @@ class BoardPages(LevelPages):
         rows = [
             (
                 level_link(record.run.entry), self.watch([record.run], ""), self.player_link(record.run.player),
-                tag("div", *(tag("div", each) for each in self._achieved(record)), class_="text"), record.run.day,
+                tag("div", *(tag("div", each) for each in self._achieved(record)), class_="text"), record.run.moment,
             )
             for record in self.ranking.records[:NEWEST]
         ]  # fmt: skip
         heads = ("Level", "Watch", "Player", "Record", "Date")
         feed = tag("p", tag("a", "Feed of new records (Atom)", href=FEED))
-        newest = section("Newest records", table("Newest first", heads, rows), feed) if rows else None
-        leaders = table(BY_LEVELS, self._heads(), map(self._standing, self.ranking.standings[PLAYED][:LEADING]))
+        shown = table("Newest first", heads, rows), tag("p", ONE_MOMENT), feed
+        newest = section("Newest records", *shown) if rows else None
+        leaders = [
+            section(self._players_of(ladder), table(BY_LEVELS, self._heads(), map(self._standing, standings[:LEADING])))
+            for ladder, standings in self.ranking.standings.items() if standings
+        ]  # fmt: skip
         lead = tag("p", f"{self.ranking.shown.name}: {summary(self.ranking.judged)}.", class_="lead")
         said = tag("p", "Every run was simulated again: times, gold and scores are the result of its inputs.")
-        contents = self._week(), newest, section("Players", leaders), self._contested()
+        contents = self._week(), newest, *leaders, self._contested()
         return page("Board", lead, said, *contents, links=self.links)
 
     def _achieved(self, record: Record) -> Iterator[str]:
@@ -156,15 +162,21 @@ class BoardPages(LevelPages):
         firsts = [category.name for category in self.ranking.categories]
         return ["Player", "Levels", "Runs", *firsts, *map(str.capitalize, MEDALS)]
 
+    def _players_of(self, ladder: str) -> str:
+        """The title of a list of players; the ladder only where there are two."""
+        return f"Players, {ladder}" if len(self.ranking.ladders) > 1 else "Players"
+
     def _standing(self, each: Standing) -> tuple[Content, ...]:
         firsts = [each.records[category] for category in self.ranking.categories]
         return (self.player_link(each.player), each.levels, each.runs, *firsts, *each.medals.values())
 
     def _players(self) -> None:
         sums: dict[str, list[Content]] = defaultdict(list)
+        pages = dict(zip(self.ranking.ladders, ("players", "assisted"), strict=False))
         for ladder, standings in self.ranking.standings.items():
-            name = "players" if ladder == PLAYED else "assisted"
-            self.list(name, name.capitalize(), BY_LEVELS, self._heads(), [*map(self._standing, standings)])
+            others = [tag("a", self._players_of(each), href=f"{pages[each]}.html") for each in pages if each != ladder]
+            title, rows = self._players_of(ladder), [*map(self._standing, standings)]
+            self.list(pages[ladder], title, BY_LEVELS, self._heads(), rows, *(tag("p", other) for other in others))
             for each in standings:
                 sums[each.player].append(tag("p", _sums(ladder, each)))
         runs: dict[str, list[Run]] = defaultdict(list)
@@ -241,11 +253,13 @@ class BoardPages(LevelPages):
         for number, episode in sorted(self.ranking.shown.levels.episodes.items()):
             tables = []
             for part, (what, ranked) in product(parts, kinds):
+                # A sum of scores has the 90 s of each level in it; the order is the same.
+                ranks_score = part[1].unit == HIGHEST.unit
                 rows = [
                     (
                         place,
                         self.player_link(player),
-                        part[1].text(total),
+                        *([] if ranks_score else [part[1].text(total)]),
                         seconds_text(LIFETIME + sum(run.score - LIFETIME for run in runs)),
                         ", ".join(self.value(part[1], run) for run in runs),
                         self.watch(runs, ""),
@@ -253,7 +267,8 @@ class BoardPages(LevelPages):
                     for place, (player, total, runs) in enumerate(ranked(episode, part)[:FIRST], 1)
                 ]
                 caption = f"Episode {number:02d}, {self.part_name(part)}: {what}"
-                tables += [table(caption, EPISODE_HEADS, rows)] if rows else []
+                heads = [each for each in EPISODE_HEADS if not (ranks_score and each == "Sum")]
+                tables += [table(caption, heads, rows)] if rows else []
             levels = [tag("li", level_link(each)) for each in episode.levels]
             nobody = tag("p", "No player yet.")
             listed = tag("ul", *levels, class_="facts")

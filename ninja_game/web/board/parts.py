@@ -11,7 +11,7 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.player.catalogue import Entry
 from ninja_game.web.board.charts import paths
-from ninja_game.web.board.ranking import Part, Ranking
+from ninja_game.web.board.ranking import Ranking
 from ninja_game.web.board.rules import Category
 from ninja_game.web.board.runs import Run
 from ninja_game.web.pages.frame import GAME, REPLAYS, Content, Markup, Pages, joined, page, table, tag
@@ -43,6 +43,7 @@ class Parts:
         self.pages = Pages(out, BOARD, memo)
         self.ranking = ranking
         self.entries = ranking.shown.entries
+        self.part_name = ranking.part_name
         self.main = ranking.categories[0]
         self.game = f"../{game}"
         self.site = address and f"{address}{BOARD}/"
@@ -108,11 +109,6 @@ class Parts:
         about = medal_mark(run.medal if timed else ""), run.gold, run.made or "unknown", run.day, run.remark
         others = f" with {shown_text(run.co_authors, LONGEST_NAME)}" if run.co_authors else None
         return (joined(self.player_link(run.player, UP), others), *results, *self.leads(run, UP), *about)
-
-    def part_name(self, part: Part) -> str:
-        """What a ladder's category is called; the ladder only where there are two."""
-        ladder, category = part
-        return f"{category.name}, {ladder}" if len(self.ranking.ladders) > 1 else category.name
 
     def value(self, category: Category, run: Run) -> str:
         """The number that a run is ranked by."""

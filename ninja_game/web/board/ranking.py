@@ -88,12 +88,12 @@ class Ranking:
             if values is not None and (run.player not in best or values < best[run.player][0]):
                 best[run.player] = values, run
         found: list[Ranked] = []
-        order = sorted(best.values(), key=lambda each: (each[0], each[1].near, each[1].added, each[1].key))
+        order = sorted(best.values(), key=lambda each: (each[0], bool(each[1].near), each[1].added, each[1].key))
         # A near copy that nobody has confirmed is never first.
         first = next((number for number, (_, run) in enumerate(order) if not run.near), 0)
         if order:
             order.insert(0, order.pop(first))
-        for number, (values, run) in enumerate(order, 1 + (bool(order) and order[0][1].near)):
+        for number, (values, run) in enumerate(order, 1 + bool(order and order[0][1].near)):
             shared = found and found[-1].values == values and not run.near
             place = found[-1].place if shared else number
             found.append(Ranked(place, run, values))
@@ -119,6 +119,11 @@ class Ranking:
     def ladders(self) -> list[str]:
         """The ladders that have runs, the one of played runs first, and always there."""
         return sorted({PLAYED} | {run.ladder for run in self.judged.runs}, key=lambda ladder: ladder != PLAYED)
+
+    def part_name(self, part: Part) -> str:
+        """What a ladder's category is called; the ladder only where there are two."""
+        ladder, category = part
+        return f"{category.name}, {ladder}" if len(self.ladders) > 1 else category.name
 
     @cached_property
     def history(self) -> dict[tuple[str, Part], list[Run]]:

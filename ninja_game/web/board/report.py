@@ -29,13 +29,16 @@ _FIELDS: dict[str, dict[str, type]] = {
     "withdrawn": {"level": str, "way": str, "player": str, "added": str},
 }  # fmt: skip
 
+_KEPT = {"near": str, "confirmed": bool}
+"""What a row may have, and keeps after the run is withdrawn."""
+
 
 def _run_data(run: Run) -> dict[str, Any]:
     return {
         "file": run.file, "record": run.record, "player": run.player, "level": run.entry.digest,
         "level_name": run.entry.title, "tick": run.tick, "gold": run.gold, "score": run.score,
         "way": run.way, "added": run.added,
-        **({"made": run.made} if run.made else {}), **({"confirmed": True} if run.confirmed else {}),
+        **{key: value for key in ("made", *_KEPT) if (value := getattr(run, key))},
     }  # fmt: skip
 
 
@@ -59,7 +62,7 @@ def board_text(judged: ValidatedRuns, before: Ledger = NO_LEDGER) -> str:
     data["rejected"] = [rejected[key] for key in sorted(rejected)]
     here = {(run.entry.digest, run.way) for run in judged.runs}
     gone = sorted((way, row) for way, row in before.owners.items() if way not in here)
-    data["withdrawn"] = [{key: row[key] for key in _FIELDS["withdrawn"]} for _, row in gone]
+    data["withdrawn"] = [{key: row[key] for key in (*_FIELDS["withdrawn"], *_KEPT) if key in row} for _, row in gone]
     parts = (f'"{key}": [\n' + ",\n".join("  " + json.dumps(row) for row in data[key]) + "\n]" for key in _FIELDS)
     return f'{{"version": {VERSION}, {", ".join(parts)}}}\n'
 
@@ -86,7 +89,7 @@ def _rows(path: Path, part: str, rows: list[dict[str, Any]], now: datetime) -> R
     found: Rows = {}
     for number, row in enumerate(rows, 1):
         place = f"row {number} of {part!r}"
-        for name, kind in _FIELDS[part].items():
+        for name, kind in (_FIELDS[part] | {key: kind for key, kind in _KEPT.items() if key in row}).items():
             if type(row[name]) is not kind:
                 raise FormatError(f"{place}: {name!r} is of the wrong type", str(path), expected=kind.__name__)
         if row["added"] and not _is_date(row["added"], now):
@@ -127,7 +130,7 @@ def changes(ranking: Ranking, before: Ledger) -> Iterator[tuple[bool, str]]:
     for run in sorted(ranking.judged.runs, key=lambda run: run.key):
         if run.key not in runs:
             yield True, f"new: {_place(run.key)}: {_achieved(ranking, run)}"
-        elif now[run.key] != runs[run.key]:
+        elif now[run.key] | {"near": ""} != runs[run.key] | {"near": ""}:
             yield False, f"changed: {_place(run.key)}: {_achieved(ranking, run)}"
     new = [each for each in ranking.judged.again if (each.file, each.record) not in rejected]
     for (file, player), levels in Counter((each.file, each.player) for each in new).items():
@@ -137,15 +140,21 @@ def changes(ranking: Ranking, before: Ledger) -> Iterator[tuple[bool, str]]:
         key = each.file, each.record
         if key not in rejected or rejected[key].get("why") != each.why:
             yield each.kind == "practice", f"{each.kind}: {_place(key)}: {plain(each.why)}"
-    yield from ((False, line) for line in gone(ranking.judged, before))
+    yield from ((False, line) for line in gone(ranking, before))
 
 
-def gone(judged: ValidatedRuns, before: Ledger) -> Iterator[str]:
-    """A line for each run of a ledger whose file is not there any more."""
+def gone(ranking: Ranking, before: Ledger) -> Iterator[str]:
+    """A line for each run of a ledger whose file is not there any more, with who is first on its level now."""
+    judged = ranking.judged
     here = {run.key for run in judged.runs} | {(each.file, each.record) for each in judged.rejected + judged.again}
     for key, row in sorted(before.runs.items()):
         if key not in here:
-            yield f"gone: {_place(key)}: {plain(row['player'])} on {plain(row['level_name'])}"
+            leaders = [
+                f"{ranking.part_name(part)} {plain(each.run.player)}, {part[1].text(each.values[0])}"
+                for part, table in ranking.tables.get(row["level"], {}).items() for each in table if each.place == 1
+            ]  # fmt: skip
+            first = f"first now: {'; '.join(leaders) or 'nobody'}"
+            yield f"gone: {_place(key)}: {plain(row['player'])} on {plain(row['level_name'])}; {first}"
 
 
 def _achieved(ranking: Ranking, run: Run) -> str:

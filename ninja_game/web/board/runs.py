@@ -18,6 +18,7 @@ import numpy as np
 
 from ninja_game.budget import RUN_BUDGET, tick_cost
 from ninja_game.errors import NinjaGameError
+from ninja_game.formats.lines import MOST_NAME
 from ninja_game.formats.replay.made import names_of_text, parse_made
 from ninja_game.formats.replay.text import INPUTS_AFTER, Replay
 from ninja_game.levels.findings import RunProblem, in_run
@@ -101,13 +102,8 @@ class Ledger(NamedTuple):
 
     @property
     def owners(self) -> Rows:
-        """By level and way the row of who did it first."""
+        """By level and way the row of who did it first; it may have ``near`` and ``confirmed``, as a run has."""
         return self.withdrawn | {(row["level"], row["way"]): row for row in self.runs.values()}
-
-    def confirms(self, run: Run) -> bool:
-        """Whether somebody has written into a run's row that it is the player's own."""
-        row = self.runs.get(run.key, {})
-        return row.get("confirmed") is True and row["way"] == run.way
 
 
 NO_LEDGER = Ledger({}, {}, {})
@@ -118,8 +114,8 @@ class Run:
     """A run that counts, as the simulation says: ``tick`` of the exit contact, ``gold``, ``score`` (ticks).
 
     ``file``: path in the folder, ``record`` in it; ``added``: as Dates say; ``remark``: what a reader should know;
-    ``near``: whether that is of a near copy that nobody has ``confirmed``, which leads no table; ``digest``: of its
-    file; the rest as in Judged.
+    ``near``: whose it nearly is, in words, where nobody has ``confirmed`` it: it leads no table; ``turn``: what comes
+    first of runs of one moment; ``digest``: of its file; the rest as in Judged.
     """
 
     file: str
@@ -140,8 +136,9 @@ class Run:
     digest: str = field(repr=False)
     folder: RunFolder = field(repr=False, compare=False)
     remark: str = ""
-    near: bool = False
+    near: str = ""
     confirmed: bool = False
+    turn: int = 0
 
     @cached_property
     def key(self) -> Key:
@@ -151,6 +148,11 @@ class Run:
     def day(self) -> str:
         """The date of ``added``."""
         return self.added.partition("T")[0]
+
+    @property
+    def moment(self) -> str:
+        """The date of ``added`` with the time of day."""
+        return self.added and f"{self.added[:16].replace('T', ' ')} UTC"
 
     @property
     def ladder(self) -> str:
@@ -246,10 +248,12 @@ def judge(
         # A run that was withdrawn, or comes in another file, is still its player's.
         owner = owners.get(way := (run.entry.digest, run.way))
         if owner and (*way, owner["added"]) not in known and folded(owner["player"]) == folded(run.player):
-            runs[number] = replace(run, added=owner["added"])
+            runs[number] = replace(run, added=owner["added"], turn=-1)
+        if owner and owner.get("near"):
+            runs[number] = replace(runs[number], turn=1)
     told = _of_players(sorted(runs, key=_first), players)
     counted, copies = _without_copies(told, memo, owners)
-    counted = [replace(run, near=False, confirmed=True) if ledger.confirms(run) else run for run in counted]
+    counted = [_with_row(run, owners.get((run.entry.digest, run.way), {})) for run in counted]
     named = [
         each if each.kind == "unreadable" else replace(each, player=players.meet(each.player)[0]) for each in rejected
     ]
@@ -357,13 +361,26 @@ def _run(name: str, digest: str, row: Judged, entry: Entry, folder: RunFolder, a
     return Run(name, player=row.author, entry=entry, added=added, digest=digest, folder=folder, **same)
 
 
-def _first(run: Run) -> tuple[str, bool, Key]:
+def _first(run: Run) -> tuple[str, int, bool, Key]:
     """What runs are in order of: the first one owns what it does. A level of an episode comes after single runs."""
-    return run.added, bool(run.episode), run.key
+    return run.added, run.turn, bool(run.episode), run.key
+
+
+def _with_row(run: Run, row: Mapping[str, Any]) -> Run:
+    """A run with what only its row of the ledger tells: it is confirmed, or near to one that may be gone."""
+    if row.get("confirmed") is True:
+        return replace(run, near="", confirmed=True)
+    if not run.near and (near := row.get("near")):
+        return replace(run, near=near, remark="; ".join(filter(None, (f"{near} (found earlier)", run.remark))))
+    return run
 
 
 def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
     """What is kept of a recording."""
+    if not isinstance(result, Unreadable) and not sent.replay and not result.made:
+        # A record of N names who made the level, and nobody who played; one of ours says how it was made, too.
+        place = result.file + f", record {result.record}" * (result.record > 0)
+        result = replace(result, author=f"unknown ({place[-MOST_NAME // 2 :]})")
     if isinstance(result, Unreadable):
         why = _without_name(result.message, sent.chunk.file).partition("; --budget")[0]  # which a board has not
         return Judged(sent.chunk.first, "unreadable", why)
@@ -463,7 +480,7 @@ def _remarked(runs: list[Run], memo: Memo) -> list[Run]:
             courses.add(number, run.tick, partial(replace, course))
             said = f"{near[1]} the run by {runs[near[0]].player} in {runs[near[0]].file}" if near else ""
             memo.note(key, said)
-        found.append(replace(run, remark="; ".join(filter(None, (said, run.remark))), near=True) if said else run)
+        found.append(replace(run, remark="; ".join(filter(None, (said, run.remark))), near=said) if said else run)
     return found
 
 

@@ -283,5 +283,5 @@ def _wrapping(cell: Content) -> Content:
     return tag("span", cell, class_="text") if long else cell
 
 
-def section(title: str, *contents: Content) -> Markup:
-    return tag("section", tag("h2", title), joined(*contents))
+def section(title: str, *contents: Content, anchor: str | None = None) -> Markup:
+    return tag("section", tag("h2", title), joined(*contents), id=anchor)

@@ -148,12 +148,12 @@ KINDS = {"exit": "To the exit", "gold": "With all gold"}
 
 def level_page(
     entry: Entry, certificates: Mapping[str, tuple[str, int]], game: str, links: Links, more: Content = None,
-    *, site: str = "",
+    *, site: str = "", top: Content = None, drawn: Content = None,
 ) -> str:  # fmt: skip
     """The page of a level. ``certificates``: stems of the replays that it leads to and their ticks, by what they are.
 
     ``game``: address of the page with the game, as seen from this one; ``more``: what stands below; ``site``: the
-    address of the folder of pages, where it is known.
+    address of the folder of pages, where it is known; ``top``: what stands above; ``drawn``: instead of its picture.
     """
     runs = [
         (tag("a", kind, href=f"../../{REPLAYS}/{stem}.html"), seconds_text(tick),
@@ -169,8 +169,9 @@ def level_page(
     about.append(("Objects", objects_text(entry)))
     facts = tag("div", _play(entry, game), definitions(about), class_="about")
     contents = [
+        top,
         tag("p", named.comment, class_="lead") if named.comment else None,
-        tag("div", level_image(entry, UP), facts, class_="level"),
+        tag("div", tag("div", drawn) if drawn else level_image(entry, UP), facts, class_="level"),
         section("Par times", _pars(entry.pars)) if entry.pars else None,
         section("Certificates", table("Runs that prove the level", ("Run", "Time", "Watch"), runs)) if runs else None,
         more,
