@@ -11,7 +11,6 @@ import pytest
 from ninja_game.formats.load import load_levels
 from ninja_game.sim.level import Level
 from ninja_game.ui.theme import MOODS, PALETTES
-from ninja_game.view.sprites import relief
 from ninja_game.view.sprites.thumbnail import thumbnail
 
 SHELF = "ninja-game level 1\nname: Shelf\n" + "\n".join(
@@ -73,11 +72,3 @@ def test_rock_of_a_mood_is_marked_and_never_much(tmp_path: Path, palette: str) -
 def test_plain_palettes_are_flat(shelf: Level) -> None:
     inside = column(shelf, "contrast")[8:32]
     assert len({tuple(each) for each in inside}) == 1
-
-
-def test_edges_in_strips_are_edges_of_one_piece(shelf: Level, monkeypatch: pytest.MonkeyPatch) -> None:
-    pictures = []
-    for height in (relief.STRIP, 7, 2000):
-        monkeypatch.setattr(relief, "STRIP", height)
-        pictures.append(pygame.image.tobytes(thumbnail(shelf, MOODS[0], WIDTH), "RGB"))
-    assert len({*pictures}) == 1

@@ -32,29 +32,21 @@ def add_relief(sheet: TileSheet, palette: Palette) -> pygame.Surface:
     share = sheet.canvas.scale * small.width / size[0]
     small.blit(shadow, [round(share * away) for away in SHADOW_AT], special_flags=pygame.BLEND_PREMULTIPLIED)
     for role, depth, soft, strength in EDGES:
-        taken = inks[role]
+        edge = taken = inks[role]
         step = round(depth * sheet.canvas.scale) or (1 if depth > 0 else -1)
         if soft:
             # Made small and large again.
             few = [max(1, round(length / soft / sheet.canvas.scale)) for length in size]
             for each in ([2 * number for number in few], few, size):
                 taken = pygame.transform.smoothscale(taken, each)
-        _add_edge(sheet.surface, inks[role], taken, step, strength)
+        else:
+            edge = taken.copy()
+        edge.blit(taken, (0, step), special_flags=pygame.BLEND_RGBA_SUB)
+        # The tiles go on beyond the edge of the stage.
+        edge.fill((0, 0, 0, 0), (0, 0 if step > 0 else size[1] + step, size[0], abs(step)))
+        edge.fill((strength,) * 4, special_flags=pygame.BLEND_RGBA_MULT)
+        sheet.surface.blit(edge, (0, 0), special_flags=pygame.BLEND_PREMULTIPLIED)
     return pygame.transform.smoothscale(small, size)
-
-
-def _add_edge(surface: pygame.Surface, ink: pygame.Surface, taken: pygame.Surface, step: int, strength: int) -> None:
-    """Draw what is left of an ink when what is ``step`` px above is taken away, in strips that a cache has room for."""
-    wide, high = surface.size
-    strip = pygame.Surface((wide, STRIP), pygame.SRCALPHA)
-    # The tiles go on beyond the edge of the stage.
-    for top in range(max(0, step), high + min(0, step), STRIP):
-        few = min(STRIP, high + min(0, step) - top)
-        strip.fill((0, 0, 0, 0))
-        strip.blit(ink, (0, 0), (0, top, wide, few), pygame.BLEND_PREMULTIPLIED)
-        strip.blit(taken, (0, 0), (0, top - step, wide, few), pygame.BLEND_RGBA_SUB)
-        strip.fill((strength,) * 4, special_flags=pygame.BLEND_RGBA_MULT)
-        surface.blit(strip, (0, top), (0, 0, wide, few), pygame.BLEND_PREMULTIPLIED)
 
 
 def _add_grain(sheet: TileSheet, palette: Palette, inks: dict[str, pygame.Surface]) -> None:
