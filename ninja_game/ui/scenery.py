@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from functools import lru_cache
+from functools import lru_cache, partial
 from math import cos, pi, sin
 
 import pygame
@@ -99,7 +99,7 @@ def _strata(sheet: pygame.Surface, numbers: Numbers, slant: float = 0.1, wave: f
     """Layers of earth, one on another."""
     top, start = -160.0, 2 * pi * next(numbers)
     while top < _HIGH:
-        _ridge(sheet, _white(numbers), lambda x, top=top: top + slant * x + wave * sin(start + top / 60 + x / 45))
+        _ridge(sheet, _white(numbers), partial(_layer, top, start, slant, wave))
         top += 9 + 26 * next(numbers)
     for _ in range(70):
         # Stones lie in it, and cracks run down from some of them.

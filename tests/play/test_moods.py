@@ -200,7 +200,7 @@ def test_each_level_of_an_episode_has_its_tone_and_what_stands_on_it_looks_the_s
     following = palette_named(BY_COLUMN, 10 * 5)
     assert {tuple(following.tile), tuple(tones[2].tile)} == {tuple(following.tile)}, "the next episode begins elsewhere"
     assert len({pygame.image.tobytes(painted(tone), "RGB") for tone in (*tones, following)}) == 6
-    assert len({pygame.image.tobytes(grain(tone), "RGBA") for tone in (*tones, following)}) == 6
+    assert len({pygame.image.tobytes(grain(tone, "outline"), "RGBA") for tone in (*tones, following)}) == 6
     named = app.player.catalogue.ours.levels[0].named
     app.push(LevelScreen(app, LevelRun(app.player, Entry(named, "game", "00-2"))))
     app.frame(0)
