@@ -99,7 +99,7 @@ class _Job:
     def _spend(self, played: int, cost: float) -> bool:
         """Count ticks of shortening; whether the job is over."""
         self.work += cost
-        self.state.count(played, 0, "shortening")
+        self.state.count(played, "shortening")
         return self._over
 
     @property
@@ -189,13 +189,12 @@ class _Job:
     ) -> bytes | None:  # fmt: skip
         search = self._search
         search.begin(resolution, seed=self.seed * 1000 + seed, bound=bound, backed_up=backed_up)
-        ended, worlds = MORE, 0
+        ended = MORE
         while ended == MORE and search.ticks < ticks and not self._over:
             before = search.ticks
             ended = search.run(min(SLICE, ticks - before))
             self.work += (search.ticks - before) * SEARCH_COST
-            self.state.count(search.ticks - before, search.worlds - worlds, "searching")
-            worlds = search.worlds
+            self.state.count(search.ticks - before, "searching")
             if until_found and (self.state.runs or search.best()):
                 break
         if not self.state.runs:
