@@ -368,8 +368,9 @@ def progress_line() -> Iterator[ShownProgress]:
     from rich.text import Text
 
     starting = Text("starting; the first time it compiles, which takes about a minute")
+    began = time.monotonic()
     with Live(starting, console=Console(stderr=True), transient=True, refresh_per_second=8) as live:
-        yield ShownProgress(lambda text: live.update(Text(text)))
+        yield ShownProgress(lambda text: live.update(Text(f"{time.monotonic() - began:4.0f} s  {text}")))
 
 
 def not_found_text(task: Task, progress: Progress | None) -> str:
@@ -382,10 +383,10 @@ def not_found_text(task: Task, progress: Progress | None) -> str:
 
 
 def progress_text(progress: Progress) -> str:
+    """What is done, best run and speed in a line, which is shown beside a clock."""
     best = time_text(progress.best) if progress.best >= 0 else "none yet"
     speed = progress.ticks / progress.seconds / 1e6 if progress.seconds > 0 else 0.0
-    worlds = progress.worlds / 1e6
-    return f"{progress.doing:<10} {progress.seconds:4.0f} s  best {best}  {worlds:.1f}M worlds  {speed:.1f}M ticks/s"
+    return f"{progress.doing:<10} best {best}  {speed:.1f}M ticks/s"
 
 
 def time_text(end_tick: int) -> str:

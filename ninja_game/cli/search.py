@@ -240,7 +240,7 @@ def search(
             nonlocal start
             start = start or time.monotonic()
             spent = time.monotonic() - start
-            shown.say(f"{spent:4.0f} s  best {standing}  {ticks / 1e6:.1f}M ticks")
+            shown.say(f"best {standing}  {ticks / 1e6:.1f}M ticks")
             return spent < seconds
 
         found = search_span(task, report, method=method, every=every, seed=seed, threads=options.default_threads(jobs))

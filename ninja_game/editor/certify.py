@@ -151,7 +151,7 @@ class Certifier:
                 return "Another level's search comes first. Go on editing, or save and leave: it goes on"
             waited = f"{monotonic() - search.began:.0f} s"
             return f"Getting ready, {waited}: minutes the first time. Go on editing, or save and leave: it goes on"
-        return f"Looking for a run: {search.progress.worlds // 1000} thousand moments tried"
+        return f"Looking for a run: {search.progress.ticks // 1000} thousand ticks tried"
 
     @property
     def busy(self) -> bool:

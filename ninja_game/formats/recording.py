@@ -63,6 +63,11 @@ class Recording:
         return self.author if self.form != "file" or self.replay.made.assisted is not None else ""
 
     @property
+    def level_author(self) -> str:
+        """Who made the level, "" where that is unknown."""
+        return self.replay.level_author or ("" if self.player else self.author)
+
+    @property
     def place(self) -> str:
         """The name of its file, and which record of it that is where it holds others before."""
         return Path(self.file).name.removesuffix(".replay.txt") + f" {self.record}" * (self.record > 0)

@@ -322,10 +322,14 @@ class LeadRow(NamedTuple):
 
 @dataclass(frozen=True)
 class LeadTable:
-    """The rows by ticks of the first run, and what the runs have in common."""
+    """The rows by ticks of the first run, and what the runs have in common.
+
+    ``apart``: full seconds of the first run without a row, where the other one does not come near.
+    """
 
     rows: tuple[LeadRow, ...]
     comparison: Comparison
+    apart: int
 
 
 def lead_table(ours: Recording, theirs: Recording, markers: Sequence[Marker]) -> LeadTable:
@@ -338,4 +342,6 @@ def lead_table(ours: Recording, theirs: Recording, markers: Sequence[Marker]) ->
         LeadRow(lead.tick, lead.other, f"{lead.tick // TICKS_PER_SECOND} s", False)
         for lead in each_second(found.places)
     ]
-    return LeadTable(tuple(sorted(rows, key=lambda row: row.tick)), found)
+    seconds = (len(found.positions[0]) - 1) // TICKS_PER_SECOND
+    apart = seconds - len(each_second(found.places))
+    return LeadTable(tuple(sorted(rows, key=lambda row: row.tick)), found, apart)

@@ -37,17 +37,19 @@ def replay_texts(recordings: Iterable[Recording], budget: int = RUN_BUDGET) -> I
 def recorded_again(recording: Recording, budget: int = RUN_BUDGET) -> Replay:
     """A recording as a replay of today with its level; names, markers, how it was made stay. Raises as above.
 
+    The one name of a record of N is its level's maker's: the player stays unknown.
+
     One whose claims are no longer so was edited: its text by hand, or its level.
     """
     old, level, inputs = recording.replay, recording.level, recording.inputs
     with named_errors(recording):
         new = record_replay(
-            level, inputs, body=recording.body, name=recording.name, author=recording.author, budget=budget
+            level, inputs, body=recording.body, name=recording.name, author=recording.player, budget=budget
         )
     markers = tuple(marker for marker in old.markers if marker.tick <= len(new.inputs))
     told, found = ((each.outcome, each.final_tick, each.gold, each.digest or new.digest) for each in (old, new))
     return replace(
-        new, level_name=old.level_name, level_author=old.level_author, markers=markers, co_authors=old.co_authors,
+        new, level_name=old.level_name, level_author=recording.level_author, markers=markers, co_authors=old.co_authors,
         made=old.made if old.unclaimed or told == found else old.made.edited(1),
     )  # fmt: skip
 
@@ -96,7 +98,10 @@ def on_level(recording: Recording, level: Level | None = None) -> Recording:
 
 def _without_claims(recording: Recording) -> Replay:
     """The replay of a recording with its level inside and without its claims."""
-    claimless = replace(recording.replay, outcome="", gold=0, digest="", waypoints=(), rules=RULES_VERSION)
+    claimless = replace(
+        recording.replay, author=recording.player, level_author=recording.level_author, outcome="", gold=0, digest="",
+        waypoints=(), rules=RULES_VERSION,
+    )  # fmt: skip
     return replace(claimless, level=recording.level, level_digest="", level_path="", level_record=0)
 
 

@@ -112,7 +112,6 @@ def expand(
             return EXHAUSTED
         if not take_state(arrays.nodes[index], start, arrays, resolution):
             continue
-        counters.expanded += 1
         held = here.ninja.jump_held
         row = -1
         if known is not None:

@@ -98,7 +98,6 @@ class Counters(RandomState):
     lowest: i8  #: no node waits in a bucket below it
     highest: i8  #: nor above it
     ticks: i8  #: simulated
-    expanded: i8  #: nodes
     best_ticks: i8  #: of the shortest run; at first the bound, 0: none
     best_node: i8  #: its last node, -1: none found
     fields_wanted: i8  #: switch states reached that have no field yet

@@ -202,11 +202,6 @@ class Search:
         """Ticks simulated since ``begin``."""
         return int(self.counters.ticks)
 
-    @property
-    def worlds(self) -> int:
-        """Save-states expanded since ``begin``."""
-        return int(self.counters.expanded)
-
     def best(self) -> bytes | None:
         """The shortest run to the exit that this search has found; None if none.
 

@@ -96,7 +96,7 @@ class _Job:
 
     def _spend(self, played: int, cost: float) -> bool:
         self.work += cost
-        self.state.count(played, 0, "shortening")
+        self.state.count(played, "shortening")
         return self._over
 
     @property
@@ -151,7 +151,7 @@ class _Job:
 
         def spend(played: int) -> bool:
             self.work += played * SEARCH_COST
-            self.state.count(played, 0, f"{route.most}{doing}" if doing else "searching")
+            self.state.count(played, f"{route.most}{doing}" if doing else "searching")
             return self._over or self.work >= until or bool(self.state.runs and first)
 
         found = None
@@ -186,13 +186,12 @@ class _Job:
     ) -> bytes | None:  # fmt: skip
         search = self._search
         search.begin(resolution, seed=self.seed * 1000 + seed, bound=bound, backed_up=backed_up)
-        ended, worlds = MORE, 0
+        ended = MORE
         while ended == MORE and search.ticks < ticks and not self._over:
             before = search.ticks
             ended = search.run(min(SLICE, ticks - before))
             self.work += (search.ticks - before) * SEARCH_COST
-            self.state.count(search.ticks - before, search.worlds - worlds, "searching")
-            worlds = search.worlds
+            self.state.count(search.ticks - before, "searching")
             if until_found and (self.state.runs or search.best()):
                 break
         if not self.state.runs:

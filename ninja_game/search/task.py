@@ -34,7 +34,6 @@ class Progress:
     """
 
     best: int = -1
-    worlds: int = 0
     ticks: int = 0
     seconds: float = 0.0
     doing: str = ""
@@ -129,11 +128,10 @@ class SharedProgress:
             if self.report:
                 self.report(replace(progress))
 
-    def count(self, ticks: int, worlds: int, doing: str) -> None:
+    def count(self, ticks: int, doing: str) -> None:
         """Add to the progress and show it."""
         with self.lock:
             self.progress.ticks += ticks
-            self.progress.worlds += worlds
             self.progress.doing = doing
             self.progress.seconds = time.monotonic() - self.began
             if self.report:

@@ -169,18 +169,18 @@ def _is_passed(span: SearchedSpan) -> bool:
 
 
 PRESETS: tuple[tuple[str, str, Callable[[SearchedSpan], SpanGoal]], ...] = (
-    ("Reach the exit sooner", "From the first selected tick on, in any way", reach_exit),
+    ("Reach the exit sooner", "From tick {0} on, in any way", reach_exit),
     ("Whole run", "Shorten all of it; by routes of runs beside, too", whole_run),
     ("Same end, sooner", "The same place, speed and state; the rest follows", same_end),
     ("Same end exactly, sooner", "By the digest of all that decides what follows", same_state),
-    ("Be there sooner", "Where the run is at the end of the span", be_there),
-    ("Go beyond sooner", "Past the upright line at the end of the span", go_beyond),
-    ("Greatest speed", "At the end of the span", be_fast),
-    ("Collect a piece", "The nearest gold that is left at the end of the span", collect),
+    ("Be there sooner", "Where the run is after tick {1}", be_there),
+    ("Go beyond sooner", "Past the upright line where the run is after tick {1}", go_beyond),
+    ("Greatest speed", "After tick {1}", be_fast),
+    ("Collect a piece", "The nearest gold that is left after tick {1}", collect),
     ("This piece too", "The nearest left on the way; then the same place", collect_too),
-    ("Stay alive", "Through the whole span", stay_alive),
+    ("Stay alive", "From tick {0} to {1}", stay_alive),
 )
-"""Name, explanation, and what makes goal and measure of a run and its span."""
+"""Name, explanation ({0}: the first tick, {1}: the last), and what makes goal and measure of a run and its span."""
 
 
 def _alive(last: int) -> str:

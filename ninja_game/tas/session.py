@@ -31,7 +31,7 @@ class Session:
     def __init__(self, opened: OpenedRun, folder: Path, *, player: str = "", memory: str = "auto") -> None:
         about = opened.recording
         if about.author and not about.player:
-            about = replace(about, replay=replace(about.replay, author="", level_author=about.author))
+            about = replace(about, replay=replace(about.replay, author="", level_author=about.level_author))
             opened = replace(opened, recording=about)
         self.about: Recording = about
         self._first, self._player, self._done = opened, player, Contributions()

@@ -55,7 +55,7 @@ class TasEditor:
     ``preview``: a result of a search that is looked at. ``tab``: the name of the tab that is to be shown.
     ``against``: the run that the lead is told over; None: the chosen other one, else the run as it was opened.
     ``theme``: the look of all parts, in the TAS editor's own logical px, which are not those of other screens.
-    ``places``: cursor and anchor when the selected ticks of a run were edited, for undo.
+    ``places``: cursor and anchor when a run was edited or taken over, for undo.
     ``hint``: of what is under the mouse, for the line below.
     """
 

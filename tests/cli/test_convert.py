@@ -97,6 +97,17 @@ def test_a_recording_of_n_becomes_a_replay_and_comes_back(tmp_path: Path) -> Non
     assert load_levels(back)[0].level == load_levels(source)[0].level
 
 
+@pytest.mark.parametrize("name", ["run.replay.txt", "run.inputs.txt"])
+def test_the_maker_of_a_level_does_not_become_the_player_of_a_run(name: str, tmp_path: Path) -> None:
+    """A record of N has one name, its level's maker's."""
+    source = write_records(tmp_path / "tas.txt", ("Walk", WALK, running(60)))
+    (before,) = load_replays(source)
+    assert before.author
+    assert convert(source, tmp_path / name).exit_code == 0
+    (after,) = load_replays(tmp_path / name)
+    assert (after.author, after.replay.level_author) == ("", before.author)
+
+
 def test_a_run_that_goes_on_keeps_its_length_there_and_back(tmp_path: Path) -> None:
     source = write_records(tmp_path / "tas.txt", ("Walk", WALK, running(20)))
     first, second = tmp_path / "first.replay.txt", tmp_path / "second.replay.txt"

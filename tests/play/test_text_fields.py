@@ -26,6 +26,7 @@ class Writer(MenuDriver):
         )
         self.app.push(self.form)
         self.frames(2)
+        self.key("end")  # the text is a proposal
 
     @property
     def field(self) -> TextEntry:

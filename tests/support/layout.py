@@ -107,7 +107,7 @@ def noted() -> Iterator[list[Layout]]:
 
     def draw(self: Lettering, surface: pygame.Surface | None, text: str, *args: Any, **options: Any) -> pygame.Rect:
         rect = draw_text(self, surface, text, *args, **options)
-        if surface is not None and text:
+        if surface is not None and text and _is_of_window(surface):
             layouts[-1].write(text, rect, surface)
         return rect
 
@@ -137,6 +137,11 @@ def noted() -> Iterator[list[Layout]]:
             if "draw" in vars(kind):
                 stack.enter_context(patch.object(kind, "draw", _owned(kind.draw, layouts)))
         yield layouts
+
+
+def _is_of_window(surface: pygame.Surface) -> bool:
+    """Whether what is drawn has its place in the window, not in a picture that is shown somewhere."""
+    return surface.get_parent() is not None or surface.get_size() == pygame.display.get_window_size()
 
 
 def _kinds(kind: type[Widget]) -> Iterator[type[Widget]]:

@@ -108,6 +108,7 @@ class TakeOver:
             words = "has left" if outcome == "exit" else "is dead"
             editor.app.notify(f"The ninja {words} in tick {end}: take over in a tick before")
             return
+        editor.places[editor.track] = editor.cursor, editor.anchor
         editor.session.begin()
         self.on = self.waiting = True
         self.still = False

@@ -8,7 +8,7 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import counted
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.notations import Marker
-from ninja_game.runs.compare import LeadTable, lead_table
+from ninja_game.runs.compare import NEAR, LeadTable, lead_table
 from ninja_game.runtime import NewestJob
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.editor import TasEditor
@@ -125,6 +125,8 @@ class LeadTab(Tab):
         last = next((row for row in reversed(table.rows) if row.counts), None)
         if last is not None:
             parts.append(f"{lead_in_words(last.ahead)} at {last.name}")
+        if table.apart:
+            parts.append(f"no rows for {table.apart} s more than {NEAR:.0f} px apart")
         return "; ".join(parts)
 
     def render_key(self) -> tuple[object, ...]:

@@ -296,8 +296,12 @@ class SearchTab(Tab):
             self._fill(self._preset[0] if self.goal.text != "won" else lambda _: SpanGoal())
 
     def propose(self) -> None:
-        rows = [(name, partial(self._fill, make), hint) for name, hint, make in PRESETS]
-        self.editor.app.push(Menu(self.editor.app, "Presets", rows))
+        """A menu of what people want of the selected ticks, which it names; it fills the fields."""
+        if self.editor.anchor is not None or self.editor.selection != self._taken:
+            self.use_selection()
+        first, last = self.span
+        rows = [(name, partial(self._fill, make), hint.format(first, last - 1)) for name, hint, make in PRESETS]
+        self.editor.app.push(Menu(self.editor.app, f"Presets for ticks {first} to {last - 1}", rows))
 
     def _fill(self, make: Callable[[SearchedSpan], SpanGoal]) -> None:
         try:

@@ -90,3 +90,13 @@ def test_a_run_that_cannot_be_compared_says_so(at: TasDriver, tab: LeadTab, monk
     at.wait(lambda: tab.is_current, "an answer")
     assert "too long" in tab.summary
     assert tab.table is None
+
+
+def test_seconds_without_a_row_are_told(at: TasDriver, tab: LeadTab) -> None:
+    at.editor.edit(lambda track: track.replaced(0, len(track), bytes(200)))
+    compared(at, tab)
+    assert tab.table
+    there = sum(not row.counts for row in tab.table.rows)
+    seconds = (len(tab.table.comparison.positions[0]) - 1) // 40
+    assert 0 < tab.table.apart == seconds - there
+    assert tab.summary.endswith(f"no rows for {tab.table.apart} s more than 24 px apart")

@@ -498,9 +498,26 @@ def test_a_list_that_is_cleared_has_no_scroll_bar(at: TasDriver, tab: SearchTab)
     assert tab.list.count == 0
 
 
+def test_a_preset_takes_the_ticks_that_one_is_on(at: TasDriver, tab: SearchTab) -> None:
+    end = at.session.timeline.end[0]
+    at.press("escape")
+    at.editor.go(60)
+    at.choose("Presets")
+    menu = at.top()
+    assert isinstance(menu, Menu)
+    assert menu.title == "Presets for ticks 60 to 99"
+    assert menu.rows()[0][2] == "From tick 60 on, in any way"
+    at.choose("Reach the exit sooner")
+    assert tab.span == (60, end)
+    at.choose("Presets")
+    at.choose("Be there sooner")
+    assert tab.span[0] == 60, "of the same ticks as before"
+
+
 def test_hints_of_goals_have_room_in_their_menu(at: TasDriver) -> None:
     at.press("f")
     at.press("escape")
     theme = at.app.menu_theme
     for _, hint, _ in PRESETS:
+        hint = hint.format(999_000, 999_999)  # noqa: PLW2901
         assert theme.width(hint, 9.5) <= PANEL_WIDTH - 16, hint

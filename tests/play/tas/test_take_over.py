@@ -202,3 +202,16 @@ def test_the_real_bindings_know_what_is_held(at: TasDriver) -> None:
             pygame.event.post(pygame.Event(kind, key=0, scancode=SCANCODES[name], mod=0, unicode=""))
     at.frames()
     assert (taken.on, at.editor.track) == (True, before)
+
+
+def test_undo_goes_back_to_where_it_began(at: TasDriver) -> None:
+    at.editor.select(20, 21)
+    at.press("z")
+    at.press("z")
+    take_over(at)
+    at.keys.script = [1, 1, 5, 5]
+    at.frames(4)
+    at.press("return")
+    at.editor.go(30)
+    at.chord("z", pygame.KMOD_LCTRL)
+    assert at.editor.cursor == START
