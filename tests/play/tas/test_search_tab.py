@@ -351,7 +351,8 @@ def test_the_whole_run_is_shortened_in_the_background_and_keeps_its_markers(at: 
     assert tab.span == (0, end + 41)
     at.press("return")
     results = results_of(tab)
-    at.wait(lambda: bool(tab.found) and tab.found[0].ticks < end + 20, "a shorter run")
+    at.wait(lambda: not results.running or (tab.found and tab.found[0].ticks < end + 20), "a shorter run")
+    assert results.running, results.search.problem
     at.choose("Stop")
     at.wait(lambda: not results.running, "the end")
     at.frames(2)
