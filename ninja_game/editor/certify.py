@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import suppress
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import takewhile
 from math import isfinite
 from struct import iter_unpack
+from threading import Event
 from time import monotonic
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
@@ -17,7 +17,7 @@ from ninja_game.backend.memories import compiled_available, open_worlds
 from ninja_game.editor.brush import object_of_type, placed
 from ninja_game.editor.draft import Cell, Draft, cell_of, is_inside
 from ninja_game.editor.stamp import Stamp, put
-from ninja_game.errors import BudgetError, LevelError, NinjaGameError
+from ninja_game.errors import BudgetError, LevelError, NinjaGameError, reason
 from ninja_game.files.user_folder import how_to_install
 from ninja_game.levels.findings import Finding
 from ninja_game.runs.run import RunResult, run_level
@@ -85,16 +85,13 @@ def map_of(tries: Iterable[Try]) -> TestMap:
     return TestMap(visits, tuple(deaths))
 
 
-class _StoppedError(Exception):
-    """Ends the solver from within its report."""
-
-
 @dataclass(eq=False)
 class Search:
     """The solver's work on a level: ``run``, the best one found, and its ``route``; ``full``: the best with all gold.
 
-    ``progress``: the newest one, None until the solver is ready. ``end``: why it is over, "" as long as it is not;
-    ``obstacles``: what kept it from a run in all its ``seconds``. ``then``: called at the end, in the solver's thread.
+    ``progress``: the newest one, None until the solver is ready. ``end``: why it is over, "" as long as it is not, and
+    ``failed``: whether by an error; ``obstacles``: what kept it from a run in all its ``seconds``. ``then``: called at
+    the end, in the solver's thread. ``stopping``: set to end it.
     """
 
     level: Level | None = None
@@ -107,10 +104,13 @@ class Search:
     obstacles: tuple[Finding, ...] = ()
     full: Replay | None = None
     then: Callable[[Search], object] | None = None
+    failed: bool = False
+    stopping: Event = field(default_factory=Event)
 
     def take(self, run: Replay) -> None:
         """A run of the level is kept if it is the fastest, or the fastest with all gold."""
         assert self.level is not None  # noqa: S101 - for the type checker
+        self.obstacles = ()
         if self.run is None or run.end_tick < self.run.end_tick:
             self.run, self.route = run, route_of(self.level, run.inputs)
         if run.gold >= self.level.gold and (self.full is None or run.end_tick < self.full.end_tick):
@@ -138,9 +138,7 @@ class Certifier:
     def text(self) -> str:
         """How it stands, in a line, "" before the first start; while the solver is made ready, for how long."""
         search = self.search
-        if self._job.problem:
-            return self._job.problem
-        if search.run is not None:
+        if search.run is not None and not search.failed:
             gold = f", {search.run.gold} gold" if search.run.gold else ""
             shortening = ", shortening" * self.busy
             return f"Certified: {search.run.end_tick / TICKS_PER_SECOND:.2f} s{gold}{shortening}"
@@ -155,7 +153,7 @@ class Certifier:
 
     @property
     def busy(self) -> bool:
-        return self.search.level is not None and not (self.search.end or self._job.idle)
+        return self.search.level is not None and not self.search.end
 
     def is_stale(self, level: Level) -> bool:
         """Whether there is a result, but of another level than this one."""
@@ -169,7 +167,7 @@ class Certifier:
         if not compiled_available():
             self.search = Search(end=f"Certifying needs Numba: {how_to_install('fast')}")
             return
-        self.search, self._job.problem = Search(level, seconds=longer), ""
+        self.search = Search(level, seconds=longer)
         for run in (before.run, before.full) if before.level == level else ():
             if run:
                 self.search.take(run)
@@ -186,6 +184,7 @@ class Certifier:
         """End the search; what was found stays. Nobody waits: a solver that is being compiled ends when it is ready."""
         if self.busy:
             self.search.end = STOPPED
+            self.search.stopping.set()
 
     def leave(self, then: Callable[[Search], object] | None) -> None:
         """The level is left. ``then``: called when its search, which goes on, has ended; None: it is stopped."""
@@ -197,30 +196,24 @@ class Certifier:
     def edit(self, level: Level) -> None:
         """Another level is under edit, perhaps one whose search goes on."""
         self.search = next((each for each in self._left if each.level == level and not each.end), Search())
-        self._job.problem = ""
+        self.search.then = None
 
     @staticmethod
     def _work(search: Search) -> None:
-        def report(progress: Progress) -> None:
-            if search.end:
-                raise _StoppedError
-            search.progress = progress
-
-        def better(run: Replay) -> None:
-            if search.end:
-                raise _StoppedError
-            search.take(run)
-
         if search.end or search.level is None:
             return
         Certifier._at_work = search
-        with suppress(_StoppedError):
+        try:
             from ninja_game.search.solve import Task, solve
             from ninja_game.search.task import obstacle
 
-            found = solve(Task(search.level, seconds=search.seconds), report=report, on_better=better)
-            if not (found or search.run) and search.progress:
+            task, report = Task(search.level, seconds=search.seconds), partial(setattr, search, "progress")
+            found = solve(task, report=report, on_better=search.take, stop=search.stopping)
+            if not (found or search.run or search.end) and search.progress:
                 search.obstacles = (obstacle(search.level, 0, search.progress),)
+        except BaseException as error:
+            search.end, search.failed = reason(error), True
+            raise
         nothing = f"No run in {search.seconds:.0f} s: the first problem says why. F7 looks twice as long"
         search.end = search.end or ("Done" if search.run else nothing)
         if search.then and search.end != STOPPED:

@@ -160,7 +160,9 @@ def test_a_search_that_was_stopped_changes_nothing_and_nobody_waits_for_it(monke
     old, new = Level(), Level((1,) * len(Level().tiles))
     times: list[float] = []
 
-    def solve(task: Task, *, report: Callable[[Progress], object], on_better: Callable[[Replay], object]) -> None:
+    def solve(
+        task: Task, *, report: Callable[[Progress], object], on_better: Callable[[Replay], object], stop: Event
+    ) -> None:
         ready.wait(LONGEST)
         times.append(task.seconds)
         if task.level is old:

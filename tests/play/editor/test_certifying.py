@@ -30,7 +30,7 @@ def test_searches_of_levels_that_were_left_go_on_one_after_the_other(
     run = verified_run(ROOM.level, with_press_bits(bytes([2]) * 100))
 
     def solve(
-        task: Task, *, report: Callable[[Progress], object], on_better: Callable[[Replay], object]
+        task: Task, *, report: Callable[[Progress], object], on_better: Callable[[Replay], object], stop: Event
     ) -> Replay | None:
         at_once.append(ready.is_set())
         ready.wait(LONGEST)
@@ -65,6 +65,31 @@ def test_searches_of_levels_that_were_left_go_on_one_after_the_other(
     session.certifier._job.finish(LONGEST)
     assert (at_once, kept.exists()) == ([False, True], True)
     assert told[-2:] == ["Room: certified, 0.97 s, kept with the level", "Other: no run in 20 s"]
+
+
+def test_a_search_that_fails_ends_and_says_so_of_its_own_level_alone(
+    room: Maker, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
+) -> None:
+    ready = Event()
+    request.addfinalizer(ready.set)
+
+    def solve(task: Task, **_: object) -> None:
+        if task.level == ROOM.level:
+            raise MemoryError
+        ready.wait(LONGEST)
+
+    monkeypatch.setattr("ninja_game.search.solve.solve", solve)
+    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
+    certifier = room.editor.session.certifier
+    room.chord("s", pygame.KMOD_LCTRL)
+    room.press("f7")
+    failed = certifier.search
+    room.chord("n", pygame.KMOD_LCTRL)
+    room.choose("A room")
+    room.press("f7")
+    room.wait(lambda: failed.end)
+    assert (failed.end, certifier.busy) == ("there is not enough memory", True)
+    assert certifier.text.startswith("Getting ready, ")
 
 
 def test_a_search_of_what_no_file_holds_ends_with_the_level(room: Maker) -> None:
