@@ -12,6 +12,7 @@ import pytest
 
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.play.editor.commands import TryScreen
+from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.level.screen import play_level
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.sim import states
@@ -166,7 +167,7 @@ def test_each_screen_asks_for_its_music() -> None:
         play_level(app, replace(entry, episode=""))
         assert app.top.music in BY_COLUMN
         app.pop()
-        app.push(TryScreen(app, "mine", entry.named.level, lambda inputs, over: None, lambda _: False))
+        app.push(TryScreen(app, EditorSession(app), entry.named.level))
         assert app.top.music == SILENCE
         app.pop()
         play_level(app, entry, practice=True)

@@ -6,7 +6,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Protocol
 
 from ninja_game.editor.brush import FAMILIES, OBJECT_TYPES, QUARTERS, SNAPS
 from ninja_game.editor.draft import Cell, cell_of
@@ -36,7 +35,6 @@ from ninja_game.play.menus.menu_screen import CANCEL, Action, FormPanel, Menu, R
 from ninja_game.play.workspace import Command, CommandTable, DocumentCommands
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.player_data import PlayerData
 from ninja_game.player.playthrough import LevelContext, Navigation, PacedRun
 from ninja_game.sim.level import COLUMNS, ROWS, Level
 from ninja_game.ui.audio.music import SILENCE
@@ -148,7 +146,7 @@ class LevelMenu(Menu):
 
 
 class EditorCommands(DocumentCommands):
-    """Runs commands by name (``controls.COMMANDS``)."""
+    """Runs commands by name (``COMMANDS``)."""
 
     def __init__(self, app: App, session: EditorSession, view: EditorView, palette: PaletteView) -> None:
         super().__init__(app, session)
@@ -249,8 +247,7 @@ class EditorCommands(DocumentCommands):
         session = self.session
         level = session.level_to_test(here=here)
         try:
-            tried, certifies = partial(session.tried, level), partial(session.passed, level)
-            screen = TryScreen(self.app, session.name, level, tried, certifies, says=session.draft.says)
+            screen = TryScreen(self.app, session, level)
         except LevelError as error:
             self.app.notify(f"{error.what}: key 9 among the objects places a ninja, F6 tests with one at the pointer")
             return
@@ -414,19 +411,17 @@ class EditorCommands(DocumentCommands):
         self.unless_unsaved(lambda: self.app.push(Menu(self.app, "New level from", rows)))
 
 
-class Tried(Protocol):
-    def __call__(self, inputs: bytes, *, over: bool) -> object:
-        """Called with the inputs of a try when it is left, or is ``over``."""
-
-
 class TryContext(LevelContext):
     """A level that is only tried out: with practice tools and without a clock; nothing counts."""
 
     onward = "back to the editor"
 
-    def __init__(self, data: PlayerData, entry: Entry, tried: Tried, certifies: Callable[[Attempt], bool]) -> None:
-        super().__init__(data, entry, practice_mode=True)
-        self._tried, self._certifies = tried, certifies
+    def __init__(self, session: EditorSession, entry: Entry) -> None:
+        super().__init__(session.app.player, entry, practice_mode=True)
+        self._session = session
+
+    def _tried(self, attempt: Attempt, *, over: bool) -> None:
+        self._session.tried(self.level, bytes(attempt.inputs), over=over)
 
     def ghosts(self) -> list[PacedRun]:
         """None: nobody has a best on a level that is being made."""
@@ -437,11 +432,11 @@ class TryContext(LevelContext):
         return read_sayings(self.entry.named.says)
 
     def passed(self, attempt: Attempt) -> list[str]:
-        self._tried(bytes(attempt.inputs), over=True)
-        return ["It can be passed" + ": this run certifies it" * self._certifies(attempt)]
+        self._tried(attempt, over=True)
+        return ["It can be passed" + ": this run certifies it" * self._session.passed(self.level, attempt)]
 
     def died(self, attempt: Attempt) -> None:
-        self._tried(bytes(attempt.inputs), over=True)
+        self._tried(attempt, over=True)
 
     def gave_up(self, attempt: Attempt) -> None:
         self.left(attempt, over=True)
@@ -449,7 +444,7 @@ class TryContext(LevelContext):
     def left(self, attempt: Attempt, *, over: bool = False) -> None:
         """Tell of a try that has not ended by itself."""
         if attempt.outcome == "running":
-            self._tried(bytes(attempt.inputs), over=over)
+            self._tried(attempt, over=over)
 
     def advance(self) -> Navigation:
         return Navigation.BACK
@@ -460,12 +455,10 @@ class TryScreen(LevelScreen):
 
     music = SILENCE
 
-    def __init__(
-        self, app: App, name: str, level: Level, tried: Tried, certifies: Callable[[Attempt], bool], *, says: str = ""
-    ) -> None:
-        title = f"{name} ({app.controls.name('back')}: back to the editor)"
-        named = NamedLevel(title, "", "", level, "", says=says)
-        self._trying = TryContext(app.player, Entry(named, "yours"), tried, certifies)
+    def __init__(self, app: App, session: EditorSession, level: Level) -> None:
+        title = f"{session.name} ({app.controls.name('back')}: back to the editor)"
+        named = NamedLevel(title, "", "", level, "", says=session.draft.says)
+        self._trying = TryContext(session, Entry(named, "yours"))
         super().__init__(app, self._trying)
 
     def leave(self) -> None:

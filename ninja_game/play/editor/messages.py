@@ -13,7 +13,7 @@ from ninja_game.editor.specs import BODY, SWITCH, points
 from ninja_game.errors import LevelError
 from ninja_game.formats.sayings import BAR, KEYS, MOST_LETTERS, MOST_SAYINGS, THINGS, named_keys, read_sayings
 from ninja_game.play.app import App
-from ninja_game.play.editor.sheet import LevelSheet
+from ninja_game.play.editor.sheet import LevelSheet, said_places
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.level.play import MAY, MUST, tag_top
 from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuScreen, Row
@@ -48,13 +48,17 @@ class Message:
     text: str = ""
 
     @property
+    def moment(self) -> str:
+        return f"{self.when} {self.detail.replace(' ', '')}"
+
+    @property
     def source(self) -> str:
-        return f"{self.when} {self.detail.replace(' ', '')}".strip() + f": {self.text.strip()}"
+        return f"{self.moment.strip()}: {self.text.strip()}"
 
     @property
     def problem(self) -> tuple[bool, str]:
         """Whether it is its detail that is wrong, and in words what; '' for none."""
-        moment = f"{self.when} {self.detail.replace(' ', '')}"
+        moment = self.moment
         if self.when in ("death", "at") and (":" in moment or not _fits(f"{moment}: a text")):
             place = "column,row: 1,1 to 31,23, as in 12,5"
             return True, f"A place is {place}" if self.when == "at" else "How many deaths: a number from 1 to 99"
@@ -229,6 +233,6 @@ class MessagesScreen(MenuScreen):
     def _eye(self, message: Message) -> Point | None:
         """Where the ninja is when a message is said, px; None at the start, or where that is not known."""
         if message.when == "at" and not message.problem[0]:
-            return next((24.0 * x + 12.0, 24.0 * y + 12.0) for x, y in [map(int, message.detail.split(","))])
+            return said_places(f"{message.moment}: a text")[0]
         kind, part = {"switch": (EXIT, SWITCH), "gold": (GOLD, BODY)}.get(message.when, (-1, BODY))
         return next((points(spec).get(part) for spec in self._draft.objects if spec.kind == kind), None)

@@ -193,11 +193,9 @@ class FigurePicture:
         self.figure.tick()
 
 
-def figure_pictures(
-    name: str, *, scale: float = 1.0, ticks: int = FILM_TICKS, palette: str = "classic"
-) -> Iterator[pygame.Surface]:
+def figure_pictures(name: str, *, scale: float = 1.0, ticks: int = FILM_TICKS) -> Iterator[pygame.Surface]:
     """The figure after each tick of its demonstration, always on the same surface."""
-    picture = FigurePicture(name, scale, palette)
+    picture = FigurePicture(name, scale)
     for tick in range(ticks):
         picture.demonstrate(tick)
         picture.draw()
@@ -206,8 +204,11 @@ def figure_pictures(
 
 def figure_picture(name: str, *, scale: float = 1.0, palette: str = "classic") -> pygame.Surface:
     """The figure at one moment of its demonstration."""
-    *_, last = figure_pictures(name, scale=scale, ticks=PICTURE_TICK, palette=palette)
-    return last
+    picture = FigurePicture(name, scale, palette)
+    for tick in range(PICTURE_TICK):
+        picture.demonstrate(tick)
+    picture.draw()
+    return picture.surface.subsurface(picture.area)
 
 
 def export_figure(name: str, path: Path, *, scale: float = 1.0) -> None:
