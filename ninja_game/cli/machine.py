@@ -17,11 +17,11 @@ from typing import TYPE_CHECKING
 import click
 
 from ninja_game.cli.options import NEW_FILE, OLD_FILE, heartbeat
-from ninja_game.errors import FileError
+from ninja_game.errors import FileError, NinjaGameError
 from ninja_game.files.shown_text import shown_text
-from ninja_game.player.player_data import PlayerData
 
 if TYPE_CHECKING:
+    from ninja_game.player.player_data import PlayerData
     from ninja_game.sim.level import Level
 
 ENTRY = """[Desktop Entry]
@@ -86,8 +86,6 @@ def desktop(remove: bool) -> None:
       ninja-game desktop
       ninja-game desktop --remove
     """
-    from ninja_game.errors import NinjaGameError
-
     if sys.platform in ("win32", "darwin"):
         raise NinjaGameError("this system's menu of programs is not known here; `ninja-game play` starts the game")
     from platformdirs import user_data_path
@@ -186,7 +184,6 @@ def compile_everything(processes: int, *, quiet: bool) -> None:
     Raises NinjaGameError where nothing is kept.
     """
     from ninja_game.backend.kernel_cache import are_kept, cache_folder
-    from ninja_game.errors import NinjaGameError
     from ninja_game.runs.workers import in_order, workers
     from ninja_game.sim.memory.kernels import run_world
 
@@ -310,6 +307,8 @@ def take_in(file: Path) -> None:
 @contextmanager
 def _player() -> Iterator[PlayerData]:
     """The player's data, closed afterwards. Raises FileError for records that cannot be used."""
+    from ninja_game.player.player_data import PlayerData
+
     player = PlayerData()
     try:
         player.open_records()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -15,7 +16,7 @@ import click
 
 from ninja_game.cli.options import NEW_FILE, NEW_FOLDER, OLD_FILE, OLD_FOLDER, InputPath, jobs_option
 from ninja_game.cli.splits import as_json, draw, show, table_of
-from ninja_game.errors import ArgumentError
+from ninja_game.errors import ArgumentError, FileError
 from ninja_game.files.shown_text import shown_text
 
 if TYPE_CHECKING:
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
     from ninja_game.player.catalogue import Entry
     from ninja_game.web.board.ranking import Ranked, Ranking
     from ninja_game.web.board.rules import Category
+    from ninja_game.web.board.runs import Ledger
+    from ninja_game.web.pages.gallery import PublishedLevels
     from ninja_game.web.pages.memo import Memo
 
 rules_option = click.option(
@@ -44,7 +47,6 @@ def memo_of(kind: str, about: Path, folder: Path, *, again: bool) -> Memo:
     """
     from hashlib import sha256
 
-    from ninja_game.errors import FileError
     from ninja_game.web.board.pages import is_in
     from ninja_game.web.pages.memo import Memo
 
@@ -182,15 +184,10 @@ def board(
       ninja-game board replays/ --levels my-pack/ --site public/
       ninja-game board ask replays/ rank 00-0
     """
-    import gc
-
     from ninja_game.files.user_folder import data_folder
     from ninja_game.files.writing import check_output, write_atomically
     from ninja_game.web.board.pages import BoardPages, check_ledger, check_site
-    from ninja_game.web.board.ranking import Ranking
-    from ninja_game.web.board.report import board_text, changes, dates_of, gone, plain, read_board, summary
-    from ninja_game.web.board.rules import USUAL, read_categories
-    from ninja_game.web.board.runs import NO_LEDGER, judge
+    from ninja_game.web.board.report import board_text, changes, gone, plain, summary
     from ninja_game.web.pages.frame import GAME
     from ninja_game.web.pages.gallery import published_levels
 
@@ -199,17 +196,9 @@ def board(
     if data:
         check_output(data, keep=[folder])
         check_ledger(data, folder)
-    gc.set_threshold(20_000)  # of many runs, all of which stay, a third of the time went into looking for garbage
-    now = datetime.now(UTC)
-    ledger = check or data
-    before = read_board(ledger, now) if ledger and ledger.exists() else NO_LEDGER
-    categories = read_categories(rules) if rules else USUAL
     shown = published_levels(levels or data_folder("levels"))
-    memo = memo_of("runs", folder, folder, again=again)
-    dates = dates_of(before, now) if ledger else None
-    judged = judge(folder, shown, dates=dates, jobs=jobs, memo=memo, ledger=before)
-    memo.save()
-    ranking = Ranking(judged, shown, categories)
+    ranking, before = _ranking(folder, shown, rules, check or data, jobs=jobs, again=again)
+    judged = ranking.judged
     if site:
         BoardPages(site, ranking, memo=memo_of("pages", site, folder, again=again), address=address).write()
         if not (site / GAME).exists():
@@ -228,6 +217,28 @@ def board(
         click.echo(line)
     click.echo(summary(judged) if found else f"nothing has changed: {summary(judged)}")
     return 0 if all(allowed for allowed, _ in found) else 1
+
+
+def _ranking(
+    folder: Path, shown: PublishedLevels, rules: Path | None, ledger: Path | None, *,
+    jobs: int | None, again: bool = False,
+) -> tuple[Ranking, Ledger]:  # fmt: skip
+    """What the runs of a folder come to by the board's rules, and what its ledger said before."""
+    from ninja_game.web.board.ranking import Ranking
+    from ninja_game.web.board.report import dates_of, read_board
+    from ninja_game.web.board.rules import USUAL, read_categories
+    from ninja_game.web.board.runs import NO_LEDGER, judge
+
+    # Of many runs, all of which stay, a third of the time went into looking for garbage.
+    gc.set_threshold(20_000)
+    now = datetime.now(UTC)
+    before = read_board(ledger, now) if ledger and ledger.exists() else NO_LEDGER
+    categories = read_categories(rules) if rules else USUAL
+    memo = memo_of("runs", folder, folder, again=again)
+    dates = dates_of(before, now) if ledger else None
+    judged = judge(folder, shown, dates=dates, jobs=jobs, memo=memo, ledger=before)
+    memo.save()
+    return Ranking(judged, shown, categories), before
 
 
 QUESTIONS = ("rank", "best", "inputs", "splits", "trace", "film")
@@ -274,22 +285,14 @@ def ask(
       ninja-game board ask replays/ film 00-0 Ann Bob -o both.gif
     """
     from ninja_game.files.user_folder import data_folder
-    from ninja_game.web.board.ranking import Ranking
-    from ninja_game.web.board.report import dates_of, read_board
-    from ninja_game.web.board.rules import USUAL, read_categories
-    from ninja_game.web.board.runs import ASSISTED, NO_LEDGER, PLAYED, judge
+    from ninja_game.web.board.runs import ASSISTED, PLAYED
     from ninja_game.web.pages.gallery import published_levels
 
     if what in ("trace", "film") and not output:
         raise click.UsageError(f"{what}: name the file with -o")
-    shown, now = published_levels(levels or data_folder("levels")), datetime.now(UTC)
+    shown = published_levels(levels or data_folder("levels"))
     entry = _level(level, list(shown.entries.values()))
-    memo = memo_of("runs", folder, folder, again=False)
-    before = read_board(ledger, now) if ledger else NO_LEDGER
-    dates = dates_of(before, now) if ledger else None
-    judged = judge(folder, shown, dates=dates, jobs=jobs, memo=memo, ledger=before)
-    ranking = Ranking(judged, shown, read_categories(rules) if rules else USUAL)
-    memo.save()
+    ranking, _ = _ranking(folder, shown, rules, ledger, jobs=jobs)
     chosen = _category(ranking, category)
     table = ranking.tables.get(entry.digest, {}).get((ASSISTED if assisted else PLAYED, chosen), [])
     found = [_of_player(table, player) for player in players] or table[: None if what == "rank" else MOST_RUNS]
