@@ -338,10 +338,7 @@ def lead_table(ours: Recording, theirs: Recording, markers: Sequence[Marker]) ->
     rows = [LeadRow(lead.tick, lead.other, split_name(lead.at), True) for lead in found.splits]
     there = {lead.tick: lead.other for lead in found.places}
     rows += [LeadRow(tick, there[tick], name, True) for tick, name in markers if tick in there]
-    rows += [
-        LeadRow(lead.tick, lead.other, f"{lead.tick // TICKS_PER_SECOND} s", False)
-        for lead in each_second(found.places)
-    ]
-    seconds = (len(found.positions[0]) - 1) // TICKS_PER_SECOND
-    apart = seconds - len(each_second(found.places))
+    seconds = each_second(found.places)
+    rows += [LeadRow(lead.tick, lead.other, f"{lead.tick // TICKS_PER_SECOND} s", False) for lead in seconds]
+    apart = (len(found.positions[0]) - 1) // TICKS_PER_SECOND - len(seconds)
     return LeadTable(tuple(sorted(rows, key=lambda row: row.tick)), found, apart)

@@ -273,10 +273,13 @@ class SearchTab(Tab):
 
     def ask(self) -> None:
         """Show this tab for the selected ticks, with the focus on the goal; without new ones it stays as it is."""
-        if self.editor.anchor is not None or self.editor.selection != self._taken:
-            self.use_selection()
+        self._follow_selection()
         self.editor.tab = self.name
         self.wants = self.goal
+
+    def _follow_selection(self) -> None:
+        if self.editor.anchor is not None or self.editor.selection != self._taken:
+            self.use_selection()
 
     def use_selection(self) -> None:
         """Search the selected ticks; where only one is, a second from there on.
@@ -297,8 +300,7 @@ class SearchTab(Tab):
 
     def propose(self) -> None:
         """A menu of what people want of the selected ticks, which it names; it fills the fields."""
-        if self.editor.anchor is not None or self.editor.selection != self._taken:
-            self.use_selection()
+        self._follow_selection()
         first, last = self.span
         rows = [(name, partial(self._fill, make), hint.format(first, last - 1)) for name, hint, make in PRESETS]
         self.editor.app.push(Menu(self.editor.app, f"Presets for ticks {first} to {last - 1}", rows))
