@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from hashlib import sha256
 from heapq import nsmallest
-from itertools import pairwise
+from itertools import chain, groupby, pairwise
 from pathlib import Path
 from typing import Any, NamedTuple, get_type_hints
 
@@ -114,8 +114,8 @@ class Run:
     """A run that counts, as the simulation says: ``tick`` of the exit contact, ``gold``, ``score`` (ticks).
 
     ``file``: path in the folder, ``record`` in it; ``added``: as Dates say; ``remark``: what a reader should know;
-    ``near``: whose it nearly is, in words, where nobody has ``confirmed`` it: it leads no table; ``turn``: what comes
-    first of runs of one moment; ``digest``: of its file; the rest as in Judged.
+    ``near``: whose it nearly is, in words, where nobody has ``confirmed`` it: it leads no table; ``again``: it was
+    withdrawn, and is the first of its moment; ``digest``: of its file; the rest as in Judged.
     """
 
     file: str
@@ -138,7 +138,7 @@ class Run:
     remark: str = ""
     near: str = ""
     confirmed: bool = False
-    turn: int = 0
+    again: bool = False
 
     @cached_property
     def key(self) -> Key:
@@ -248,9 +248,7 @@ def judge(
         # A run that was withdrawn, or comes in another file, is still its player's.
         owner = owners.get(way := (run.entry.digest, run.way))
         if owner and (*way, owner["added"]) not in known and folded(owner["player"]) == folded(run.player):
-            runs[number] = replace(run, added=owner["added"], turn=-1)
-        if owner and owner.get("near"):
-            runs[number] = replace(runs[number], turn=1)
+            runs[number] = replace(run, added=owner["added"], again=True)
     told = _of_players(sorted(runs, key=_first), players)
     counted, copies = _without_copies(told, memo, owners)
     counted = [_with_row(run, owners.get((run.entry.digest, run.way), {})) for run in counted]
@@ -361,9 +359,9 @@ def _run(name: str, digest: str, row: Judged, entry: Entry, folder: RunFolder, a
     return Run(name, player=row.author, entry=entry, added=added, digest=digest, folder=folder, **same)
 
 
-def _first(run: Run) -> tuple[str, int, bool, Key]:
+def _first(run: Run) -> tuple[str, bool, bool, Key]:
     """What runs are in order of: the first one owns what it does. A level of an episode comes after single runs."""
-    return run.added, run.turn, bool(run.episode), run.key
+    return run.added, not run.again, bool(run.episode), run.key
 
 
 def _with_row(run: Run, row: Mapping[str, Any]) -> Run:
@@ -456,41 +454,72 @@ def _without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run
             what = f"a copy of the run by {first.player} in" if stolen else "the same run as"
             why, kind = f"{what} {first.file}", OWN if run.episode and first.player == run.player else "copy"
             copies.append(Rejected(*run.key, kind, why, run.player, run.entry.title, run.way, run.added, first.key))
-    kept = [run for level in on_level.values() for run in _remarked(level, memo)]
+    kept = [run for level in on_level.values() for run in _remarked(level, memo, owners)]
     return sorted(kept, key=_first), copies
 
 
-def _remarked(runs: list[Run], memo: Memo) -> list[Run]:
-    """The runs of a level, in order, with a remark on each that is near to earlier ones of others alone."""
+def _remarked(runs: list[Run], memo: Memo, owners: Rows) -> Iterator[Run]:
+    """The runs of a level, in order, with a remark on each that is near to earlier ones of others alone.
+
+    One that is near as its row says, and to none before it, waits until the others of its moment are compared: what it
+    is near to may have come back since, in a file with a later name.
+    """
     if len({run.player for run in runs}) == 1:
-        return runs
-    found: list[Run] = []
-    courses, known = Courses(MOST_COMPARED), 0
-    key = digest_of([program(), runs[0].entry.digest])
-    for number, run in enumerate(runs):
-        # A remark depends on all earlier runs of the level, and on nothing else.
-        key = sha256(f"{key} {run.digest} {run.record} {run.player}".encode("utf-8", "replace")).hexdigest()
-        said = memo.recall(key)
+        yield from runs
+        return
+    compared = _Compared(runs[0].entry.digest, memo)
+    for _, moment in groupby(runs, key=lambda run: run.added):
+        waiting: list[Run] = []
+        for run, waits in chain(((run, True) for run in moment), ((run, False) for run in waiting)):
+            said = compared.near(run)
+            if waits and not said and owners.get((run.entry.digest, run.way), {}).get("near"):
+                waiting.append(run)
+                continue
+            compared.add(run)
+            yield replace(run, remark="; ".join(filter(None, (said, run.remark))), near=said) if said else run
+
+
+class _Compared:
+    """The runs of a level that were compared so far. What is near to them is remembered, and not compared again."""
+
+    def __init__(self, level: str, memo: Memo) -> None:
+        self._memo = memo
+        self._key = digest_of([program(), level])
+        self._runs: list[Run] = []
+        self._courses, self._known = Courses(MOST_COMPARED), 0
+        self._last: tuple[Key, Course] | None = None
+
+    def _key_of(self, run: Run) -> str:
+        """A remark depends on the run, on all earlier runs of the level, and on nothing else."""
+        return sha256(f"{self._key} {run.digest} {run.record} {run.player}".encode("utf-8", "replace")).hexdigest()
+
+    def add(self, run: Run) -> None:
+        self._key = self._key_of(run)
+        self._runs.append(run)
+
+    def near(self, run: Run) -> str:
+        """Whose a run nearly is, of those before, in words; "" for nobody's but its own player's."""
+        said = self._memo.recall(key := self._key_of(run))
         if not isinstance(said, str):
-            fast = nsmallest(MOST_COMPARED, range(known, number), key=lambda each: runs[each].tick)
-            for each in sorted(fast):
-                courses.add(each, runs[each].tick, partial(_course, runs[each]))
-            course, known = _course(run, new=True), number + 1
-            near = _near_to_another(run.player, course, courses, [each.player for each in runs[:number]])
-            courses.add(number, run.tick, partial(replace, course))
-            said = f"{near[1]} the run by {runs[near[0]].player} in {runs[near[0]].file}" if near else ""
-            memo.note(key, said)
-        found.append(replace(run, remark="; ".join(filter(None, (said, run.remark))), near=said) if said else run)
-    return found
+            before = range(self._known, len(self._runs))
+            for number in sorted(nsmallest(MOST_COMPARED, before, key=lambda each: self._runs[each].tick)):
+                self._courses.add(number, self._runs[number].tick, partial(self._course, self._runs[number]))
+            self._known = len(self._runs)
+            course = self._course(run, new=True)
+            near = _near_to_another(run.player, course, self._courses, [each.player for each in self._runs])
+            said = f"{near[1]} the run by {self._runs[near[0]].player} in {self._runs[near[0]].file}" if near else ""
+            self._memo.note(key, said)
+        return said
 
-
-def _course(run: Run, *, new: bool = False) -> Course:
-    """What tells whether a run is near to others. ``new``: its page is made, and shows its path."""
-    inputs = run.inputs
-    found = run_level(run.entry.named.level, inputs)
-    if new:
-        run.folder.drawn[run.key] = path_data(found.positions)
-    return course_of(inputs, found)
+    def _course(self, run: Run, *, new: bool = False) -> Course:
+        """What tells whether a run is near to others. ``new``: its page is made, and shows its path."""
+        if self._last is None or self._last[0] != run.key:
+            inputs = run.inputs
+            found = run_level(run.entry.named.level, inputs)
+            if new:
+                run.folder.drawn[run.key] = path_data(found.positions)
+            self._last = run.key, course_of(inputs, found)
+        return self._last[1]
 
 
 def _near_to_another(player: str, course: Course, earlier: Courses, players: Sequence[str]) -> tuple[int, str] | None:
