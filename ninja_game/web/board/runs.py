@@ -84,10 +84,17 @@ class Judged(NamedTuple):
     episode: str = ""
 
 
-Waiting = tuple[str, str, list[int], list[Sent], list[Judged]]
-"""A file whose turn comes: name, digest, stamp, what it holds, or what that came to before."""
-
 _TYPES = tuple(get_type_hints(Judged).values())
+
+
+class JudgedFile(NamedTuple):
+    """A file of the folder. ``sent``: what is simulated of it now; ``rows``: what it comes to."""
+
+    name: str
+    digest: str
+    stamp: list[int]
+    sent: list[Sent]
+    rows: list[Judged]
 
 
 class Ledger(NamedTuple):
@@ -234,15 +241,15 @@ def judge(
     runs: list[Run] = []
     rejected: list[Rejected] = []
     players, owners = Players(), ledger.owners
-    for name, digest, rows in _judged(sent, shown, jobs, memo):
-        for found in rows:
-            entry = shown.entries.get(found.level)
-            if found.kind or entry is None:
+    for file in _Judging(sent, shown, memo).files(jobs):
+        for row in file.rows:
+            entry = shown.entries.get(row.level)
+            if row.kind or entry is None:
                 title = entry.title if entry else ""
-                rejected.append(Rejected(name, found.record, found.kind, found.why, found.author, title))
+                rejected.append(Rejected(file.name, row.record, row.kind, row.why, row.author, title))
                 continue
-            added = dates((name, found.record), found.way) if dates else ""
-            runs.append(_run(name, digest, found, entry, sent, added))
+            added = dates((file.name, row.record), row.way) if dates else ""
+            runs.append(_run(file, row, entry, sent, added))
     known = {(run.entry.digest, run.way, run.added) for run in runs}
     for number, run in enumerate(runs):
         # A run that was withdrawn, or comes in another file, is still its player's.
@@ -275,63 +282,73 @@ def _episodes(runs: list[Run], counted: list[Run], shown: PublishedLevels) -> di
     return found
 
 
-def _judged(
-    folder: RunFolder, shown: PublishedLevels, jobs: int | None, memo: Memo
-) -> Iterator[tuple[str, str, list[Judged]]]:
-    """Name, digest and recordings of each file, simulated where the memo does not know them."""
-    # Twice as long as a run can be that is in time.
-    episodes = {each.key: each.levels for each in shown.levels.episodes.values()}
-    longest = [
-        2 * (LIFETIME + GOLD_BONUS * sum(each.all_gold for each in row)) * tick_cost(entry.named.level)
-        for row in [*episodes.values(), *([each] for each in shown.entries.values())]
-        for entry in row
-    ]
-    budget = min(RUN_BUDGET, max(longest, default=RUN_BUDGET))
-    context = digest_of([program(), budget, sorted(shown.entries), sorted(episodes)])
-    files: deque[Waiting] = deque()
+class _Judging:
+    """Judges the files of a folder; what the memo knows of them is not simulated again."""
 
-    def chunks() -> Iterator[Chunk]:
-        for name, why in folder.files():
-            # The stamp comes first: a file that is changed after it is read again the next time.
-            stamp = [] if why else folder.stamp(name)
-            noted = memo.recall(name)
-            *seen, digest, rows = noted if isinstance(noted, list) and len(noted) == 4 else ["", [], "", []]
-            known, sent = (_known(rows, shown) if seen[0] == context else []), list[Sent]()
-            if not (known and stamp and stamp == seen[1]):
-                file = SentFile(name, problem=why) if why else folder.file(name)
-                if known and digest == file.digest:
-                    memo.note(name, [context, stamp, digest, rows])
-                else:
-                    known, sent = [], folder.recordings(file)
-                digest = file.digest
-            files.append((name, str(digest), stamp, sent, known))
-            yield from (each.chunk for each in sent)
+    def __init__(self, folder: RunFolder, shown: PublishedLevels, memo: Memo) -> None:
+        self._folder, self._shown, self._memo = folder, shown, memo
+        self._episodes = {each.key: each.levels for each in shown.levels.episodes.values()}
+        # Twice as long as a run can be that is in time.
+        longest = [
+            2 * (LIFETIME + GOLD_BONUS * sum(each.all_gold for each in row)) * tick_cost(entry.named.level)
+            for row in [*self._episodes.values(), *([each] for each in shown.entries.values())]
+            for entry in row
+        ]
+        self._budget = min(RUN_BUDGET, max(longest, default=RUN_BUDGET))
+        self._context = digest_of([program(), self._budget, sorted(shown.entries), sorted(self._episodes)])
+        self._waiting: deque[JudgedFile] = deque()
 
-    levels = [entry.named for entry in shown.entries.values()]
-    found: list[Judged] = []
-    certain = True
-    for result in verify_all(
-        (), chunks=chunks(), levels=levels, episodes=episodes, strict=True, jobs=jobs, budget=budget
-    ):
-        yield from _remembered(files)
-        name, digest, stamp, sent, _ = files[0]
-        row = _row(sent[len(found)], result, folder)
-        entry = shown.entries.get(row.level)
+    def files(self, jobs: int | None) -> Iterator[JudgedFile]:
+        """All files, in order, simulated where the memo does not know them."""
+        levels, results = [entry.named for entry in self._shown.entries.values()], list[Result]()
+        for result in verify_all(
+            (), chunks=self._chunks(), levels=levels, episodes=self._episodes, strict=True, jobs=jobs,
+            budget=self._budget,
+        ):  # fmt: skip
+            while not self._waiting[0].sent:
+                yield self._waiting.popleft()
+            file = self._waiting[0]
+            results.append(result)
+            if len(results) == len(file.sent):
+                file.rows.extend(self._row(file, *each) for each in zip(file.sent, results, strict=True))
+                if not any(isinstance(each, Lost) for each in results):
+                    self._memo.note(file.name, [self._context, file.stamp, file.digest, file.rows])
+                results.clear()
+                yield self._waiting.popleft()
+        yield from self._waiting
+
+    def _chunks(self) -> Iterator[Chunk]:
+        """What is to be simulated; the files, those that the memo knows too, wait for their turn."""
+        for name, why in self._folder.files():
+            self._waiting.append(file := self._file(name, why))
+            yield from (each.chunk for each in file.sent)
+
+    def _file(self, name: str, why: str) -> JudgedFile:
+        """A file as the memo knows it, else with what is sent in it. ``why``: it is left out."""
+        # The stamp comes first: a file that is changed after it is read again the next time.
+        stamp = [] if why else self._folder.stamp(name)
+        noted = self._memo.recall(name)
+        context, seen, digest, rows = noted if isinstance(noted, list) and len(noted) == 4 else ("", [], "", [])
+        known = _known(rows, self._shown) if context == self._context else []
+        if known and stamp and stamp == seen:
+            return JudgedFile(name, digest, stamp, [], known)
+        file = SentFile(name, problem=why) if why else self._folder.file(name)
+        if known and digest == file.digest:
+            self._memo.note(name, [context, stamp, digest, rows])
+            return JudgedFile(name, digest, stamp, [], known)
+        return JudgedFile(name, file.digest, stamp, self._folder.recordings(file), [])
+
+    def _row(self, file: JudgedFile, sent: Sent, result: Result) -> Judged:
+        """What is kept of a recording; one that cannot be written as pages have it is unreadable."""
+        row = _row(sent, result, self._folder)
+        entry = self._shown.entries.get(row.level)
         if entry and not row.kind:
             try:
                 # Its inputs were read from a text, and can be written into one.
-                shared_text(replace(_run(name, digest, row, entry, folder).replay, inputs=b""), entry.named.level)
+                shared_text(replace(_run(file, row, entry, self._folder).replay, inputs=b""), entry.named.level)
             except (NinjaGameError, ValueError) as error:
-                row = Judged(row.record, "unreadable", str(error))
-        found.append(row)
-        certain &= not isinstance(result, Lost)
-        if len(found) == len(sent):
-            if certain:
-                memo.note(name, [context, stamp, digest, found])
-            files.popleft()
-            yield name, digest, found
-            found, certain = [], True
-    yield from _remembered(files)
+                return Judged(row.record, "unreadable", str(error))
+        return row
 
 
 def _known(noted: Any, shown: PublishedLevels) -> list[Judged]:
@@ -347,16 +364,9 @@ def _known(noted: Any, shown: PublishedLevels) -> list[Judged]:
     return []
 
 
-def _remembered(files: deque[Waiting]) -> Iterator[tuple[str, str, list[Judged]]]:
-    """The files in front that the memo knows; they are taken away."""
-    while files and not files[0][3]:
-        name, digest, _, _, known = files.popleft()
-        yield name, digest, known
-
-
-def _run(name: str, digest: str, row: Judged, entry: Entry, folder: RunFolder, added: str = "") -> Run:
+def _run(file: JudgedFile, row: Judged, entry: Entry, folder: RunFolder, added: str = "") -> Run:
     same = {key: value for key, value in row._asdict().items() if key not in ("kind", "why", "author", "level")}
-    return Run(name, player=row.author, entry=entry, added=added, digest=digest, folder=folder, **same)
+    return Run(file.name, player=row.author, entry=entry, added=added, digest=file.digest, folder=folder, **same)
 
 
 def _first(run: Run) -> tuple[str, bool, bool, Key]:
