@@ -131,7 +131,7 @@ class LevelPages(Parts):
         known = [
             run.folder.drawn.get(run.key) or path_data(each.positions) for run, each in zip(runs, found, strict=True)
         ]
-        drawn = paths(UP + picture_name(runs[0].entry.digest), list(zip(names, known, strict=True)))
+        drawn = paths(UP + picture_name(runs[0].level), list(zip(names, known, strict=True)))
         together = tag("p", self.watch(runs, UP, f"Watch the first {len(runs)} together"))
         pairs = [
             (joined(swatch(number), " ", names[number]), *(self._pair(run, other) for other in runs))

@@ -91,7 +91,7 @@ class Parts:
         about = run.entry, stem, title, facts, BOARD, self.game, self.links, self.site
 
         def content() -> str:
-            picture = f"{UP}{BOARD}/{picture_name(run.entry.digest)}"
+            picture = f"{UP}{BOARD}/{picture_name(run.level)}"
             return run_page(*about, paths(picture, [(self.name(run.player), run.path)]))
 
         self.pages.make_replay(f"{stem}.html", [title, *facts, self.links, self.site], content)
@@ -134,4 +134,4 @@ def _stem(run: Run) -> str:
     """The stem of the file in ``replays`` with a run: of all that the file holds."""
     named = run.entry.named
     told = run.digest, str(run.record), run.player, run.entry.title, named.author, run.made, run.co_authors
-    return sha256("\0".join((*told, run.entry.digest)).encode("utf-8", "replace")).hexdigest()[:16]
+    return sha256("\0".join((*told, run.level)).encode("utf-8", "replace")).hexdigest()[:16]

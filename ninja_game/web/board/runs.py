@@ -51,8 +51,11 @@ PLAYED, ASSISTED = "played", "assisted"
 MOST_COMPARED = 1000
 """Earlier runs of a level that a new one is compared with: the fastest, which are worth a copy."""
 
-KINDS = {"practice": "of practice", "copy": "copied", "refused": "refused", "unreadable": "unreadable"}
-"""Why a run does not count, and that in words."""
+KINDS = {
+    "practice": ("of practice", "Practice runs"), "copy": ("copied", "Copies of runs"),
+    "refused": ("refused", "Runs that do not count"), "unreadable": ("unreadable", "Files that are not runs"),
+}  # fmt: skip
+"""Why a run does not count: in a line of a report, and on a page."""
 
 OWN = "own"
 """What a level of an episode is that its player has sent before."""
@@ -60,7 +63,8 @@ OWN = "own"
 _LINE = re.compile(r"^(?=[0-9])")
 
 
-class Judged(NamedTuple):
+@dataclass(frozen=True)
+class Judged:
     """What a recording of a file comes to, as plain values that can be remembered.
 
     ``kind``: "" for a run that counts, else as in Rejected, with ``why``; ``level``: its digest; ``way``: digest of the
@@ -116,30 +120,19 @@ class Ledger(NamedTuple):
 NO_LEDGER = Ledger({}, {}, {})
 
 
-@dataclass(frozen=True)
-class Run:
+@dataclass(frozen=True, kw_only=True)
+class Run(Judged):
     """A run that counts, as the simulation says: ``tick`` of the exit contact, ``gold``, ``score`` (ticks).
 
     ``file``: path in the folder, ``record`` in it; ``added``: as Dates say; ``remark``: what a reader should know;
     ``near``: whose it nearly is, in words, where nobody has ``confirmed`` it: it leads no table; ``again``: it was
-    withdrawn, and is the first of its moment; ``digest``: of its file; the rest as in Judged.
+    withdrawn, and is the first of its moment; ``digest``: of its file.
     """
 
     file: str
-    record: int
     player: str
     entry: Entry = field(repr=False)
-    tick: int
-    gold: int
-    score: int
     added: str
-    way: str = field(repr=False)
-    presses: int
-    jumps: int
-    made: str
-    assisted: bool | None
-    co_authors: str
-    episode: str
     digest: str = field(repr=False)
     folder: RunFolder = field(repr=False, compare=False)
     remark: str = ""
@@ -250,15 +243,15 @@ def judge(
                 continue
             added = dates((file.name, row.record), row.way) if dates else ""
             runs.append(_run(file, row, entry, sent, added))
-    known = {(run.entry.digest, run.way, run.added) for run in runs}
+    known = {(run.level, run.way, run.added) for run in runs}
     for number, run in enumerate(runs):
         # A run that was withdrawn, or comes in another file, is still its player's.
-        owner = owners.get(way := (run.entry.digest, run.way))
+        owner = owners.get(way := (run.level, run.way))
         if owner and (*way, owner["added"]) not in known and folded(owner["player"]) == folded(run.player):
             runs[number] = replace(run, added=owner["added"], again=True)
     told = _of_players(sorted(runs, key=_first), players)
     counted, copies = _without_copies(told, memo, owners)
-    counted = [_with_row(run, owners.get((run.entry.digest, run.way), {})) for run in counted]
+    counted = [_with_row(run, owners.get((run.level, run.way), {})) for run in counted]
     named = [
         each if each.kind == "unreadable" else replace(each, player=players.meet(each.player)[0]) for each in rejected
     ]
@@ -270,10 +263,10 @@ def judge(
 def _episodes(runs: list[Run], counted: list[Run], shown: PublishedLevels) -> dict[str, list[list[Run]]]:
     """By key the runs of whole episodes: every level's counts, or does what another run by the same player does."""
     lengths = {each.key: len(each.levels) for each in shown.levels.episodes.values()}
-    ways = {(run.player, run.entry.digest, run.way): run for run in counted}
+    ways = {(run.player, run.level, run.way): run for run in counted}
     files: dict[tuple[str, str], list[Run]] = defaultdict(list)
     for run in sorted(runs, key=lambda each: each.key):
-        if run.episode and (own := ways.get((run.player, run.entry.digest, run.way))):
+        if run.episode and (own := ways.get((run.player, run.level, run.way))):
             files[run.episode, run.file].append(own)
     found: dict[str, list[list[Run]]] = defaultdict(list)
     for (key, _), whole in files.items():
@@ -312,7 +305,10 @@ class _Judging:
             if len(results) == len(file.sent):
                 file.rows.extend(self._row(file, *each) for each in zip(file.sent, results, strict=True))
                 if not any(isinstance(each, Lost) for each in results):
-                    self._memo.note(file.name, [self._context, file.stamp, file.digest, file.rows])
+                    self._memo.note(
+                        file.name,
+                        [self._context, file.stamp, file.digest, [[*vars(row).values()] for row in file.rows]],
+                    )
                 results.clear()
                 yield self._waiting.popleft()
         yield from self._waiting
@@ -357,7 +353,7 @@ def _known(noted: Any, shown: PublishedLevels) -> list[Judged]:
         rows = [Judged(*row) for row in noted]
         for row in rows:
             known = row.kind in KINDS if row.kind else row.level in shown.entries
-            if not known or not all(map(isinstance, row, _TYPES)):
+            if not known or not all(map(isinstance, vars(row).values(), _TYPES)):
                 return []
             parse_made(row.made)
         return rows
@@ -365,8 +361,9 @@ def _known(noted: Any, shown: PublishedLevels) -> list[Judged]:
 
 
 def _run(file: JudgedFile, row: Judged, entry: Entry, folder: RunFolder, added: str = "") -> Run:
-    same = {key: value for key, value in row._asdict().items() if key not in ("kind", "why", "author", "level")}
-    return Run(file.name, player=row.author, entry=entry, added=added, digest=file.digest, folder=folder, **same)
+    return Run(
+        **vars(row), file=file.name, player=row.author, entry=entry, added=added, digest=file.digest, folder=folder
+    )
 
 
 def _first(run: Run) -> tuple[str, bool, bool, Key]:
@@ -450,7 +447,7 @@ def _without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run
     copies: list[Rejected] = []
     ways: dict[tuple[str, str], Run] = {}
     for run in runs:
-        way = run.entry.digest, run.way
+        way = run.level, run.way
         owner = owners.get(way)
         if owner and way not in ways and owner["added"] < run.added:
             why = f"a copy of an earlier run by {owner['player']}, which was withdrawn or does not count any more"
@@ -458,7 +455,7 @@ def _without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run
             continue
         first = ways.setdefault(way, run)
         if first is run:
-            on_level[run.entry.digest].append(run)
+            on_level[run.level].append(run)
         else:
             stolen = first.player != run.player and first.added < run.added
             what = f"a copy of the run by {first.player} in" if stolen else "the same run as"
@@ -477,12 +474,12 @@ def _remarked(runs: list[Run], memo: Memo, owners: Rows) -> Iterator[Run]:
     if len({run.player for run in runs}) == 1:
         yield from runs
         return
-    compared = _Compared(runs[0].entry.digest, memo)
+    compared = _Compared(runs[0].level, memo)
     for _, moment in groupby(runs, key=lambda run: run.added):
         waiting: list[Run] = []
         for run, waits in chain(((run, True) for run in moment), ((run, False) for run in waiting)):
             said = compared.near(run)
-            if waits and not said and owners.get((run.entry.digest, run.way), {}).get("near"):
+            if waits and not said and owners.get((run.level, run.way), {}).get("near"):
                 waiting.append(run)
                 continue
             compared.add(run)
