@@ -18,14 +18,13 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.sim.rules import LIFETIME
-from ninja_game.web.board.level_pages import FIRST, LevelPages
-from ninja_game.web.board.parts import UP, level_link, player_page
+from ninja_game.web.board.level_pages import FIRST, LevelPages, level_link, player_page
 from ninja_game.web.board.ranking import Record, Standing
 from ninja_game.web.board.report import summary
 from ninja_game.web.board.rules import HIGHEST
 from ninja_game.web.board.runs import KINDS, PLAYED, Key, Run
 from ninja_game.web.pages.frame import REPLAYS, Content, page, section, table, tag
-from ninja_game.web.pages.gallery import BOARD, medal_mark, page_name, shared_text
+from ninja_game.web.pages.gallery import BOARD, UP, medal_mark, page_name, shared_text
 
 NEWEST, LEADING, CONTESTED = 30, 20, 10
 """Rows on the first page of records, players and levels."""

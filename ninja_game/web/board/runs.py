@@ -30,11 +30,10 @@ from ninja_game.runs.run import run_level
 from ninja_game.runs.verify import NOT_RUN, Verdict
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
-from ninja_game.web.board.charts import path_data
 from ninja_game.web.board.collect import RunFolder, Sent, SentFile
 from ninja_game.web.board.copies import Course, Courses, course_of
 from ninja_game.web.board.players import Players, folded
-from ninja_game.web.pages.gallery import PublishedLevels, shared_text
+from ninja_game.web.pages.gallery import PublishedLevels, path_data, shared_text
 from ninja_game.web.pages.memo import Memo, digest_of, program
 
 Key = tuple[str, int]
