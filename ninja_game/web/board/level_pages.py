@@ -38,7 +38,7 @@ from ninja_game.web.pages.gallery import (
     run_page,
     watch_address,
 )
-from ninja_game.web.pages.memo import Memo
+from ninja_game.web.pages.memo import Memo, digest_of
 
 PER_PAGE = 100
 """Rows of a table that goes on on another page: a page has at most 100 KB."""
@@ -64,9 +64,8 @@ WIDTH, HEIGHT, MARGIN = 480, 150, 14
 class LevelPages:
     """A board that is written into ``out/board/``: its pages of levels and runs, and what all pages are made of.
 
-    ``up``: the way from a page to that folder, "" or UP.
-
-    ``address``: where ``out`` will be, if that is known.
+    ``up``: the way from a page to that folder, "" or UP; ``address``: where ``out`` will be, if that is known;
+    ``around``: a digest of what stands on every page.
     """
 
     def __init__(
@@ -82,6 +81,7 @@ class LevelPages:
         assisted = [("assisted.html", "Assisted")] if len(ranking.ladders) > 1 else []
         self.links = [(self.game, "Play"), *LINKS[:2], *assisted, *LINKS[2:]]
         self.deeper = [(UP + address, name) for address, name in self.links]
+        self.around = digest_of([self.links, self.site])
         self.stems = {run.key: _stem(run) for run in ranking.judged.runs}
 
     def list(
@@ -118,15 +118,16 @@ class LevelPages:
 
     def run_page(self, run: Run) -> None:
         stem, title = self.stems[run.key], f"{self.name(run.player)} on {run.entry.title}"
-        facts = [("Time", f"{seconds_text(run.tick)} s"), ("Score", seconds_text(run.score)), ("Gold", str(run.gold)),
-                 ("Medal", run.medal), ("Made", run.made or "unknown"), ("Date", run.day)]  # fmt: skip
-        about = run.entry, stem, title, facts, BOARD, self.game, self.links, self.site
 
         def content() -> str:
-            picture = f"{UP}{BOARD}/{picture_name(run.level)}"
-            return run_page(*about, paths(picture, [(self.name(run.player), run.path)]))
+            facts = [("Time", f"{seconds_text(run.tick)} s"), ("Score", seconds_text(run.score)),
+                     ("Gold", str(run.gold)), ("Medal", run.medal), ("Made", run.made or "unknown"),
+                     ("Date", run.day)]  # fmt: skip
+            drawn = paths(f"{UP}{BOARD}/{picture_name(run.level)}", [(self.name(run.player), run.path)])
+            return run_page(run.entry, stem, title, facts, BOARD, self.game, self.links, self.site, drawn)
 
-        self.pages.make_replay(f"{stem}.html", [title, *facts, self.links, self.site], content)
+        told = title, run.tick, run.score, run.gold, run.medal, run.made, run.day
+        self.pages.make_replay(f"{stem}.html", [*told, self.around], content)
 
     def name(self, player: str) -> str:
         """A player's name in a table, and whose it is not where it looks like one that was there before."""
