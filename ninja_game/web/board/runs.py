@@ -504,7 +504,7 @@ class _Compared:
         self._runs.append(run)
 
     def near(self, run: Run) -> str:
-        """Whose a run nearly is, of those before, in words; "" for nobody's but its own player's."""
+        """Whose a run nearly is, of those before, in words; "" for that of no other player."""
         said = self._memo.recall(key := self._key_of(run))
         if not isinstance(said, str):
             before = range(self._known, len(self._runs))
