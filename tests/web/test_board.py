@@ -12,6 +12,7 @@ from datetime import UTC, datetime
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
+from unittest.mock import Mock
 
 import pytest
 from click.testing import CliRunner
@@ -25,6 +26,7 @@ from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.replay.made import Made
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.runs.run import record_replay
+from ninja_game.web.board import collect
 from ninja_game.web.board.collect import MOST_RECORDS
 from ninja_game.web.board.pages import BoardPages
 from ninja_game.web.board.ranking import Ranking
@@ -384,7 +386,11 @@ def test_a_near_copy_shares_no_place(runs: Path, levels: Path) -> None:
         assert [(each.place, each.run.player) for each in table] == places
 
 
-def test_a_time_that_the_run_does_not_have_is_refused_under_its_players_name(runs: Path, levels: Path) -> None:
+def test_a_time_that_the_run_does_not_have_is_refused_under_its_players_name(
+    runs: Path, levels: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    parsed = Mock(side_effect=parse_replay)
+    monkeypatch.setattr(collect, "parse_replay", parsed)
     put(runs, "dee.txt", re.sub(r"final-tick: \d+", "final-tick: 9", replay(author="Dee")))
     put(runs, "eve.txt", re.sub(r"(inputs:\n  )\S+", r"\1R*40", replay(author="Eve")))
     put(runs, "notes.txt", "notes")
@@ -394,6 +400,7 @@ def test_a_time_that_the_run_does_not_have_is_refused_under_its_players_name(run
         ("refused", "Eve", "inputs after the final tick"),
         ("unreadable", "", "line 1: no recording"),
     ]
+    assert parsed.call_count == 2, "each is parsed once"
 
 
 def test_medals_stand_where_the_time_ranks_and_every_record_that_fell_is_told(

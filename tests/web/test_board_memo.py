@@ -7,6 +7,7 @@ import os
 import shutil
 from pathlib import Path
 from typing import Any
+from unittest.mock import Mock
 
 import pytest
 from click.testing import CliRunner
@@ -148,6 +149,30 @@ def test_pages_are_the_same_as_made_again(tmp_path: Path, levels: Path, runs: Pa
         shutil.rmtree(tmp_path / "again", ignore_errors=True)
         assert board(runs, levels, "--site", str(tmp_path / "again"), "--again") == said
         assert tree(tmp_path / "site") == tree(tmp_path / "again"), step
+
+
+def test_the_command_after_the_first_compares_nothing(
+    tmp_path: Path, levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch  # noqa: F811
+) -> None:  # fmt: skip
+    """All runs have one moment, and near copies lie between others; one more run is compared alone."""
+    compared, simulated = (Mock(side_effect=getattr(board_runs, name)) for name in ("_near_to_another", "run_level"))
+    monkeypatch.setattr(board_runs, "_near_to_another", compared)
+    monkeypatch.setattr(board_runs, "run_level", simulated)
+    data, site = tmp_path / "board.json", tmp_path / "site"
+    put(runs, "a.txt", slow_walk(40, author="Ann"))
+    put(runs, "b.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Bob"))
+    put(runs, "c.txt", replay(bytes(2) + WALKING[:5] + b"\0" * 30 + WALKING, author="Cid"))
+    put(runs, "d.txt", slow_walk(41, author="Dan"))
+    said = []
+    for _ in range(3):
+        told = board(runs, levels, "--json", str(data), "--site", str(site))
+        said.append((told, data.read_text("utf-8"), tree(site)))
+        assert (compared.call_count, simulated.call_count) == (4, 4)
+    assert said[0] == said[1] == said[2]
+    assert [bool(row.get("near")) for row in json.loads(data.read_text("utf-8"))["runs"]] == [False, True, False, True]
+    put(runs, "e.txt", slow_walk(42, author="Eve"))
+    board(runs, levels, "--json", str(data), "--site", str(site))
+    assert (compared.call_count, simulated.call_count) == (5, 9), "and the earlier ones are what it is compared with"
 
 
 def test_a_page_that_somebody_changed_is_written_again(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811

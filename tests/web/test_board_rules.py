@@ -12,11 +12,10 @@ from click.testing import CliRunner
 from ninja_game.cli.main import cli
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.replay.made import Made
-from ninja_game.web.board.charts import path_data
 from ninja_game.web.board.ranking import Ranking
 from ninja_game.web.board.rules import FASTEST, MOST_CATEGORIES, NAMES, USUAL, Category, read_categories
 from ninja_game.web.board.runs import ASSISTED, PLAYED, judge
-from ninja_game.web.pages.gallery import published_levels
+from ninja_game.web.pages.gallery import path_data, published_levels
 from tests.support.forgeries import GOLD_LATER, WALKING, replay
 from tests.support.samples import WALK_END
 from tests.web.test_board import DIGEST, Tags, levels, put, runs, slow_walk  # noqa: F401
@@ -175,7 +174,7 @@ def test_the_feed_says_who_a_name_is_not(runs: Path, levels: Path, tmp_path: Pat
 def test_long_lists_go_on_on_other_pages(
     runs: Path, levels: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,  # noqa: F811
 ) -> None:  # fmt: skip
-    monkeypatch.setattr("ninja_game.web.board.parts.PER_PAGE", 3)
+    monkeypatch.setattr("ninja_game.web.board.level_pages.PER_PAGE", 3)
     for wait in range(3, 10):
         put(runs, f"{wait}.txt", slow_walk(wait, author="Ann"))
     board(runs, levels, "--site", str(tmp_path / "site"))

@@ -119,6 +119,12 @@ class Replay:
         return fitted_inputs(self.inputs, ticks)
 
 
+class InputsAfterError(ReplayError):
+    """A replay has inputs after its final tick. ``replay``: as it says."""
+
+    replay: Replay
+
+
 _FIRST_LINE = re.compile(rf"{MAGIC} +([0-9]{{1,9}})[ \t]*")
 
 
@@ -213,7 +219,9 @@ def _contradiction(replay: Replay) -> tuple[str, ReplayError] | None:
     if len(replay.inputs) > (replay.ticks if replay.demo_length is None else replay.final_tick):
         found = f"{len(replay.inputs)} ticks of inputs"
         hint = "raise final-tick or shorten the inputs"
-        return "final-tick", ReplayError(INPUTS_AFTER, found=found, expected=str(replay.ticks), hint=hint)
+        after = InputsAfterError(INPUTS_AFTER, found=found, expected=str(replay.ticks), hint=hint)
+        after.replay = replay
+        return "final-tick", after
     if not (replay.level_digest or replay.level_path or replay.level):
         expected, hint = "'level:', 'level-digest:' or 'level-data:'", "or say with --level where it is played"
         return "inputs", ReplayError("a replay without level", expected=expected, hint=hint)

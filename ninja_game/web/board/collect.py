@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
@@ -15,7 +14,7 @@ from ninja_game.files.reading import LeftOut, decoded, files_below, read_bytes, 
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.recording import holds_recordings
 from ninja_game.formats.replay.text import (
-    INPUTS_AFTER,
+    InputsAfterError,
     Replay,
     is_episode,
     is_replay,
@@ -26,7 +25,6 @@ from ninja_game.formats.replay.text import (
 )
 from ninja_game.runs.chunks import Chunk
 from ninja_game.runs.recording_reader import records_of
-from ninja_game.sim.inputs import MAX_TICKS
 from ninja_game.sim.level import Level
 
 MOST_BYTES = 2**20
@@ -69,19 +67,12 @@ class Sent:
         return (self.replay or parse_demo(self.chunk.records[0].demo)).playback(ticks)
 
 
-_FINAL_TICK = re.compile(r"^final-tick: *([0-9]{1,9})[ \t\r]*$", re.MULTILINE)
-
-
 def _parsed(text: str) -> tuple[Replay, int]:
     """A replay, and ``claimed`` as of Sent. Raises NinjaGameError."""
     try:
         return parse_replay(text), -1
-    except ReplayError as error:
-        final = _FINAL_TICK.search(text)
-        if error.what != INPUTS_AFTER or final is None:
-            raise
-        longer = parse_replay(_FINAL_TICK.sub(f"final-tick: {MAX_TICKS - 1}", text, 1))
-        return replace(longer, final_tick=len(longer.inputs)), int(final[1])
+    except InputsAfterError as error:
+        return replace(error.replay, final_tick=len(error.replay.inputs)), error.replay.final_tick
 
 
 class RunFolder:

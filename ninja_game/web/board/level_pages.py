@@ -1,26 +1,55 @@
-"""What a level's page tells of its runs: tables, how the record fell, the first runs side by side."""
+"""The pages of levels and of runs; and what all pages of a board are made of: links, tables of any length, drawings."""
 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from datetime import datetime
+from hashlib import sha256
 from itertools import compress, pairwise
+from pathlib import Path
 from typing import Any
 
-from ninja_game.files.shown_text import counted
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.player.catalogue import Entry
 from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, SplitRow, run_splits, split_name, split_table, sum_of_best
-from ninja_game.web.board.charts import path_data, paths, steps, swatch
-from ninja_game.web.board.parts import RUN_HEADS, UP, Parts, signed
-from ninja_game.web.board.ranking import Part, Ranked
-from ninja_game.web.board.rules import FASTEST
+from ninja_game.ui.theme import RUN_COLOURS
+from ninja_game.web.board.ranking import Part, Ranked, Ranking
+from ninja_game.web.board.rules import FASTEST, Category
 from ninja_game.web.board.runs import Run
-from ninja_game.web.pages.frame import Content, Markup, joined, section, table, tag
-from ninja_game.web.pages.gallery import level_page, page_name, picture, picture_name
+from ninja_game.web.pages.frame import GAME, REPLAYS, Content, Markup, Pages, joined, page, section, table, tag
+from ninja_game.web.pages.gallery import (
+    BOARD,
+    PICTURE_HEIGHT,
+    PICTURE_WIDTH,
+    UP,
+    level_page,
+    medal_mark,
+    page_name,
+    path_data,
+    picture,
+    picture_name,
+    run_page,
+    watch_address,
+)
+from ninja_game.web.pages.memo import Memo, digest_of
+
+PER_PAGE = 100
+"""Rows of a table that goes on on another page: a page has at most 100 KB."""
+
+LONGEST_NAME = 40  # characters of a name in a table
+
+RUN_HEADS = ("Watch", "Share", "Medal", "Gold", "Made", "Date", "Remark")
+LINKS = [
+    ("index.html", "Board"), ("players.html", "Players"), ("levels.html", "Levels"), ("episodes.html", "Episodes"),
+    ("rejected.html", "Rejected"),
+]  # fmt: skip
 
 FIRST, TOGETHER, MOST_SPLITS = 10, 5, 60
 """Rows of a table; runs side by side; rows of splits, and where there were more, gold is left out."""
@@ -28,9 +57,98 @@ FIRST, TOGETHER, MOST_SPLITS = 10, 5, 60
 RECORDS, SPLITS = "records", "splits"
 NEAR = "A run that is nearly somebody else's is never first, until the keeper of the board confirms it."
 
+WIDTH, HEIGHT, MARGIN = 480, 150, 14
+"""Size of the chart and its margin, px, before it is fitted to the page."""
 
-class LevelPages(Parts):
-    """Adds the pages of levels."""
+
+class LevelPages:
+    """A board that is written into ``out/board/``: its pages of levels and runs, and what all pages are made of.
+
+    ``up``: the way from a page to that folder, "" or UP; ``address``: where ``out`` will be, if that is known;
+    ``around``: a digest of what stands on every page.
+    """
+
+    def __init__(
+        self, out: Path, ranking: Ranking, game: str = GAME, memo: Memo | None = None, *, address: str = ""
+    ) -> None:
+        self.pages = Pages(out, BOARD, memo)
+        self.ranking = ranking
+        self.entries = ranking.shown.entries
+        self.part_name = ranking.part_name
+        self.main = ranking.categories[0]
+        self.game = f"../{game}"
+        self.site = address and f"{address}{BOARD}/"
+        assisted = [("assisted.html", "Assisted")] if len(ranking.ladders) > 1 else []
+        self.links = [(self.game, "Play"), *LINKS[:2], *assisted, *LINKS[2:]]
+        self.deeper = [(UP + address, name) for address, name in self.links]
+        self.around = digest_of([self.links, self.site])
+        self.stems = {run.key: _stem(run) for run in ranking.judged.runs}
+
+    def list(
+        self, name: str, title: str, caption: str, heads: Sequence[str], rows: Sequence[Any], *before: Content,
+        cells: Callable[[Any], tuple[Content, ...]] = tuple,
+    ) -> None:  # fmt: skip
+        """A table on as many pages as it takes. ``rows``: plain values, of which ``cells`` makes what is shown."""
+        up, links = (UP, self.deeper) if "/" in name else ("", self.links)
+        parts = [rows[first : first + PER_PAGE] for first in range(0, len(rows), PER_PAGE)] or [()]
+        names = [f"{name}{f'-{number}' if number > 1 else ''}.html" for number in range(1, len(parts) + 1)]
+        turns = [
+            tag("a", f"Page {number}", href=up + each, aria_label=f"{title}, page {number} of {len(names)}")
+            for number, each in enumerate(names, 1)
+        ]
+        for number, (file, part) in enumerate(zip(names, parts, strict=True)):
+            lead = () if number else before
+            others = joined(*(joined(each, " ") for each in turns if each is not turns[number]))
+            more = tag("p", others, class_="pages") if others else None
+
+            def content(part: Sequence[Any] = part, lead: Sequence[Content] = lead, more: Content = more) -> str:
+                return page(title, *lead, table(caption, heads, map(cells, part)), more, up=up, links=links)
+
+            self.pages.make(file, [title, caption, heads, part, lead, more, links], content)
+
+    def watch(self, runs: Sequence[Run], up: str, text: str = "Watch") -> Markup:
+        """A link that watches a run, the others as ghosts."""
+        address = watch_address(up + self.game, *(self.stems[run.key] for run in runs))
+        return tag("a", text, href=address, aria_label=f"{text}: {runs[0].player} on {runs[0].entry.title}")
+
+    def leads(self, run: Run, up: str) -> tuple[Markup, Markup]:
+        """Links that watch a run and that lead to its page."""
+        address, said = f"{up}../{REPLAYS}/{self.stems[run.key]}.html", f"Share: {run.player} on {run.entry.title}"
+        return self.watch([run], up), tag("a", "Share", href=address, aria_label=said)
+
+    def run_page(self, run: Run) -> None:
+        stem, title = self.stems[run.key], f"{self.name(run.player)} on {run.entry.title}"
+
+        def content() -> str:
+            facts = [("Time", f"{seconds_text(run.tick)} s"), ("Score", seconds_text(run.score)),
+                     ("Gold", str(run.gold)), ("Medal", run.medal), ("Made", run.made or "unknown"),
+                     ("Date", run.day)]  # fmt: skip
+            drawn = paths(f"{UP}{BOARD}/{picture_name(run.level)}", [(self.name(run.player), run.path)])
+            return run_page(run.entry, stem, title, facts, BOARD, self.game, self.links, self.site, drawn)
+
+        told = title, run.tick, run.score, run.gold, run.medal, run.made, run.day
+        self.pages.make_replay(f"{stem}.html", [*told, self.around], content)
+
+    def name(self, player: str) -> str:
+        """A player's name in a table, and whose it is not where it looks like one that was there before."""
+        first = self.ranking.judged.alike.get(player)
+        return shown_text(player, LONGEST_NAME) + (f" (not {shown_text(first, LONGEST_NAME)})" if first else "")
+
+    def player_link(self, player: str, up: str = "") -> Content:
+        return tag("a", self.name(player), href=f"{up}{player_page(player)}.html") if player else ""
+
+    def run(self, run: Run, *results: Content, timed: bool = True) -> tuple[Content, ...]:
+        """Cells of a run, for heads that end in RUN_HEADS. ``timed``: with its medal, which is of the time."""
+        about = medal_mark(run.medal if timed else ""), run.gold, run.made or "unknown", run.day, run.remark
+        others = f" with {shown_text(run.co_authors, LONGEST_NAME)}" if run.co_authors else None
+        return (joined(self.player_link(run.player, UP), others), *results, *self.leads(run, UP), *about)
+
+    def value(self, category: Category, run: Run) -> str:
+        """The number that a run is ranked by."""
+        values = self.ranking.values(category, run)
+        return category.text(values[0]) if values else ""
+
+    # --- levels ---
 
     def level(self, entry: Entry) -> None:
         """A level's page, and the list of all its runs."""
@@ -131,7 +249,7 @@ class LevelPages(Parts):
         known = [
             run.folder.drawn.get(run.key) or path_data(each.positions) for run, each in zip(runs, found, strict=True)
         ]
-        drawn = paths(UP + picture_name(runs[0].entry.digest), list(zip(names, known, strict=True)))
+        drawn = paths(UP + picture_name(runs[0].level), list(zip(names, known, strict=True)))
         together = tag("p", self.watch(runs, UP, f"Watch the first {len(runs)} together"))
         pairs = [
             (joined(swatch(number), " ", names[number]), *(self._pair(run, other) for other in runs))
@@ -164,3 +282,70 @@ def _cells(row: SplitRow) -> Iterator[str]:
     yield from ("" if ticks is None else seconds_text(ticks) for ticks in (first, row.best_segment))
     for tick in others:
         yield "" if tick is None else seconds_text(tick) if first is None else signed(tick - first)
+
+
+def player_page(player: str) -> str:
+    """The file of a player's page, without its ending: an untrusted name never becomes a path."""
+    return f"players/{sha256(player.encode('utf-8', 'replace')).hexdigest()[:16]}"
+
+
+def level_link(entry: Entry, up: str = "") -> Markup:
+    return tag("a", shown_text(entry.title, LONGEST_NAME), href=up + page_name(entry.digest))
+
+
+def signed(ticks: int) -> str:
+    """How much later, in seconds."""
+    return ("-" if ticks < 0 else "+") + seconds_text(abs(ticks))
+
+
+def _stem(run: Run) -> str:
+    """The stem of the file in ``replays`` with a run: of all that the file holds."""
+    named = run.entry.named
+    told = run.digest, str(run.record), run.player, run.entry.title, named.author, run.made, run.co_authors
+    return sha256("\0".join((*told, run.level)).encode("utf-8", "replace")).hexdigest()[:16]
+
+
+def steps(points: Sequence[tuple[float, float]], top: str, bottom: str, said: str) -> Markup:
+    """A line that keeps each value until the next one: (moment, value) in order; labels of its ends; what it says."""
+    x, y = np.array(points, np.float64).T
+    x = MARGIN + (WIDTH - 2 * MARGIN) * _share(x)
+    y = HEIGHT - MARGIN - (HEIGHT - 2 * MARGIN - 18) * _share(y)
+    moves = "".join(f"H{left:.1f}V{up:.1f}" for left, up in zip(x[1:], y[1:], strict=True))
+    line = tag("path", d=f"M{x[0]:.1f} {y[0]:.1f}{moves}H{WIDTH - MARGIN}", class_="record")
+    dots = [tag("circle", cx=f"{left:.1f}", cy=f"{up:.1f}", r="4") for left, up in zip(x, y, strict=True)]
+    labels = (
+        tag("text", top, x=str(MARGIN), y="16"),
+        tag("text", bottom, x=str(WIDTH - MARGIN), y="16", text_anchor="end"),
+    )
+    box = f"0 0 {WIDTH} {HEIGHT}"
+    return tag("svg", line, *dots, *labels, viewBox=box, class_="chart", role="img", aria_label=said)
+
+
+def _share(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Each value between the least one, 0, and the greatest, 1."""
+    share: NDArray[np.float64] = (values - values.min()) / (np.ptp(values) or 1.0)
+    return share
+
+
+def paths(picture: str, runs: Sequence[tuple[str, str]]) -> Markup:
+    """Runs, each by name with its ``path_data``, over the picture of their level; the first on top."""
+    image = tag("image", href=picture, width=PICTURE_WIDTH, height=PICTURE_HEIGHT)
+    lines = [
+        tag("path", tag("title", name), d=way, class_="way", stroke=_colour(number))
+        for number, (name, way) in enumerate(runs)
+    ]
+    said = f"The level with the paths of {', '.join(name for name, _ in runs)}"
+    box = f"0 0 {PICTURE_WIDTH} {PICTURE_HEIGHT}"
+    names = [tag("li", swatch(number), joined(" ", name)) for number, (name, _) in enumerate(runs)]
+    drawn = tag("svg", image, *reversed(lines), viewBox=box, class_="paths", role="img", aria_label=said)
+    return joined(drawn, tag("ul", *names, class_="facts"))
+
+
+def swatch(number: int) -> Markup:
+    line = tag("path", d="M1 7H21", stroke=_colour(number), class_="way")
+    return tag("svg", line, viewBox="0 0 22 14", width="22", height="14", aria_hidden="true")
+
+
+def _colour(number: int) -> str:
+    ink = RUN_COLOURS[number % len(RUN_COLOURS)]
+    return f"#{ink.r:02x}{ink.g:02x}{ink.b:02x}"

@@ -18,14 +18,13 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.sim.rules import LIFETIME
-from ninja_game.web.board.level_pages import FIRST, LevelPages
-from ninja_game.web.board.parts import UP, level_link, player_page
+from ninja_game.web.board.level_pages import FIRST, LevelPages, level_link, player_page
 from ninja_game.web.board.ranking import Record, Standing
 from ninja_game.web.board.report import summary
 from ninja_game.web.board.rules import HIGHEST
-from ninja_game.web.board.runs import PLAYED, Key, Run
+from ninja_game.web.board.runs import KINDS, PLAYED, Key, Run
 from ninja_game.web.pages.frame import REPLAYS, Content, page, section, table, tag
-from ninja_game.web.pages.gallery import BOARD, medal_mark, page_name, shared_text
+from ninja_game.web.pages.gallery import BOARD, UP, medal_mark, page_name, shared_text
 
 NEWEST, LEADING, CONTESTED = 30, 20, 10
 """Rows on the first page of records, players and levels."""
@@ -33,12 +32,6 @@ NEWEST, LEADING, CONTESTED = 30, 20, 10
 FEED = "feed.xml"
 ONE_MOMENT = "Those of one moment go by their files, the last name first."
 BY_LEVELS = "By levels led, then by levels passed"
-WHY_REJECTED = {
-    "practice": "Practice runs",
-    "copy": "Copies of runs",
-    "refused": "Runs that do not count",
-    "unreadable": "Files that are not runs",
-}
 
 
 def check_site(out: Path, folder: Path) -> None:
@@ -153,7 +146,7 @@ class BoardPages(LevelPages):
             title = f"{self.name(run.player)}, {run.entry.title}, {'; '.join(self._achieved(record))}"
             _about(entry, title, self.stems[run.key], run.added)
             ET.SubElement(ET.SubElement(entry, "author"), "name").text = self.name(run.player)
-            ET.SubElement(entry, "link", href=page_name(run.entry.digest))
+            ET.SubElement(entry, "link", href=page_name(run.level))
         return '<?xml version="1.0" encoding="utf-8"?>\n' + ET.tostring(feed, "unicode") + "\n"
 
     # --- players ---
@@ -225,7 +218,7 @@ class BoardPages(LevelPages):
 
         rows = [
             [self.stems[run.key], run.entry.episode, run.medal, *places.get(run.key, ("", "")), run.day]
-            for run in sorted(runs, key=lambda run: (order[run.entry.digest], run.added, run.key))
+            for run in sorted(runs, key=lambda run: (order[run.level], run.added, run.key))
         ]
         heads = ("No.", "Level", "Time", "Medal", "Score", "Gold", "Place", "Behind", "Made", "Watch", "Share", "Date")
         self.list(player_page(player), player, "All runs", heads, rows, *lead, cells=cells)
@@ -276,11 +269,11 @@ class BoardPages(LevelPages):
         return [tag("p", EPISODE_NUMBERS), *found] if found else [tag("p", "These levels have no episodes.")]
 
     def _rejected(self) -> None:
-        rejected, order = self.ranking.judged.rejected, list(WHY_REJECTED)
+        rejected, order = self.ranking.judged.rejected, list(KINDS)
         counts = Counter(each.kind for each in rejected)
-        said = ", ".join(f"{title.lower()}: {counts[kind]}" for kind, title in WHY_REJECTED.items() if counts[kind])
+        said = ", ".join(f"{title.lower()}: {counts[kind]}" for kind, (_, title) in KINDS.items() if counts[kind])
         rows = [
-            (WHY_REJECTED[each.kind], each.file + f", record {each.record}" * (each.record > 0),
+            (KINDS[each.kind][1], each.file + f", record {each.record}" * (each.record > 0),
              self.name(each.player), each.level, each.why, self._first_run(each.first), each.added.partition("T")[0])
             for each in sorted(rejected, key=lambda each: order.index(each.kind))
         ]  # fmt: skip

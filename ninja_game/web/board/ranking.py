@@ -66,7 +66,7 @@ class Ranking:
         self.categories = tuple(categories)
         self.by_level: dict[str, list[Run]] = defaultdict(list)
         for run in judged.runs:
-            self.by_level[run.entry.digest].append(run)
+            self.by_level[run.level].append(run)
         self._values = {
             category: dict(zip((run.key for run in judged.runs), category.values(judged.runs), strict=True))
             for category in self.categories
@@ -132,7 +132,7 @@ class Ranking:
         for run in self.judged.runs:
             for category in self.categories:
                 values = self.values(category, run)
-                records = found[run.entry.digest, (run.ladder, category)] if values else []
+                records = found[run.level, (run.ladder, category)] if values else []
                 best = self.values(category, records[-1]) if records else None
                 if values and not run.near and (best is None or values[0] < best[0]):
                     records.append(run)
@@ -215,7 +215,7 @@ class Ranking:
         week: dict[str, list[Run]] = defaultdict(list)
         for date, run in dated:
             if date > dated[-1][0] - WEEK:
-                week[run.entry.digest].append(run)
+                week[run.level].append(run)
         counts = {level: (len({run.player for run in runs}), len(runs)) for level, runs in week.items()}
         best = max((level for level in self.shown.entries if level in counts), key=counts.__getitem__, default=None)
         return (best, *counts[best]) if best else None

@@ -35,7 +35,7 @@ _KEPT = {"near": str, "confirmed": bool}
 
 def _run_data(run: Run) -> dict[str, Any]:
     return {
-        "file": run.file, "record": run.record, "player": run.player, "level": run.entry.digest,
+        "file": run.file, "record": run.record, "player": run.player, "level": run.level,
         "level_name": run.entry.title, "tick": run.tick, "gold": run.gold, "score": run.score,
         "way": run.way, "added": run.added,
         **{key: value for key in ("made", *_KEPT) if (value := getattr(run, key))},
@@ -60,7 +60,7 @@ def board_text(judged: ValidatedRuns, before: Ledger = NO_LEDGER) -> str:
         if old["way"] and key not in counted and row and row["kind"] not in ("copy", OWN):
             rejected[key] = row | {"record": key[1], "way": old["way"], "added": old["added"]}
     data["rejected"] = [rejected[key] for key in sorted(rejected)]
-    here = {(run.entry.digest, run.way) for run in judged.runs}
+    here = {(run.level, run.way) for run in judged.runs}
     gone = sorted((way, row) for way, row in before.owners.items() if way not in here)
     data["withdrawn"] = [{key: row[key] for key in (*_FIELDS["withdrawn"], *_KEPT) if key in row} for _, row in gone]
     parts = (f'"{key}": [\n' + ",\n".join("  " + json.dumps(row) for row in data[key]) + "\n]" for key in _FIELDS)
@@ -160,7 +160,7 @@ def gone(ranking: Ranking, before: Ledger) -> Iterator[str]:
 def _achieved(ranking: Ranking, run: Run) -> str:
     """What a run is worth, in words."""
     text = f"{plain(run.player)} passes {plain(run.entry.title)} in {seconds_text(run.tick)} s with {run.gold} gold"
-    for (ladder, category), table in ranking.tables[run.entry.digest].items():
+    for (ladder, category), table in ranking.tables[run.level].items():
         place = next((each.place for each in table if each.run is run), 0) if ladder == run.ladder else 0
         if place:
             text += f"; {'assisted, ' * (ladder != PLAYED)}{category.name}: place {place} of {len(table)}"
@@ -180,9 +180,9 @@ def plain(text: str) -> str:
 
 
 def summary(judged: ValidatedRuns) -> str:
-    players, levels = {run.player for run in judged.runs}, {run.entry.digest for run in judged.runs}
+    players, levels = {run.player for run in judged.runs}, {run.level for run in judged.runs}
     counts = ("run", judged.runs), ("player", players), ("level", levels)
     runs, by, on = (counted(len(each), name, f"{name}s") for name, each in counts)
     kinds = Counter(each.kind for each in judged.rejected)
-    rejected = ", ".join(f"{kinds[kind]} {KINDS[kind]}" for kind in sorted(kinds))
+    rejected = ", ".join(f"{kinds[kind]} {KINDS[kind][0]}" for kind in sorted(kinds))
     return f"{runs} by {by} on {on}; rejected: {rejected or 'none'}"

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from hashlib import sha256
 from heapq import nsmallest
-from itertools import pairwise
+from itertools import chain, groupby, pairwise
 from pathlib import Path
 from typing import Any, NamedTuple, get_type_hints
 
@@ -30,11 +30,10 @@ from ninja_game.runs.run import run_level
 from ninja_game.runs.verify import NOT_RUN, Verdict
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
-from ninja_game.web.board.charts import path_data
 from ninja_game.web.board.collect import RunFolder, Sent, SentFile
 from ninja_game.web.board.copies import Course, Courses, course_of
 from ninja_game.web.board.players import Players, folded
-from ninja_game.web.pages.gallery import PublishedLevels, shared_text
+from ninja_game.web.pages.gallery import PublishedLevels, path_data, shared_text
 from ninja_game.web.pages.memo import Memo, digest_of, program
 
 Key = tuple[str, int]
@@ -51,8 +50,11 @@ PLAYED, ASSISTED = "played", "assisted"
 MOST_COMPARED = 1000
 """Earlier runs of a level that a new one is compared with: the fastest, which are worth a copy."""
 
-KINDS = {"practice": "of practice", "copy": "copied", "refused": "refused", "unreadable": "unreadable"}
-"""Why a run does not count, and that in words."""
+KINDS = {
+    "practice": ("of practice", "Practice runs"), "copy": ("copied", "Copies of runs"),
+    "refused": ("refused", "Runs that do not count"), "unreadable": ("unreadable", "Files that are not runs"),
+}  # fmt: skip
+"""Why a run does not count: in a line of a report, and on a page."""
 
 OWN = "own"
 """What a level of an episode is that its player has sent before."""
@@ -60,7 +62,8 @@ OWN = "own"
 _LINE = re.compile(r"^(?=[0-9])")
 
 
-class Judged(NamedTuple):
+@dataclass(frozen=True)
+class Judged:
     """What a recording of a file comes to, as plain values that can be remembered.
 
     ``kind``: "" for a run that counts, else as in Rejected, with ``why``; ``level``: its digest; ``way``: digest of the
@@ -84,10 +87,17 @@ class Judged(NamedTuple):
     episode: str = ""
 
 
-Waiting = tuple[str, str, list[int], list[Sent], list[Judged]]
-"""A file whose turn comes: name, digest, stamp, what it holds, or what that came to before."""
-
 _TYPES = tuple(get_type_hints(Judged).values())
+
+
+class JudgedFile(NamedTuple):
+    """A file of the folder. ``sent``: what is simulated of it now; ``rows``: what it comes to."""
+
+    name: str
+    digest: str
+    stamp: list[int]
+    sent: list[Sent]
+    rows: list[Judged]
 
 
 class Ledger(NamedTuple):
@@ -109,36 +119,25 @@ class Ledger(NamedTuple):
 NO_LEDGER = Ledger({}, {}, {})
 
 
-@dataclass(frozen=True)
-class Run:
+@dataclass(frozen=True, kw_only=True)
+class Run(Judged):
     """A run that counts, as the simulation says: ``tick`` of the exit contact, ``gold``, ``score`` (ticks).
 
     ``file``: path in the folder, ``record`` in it; ``added``: as Dates say; ``remark``: what a reader should know;
-    ``near``: whose it nearly is, in words, where nobody has ``confirmed`` it: it leads no table; ``turn``: what comes
-    first of runs of one moment; ``digest``: of its file; the rest as in Judged.
+    ``near``: whose it nearly is, in words, where nobody has ``confirmed`` it: it leads no table; ``again``: it was
+    withdrawn, and is the first of its moment; ``digest``: of its file.
     """
 
     file: str
-    record: int
     player: str
     entry: Entry = field(repr=False)
-    tick: int
-    gold: int
-    score: int
     added: str
-    way: str = field(repr=False)
-    presses: int
-    jumps: int
-    made: str
-    assisted: bool | None
-    co_authors: str
-    episode: str
     digest: str = field(repr=False)
     folder: RunFolder = field(repr=False, compare=False)
     remark: str = ""
     near: str = ""
     confirmed: bool = False
-    turn: int = 0
+    again: bool = False
 
     @cached_property
     def key(self) -> Key:
@@ -234,26 +233,24 @@ def judge(
     runs: list[Run] = []
     rejected: list[Rejected] = []
     players, owners = Players(), ledger.owners
-    for name, digest, rows in _judged(sent, shown, jobs, memo):
-        for found in rows:
-            entry = shown.entries.get(found.level)
-            if found.kind or entry is None:
+    for file in _Judging(sent, shown, memo).files(jobs):
+        for row in file.rows:
+            entry = shown.entries.get(row.level)
+            if row.kind or entry is None:
                 title = entry.title if entry else ""
-                rejected.append(Rejected(name, found.record, found.kind, found.why, found.author, title))
+                rejected.append(Rejected(file.name, row.record, row.kind, row.why, row.author, title))
                 continue
-            added = dates((name, found.record), found.way) if dates else ""
-            runs.append(_run(name, digest, found, entry, sent, added))
-    known = {(run.entry.digest, run.way, run.added) for run in runs}
+            added = dates((file.name, row.record), row.way) if dates else ""
+            runs.append(_run(file, row, entry, sent, added))
+    known = {(run.level, run.way, run.added) for run in runs}
     for number, run in enumerate(runs):
         # A run that was withdrawn, or comes in another file, is still its player's.
-        owner = owners.get(way := (run.entry.digest, run.way))
+        owner = owners.get(way := (run.level, run.way))
         if owner and (*way, owner["added"]) not in known and folded(owner["player"]) == folded(run.player):
-            runs[number] = replace(run, added=owner["added"], turn=-1)
-        if owner and owner.get("near"):
-            runs[number] = replace(runs[number], turn=1)
+            runs[number] = replace(run, added=owner["added"], again=True)
     told = _of_players(sorted(runs, key=_first), players)
     counted, copies = _without_copies(told, memo, owners)
-    counted = [_with_row(run, owners.get((run.entry.digest, run.way), {})) for run in counted]
+    counted = [_with_row(run, owners.get((run.level, run.way), {})) for run in counted]
     named = [
         each if each.kind == "unreadable" else replace(each, player=players.meet(each.player)[0]) for each in rejected
     ]
@@ -265,10 +262,10 @@ def judge(
 def _episodes(runs: list[Run], counted: list[Run], shown: PublishedLevels) -> dict[str, list[list[Run]]]:
     """By key the runs of whole episodes: every level's counts, or does what another run by the same player does."""
     lengths = {each.key: len(each.levels) for each in shown.levels.episodes.values()}
-    ways = {(run.player, run.entry.digest, run.way): run for run in counted}
+    ways = {(run.player, run.level, run.way): run for run in counted}
     files: dict[tuple[str, str], list[Run]] = defaultdict(list)
     for run in sorted(runs, key=lambda each: each.key):
-        if run.episode and (own := ways.get((run.player, run.entry.digest, run.way))):
+        if run.episode and (own := ways.get((run.player, run.level, run.way))):
             files[run.episode, run.file].append(own)
     found: dict[str, list[list[Run]]] = defaultdict(list)
     for (key, _), whole in files.items():
@@ -277,63 +274,76 @@ def _episodes(runs: list[Run], counted: list[Run], shown: PublishedLevels) -> di
     return found
 
 
-def _judged(
-    folder: RunFolder, shown: PublishedLevels, jobs: int | None, memo: Memo
-) -> Iterator[tuple[str, str, list[Judged]]]:
-    """Name, digest and recordings of each file, simulated where the memo does not know them."""
-    # Twice as long as a run can be that is in time.
-    episodes = {each.key: each.levels for each in shown.levels.episodes.values()}
-    longest = [
-        2 * (LIFETIME + GOLD_BONUS * sum(each.all_gold for each in row)) * tick_cost(entry.named.level)
-        for row in [*episodes.values(), *([each] for each in shown.entries.values())]
-        for entry in row
-    ]
-    budget = min(RUN_BUDGET, max(longest, default=RUN_BUDGET))
-    context = digest_of([program(), budget, sorted(shown.entries), sorted(episodes)])
-    files: deque[Waiting] = deque()
+class _Judging:
+    """Judges the files of a folder; what the memo knows of them is not simulated again."""
 
-    def chunks() -> Iterator[Chunk]:
-        for name, why in folder.files():
-            # The stamp comes first: a file that is changed after it is read again the next time.
-            stamp = [] if why else folder.stamp(name)
-            noted = memo.recall(name)
-            *seen, digest, rows = noted if isinstance(noted, list) and len(noted) == 4 else ["", [], "", []]
-            known, sent = (_known(rows, shown) if seen[0] == context else []), list[Sent]()
-            if not (known and stamp and stamp == seen[1]):
-                file = SentFile(name, problem=why) if why else folder.file(name)
-                if known and digest == file.digest:
-                    memo.note(name, [context, stamp, digest, rows])
-                else:
-                    known, sent = [], folder.recordings(file)
-                digest = file.digest
-            files.append((name, str(digest), stamp, sent, known))
-            yield from (each.chunk for each in sent)
+    def __init__(self, folder: RunFolder, shown: PublishedLevels, memo: Memo) -> None:
+        self._folder, self._shown, self._memo = folder, shown, memo
+        self._episodes = {each.key: each.levels for each in shown.levels.episodes.values()}
+        # Twice as long as a run can be that is in time.
+        longest = [
+            2 * (LIFETIME + GOLD_BONUS * sum(each.all_gold for each in row)) * tick_cost(entry.named.level)
+            for row in [*self._episodes.values(), *([each] for each in shown.entries.values())]
+            for entry in row
+        ]
+        self._budget = min(RUN_BUDGET, max(longest, default=RUN_BUDGET))
+        self._context = digest_of([program(), self._budget, sorted(shown.entries), sorted(self._episodes)])
+        self._waiting: deque[JudgedFile] = deque()
 
-    levels = [entry.named for entry in shown.entries.values()]
-    found: list[Judged] = []
-    certain = True
-    for result in verify_all(
-        (), chunks=chunks(), levels=levels, episodes=episodes, strict=True, jobs=jobs, budget=budget
-    ):
-        yield from _remembered(files)
-        name, digest, stamp, sent, _ = files[0]
-        row = _row(sent[len(found)], result, folder)
-        entry = shown.entries.get(row.level)
+    def files(self, jobs: int | None) -> Iterator[JudgedFile]:
+        """All files, in order, simulated where the memo does not know them."""
+        levels, results = [entry.named for entry in self._shown.entries.values()], list[Result]()
+        for result in verify_all(
+            (), chunks=self._chunks(), levels=levels, episodes=self._episodes, strict=True, jobs=jobs,
+            budget=self._budget,
+        ):  # fmt: skip
+            while not self._waiting[0].sent:
+                yield self._waiting.popleft()
+            file = self._waiting[0]
+            results.append(result)
+            if len(results) == len(file.sent):
+                file.rows.extend(self._row(file, *each) for each in zip(file.sent, results, strict=True))
+                if not any(isinstance(each, Lost) for each in results):
+                    self._memo.note(
+                        file.name,
+                        [self._context, file.stamp, file.digest, [[*vars(row).values()] for row in file.rows]],
+                    )
+                results.clear()
+                yield self._waiting.popleft()
+        yield from self._waiting
+
+    def _chunks(self) -> Iterator[Chunk]:
+        """What is to be simulated; the files, those that the memo knows too, wait for their turn."""
+        for name, why in self._folder.files():
+            self._waiting.append(file := self._file(name, why))
+            yield from (each.chunk for each in file.sent)
+
+    def _file(self, name: str, why: str) -> JudgedFile:
+        """A file as the memo knows it, else with what is sent in it. ``why``: it is left out."""
+        # The stamp comes first: a file that is changed after it is read again the next time.
+        stamp = [] if why else self._folder.stamp(name)
+        noted = self._memo.recall(name)
+        context, seen, digest, rows = noted if isinstance(noted, list) and len(noted) == 4 else ("", [], "", [])
+        known = _known(rows, self._shown) if context == self._context else []
+        if known and stamp and stamp == seen:
+            return JudgedFile(name, digest, stamp, [], known)
+        file = SentFile(name, problem=why) if why else self._folder.file(name)
+        if known and digest == file.digest:
+            self._memo.note(name, [context, stamp, digest, rows])
+            return JudgedFile(name, digest, stamp, [], known)
+        return JudgedFile(name, file.digest, stamp, self._folder.recordings(file), [])
+
+    def _row(self, file: JudgedFile, sent: Sent, result: Result) -> Judged:
+        """What is kept of a recording; one that cannot be written as pages have it is unreadable."""
+        row = _row(sent, result, self._folder)
+        entry = self._shown.entries.get(row.level)
         if entry and not row.kind:
             try:
                 # Its inputs were read from a text, and can be written into one.
-                shared_text(replace(_run(name, digest, row, entry, folder).replay, inputs=b""), entry.named.level)
+                shared_text(replace(_run(file, row, entry, self._folder).replay, inputs=b""), entry.named.level)
             except (NinjaGameError, ValueError) as error:
-                row = Judged(row.record, "unreadable", str(error))
-        found.append(row)
-        certain &= not isinstance(result, Lost)
-        if len(found) == len(sent):
-            if certain:
-                memo.note(name, [context, stamp, digest, found])
-            files.popleft()
-            yield name, digest, found
-            found, certain = [], True
-    yield from _remembered(files)
+                return Judged(row.record, "unreadable", str(error))
+        return row
 
 
 def _known(noted: Any, shown: PublishedLevels) -> list[Judged]:
@@ -342,28 +352,22 @@ def _known(noted: Any, shown: PublishedLevels) -> list[Judged]:
         rows = [Judged(*row) for row in noted]
         for row in rows:
             known = row.kind in KINDS if row.kind else row.level in shown.entries
-            if not known or not all(map(isinstance, row, _TYPES)):
+            if not known or not all(map(isinstance, vars(row).values(), _TYPES)):
                 return []
             parse_made(row.made)
         return rows
     return []
 
 
-def _remembered(files: deque[Waiting]) -> Iterator[tuple[str, str, list[Judged]]]:
-    """The files in front that the memo knows; they are taken away."""
-    while files and not files[0][3]:
-        name, digest, _, _, known = files.popleft()
-        yield name, digest, known
+def _run(file: JudgedFile, row: Judged, entry: Entry, folder: RunFolder, added: str = "") -> Run:
+    return Run(
+        **vars(row), file=file.name, player=row.author, entry=entry, added=added, digest=file.digest, folder=folder
+    )
 
 
-def _run(name: str, digest: str, row: Judged, entry: Entry, folder: RunFolder, added: str = "") -> Run:
-    same = {key: value for key, value in row._asdict().items() if key not in ("kind", "why", "author", "level")}
-    return Run(name, player=row.author, entry=entry, added=added, digest=digest, folder=folder, **same)
-
-
-def _first(run: Run) -> tuple[str, int, bool, Key]:
+def _first(run: Run) -> tuple[str, bool, bool, Key]:
     """What runs are in order of: the first one owns what it does. A level of an episode comes after single runs."""
-    return run.added, run.turn, bool(run.episode), run.key
+    return run.added, not run.again, bool(run.episode), run.key
 
 
 def _with_row(run: Run, row: Mapping[str, Any]) -> Run:
@@ -442,7 +446,7 @@ def _without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run
     copies: list[Rejected] = []
     ways: dict[tuple[str, str], Run] = {}
     for run in runs:
-        way = run.entry.digest, run.way
+        way = run.level, run.way
         owner = owners.get(way)
         if owner and way not in ways and owner["added"] < run.added:
             why = f"a copy of an earlier run by {owner['player']}, which was withdrawn or does not count any more"
@@ -450,47 +454,78 @@ def _without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run
             continue
         first = ways.setdefault(way, run)
         if first is run:
-            on_level[run.entry.digest].append(run)
+            on_level[run.level].append(run)
         else:
             stolen = first.player != run.player and first.added < run.added
             what = f"a copy of the run by {first.player} in" if stolen else "the same run as"
             why, kind = f"{what} {first.file}", OWN if run.episode and first.player == run.player else "copy"
             copies.append(Rejected(*run.key, kind, why, run.player, run.entry.title, run.way, run.added, first.key))
-    kept = [run for level in on_level.values() for run in _remarked(level, memo)]
+    kept = [run for level in on_level.values() for run in _remarked(level, memo, owners)]
     return sorted(kept, key=_first), copies
 
 
-def _remarked(runs: list[Run], memo: Memo) -> list[Run]:
-    """The runs of a level, in order, with a remark on each that is near to earlier ones of others alone."""
+def _remarked(runs: list[Run], memo: Memo, owners: Rows) -> Iterator[Run]:
+    """The runs of a level, in order, with a remark on each that is near to earlier ones of others alone.
+
+    One that is near as its row says, and to none before it, waits until the others of its moment are compared: what it
+    is near to may have come back since, in a file with a later name.
+    """
     if len({run.player for run in runs}) == 1:
-        return runs
-    found: list[Run] = []
-    courses, known = Courses(MOST_COMPARED), 0
-    key = digest_of([program(), runs[0].entry.digest])
-    for number, run in enumerate(runs):
-        # A remark depends on all earlier runs of the level, and on nothing else.
-        key = sha256(f"{key} {run.digest} {run.record} {run.player}".encode("utf-8", "replace")).hexdigest()
-        said = memo.recall(key)
+        yield from runs
+        return
+    compared = _Compared(runs[0].level, memo)
+    for _, moment in groupby(runs, key=lambda run: run.added):
+        waiting: list[Run] = []
+        for run, waits in chain(((run, True) for run in moment), ((run, False) for run in waiting)):
+            said = compared.near(run)
+            if waits and not said and owners.get((run.level, run.way), {}).get("near"):
+                waiting.append(run)
+                continue
+            compared.add(run)
+            yield replace(run, remark="; ".join(filter(None, (said, run.remark))), near=said) if said else run
+
+
+class _Compared:
+    """The runs of a level that were compared so far. What is near to them is remembered, and not compared again."""
+
+    def __init__(self, level: str, memo: Memo) -> None:
+        self._memo = memo
+        self._key = digest_of([program(), level])
+        self._runs: list[Run] = []
+        self._courses, self._known = Courses(MOST_COMPARED), 0
+        self._last: tuple[Key, Course] | None = None
+
+    def _key_of(self, run: Run) -> str:
+        """A remark depends on the run, on all earlier runs of the level, and on nothing else."""
+        return sha256(f"{self._key} {run.digest} {run.record} {run.player}".encode("utf-8", "replace")).hexdigest()
+
+    def add(self, run: Run) -> None:
+        self._key = self._key_of(run)
+        self._runs.append(run)
+
+    def near(self, run: Run) -> str:
+        """Whose a run nearly is, of those before, in words; "" for that of no other player."""
+        said = self._memo.recall(key := self._key_of(run))
         if not isinstance(said, str):
-            fast = nsmallest(MOST_COMPARED, range(known, number), key=lambda each: runs[each].tick)
-            for each in sorted(fast):
-                courses.add(each, runs[each].tick, partial(_course, runs[each]))
-            course, known = _course(run, new=True), number + 1
-            near = _near_to_another(run.player, course, courses, [each.player for each in runs[:number]])
-            courses.add(number, run.tick, partial(replace, course))
-            said = f"{near[1]} the run by {runs[near[0]].player} in {runs[near[0]].file}" if near else ""
-            memo.note(key, said)
-        found.append(replace(run, remark="; ".join(filter(None, (said, run.remark))), near=said) if said else run)
-    return found
+            before = range(self._known, len(self._runs))
+            for number in sorted(nsmallest(MOST_COMPARED, before, key=lambda each: self._runs[each].tick)):
+                self._courses.add(number, self._runs[number].tick, partial(self._course, self._runs[number]))
+            self._known = len(self._runs)
+            course = self._course(run, new=True)
+            near = _near_to_another(run.player, course, self._courses, [each.player for each in self._runs])
+            said = f"{near[1]} the run by {self._runs[near[0]].player} in {self._runs[near[0]].file}" if near else ""
+            self._memo.note(key, said)
+        return said
 
-
-def _course(run: Run, *, new: bool = False) -> Course:
-    """What tells whether a run is near to others. ``new``: its page is made, and shows its path."""
-    inputs = run.inputs
-    found = run_level(run.entry.named.level, inputs)
-    if new:
-        run.folder.drawn[run.key] = path_data(found.positions)
-    return course_of(inputs, found)
+    def _course(self, run: Run, *, new: bool = False) -> Course:
+        """What tells whether a run is near to others. ``new``: its page is made, and shows its path."""
+        if self._last is None or self._last[0] != run.key:
+            inputs = run.inputs
+            found = run_level(run.entry.named.level, inputs)
+            if new:
+                run.folder.drawn[run.key] = path_data(found.positions)
+            self._last = run.key, course_of(inputs, found)
+        return self._last[1]
 
 
 def _near_to_another(player: str, course: Course, earlier: Courses, players: Sequence[str]) -> tuple[int, str] | None:

@@ -141,7 +141,7 @@ class Pages:
         self._make(f"{REPLAYS}/{name}", data, content)
 
     def _make(self, name: str, data: object, content: Callable[[], str | bytes]) -> None:
-        digest = digest_of([program(), data])
+        digest = f"{program()} {data}" if isinstance(data, str) else digest_of([program(), data])
         file = f"{self._site.root}/{name}"
         if self._memo.recall(name) != [digest, *stamp_of(file)]:
             self._site.write(name, content())

@@ -8,10 +8,13 @@ from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from hashlib import sha256
 from io import BytesIO
+from math import dist
 from pathlib import Path
 from posixpath import normpath
 
+import numpy as np
 import pygame
+from numpy.typing import NDArray
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import counted, shown_text
@@ -202,6 +205,28 @@ def run_page(
     about, picture = ". ".join(f"{name}: {text}" for name, text in facts), (site or place) + picture_name(entry.digest)
     links = [(normpath(place + address), name) for address, name in links]
     return page(title, shown, up=place, links=links, picture=picture, about=about)
+
+
+MOST_POINTS, NEAREST = 400, 4.0
+"""Points of a path that is drawn, and how far apart they are at least, px."""
+
+
+def path_data(positions: NDArray[np.float64]) -> str:
+    """A path in whole px, without points that are near to the one before.
+
+    >>> path_data(np.array([[24.2, 36.0], [25.0, 36.0], [40.0, 30.0]]))
+    'M24 36l16-6'
+    """
+    whole = positions.round().astype(int)
+    length = float(np.hypot(*np.diff(positions, axis=0).T).sum())
+    apart = max(NEAREST, length / MOST_POINTS)
+    first, *others = whole.tolist()
+    kept = [first]
+    for place in others:
+        if dist(place, kept[-1]) >= apart:
+            kept.append(place)
+    moves = "".join(f"{x}{'' if y < 0 else ' '}{y} " for x, y in np.diff(kept, axis=0).tolist())
+    return f"M{kept[0][0]} {kept[0][1]}" + (f"l{moves.rstrip()}" if moves else "")
 
 
 def level_image(entry: Entry, up: str = "", *, lazy: bool = False) -> Markup:
