@@ -43,6 +43,7 @@ class Search:
             gold=0,
             leg=0,
             mask=0,
+            target=0,
             wanted=0,
             ends=1,
             rollouts=0,
@@ -79,8 +80,9 @@ class Search:
         """Begin a new search from other moments to another goal; ``bound`` as for ``begin``."""
         self.backed_up = NO_BACKED_UP
         self.goal = self.goal._replace(
-            gold=leg.gold, leg=leg.until, mask=leg.mask, wanted=leg.wanted, ends=leg.ends, rollouts=leg.rollouts
-        )
+            gold=leg.gold, leg=leg.until, mask=leg.mask, target=leg.target, wanted=leg.wanted, ends=leg.ends,
+            rollouts=leg.rollouts,
+        )  # fmt: skip
         self.goal.fields[:, 0] = NOT_MADE
         self._field = leg.field
         self._roots = leg.roots
