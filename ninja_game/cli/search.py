@@ -237,9 +237,8 @@ def search(
             if save and best and (not saved or best[0] < saved[-1]):
                 saved.append(best[0])
                 save(record_replay(task.level, best[0].inputs, body=task.body))
-            standing = "".join(score_in_words(task, each) for each in misses[-1:]) or "nothing yet"
-            if best:
-                standing = f"best {score_in_words(task, best[0])}"
+            known = best or misses[-1:]
+            standing = "best " * bool(best) + score_in_words(task, known[0]) if known else "nothing yet"
             nonlocal start
             start = start or time.monotonic()
             spent = time.monotonic() - start

@@ -24,7 +24,7 @@ MOST_TICKS = 2_000_000
 class LegSearch:
     """Best-first searches from the start of a span to its target, each of another resolution and seed.
 
-    Needs the compiled memory.
+    Needs the compiled memory; all is compiled once it is made.
     """
 
     def __init__(self, task: SpanTask, target: int, seed: int) -> None:
@@ -42,24 +42,18 @@ class LegSearch:
         until = MORE_THAN_ANY if target else 0
         self._leg = Leg([root], until, root.mask, until, ROUTE_ENDS, 0, field, target=target)
         self._seed, self._begun = seed * 10_000, 0
+        self._search.begin_leg(self._leg, ROUTE_LEGS[0][0], seed=0, bound=1)
+        self._search.run(1)
 
     def search(self, spend: Spend) -> list[Keys]:
         """One search after the other until the target is reached: the keys of the span; none once each had its turn."""
         for resolution, ticks in ROUTE_LEGS:
             self._begun += 1
             self._search.begin_leg(self._leg, resolution, seed=self._seed + self._begun, bound=self.task.last + 1)
-            over = False
-
-            def spent(played: int) -> bool:
-                nonlocal over
-                over = spend(played)
-                return over
-
-            self._search.run_leg(min(ticks, MOST_TICKS), spent, part=ROUTE_EXTRA, least=ROUTE_EXTRA)
+            self._search.run_leg(min(ticks, MOST_TICKS), spend, part=ROUTE_EXTRA, least=ROUTE_EXTRA)
             ends = [end.inputs for end in sorted(self._search.ends(), key=lambda end: end.tick)]
             found = ends if self._leg.target else [run for run in [self._search.best()] if run]
-            if found or over:
-                return [
-                    np.frombuffer(each.ljust(self.task.length, b"\0"), np.uint8) & np.uint8(KEYS_DOWN) for each in found
-                ]
+            if found or spend(0):
+                rows = [each.ljust(self.task.length, b"\0") for each in found]
+                return [np.frombuffer(row, np.uint8) & np.uint8(KEYS_DOWN) for row in rows]
         return []

@@ -58,7 +58,6 @@ class Results:
         self.best: tuple[Found, ...] = ()
         self.going = True
         self._report, self._missed = report, missed
-        self._told: Found | None = None
 
     def try_all(self, keys: Keys) -> Trials:
         """Try keys, (ticks, worlds), and keep what is good; ``going`` is then whether to go on."""
@@ -66,7 +65,8 @@ class Results:
         for index in trials.order[:KEPT]:
             if not np.isfinite(trials.scores[index]):
                 break
-            found = self.worlds.found(trials, int(index), keys[:, index])
+            of_trial = float(trials.scores[index]), int(trials.ticks[index]), trials.ends[index].tolist()
+            found = self.worlds.found(int(index), keys[:, index], *of_trial)
             if any(np.array_equal(found.keys[: found.ticks], old.keys[: old.ticks]) for old in self.best):
                 continue
             self.best = tuple(sorted([*self.best, found])[:KEPT])
@@ -84,10 +84,8 @@ class Results:
         return not self.going
 
     def report(self) -> None:
-        miss = self.worlds.miss
-        if not self.best and miss is not None and miss is not self._told:
-            self._told = miss
-            self._missed(miss)
+        if self.worlds.miss is not None and not self.best:
+            self._missed(self.worlds.miss)
         self.going = self._report(self.worlds.ticks_run, self.best)
 
 
@@ -100,8 +98,8 @@ def search_span(
     ``method``: one of METHODS, or "auto": a beam, then small changes of what it found, again and again; between them,
     while nothing is found, the solver's way to what the goal is about (LegSearch), on the compiled memory. ``every``:
     for "exhaustive", how many ticks each choice of keys holds. ``report`` is called first when all is compiled. The
-    search goes on until it gives False; "exhaustive" ends when all is tried. ``missed``: told of what comes nearest to
-    the goal, ever nearer, while nothing reaches it. The same seed does the same work in the same order. Raises
+    search goes on until it gives False; "exhaustive" ends when all is tried. ``missed``: told with each report of what
+    comes nearest to the goal, while nothing reaches it. The same seed does the same work in the same order. Raises
     ArgumentError for a span with too many ways through it, and what SpanTask does.
     """
     if method == "exhaustive":
@@ -109,21 +107,19 @@ def search_span(
     worlds = SpanWorlds(task, WORLDS, memory=memory, threads=threads)
     mutated = compiled(mutate_rows) if worlds.batch.memory == "compiled" else mutate_rows
     mutated(np.zeros((1, 1), np.uint8), 1, _kernel_rng(1))
+    target = target_of(task) if method == "auto" and worlds.batch.memory == "compiled" else None
+    legs = None if target is None else LegSearch(task, target, seed)
     results = Results(worlds, report, missed)
     rng = np.random.default_rng(seed)
     results.try_all(np.tile(task.base[:, np.newaxis], (1, WORLDS)))
     if method == "exhaustive":
         exhaust(task, every, results)
     turn = 0
-    target = target_of(task) if method == "auto" and worlds.batch.memory == "compiled" else None
-    legs: LegSearch | None = None
     while results.going and method != "exhaustive":
         if method != "local":
             beam(task, STEPS[turn % len(STEPS)], results, rng, noise=0.1 * (turn // len(STEPS)))
-        if target is not None and not results.best and results.going:
-            legs = legs or LegSearch(task, target, seed)
-            if keys := legs.search(results.spend):
-                results.try_some(keys)
+        if legs and not results.best and results.going and (keys := legs.search(results.spend)):
+            results.try_some(keys)
         if method != "beam" and results.going:
             change(task, mutated, results, rng, rounds=40)
         turn += 1

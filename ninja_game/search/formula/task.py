@@ -119,8 +119,7 @@ def score_in_words(task: SpanTask, found: Found) -> str:
     if found.missed_by == 0.0:
         return f"goal after tick {last}, but not the exit"
     if found.missed_by is not None:
-        px = target_of(task) is not None
-        short = f"{found.missed_by - 1.0:.0f} px" if px else f"{found.missed_by:.3g} short"
+        short = f"{found.missed_by:.3g} short" if target_of(task) is None else f"{found.missed_by - 1.0:.0f} px"
         return f"closest: {short} after tick {last}"
     if task.rest:
         return f"exit in tick {found.score - 1:.0f}"
@@ -167,9 +166,10 @@ class SpanWorlds:
         self.batch.restore(self.start)
         self.ticks_run = task.first
         self.miss: Found | None = None
+        self._nearest = -np.inf
         self.rest: Keys = np.zeros(0, np.uint8)
         own = int(self._try(np.tile(task.base[:, np.newaxis], (1, count))).ticks[0]) if task.rest and task.goal else 0
-        self.miss = None  # that of the run's own keys was without what follows
+        self.miss, self._nearest = None, -np.inf  # that of the run's own keys was without what follows
         self.rest = np.frombuffer(
             task.inputs[task.first + own if own else task.behind or task.last :], np.uint8
         ) & np.uint8(KEYS_DOWN)
@@ -187,28 +187,23 @@ class SpanWorlds:
                 score = np.where(np.isfinite(value), value if self.task.least else -value, np.inf)
         return at_goal, margin, score
 
-    def found(self, trials: Trials, index: int, keys: Keys) -> Found:
-        ticks = int(trials.ticks[index])
-        end = tuple(trials.ends[index].tolist())
-        return self._found(float(trials.scores[index]), ticks, keys, int(self.batch.gold[index]), end)
-
-    def _found(
-        self, score: float, ticks: int, keys: Keys, gold: int, end: tuple[float, ...], missed_by: float | None = None
+    def found(
+        self, index: int, keys: Keys, score: float, ticks: int, end: list[float], missed_by: float | None = None
     ) -> Found:
+        """The keys of a world as a result, or as a miss."""
         rest = self.rest.tolist() if self.task.rest else []
         run = with_press_bits([*self.task.inputs[: self.task.first], *keys[:ticks].tolist(), *rest])
-        return Found(score, ticks, keys.copy(), run, gold, end, missed_by=missed_by)
+        return Found(score, ticks, keys.copy(), run, int(self.batch.gold[index]), tuple(end), missed_by=missed_by)
 
     def note_miss(self, margins: Values, keys: Keys, ticks: int) -> None:
         """Keep the living world that is nearest to the goal after so many ticks of the span, if none was nearer."""
         batch = self.batch
         living = np.where(batch.outcomes == OUTCOME_RUNNING, np.minimum(margins, 0.0), -np.inf)
         index = int(np.argmax(living))
-        best = -np.inf if self.miss is None or self.miss.missed_by is None else -self.miss.missed_by
-        if living[index] > best and living[index] not in (UNTRUE, UNREACHABLE):
-            end = (*batch.positions[index].tolist(), *batch.velocities()[index].tolist())
-            missed_by = -float(living[index]) or 0.0
-            self.miss = self._found(np.inf, ticks, keys[:, index], int(batch.gold[index]), end, missed_by)
+        if living[index] > self._nearest and living[index] not in (UNTRUE, UNREACHABLE):
+            self._nearest = living[index]
+            end = [*batch.positions[index].tolist(), *batch.velocities()[index].tolist()]
+            self.miss = self.found(index, keys[:, index], np.inf, ticks, end, abs(float(living[index])))
 
     def try_all(self, keys: Keys) -> Trials:
         """Play keys, (ticks of the span, worlds), from the start of the span."""

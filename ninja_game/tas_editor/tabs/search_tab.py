@@ -459,6 +459,5 @@ class SearchTab(Tab):
         for at, cell, width in zip(self._cells(area), cells, widths, strict=True):
             theme.text(surface, cell, at, y + 3, size=SMALL, width=width,
                        colour=palette.text if fits else palette.faint)  # fmt: skip
-        colour = palette.good if self.found[index].missed_by is None else palette.bad
         theme.text(surface, gain, x + w - 6, y + 3, size=SMALL, bold=fits, align="right", width=78,
-                   colour=colour if fits else palette.faint)  # fmt: skip
+                   colour=palette.faint if not fits else palette.bad if gain == "a miss" else palette.good)  # fmt: skip
