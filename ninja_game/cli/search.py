@@ -231,20 +231,25 @@ def search(
     start = 0.0
     with options.progress_line() as shown:
         saved: list[Found] = []
+        misses: list[Found] = []
 
         def report(ticks: int, best: tuple[Found, ...]) -> bool:
             if save and best and (not saved or best[0] < saved[-1]):
                 saved.append(best[0])
                 save(record_replay(task.level, best[0].inputs, body=task.body))
-            standing = score_in_words(task, best[0]) if best else "nothing yet"
+            known = best or misses[-1:]
+            standing = "best " * bool(best) + score_in_words(task, known[0]) if known else "nothing yet"
             nonlocal start
             start = start or time.monotonic()
             spent = time.monotonic() - start
-            shown.say(f"best {standing}  {ticks / 1e6:.1f}M ticks")
+            shown.say(f"{standing}  {ticks / 1e6:.1f}M ticks")
             return spent < seconds
 
-        found = search_span(task, report, method=method, every=every, seed=seed, threads=options.default_threads(jobs))
-    for each in found:
+        found = search_span(
+            task, report, method=method, every=every, seed=seed, threads=options.default_threads(jobs),
+            missed=misses.append,
+        )  # fmt: skip
+    for each in found or misses[-1:]:
         click.echo(f"{score_in_words(task, each)}: {_keys(each)}")
     if not found:
         click.echo("the goal was not reached; more time, a longer span or another --method may reach it")

@@ -193,7 +193,7 @@ MAX_TOGETHER = 60_000  # most ticks of both: each costs some work by itself
 class Lead(NamedTuple):
     """How far one run is ahead of the other at a place (px): their ticks there.
 
-    ``at``: the split that both reach there, or "" where it is only a place.
+    ``at``: the split or the marker that both reach there, or "" where it is only a place.
     """
 
     at: str
@@ -206,6 +206,11 @@ class Lead(NamedTuple):
     def ahead(self) -> int:
         """Ticks by which the first run is there earlier; negative where it is later."""
         return self.other - self.tick
+
+    @property
+    def name(self) -> str:
+        """``at``; of a place the seconds of the first run."""
+        return self.at or f"{self.tick // TICKS_PER_SECOND} s"
 
 
 @dataclass(frozen=True)
@@ -306,28 +311,14 @@ def _first_unequal(ours: NDArray[np.generic], theirs: NDArray[np.generic]) -> in
     return None if len(ours) == len(theirs) else shared
 
 
-class LeadRow(NamedTuple):
-    """A place that both runs reach, and their ticks there. ``counts``: it is more than a second of the first run."""
-
-    tick: int
-    other: int
-    name: str
-    counts: bool
-
-    @property
-    def ahead(self) -> int:
-        """Ticks by which the first run is there earlier; negative where it is later."""
-        return self.other - self.tick
-
-
 @dataclass(frozen=True)
 class LeadTable:
-    """The rows by ticks of the first run, and what the runs have in common.
+    """The leads at splits, markers and seconds, by ticks of the first run, and what the runs have in common.
 
     ``apart``: full seconds of the first run without a row, where the other one does not come near.
     """
 
-    rows: tuple[LeadRow, ...]
+    rows: tuple[Lead, ...]
     comparison: Comparison
     apart: int
 
@@ -335,10 +326,10 @@ class LeadTable:
 def lead_table(ours: Recording, theirs: Recording, markers: Sequence[Marker]) -> LeadTable:
     """Compare a run, with its markers, to another one. Raises what ``compare_runs`` does."""
     found = compare_runs(ours, theirs)
-    rows = [LeadRow(lead.tick, lead.other, split_name(lead.at), True) for lead in found.splits]
-    there = {lead.tick: lead.other for lead in found.places}
-    rows += [LeadRow(tick, there[tick], name, True) for tick, name in markers if tick in there]
+    there = {lead.tick: lead for lead in found.places}
+    named = [lead._replace(at=split_name(lead.at)) for lead in found.splits]
+    named += [there[tick]._replace(at=name) for tick, name in markers if tick in there]
     seconds = each_second(found.places)
-    rows += [LeadRow(lead.tick, lead.other, f"{lead.tick // TICKS_PER_SECOND} s", False) for lead in seconds]
     apart = (len(found.positions[0]) - 1) // TICKS_PER_SECOND - len(seconds)
-    return LeadTable(tuple(sorted(rows, key=lambda row: row.tick)), found, apart)
+    rows = sorted([*named, *seconds], key=lambda lead: lead.tick)
+    return LeadTable(tuple(rows), found, apart)

@@ -40,7 +40,7 @@ from ninja_game.search.nodes import (
     push,
     random_below,
 )
-from ninja_game.search.states import Goal, estimate, find_entry, gold_hash, is_new, key_of, switch_state_of
+from ninja_game.search.states import Goal, estimate, find_entry, gold_hash, is_done, is_new, key_of, switch_state_of
 from ninja_game.sim.memory.declare import entry_point, fast
 from ninja_game.sim.memory.schema import Ninja
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
@@ -245,7 +245,7 @@ def keep_child(
     if best > 0 and tick + to_go * BOUND_SHARE >= best:
         return
     mask = goal.masks[switch_state]
-    at_end = goal.leg > 0 and (w.gold >= goal.leg or mask != goal.mask)
+    at_end = goal.leg > 0 and (is_done(w, goal.target) if goal.target else w.gold >= goal.leg or mask != goal.mask)
     gold = gold_hash(w, goal) if at_end else 0
     other_end = at_end and goal.wanted != 0 and not mask & goal.wanted
     if other_end and counters.other_ends >= OTHER_ENDS:

@@ -105,7 +105,7 @@ def better_run(run: Replay, recording: Recording, command: str) -> Replay:
     old = recording.replay
     return replace(
         run, name=recording.name, author=recording.player, co_authors=old.co_authors,
-        level_name=old.level_name or recording.name, level_author=old.level_author or recording.author,
+        level_name=old.level_name or recording.name, level_author=recording.level_author,
         made=old.made.searched(command, begun_by=recording.player),
         markers=moved_markers(recording, run.inputs),
     )  # fmt: skip

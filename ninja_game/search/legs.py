@@ -94,6 +94,7 @@ class Leg(NamedTuple):
     rollouts: int  #: tries to survive at an end, 0: it need not be survived
     field: FieldOf  #: makes the fields
     wanted: int = 0  #: switches of which one must have been touched at the end, but for a few ends; 0: any
+    target: int = 0  #: slot of the only object where it ends, once that is taken or open; 0: any
 
 
 class LegFields:

@@ -39,20 +39,12 @@ class Search:
     def __init__(self, start: Start, heuristics: Heuristics, *, nodes: int, along: bool = False) -> None:
         self.start = start
         self.heuristics = heuristics
+        points = 1 if along else POINTS
         self.goal = Goal(
-            gold=0,
-            leg=0,
-            mask=0,
-            wanted=0,
-            ends=1,
-            rollouts=0,
-            gold_slots=heuristics.gold_slots,
-            enemies=heuristics.enemies,
-            switch_slots=heuristics.slots,
-            masks=np.full(MAX_SWITCH_STATES, -1, np.int64),
-            places=np.zeros((MAX_SWITCH_STATES, 2)),
-            fields=np.zeros((MAX_SWITCH_STATES, 1 if along else POINTS), np.float32),
-        )
+            gold=0, leg=0, mask=0, target=0, wanted=0, ends=1, rollouts=0, gold_slots=heuristics.gold_slots,
+            enemies=heuristics.enemies, switch_slots=heuristics.slots, masks=np.full(MAX_SWITCH_STATES, -1, np.int64),
+            places=np.zeros((MAX_SWITCH_STATES, 2)), fields=np.zeros((MAX_SWITCH_STATES, points), np.float32),
+        )  # fmt: skip
         if not along:
             self.goal.fields[:, 0] = NOT_MADE
         self.resolution = Resolution()
@@ -79,8 +71,9 @@ class Search:
         """Begin a new search from other moments to another goal; ``bound`` as for ``begin``."""
         self.backed_up = NO_BACKED_UP
         self.goal = self.goal._replace(
-            gold=leg.gold, leg=leg.until, mask=leg.mask, wanted=leg.wanted, ends=leg.ends, rollouts=leg.rollouts
-        )
+            gold=leg.gold, leg=leg.until, mask=leg.mask, target=leg.target, wanted=leg.wanted, ends=leg.ends,
+            rollouts=leg.rollouts,
+        )  # fmt: skip
         self.goal.fields[:, 0] = NOT_MADE
         self._field = leg.field
         self._roots = leg.roots

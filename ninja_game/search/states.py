@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 
 from ninja_game.search.heuristics import open_mask
 from ninja_game.search.nodes import Counters, Resolution, TableEntry
-from ninja_game.sim.kinds import LAUNCHER
+from ninja_game.sim.kinds import GOLD, LAUNCHER
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import JUMPING, LAUNCHER_FLIGHT, SLIDING
+from ninja_game.sim.traces import is_open
 
 MIX = 0x2545F4914F6CDD1D
 MAX_SWITCH_STATES = 512
@@ -34,6 +35,7 @@ class Goal(NamedTuple):
     gold: int  #: pieces that a run must have at the exit
     leg: int  #: a leg ends where this many pieces are collected; 0: only the exit counts
     mask: int  #: and where what is open differs from this
+    target: int  #: but with a slot of an object: only where that is taken or open
     wanted: int  #: of these switches one at least must be open at the end of a leg, but for a few ends; 0: any
     ends: int  #: how many ends of a leg are enough
     rollouts: int  #: tries to survive at the end of a leg, 0: it need not be survived
@@ -129,6 +131,13 @@ def switch_state_of(w: World, goal: Goal, counters: Counters, guess: int) -> int
         goal.fields[index, 0] = WANTED
         counters.fields_wanted += 1
     return index
+
+
+@fast
+def is_done(w: World, slot: int) -> bool:
+    """Whether a piece of gold is taken, or an exit or a door open."""
+    o = w.objects[slot]
+    return bool(o.taken) if o.kind == GOLD else bool(is_open(w, slot))
 
 
 @fast

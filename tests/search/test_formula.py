@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import re
 import warnings
+from dataclasses import replace
 from itertools import product
 from pathlib import Path
 
@@ -13,13 +15,15 @@ from click.testing import CliRunner, Result
 from hypothesis import given, strategies as st
 
 from ninja_game import ArgumentError, Simulation, parse_level
+from ninja_game.backend.memories import compiled_available
 from ninja_game.batch.batch import Batch
 from ninja_game.cli.main import cli
 from ninja_game.formats.load import load_replays
 from ninja_game.search.formula.language import FormulaError, parse_number, parse_truth
+from ninja_game.search.formula.leg import LegSearch
 from ninja_game.search.formula.methods import count_ways, search_span
 from ninja_game.search.formula.names import FACTS, NAMES, SPAN_NAMES, difference_from, view_of
-from ninja_game.search.formula.task import Found, SpanTask, SpanWorlds
+from ninja_game.search.formula.task import Found, SpanTask, SpanWorlds, score_in_words, target_of
 from ninja_game.sim.digest import state_digest
 from ninja_game.sim.inputs import with_press_bits
 from tests.support.samples import unclaimed_text
@@ -312,7 +316,7 @@ def test_command_writes_the_best_run_and_keeps_its_author(run: Path, tmp_path: P
     result = called(run, "--from", 0, "--to", 30, "--goal", "x > 120", "--rest", "--seconds", 1.5, "-o", out)
     assert result.exit_code == 0, result.output
     (recording,) = load_replays(out)
-    assert recording.author == "A. Player"
+    assert (recording.author, recording.replay.level_author) == ("A. Player", ""), "who made the level is not known"
     assert f"exit in tick {recording.ticks - 1}: " in result.stdout
     assert recording.ticks < outcome_of(WAITING)[1]
     before = run.read_text()
@@ -343,6 +347,7 @@ def test_command_says_what_is_wrong(run: Path) -> None:
     none = called(run, "--from", 0, "--to", 9, "--goal", "x > 700", "--seconds", 0.3)
     assert none.exit_code == 1
     assert "not reached" in none.stdout
+    assert re.search(r"closest: 5\d\d short after tick 8: (..\*9|R)", none.stdout), none.stdout
 
 
 def test_the_page_explains_every_name() -> None:
@@ -392,3 +397,66 @@ def test_a_search_from_a_run_that_stands_still_finds_switch_and_exit() -> None:
     for key in found[0].inputs:
         run.step_keys(key)
     assert run.outcome == "exit"
+
+
+def test_the_nearest_miss_is_told_ever_nearer_and_ends_where_it_says() -> None:
+    """Nothing comes to the gold in 30 ticks; to the right of the ninja a mine kills what would be nearest to it."""
+    level = parse_level("0" * 713 + "|5^100,566!0^400,566!12^150,566")
+    task = SpanTask(level, bytes(40), 5, 35, goal="taken(1)")
+    misses: list[Found] = []
+    assert not searched(task, rounds=8, missed=misses.append)
+    ends = [each.missed_by for each in misses]
+    assert None not in ends
+    assert ends == sorted(ends, reverse=True)  # type: ignore[type-var]
+    run = Simulation(level)
+    for key in misses[-1].inputs:
+        run.step_keys(key)
+    assert run.outcome == "running"
+    assert misses[-1].end[:2] == (run.ninja.x, run.ninja.y)
+    px = 400 - run.ninja.x
+    assert score_in_words(task, misses[-1]) == f"closest: {misses[-1].missed_by - 1:.0f} px after tick {run.tick - 1}"  # type: ignore[operator]
+    assert px / 2 < misses[-1].missed_by < 2 * px  # type: ignore[operator]
+
+
+def test_where_only_the_exit_is_missed_it_says_so() -> None:
+    task = SpanTask(LEVEL, bytes(60), 0, 30, goal="x > 110", rest=True)
+    misses: list[Found] = []
+    assert not searched(task, rounds=2, method="local", missed=misses.append)
+    assert score_in_words(task, misses[-1]).endswith("but not the exit")
+
+
+def test_nothing_is_near_to_a_fact_that_is_not_so() -> None:
+    misses: list[Found] = []
+    assert not searched(SpanTask(LEVEL, bytes(40), 0, 5, goal="dead"), rounds=3, missed=misses.append)
+    assert not misses
+
+
+@pytest.mark.parametrize(
+    "goal, slot", [("won", 0), ("taken( 2)", 3), ("opened(1)", 2), ("taken(2) and x > 1", None), ("x > 1", None)]
+)
+def test_a_goal_that_is_about_one_thing_has_a_target(goal: str, slot: int | None) -> None:
+    assert target_of(SpanTask(SWITCH_BEHIND, bytes(9), 0, 9, goal=goal)) == slot
+
+
+@pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
+@pytest.mark.parametrize("goal, last", [("won", 205), ("taken(2)", 130), ("opened(1)", 60), ("opened(3)", 140)])
+def test_the_solver_leads_to_the_target_past_other_things(goal: str, last: int) -> None:
+    """The switch and a piece of gold lie on its way, and do not end it."""
+    things = "5^400,566!11^500,564,300,564!0^600,566!9^640,560,1,0,22,19,1,0,0!0^450,566"
+    level = parse_level("0" * 713 + "|" + things)
+    task = SpanTask(level, bytes(10), 5, last, goal=goal)
+    target = target_of(task)
+    assert target is not None
+    found = LegSearch(task, target, seed=1).search(lambda _: False)
+    assert found
+    worlds = SpanWorlds(task, len(found))
+    assert (worlds.try_all(np.stack(found, axis=1)).ticks > 0).all()
+    assert not LegSearch(replace(task, last=9), target, seed=1).search(lambda _: False)
+    asked: list[int] = []
+
+    def over(ticks: int) -> bool:
+        asked.append(ticks)
+        return True
+
+    assert not LegSearch(replace(task, last=9), target, seed=1).search(over)
+    assert len(asked) <= 2, "no other search is begun"

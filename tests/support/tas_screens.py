@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from shutil import copy
 from typing import Any
@@ -121,6 +122,7 @@ class FixedSearch:
         self.ticks_run, self.seconds = 2_500_000, 7.0
         self.own = self._found(task, 28, 1.5)
         self.found = self._found(task, 21, 2.25), self._found(task, 25, -1.5)
+        self.miss: Found | None = None
 
     @staticmethod
     def _found(task: SpanTask, ticks: int, speed: float) -> Found:
@@ -294,6 +296,11 @@ def _tabs(at: TasDriver) -> Iterator[str]:
     search.results.search.problem = "there is not enough memory"  # type: ignore[attr-defined]
     yield "tas-search-problem"
     search.results.search.problem = ""  # type: ignore[attr-defined]
+    at.press("return")
+    fixed = search.results.search  # type: ignore[attr-defined]
+    fixed.found, fixed.own, fixed.miss = (), None, replace(fixed.own, score=np.inf, missed_by=14.25)
+    at.frames(2)
+    yield "tas-search-miss"
     at.press("escape")
     at.editor.edit(lambda track: track.replaced(10, 12, [4, 4]))
     at.frames(2)

@@ -30,8 +30,9 @@ class SpanSearch:
 
     ``method``, ``every`` and ``memory`` are those of ``search_span``. ``found``: the best results so far,
     best first, each with the whole run; a better list takes the place of an old one. ``own``: what the run's own keys
-    bring, None where they do not reach the goal. ``ticks_run``: ticks simulated; ``problem``: why the search could not
-    go on, "" if it could.
+    bring, None where they do not reach the goal. ``miss``: what comes nearest to a goal that nothing has reached, None
+    where nothing comes near. ``ticks_run``: ticks simulated; ``problem``: why the search could not go on, "" if it
+    could.
 
     Compiled code runs without the interpreter's lock, so that a window stays alive. Raises FormulaError for a broken
     formula, ArgumentError for an unknown method, NinjaGameError in a page, which has no threads.
@@ -48,6 +49,7 @@ class SpanSearch:
         self.task = task
         self.found: tuple[Found, ...] = ()
         self.own: Found | None = None
+        self.miss: Found | None = None
         self.ticks_run = 0
         self.problem = ""
         self._options = {"method": method, "every": every, "memory": memory, "threads": jobs}
@@ -85,7 +87,8 @@ class SpanSearch:
         return (self._ended or monotonic()) - self._began if self._began else 0.0
 
     def _work(self) -> None:
-        search_span(self.task, self._report, **self._options)  # type: ignore[arg-type]
+        missed = partial(setattr, self, "miss")
+        search_span(self.task, self._report, missed=missed, **self._options)  # type: ignore[arg-type]
         self._ended = monotonic()
 
     def _fail(self, why: str) -> None:

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from ninja_game.backend.memories import compiled
 from ninja_game.batch.batch import Batch
 from ninja_game.errors import ArgumentError
-from ninja_game.search.formula.task import Found, Keys, Report, SpanTask, SpanWorlds, Trials
+from ninja_game.search.formula.leg import LegSearch
+from ninja_game.search.formula.task import Found, Keys, Missed, Report, SpanTask, SpanWorlds, Trials, target_of
 from ninja_game.search.local_search import mutate
 from ninja_game.search.nodes import RandomState, random_below, zeroed
 from ninja_game.sim.level import Level
@@ -50,13 +51,13 @@ def _kernel_rng(seed: int) -> list[RandomState]:
 
 
 class Results:
-    """The best keys so far, different ones, and whom to tell of them."""
+    """The best keys so far, different ones, and whom to tell of them; while there are none, of the nearest miss."""
 
-    def __init__(self, worlds: SpanWorlds, report: Report) -> None:
+    def __init__(self, worlds: SpanWorlds, report: Report, missed: Missed) -> None:
         self.worlds = worlds
         self.best: tuple[Found, ...] = ()
         self.going = True
-        self._report = report
+        self._report, self._missed = report, missed
 
     def try_all(self, keys: Keys) -> Trials:
         """Try keys, (ticks, worlds), and keep what is good; ``going`` is then whether to go on."""
@@ -64,34 +65,51 @@ class Results:
         for index in trials.order[:KEPT]:
             if not np.isfinite(trials.scores[index]):
                 break
-            found = self.worlds.found(trials, int(index), keys[:, index])
+            of_trial = float(trials.scores[index]), int(trials.ticks[index]), trials.ends[index].tolist()
+            found = self.worlds.found(int(index), keys[:, index], *of_trial)
             if any(np.array_equal(found.keys[: found.ticks], old.keys[: old.ticks]) for old in self.best):
                 continue
             self.best = tuple(sorted([*self.best, found])[:KEPT])
         self.report()
         return trials
 
+    def try_some(self, keys: list[Keys]) -> None:
+        """The same of a few, each the keys of the span."""
+        self.try_all(np.stack((keys * (WORLDS // len(keys) + 1))[:WORLDS], axis=1))
+
+    def spend(self, ticks: int) -> bool:
+        """Count ticks that were run elsewhere; whether it is over."""
+        self.worlds.ticks_run += ticks
+        self.report()
+        return not self.going
+
     def report(self) -> None:
+        if self.worlds.miss is not None and not self.best:
+            self._missed(self.worlds.miss)
         self.going = self._report(self.worlds.ticks_run, self.best)
 
 
 def search_span(
     task: SpanTask, report: Report, *, method: str = "auto", every: int = 1, seed: int = 1, memory: str = "auto",
-    threads: int | None = None,
+    threads: int | None = None, missed: Missed = lambda _: None,
 ) -> tuple[Found, ...]:  # fmt: skip
     """The best keys that were found, best first, at most KEPT; none where nothing reached the goal.
 
-    ``method``: one of METHODS, or "auto": a beam, then small changes of what it found, again and again. ``every``: for
-    "exhaustive", how many ticks each choice of keys holds. ``report`` is called first when all is compiled. The search
-    goes on until it gives False; "exhaustive" ends when all is tried. The same seed does the same work in the same
-    order. Raises ArgumentError for a span with too many ways through it, and what SpanTask does.
+    ``method``: one of METHODS, or "auto": a beam, then small changes of what it found, again and again; between them,
+    while nothing is found, the solver's way to what the goal is about (LegSearch), on the compiled memory. ``every``:
+    for "exhaustive", how many ticks each choice of keys holds. ``report`` is called first when all is compiled. The
+    search goes on until it gives False; "exhaustive" ends when all is tried. ``missed``: told with each report of what
+    comes nearest to the goal, while nothing reaches it. The same seed does the same work in the same order. Raises
+    ArgumentError for a span with too many ways through it, and what SpanTask does.
     """
     if method == "exhaustive":
         count_ways(task, every)
     worlds = SpanWorlds(task, WORLDS, memory=memory, threads=threads)
     mutated = compiled(mutate_rows) if worlds.batch.memory == "compiled" else mutate_rows
     mutated(np.zeros((1, 1), np.uint8), 1, _kernel_rng(1))
-    results = Results(worlds, report)
+    target = target_of(task) if method == "auto" and worlds.batch.memory == "compiled" else None
+    legs = None if target is None else LegSearch(task, target, seed)
+    results = Results(worlds, report, missed)
     rng = np.random.default_rng(seed)
     results.try_all(np.tile(task.base[:, np.newaxis], (1, WORLDS)))
     if method == "exhaustive":
@@ -100,7 +118,9 @@ def search_span(
     while results.going and method != "exhaustive":
         if method != "local":
             beam(task, STEPS[turn % len(STEPS)], results, rng, noise=0.1 * (turn // len(STEPS)))
-        if method != "beam":
+        if legs and not results.best and results.going and (keys := legs.search(results.spend)):
+            results.try_some(keys)
+        if method != "beam" and results.going:
             change(task, mutated, results, rng, rounds=40)
         turn += 1
     return results.best
@@ -194,6 +214,7 @@ def beam(task: SpanTask, step: int, results: Results, rng: np.random.Generator, 
         for each in range(ticks):
             worlds.ticks_run += batch.run(keys[np.newaxis, tick + each], stop=True, press=True)
             at_goal, margin, score = worlds.measured()
+            worlds.note_miss(margin, keys, tick + each + 1)
             for index in np.flatnonzero(at_goal[used])[:KEPT]:
                 ended = keys[:, index].copy()
                 ended[tick + each + 1 :] = 0
@@ -207,7 +228,7 @@ def beam(task: SpanTask, step: int, results: Results, rng: np.random.Generator, 
     if found:
         picked = [found[int(index)] for index in rng.permutation(len(found))[:WORLDS]]
         picked[:KEPT] = found[-KEPT:]
-        results.try_all(np.stack((picked * (WORLDS // len(picked) + 1))[:WORLDS], axis=1))
+        results.try_some(picked)
     else:
         results.report()
 

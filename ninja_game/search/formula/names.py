@@ -143,6 +143,8 @@ def _flags(batch: Batch, number: Any, what: str) -> Any:
 
 _SPEED = 4.0
 """px that a tick of a field counts, so that distances in formulas and these are of one size: a step of 6 px is 1.5."""
+UNREACHABLE = -1.0 - _SPEED * FARTHEST
+"""The margin where no way leads to what makes a fact so."""
 
 Target = Callable[[int, float, float], Field]
 """The field of a target in a switch state, for a ninja at (x, y)."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
@@ -10,11 +11,11 @@ from numpy.typing import NDArray
 
 from ninja_game.batch.batch import Batch
 from ninja_game.errors import ArgumentError
-from ninja_game.search.formula.language import Formula, FormulaError, Values, parse_number, parse_truth
-from ninja_game.search.formula.names import FACTS, SPAN_NAMES, difference_from, distance_views, view_of
+from ninja_game.search.formula.language import UNTRUE, Formula, FormulaError, Values, parse_number, parse_truth
+from ninja_game.search.formula.names import FACTS, SPAN_NAMES, UNREACHABLE, difference_from, distance_views, view_of
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
 from ninja_game.sim.level import Level
-from ninja_game.sim.states import OUTCOME_EXIT
+from ninja_game.sim.states import OUTCOME_EXIT, OUTCOME_RUNNING
 from ninja_game.simulation import Body
 
 Keys = NDArray[np.uint8]
@@ -87,12 +88,13 @@ class SpanTask:
 
 @dataclass(order=True)
 class Found:
-    """Keys that reach the goal; the smaller, the better.
+    """Keys that reach the goal, the smaller, the better, or that come near it.
 
     ``score``: minus the measure (or the measure, for ``least``), or the ticks to the goal or to the exit; ``ticks``: of
     the span, up to the goal; ``inputs``: the whole run with them, up to the goal or to its end; ``gold``: pieces that
     it has in the end; ``end``: x, y (px), vx, vy (px/tick) at the goal; ``own_route``: other runs have no part
-    in it.
+    in it; ``missed_by``: the margin that is left to the goal where it was not reached, 0 where only the exit behind it
+    was not; None: reached. Of a miss, the goal is the tick in which it was nearest.
     """
 
     score: float
@@ -102,11 +104,23 @@ class Found:
     gold: int = field(compare=False, default=0)
     end: tuple[float, ...] = field(compare=False, default=(0.0,) * 4)
     own_route: bool = field(compare=False, default=True)
+    missed_by: float | None = field(compare=False, default=None)
+
+
+def target_of(task: SpanTask) -> int | None:
+    """The slot of the object that is to be taken or opened, 0: an exit to be reached; None for any other goal."""
+    found = re.fullmatch(r"won|(?:taken|opened)\((\d+)\)", task.goal.replace(" ", ""))
+    return found and int(found[1] or -1) + 1
 
 
 def score_in_words(task: SpanTask, found: Found) -> str:
     """What a search has found, in words."""
     last = task.first + found.ticks - 1
+    if found.missed_by == 0.0:
+        return f"goal after tick {last}, but not the exit"
+    if found.missed_by is not None:
+        short = f"{found.missed_by:.3g} short" if target_of(task) is None else f"{found.missed_by - 1.0:.0f} px"
+        return f"closest: {short} after tick {last}"
     if task.rest:
         return f"exit in tick {found.score - 1:.0f}"
     if task.goal == "won":
@@ -151,10 +165,14 @@ class SpanWorlds:
         self.start = single.save([0] * count)
         self.batch.restore(self.start)
         self.ticks_run = task.first
+        self.miss: Found | None = None
+        self._nearest = -np.inf
+        self.rest: Keys = np.zeros(0, np.uint8)
         own = int(self._try(np.tile(task.base[:, np.newaxis], (1, count))).ticks[0]) if task.rest and task.goal else 0
-        self.rest = (
-            np.frombuffer(task.inputs[task.first + own if own else task.behind or task.last :], np.uint8) & KEYS_DOWN
-        )
+        self.miss, self._nearest = None, -np.inf  # that of the run's own keys was without what follows
+        self.rest = np.frombuffer(
+            task.inputs[task.first + own if own else task.behind or task.last :], np.uint8
+        ) & np.uint8(KEYS_DOWN)
 
     def measured(self) -> tuple[NDArray[np.bool_], Values, Values]:
         """For all worlds, as they are now: whether they are at the goal, their margin, their score."""
@@ -169,12 +187,23 @@ class SpanWorlds:
                 score = np.where(np.isfinite(value), value if self.task.least else -value, np.inf)
         return at_goal, margin, score
 
-    def found(self, trials: Trials, index: int, keys: Keys) -> Found:
-        ticks = int(trials.ticks[index])
+    def found(
+        self, index: int, keys: Keys, score: float, ticks: int, end: list[float], missed_by: float | None = None
+    ) -> Found:
+        """The keys of a world as a result, or as a miss."""
         rest = self.rest.tolist() if self.task.rest else []
-        gold = int(self.batch.gold[index])
         run = with_press_bits([*self.task.inputs[: self.task.first], *keys[:ticks].tolist(), *rest])
-        return Found(float(trials.scores[index]), ticks, keys.copy(), run, gold, tuple(trials.ends[index].tolist()))
+        return Found(score, ticks, keys.copy(), run, int(self.batch.gold[index]), tuple(end), missed_by=missed_by)
+
+    def note_miss(self, margins: Values, keys: Keys, ticks: int) -> None:
+        """Keep the living world that is nearest to the goal after so many ticks of the span, if none was nearer."""
+        batch = self.batch
+        living = np.where(batch.outcomes == OUTCOME_RUNNING, np.minimum(margins, 0.0), -np.inf)
+        index = int(np.argmax(living))
+        if living[index] > self._nearest and living[index] not in (UNTRUE, UNREACHABLE):
+            self._nearest = living[index]
+            end = [*batch.positions[index].tolist(), *batch.velocities()[index].tolist()]
+            self.miss = self.found(index, keys[:, index], np.inf, ticks, end, abs(float(living[index])))
 
     def try_all(self, keys: Keys) -> Trials:
         """Play keys, (ticks of the span, worlds), from the start of the span."""
@@ -193,6 +222,7 @@ class SpanWorlds:
         for tick in range(self.task.length):
             self.ticks_run += batch.run(keys[np.newaxis, tick], stop=True, press=True)
             at_goal, margin, score = self.measured()
+            self.note_miss(margin, keys, tick + 1)
             np.maximum(trials.margins, margin, out=trials.margins)
             better = at_goal & (score < trials.scores)
             trials.scores[better] = score[better]
@@ -223,3 +253,6 @@ class SpanWorlds:
 
 Report = Callable[[int, tuple[Found, ...]], bool]
 """Told the ticks run so far and the best results so far, best first; False ends the search."""
+
+Missed = Callable[[Found], object]
+"""Told of what comes nearest to a goal that nothing has reached."""

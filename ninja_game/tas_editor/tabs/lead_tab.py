@@ -122,7 +122,7 @@ class LeadTab(Tab):
             f"other keys from tick {keys} on",
             f"elsewhere from tick {place} on" if place is not None else "the same way",
         ]
-        last = next((row for row in reversed(table.rows) if row.counts), None)
+        last = next((row for row in reversed(table.rows) if row.at), None)
         if last is not None:
             parts.append(f"{lead_in_words(last.ahead)} at {last.name}")
         if table.apart:
@@ -145,9 +145,9 @@ class LeadTab(Tab):
         row, palette = self.table.rows[index], theme.palette
         x, right, y = area[0], area[0] + area[2], area[1] + 3
         current = self.is_current
-        colour = palette.text if row.counts and current else palette.faint
+        colour = palette.text if row.at and current else palette.faint
         theme.text(
-            surface, row.name, x + 8, y, size=SMALL, colour=colour, bold=row.counts, width=area[2] - _COLUMNS[0] - 14
+            surface, row.name, x + 8, y, size=SMALL, colour=colour, bold=bool(row.at), width=area[2] - _COLUMNS[0] - 14
         )
         for at, tick in zip(_COLUMNS, (row.tick, row.other), strict=False):
             theme.text(surface, str(tick), right - at, y, size=SMALL, colour=colour)

@@ -66,6 +66,7 @@ class SpanResults:
     """Runs a task in the background, and puts results into the run, while nothing that they rely on has changed.
 
     ``better``: the results that bring more than the run's own keys, best first; of those that end alike the best one.
+    While nothing has reached the goal, what comes nearest.
     Raises what SpanSearch does.
     """
 
@@ -166,7 +167,9 @@ class SpanResults:
     # --- in words ---
 
     def refresh(self) -> None:
-        found = self.search.found
+        found, miss = self.search.found, self.search.miss
+        if not found and miss is not None:
+            self.better = (miss,)
         if found is self._seen:
             return
         self._seen, own = found, self.search.own
@@ -175,7 +178,7 @@ class SpanResults:
         different: dict[object, Found] = {}
         # Of a whole run, what was found is what nothing beats.
         before = () if isinstance(self.search, RunSearch) else self.better
-        for each in sorted([*before, *found]):
+        for each in sorted([*(each for each in before if each.missed_by is None), *found]):
             if own is None or each.score < own.score or (each.score == own.score and each.gold > own.gold):
                 different.setdefault((each.own_route, each.gold, *np.round(each.end, 2)), each)
         self.better = tuple(different.values())[:KEPT]
@@ -189,7 +192,7 @@ class SpanResults:
             whose = self._whose(found)
             route = "own route" if found.own_route else f"this is {whose.name}" if whose else "other routes"
             words = f"{route}: {words.removeprefix('exit in ')}"
-        gain = "new"
+        gain = "new" if found.missed_by is None else "a miss"
         if own is not None:
             more = own.score - found.score
             gain = f"better by {more:.4g}" if self.task.measure else f"{counted(int(more), 'tick', 'ticks')} sooner"
@@ -457,4 +460,4 @@ class SearchTab(Tab):
             theme.text(surface, cell, at, y + 3, size=SMALL, width=width,
                        colour=palette.text if fits else palette.faint)  # fmt: skip
         theme.text(surface, gain, x + w - 6, y + 3, size=SMALL, bold=fits, align="right", width=78,
-                   colour=palette.good if fits else palette.faint)  # fmt: skip
+                   colour=palette.faint if not fits else palette.bad if gain == "a miss" else palette.good)  # fmt: skip

@@ -29,7 +29,7 @@ def test_the_lead_over_a_run_that_starts_earlier(at: TasDriver, tab: LeadTab) ->
     at.editor.edit(lambda track: track.replaced(0, 0, [0] * 3).named(100, "ledge"))
     assert not tab.is_current
     compared(at, tab)
-    assert {row.ahead for row in tab.table.rows if row.counts} == {-3}
+    assert {row.ahead for row in tab.table.rows if row.at} == {-3}
     assert {"ledge", "exit"} <= {row.name for row in tab.table.rows}
     assert [row.tick for row in tab.table.rows] == sorted(row.tick for row in tab.table.rows)
     assert "3 ticks behind at exit" in tab.summary
@@ -96,7 +96,7 @@ def test_seconds_without_a_row_are_told(at: TasDriver, tab: LeadTab) -> None:
     at.editor.edit(lambda track: track.replaced(0, len(track), bytes(200)))
     compared(at, tab)
     assert tab.table
-    there = sum(not row.counts for row in tab.table.rows)
+    there = sum(not row.at for row in tab.table.rows)
     seconds = (len(tab.table.comparison.positions[0]) - 1) // 40
     assert 0 < tab.table.apart == seconds - there
     assert tab.summary.endswith(f"no rows for {tab.table.apart} s more than 24 px apart")
