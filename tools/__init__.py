@@ -1,14 +1,12 @@
 """Scripts for those who work on the project, run by `python3 tools/dev.py tool NAME`; docs/tools.md lists them."""
 
 import os
-import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 """The project's folder."""
 
 # Before any of them imports pygame: no window, no sound, no greeting.
-if "--display" not in sys.argv:
-    os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
+os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")

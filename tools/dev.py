@@ -8,7 +8,8 @@ usage: python3 tools/dev.py COMMAND ...
   test             `lint`, then the tests; `test --all`: those too that are slow and rarely fail; with words of your own
                    (a file, `-k NAME`) pytest alone, with them
   lint             style, format, types, import contract; `lint --fix` mends what a program can mend
-  benchmark        measure how fast the world is on this machine; `benchmark --help` lists options
+  benchmark        measure how fast the world is on this machine; `benchmark --help` lists options; `benchmark page`:
+                   another script of benchmarks/
   golden           write the golden files of the tests again, after a change of the rules that is meant
   change-rules     test the tests: break the rules one at a time and tell which breaks no test notices
   accept-pictures  record the screens, pictures and messages of the tests again, after a change that is meant
@@ -145,14 +146,14 @@ def lint(steps: Sequence[Sequence[str]]) -> str:
     return f"lint: {', '.join(failed)} failed" if failed else GOOD
 
 
-def tool(name: str, *rest: str) -> int:
-    """A script of tools/. One without options would not read --help: what it is for is said here."""
-    script = ROOT / "tools" / f"{name.replace('.', '/')}.py"
+def tool(folder: str, name: str, *rest: str) -> int:
+    """A script of tools/ or benchmarks/. One without options would not read --help: what it is for is said here."""
+    script = ROOT / folder / f"{name.replace('.', '/')}.py"
     text = script.read_text("utf-8") if script.is_file() else "argparse"
     if {"-h", "--help"} & {*rest} and "argparse" not in text:
         print(ast.get_docstring(ast.parse(text)))
         return 0
-    return become("-m", f"tools.{name}", *rest)
+    return become("-m", f"{folder}.{name}", *rest)
 
 
 def main(words: Sequence[str]) -> int:
@@ -191,8 +192,8 @@ def main(words: Sequence[str]) -> int:
             return run("python", "-m", "pytest", "-q", *map(str, sorted(tests)))
         case "docs", *_:
             return max(run("python", "-m", f"tools.{drawing}") for drawing in DRAWINGS)
-        case "tool", script, *rest:
-            return tool(script, *rest)
+        case "tool" | "benchmark", script, *rest if name == "tool" or (ROOT / f"benchmarks/{script}.py").is_file():
+            return tool(f"{name}s", script, *rest)
         case _ if name in PROGRAMS:
             return become("-m", *PROGRAMS[name], *rest)
     asked = {name, *rest} & {"-h", "--help", "help"}

@@ -74,7 +74,9 @@ def convert(
       ninja-game convert run.replay.txt run.demo
       ninja-game convert first.nlevel -
     """
+    from ninja_game.formats.ascii.writer import headers_of, write_ascii_level
     from ninja_game.formats.load import load_levels, load_replays, texts_of
+    from ninja_game.formats.n14.level_string import write_level_string
     from ninja_game.runs.conversion import episode_text, input_texts, left_out, level_file_text, replay_texts
 
     output = Output(target, sources, force=force)
@@ -96,11 +98,12 @@ def convert(
         found = levels = [named for source in sources for named in load_levels(source)]
         form = form or ("file" if all(named.ascii for named in levels) else "ascii")
         if form == "ascii":
-            output.write_each([_ascii_text(named, legend) for named in levels], levels, ".txt")
+            pictures = [write_ascii_level(named.level, **headers_of(named), legend=legend) for named in levels]
+            output.write_each(pictures, levels, ".txt")
     if form == "file":
         output.write(level_file_text(texts, level))
     elif form == "string":
-        output.write(_strings_text(found))
+        output.write("".join(write_level_string(each.level, exact=True) + "\n" for each in found))
     if lost := left_out(form, found, [text for _, text in texts]):
         click.echo(f"left out: {', '.join(lost)}", err=True)
 
@@ -152,18 +155,6 @@ class Output:
                 tree.write(path.name, text)
             else:
                 write_atomically(path, text, keep=self.sources)
-
-
-def _ascii_text(level: NamedLevel, legend: bool) -> str:
-    from ninja_game.formats.ascii.writer import headers_of, write_ascii_level
-
-    return write_ascii_level(level.level, **headers_of(level), legend=legend)
-
-
-def _strings_text(levels: Sequence[NamedLevel | Recording]) -> str:
-    from ninja_game.formats.n14.level_string import write_level_string
-
-    return "".join(write_level_string(level.level, exact=True) + "\n" for level in levels)
 
 
 def _file_names(found: Sequence[NamedLevel | Recording], suffix: str) -> Iterator[str]:

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli.options import LevelPath, level_given, level_option
-from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.sim.level import makes_object
@@ -21,7 +20,6 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from ninja_game.formats.load import NamedLevel, Recording
-    from ninja_game.sim.level import Level
 
 PIPE_WIDTH = 160
 
@@ -51,11 +49,12 @@ def info(
     from rich.console import Console
 
     from ninja_game.formats.load import load_levels
+    from ninja_game.runs.recording_reader import Unreadable, recordings_in
 
     # A pipe has no width; a table truncated to 80 columns is of no use to whoever reads it.
     console = Console(highlight=False, emoji=False, width=None if sys.stdout.isatty() else PIPE_WIDTH)
     given = level_given(level_path)
-    runs = [run for file in files for run in _recordings(file, given)]
+    runs = [run for run in recordings_in(files, given) if not isinstance(run, Unreadable)]
     levels = [level for file in files for level in load_levels(file)] if given is None else list(map(_level_of, runs))
     if record is not None:
         levels = [level for level in levels if level.record == record]
@@ -77,21 +76,6 @@ def _level_of(run: Recording) -> NamedLevel:
     from ninja_game.formats.named_level import NamedLevel
 
     return NamedLevel(run.name, run.author, run.comment, run.level, run.file, run.record, run.line)
-
-
-def _recordings(file: Path, level: Level | None) -> list[Recording]:
-    """The recordings in a file, folder or link; none where it holds levels only."""
-    from ninja_game.files.reading import text_files
-    from ninja_game.formats.links import is_link
-    from ninja_game.formats.load import load_replays
-
-    found = []
-    for part in [file] if is_link(file) else text_files(file):
-        try:
-            found += load_replays(part, level=level)
-        except NinjaGameError:
-            continue
-    return found
 
 
 def _counts(level: NamedLevel) -> Counter[str]:

@@ -6,9 +6,8 @@ import re
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from difflib import get_close_matches
-from functools import partial
 from pathlib import Path
 from threading import Event, Thread
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -30,12 +29,11 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 N = TypeVar("N", "NamedLevel", "Recording")
 
-PATIENCE = 1.0
-"""Seconds after which work is long enough for a progress bar."""
+PATIENCE, REFRESHES = 1.0, 8
+"""Seconds after which a terminal shows how work stands, and how often a second."""
 
 LONG, EVERY = 5.0, 15.0
-"""Seconds until the first line of progress, and between two of them, where no bar tells it."""
-
+"""Seconds until the first line of progress, and between two of them, where that is written to a file."""
 
 JOBS = click.IntRange(1, 1024)
 SEED = click.IntRange(0, 10**9)
@@ -166,74 +164,43 @@ def level_given(path: Path | None) -> Level | None:
 
 
 def with_progress(items: Iterable[T], label: str) -> Iterator[T]:
-    """Items as they pass, counted on stderr if that takes long: by a bar, or by lines where that is a file.
-
-    ``label``: what one of them is.
-    """
-    if not sys.stderr.isatty():
-        done = 0
-        with heartbeat(lambda: f"{counted(done, label)} done"):
-            for done, item in enumerate(items, 1):  # noqa: B007 - the line tells it
-                yield item
-        return
-    start = time.monotonic()
-    with ExitStack() as stack:
-        advance: Callable[[], object] | None = None
-        over = stack.enter_context(heartbeat(lambda: f"at work on {label}s"))
-        for number, item in enumerate(items, 1):
+    """Items as they pass, counted on stderr if that takes long. ``label``: what one of them is."""
+    done = 0
+    with heartbeat(lambda: f"{counted(done, label)} done"):
+        for done, item in enumerate(items, 1):  # noqa: B007 - the line tells it
             yield item
-            if advance is None and time.monotonic() - start > PATIENCE:
-                over.set()
-                advance = stack.enter_context(_counter(f"{label}s", number))
-            elif advance:
-                advance()
 
 
 @contextmanager
-def heartbeat(text: Callable[[], str]) -> Iterator[Event]:
-    """Say on stderr now and then what is done meanwhile, for work that may take long and shows nothing by itself.
+def heartbeat(text: Callable[[], str]) -> Iterator[None]:
+    """Say on stderr what is done meanwhile: the present state in a terminal, in a file a line now and then."""
+    over, start = Event(), time.monotonic()
 
-    Gives what ends it early.
-    """
-    over = Event()
-    start = time.monotonic()
-
-    def beat() -> None:
+    def tell_file() -> None:
         pause = LONG
         while not over.wait(pause):
             click.echo(f"ninja-game: {time.monotonic() - start:,.0f} s: {text()}", err=True)
             pause = EVERY
 
-    Thread(target=beat, daemon=True).start()
+    def tell_terminal() -> None:
+        if over.wait(PATIENCE):
+            return
+        from rich.console import Console
+        from rich.live import Live
+        from rich.text import Text
+
+        stderr, shared = Console(stderr=True), sys.stdout.isatty()
+        with Live(console=stderr, transient=True, auto_refresh=False, redirect_stdout=shared) as live:
+            while not over.wait(1 / REFRESHES):
+                live.update(Text(f"{time.monotonic() - start:4.0f} s  {text()}"), refresh=True)
+
+    teller = Thread(target=tell_terminal if sys.stderr.isatty() else tell_file, daemon=True)
+    teller.start()
     try:
-        yield over
+        yield
     finally:
         over.set()
-
-
-class ProgressLog:
-    """Lines on stderr that say how long work stands, one each EVERY seconds."""
-
-    def __init__(self) -> None:
-        self.start = self.last = time.monotonic()
-
-    def say(self, text: str) -> None:
-        now = time.monotonic()
-        if now - self.last >= EVERY:
-            self.last = now
-            click.echo(f"ninja-game: {now - self.start:,.0f} s: {text}", err=True)
-
-
-@contextmanager
-def _counter(label: str, done: int) -> Iterator[Callable[[], object]]:
-    """A line on stderr that counts; gives what is called once an item."""
-    from rich.console import Console
-    from rich.progress import MofNCompleteColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
-
-    columns = (SpinnerColumn(), TextColumn(label), MofNCompleteColumn(), TimeElapsedColumn())
-    stderr, shared = Console(stderr=True), sys.stdout.isatty()
-    with Progress(*columns, console=stderr, transient=True, redirect_stdout=shared) as progress:
-        yield partial(progress.advance, progress.add_task(label, total=None, completed=done))
+        teller.join()
 
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -340,37 +307,29 @@ class SearchLog:
 
 
 class ShownProgress:
-    """What a search is told to report to: shows how it stands, and knows that afterwards."""
+    """What a search is told to report to: ``text`` says how it stands, ``last`` knows that afterwards."""
 
-    def __init__(self, show: Callable[[str], None]) -> None:
+    def __init__(self) -> None:
+        self.text = "starting; the first time it compiles, which takes about a minute"
         self.last: Progress | None = None
-        self._show = show
 
     def __call__(self, progress: Progress) -> None:
         self.last = progress
-        self._show(progress_text(progress))
+        self.say(progress_text(progress))
 
     def say(self, text: str) -> None:
-        self._show(text)
+        self.text = text
 
     def of_level(self, name: str, progress: Progress) -> None:
-        self._show(f"{shown_text(name)}: {progress_text(progress)}")
+        self.say(f"{shown_text(name)}: {progress_text(progress)}")
 
 
 @contextmanager
 def progress_line() -> Iterator[ShownProgress]:
-    """A line on stderr that says how the search stands: always the present one, or one now and then in a file."""
-    if not sys.stderr.isatty():
-        yield ShownProgress(ProgressLog().say)
-        return
-    from rich.console import Console
-    from rich.live import Live
-    from rich.text import Text
-
-    starting = Text("starting; the first time it compiles, which takes about a minute")
-    began = time.monotonic()
-    with Live(starting, console=Console(stderr=True), transient=True, refresh_per_second=8) as live:
-        yield ShownProgress(lambda text: live.update(Text(f"{time.monotonic() - began:4.0f} s  {text}")))
+    """Show how a search stands, as ``heartbeat`` does."""
+    shown = ShownProgress()
+    with heartbeat(lambda: shown.text):
+        yield shown
 
 
 def not_found_text(task: Task, progress: Progress | None) -> str:

@@ -18,7 +18,6 @@ from ninja_game.cli.terminal import BAD_INPUT, complain, data_output
 from ninja_game.files.shown_text import shown_text
 
 if TYPE_CHECKING:
-    from ninja_game.runs.archive import Traced
     from ninja_game.runs.trace import RunTrace
     from ninja_game.runs.trace_files import FiledTrace
 
@@ -44,20 +43,9 @@ SECTION = re.compile(r"(world|objects|ninja|game) [0-9.]+")
 @options.jobs_option
 @options.budget_option
 def trace(
-    files: Sequence[Path],
-    record: int | None,
-    ticks: int | None,
-    after: int | None,
-    objects: bool,
-    digests: bool,
-    against: Path | None,
-    against_record: int | None,
-    level_path: Path | None,
-    output: Path | None,
-    memory: str,
-    jobs: int | None,
-    budget: int,
-) -> int:
+    files: Sequence[Path], record: int | None, ticks: int | None, after: int | None, objects: bool, digests: bool,
+    against: Path | None, against_record: int | None, level_path: Path | None, output: Path | None, **workers: Any,
+) -> int:  # fmt: skip
     """Show every tick of recordings: position, velocity, state, events.
 
     FILE is a replay of ours, a file of $name#author#comment#level#demo# records, or a folder of them. Each runs as
@@ -80,16 +68,15 @@ def trace(
         raise click.UsageError("--against-record needs --against")
     if digests + bool(against) + bool(output) > 1:
         raise click.UsageError("--digests, --against and --output cannot be used together")
-    how = {
-        "level": options.level_given(level_path), "jobs": jobs, "ticks": ticks, "after": after or 0, "memory": memory,
+    how = workers | {
+        "level": options.level_given(level_path), "ticks": ticks, "after": after or 0,
         "objects": objects or digests or against is not None, "events": not digests and not against,
-        "budget": budget,
     }  # fmt: skip
     traces = Traces(files, record=record, **how)
     different = 0
     if digests:
-        for traced in traces:
-            click.echo(json.dumps(_digests(traced)))
+        for trace in traces:
+            click.echo(json.dumps(_digests(trace)))
     elif against:
         different = _compare(traces, _expected(against, against_record, how), against, against_record)
     else:
@@ -110,7 +97,7 @@ class Traces:
         self.count = 0
         self.unreadable = 0
 
-    def __iter__(self) -> Iterator[Traced]:
+    def __iter__(self) -> Iterator[FiledTrace]:
         from ninja_game.runs.recording_reader import Unreadable
 
         for item in self.items:
@@ -122,14 +109,14 @@ class Traces:
                 yield item
 
 
-def _digests(traced: Traced) -> dict[str, Any]:
+def _digests(trace: FiledTrace) -> dict[str, Any]:
     from ninja_game.runs.trace import trace_digests
 
-    file, record, name, run = traced.file, traced.trace.record, traced.trace.name, traced.trace.run
-    digests = trace_digests(run)
+    digests = trace_digests(trace.run)
     return {
-        "file": file, "record": record, "name": name, "ticks": digests.ticks, "ninja_sha256": digests.ninja_sha256,
-        "run_sha256": digests.run_sha256, "objects": {str(id_): text for id_, text in digests.objects.items()},
+        "file": trace.file, "record": trace.record, "name": trace.name, "ticks": digests.ticks,
+        "ninja_sha256": digests.ninja_sha256, "run_sha256": digests.run_sha256,
+        "objects": {str(id_): text for id_, text in digests.objects.items()},
     }  # fmt: skip
 
 
@@ -139,7 +126,7 @@ def _expected(against: Path, record: int | None, how: dict[str, Any]) -> Iterato
 
     if is_trace(against):
         return (trace for trace in read_traces(against) if record is None or trace.record == record)
-    return (traced.trace for traced in Traces([against], record=record, **how))
+    return iter(Traces([against], record=record, **how))
 
 
 def _compare(traces: Traces, expected: Iterator[FiledTrace], against: Path, record: int | None) -> int:
@@ -155,14 +142,14 @@ def _compare(traces: Traces, expected: Iterator[FiledTrace], against: Path, reco
     if record is not None and record not in pairs:
         raise click.UsageError(f"{against}: no record {record}")
     different = 0
-    for file, comment, trace in traces:
-        section = comment if SECTION.fullmatch(comment) else ""
+    for trace in traces:
+        section = trace.comment if SECTION.fullmatch(trace.comment) else ""
         wanted = trace.record if record is None else record
-        there = pairs.get((file, wanted), pairs.get(wanted))
+        there = pairs.get((trace.file, wanted), pairs.get(wanted))
         difference = first_difference(trace.run, there, section) if there else f"record {wanted} is not in {against}"
         if difference:
             different += 1
-            click.echo(f"{shown_text(file)}:{trace.record} {shown_text(trace.name)}: {difference}")
+            click.echo(f"{shown_text(trace.file)}:{trace.record} {shown_text(trace.name)}: {difference}")
     click.echo(f"{traces.count - different} of {traces.count} equal to {shown_text(str(against))}")
     return different
 
@@ -175,7 +162,7 @@ def _write(traces: Traces, output: Path | None, files: Sequence[Path]) -> None:
     found = next(iter(traces), None)
     if found is None:
         return  # and no heads of columns before the error
-    runs = (traced.trace for traced in chain([found], traces))
+    runs = chain([found], traces)
     if output is None:
         write_csv(runs, data_output())
     elif output.suffix == ".npz":

@@ -107,7 +107,7 @@ def site(out: Path | None, pyodide: Path | None, serve: bool, port: int, address
 
     from ninja_game.files.user_folder import data_folder
     from ninja_game.web.pages.gallery import published_levels, write_gallery
-    from ninja_game.web.site.build import build_site
+    from ninja_game.web.site.build import build_site, site_server
 
     cache = user_cache_path("ninja-game", appauthor=False)
     folder = out or cache / "site"
@@ -120,15 +120,9 @@ def site(out: Path | None, pyodide: Path | None, serve: bool, port: int, address
     gallery = write_gallery(folder, published_levels(data_folder("levels")), address=address)
     click.echo(f"{gallery}: pictures and pages of the game's levels")
     if serve:
-        _serve(folder, port)
-
-
-def _serve(folder: Path, port: int) -> None:
-    from ninja_game.web.site.build import site_server
-
-    with site_server(folder, port) as server:
-        click.echo(f"http://127.0.0.1:{server.server_port}/ (Ctrl-C ends it)")
-        server.serve_forever()
+        with site_server(folder, port) as server:
+            click.echo(f"http://127.0.0.1:{server.server_port}/ (Ctrl-C ends it)")
+            server.serve_forever()
 
 
 class _Board(click.Command):

@@ -6,7 +6,7 @@ The same seed, difficulty and version give the same level on every machine: all 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from random import Random
 from threading import Event
 
@@ -40,14 +40,13 @@ TRIES_TO_COMPOSE = 400
 
 @dataclass(frozen=True)
 class Generated:
-    """A level with its certificate. ``difficulty``: measured; ``attempts``: how many the solver looked at."""
+    """A level with its certificate. ``difficulty``: measured."""
 
     name: str
     comment: str
     level: Level
     run: Replay
     difficulty: float
-    attempts: int
 
     @property
     def author(self) -> str:
@@ -107,13 +106,13 @@ def generate(
         lacking = len(list(design_findings(design(scene.level, run.inputs))))
         name = name_for(plan, rng)
         comment = f"seed {seed}, difficulty {wanted}: measured {measured:.1f}"
-        made = Generated(name, comment, scene.level, run, measured, looked_at)
+        made = Generated(name, comment, scene.level, run, measured)
         worth = not _near(measured, wanted, 2), lacking > 0, abs(measured - wanted)
         if best is None or worth < best[0]:
             best = worth, made
         if _near(measured, wanted) and not lacking:
             break
-    return best and replace(best[1], attempts=looked_at)
+    return best and best[1]
 
 
 def plan_of(seed: int | str, rng: Random) -> str:

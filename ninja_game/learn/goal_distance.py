@@ -35,7 +35,7 @@ class GoalDistance:
 
     def __init__(self, levels: Sequence[Level], setting: Setting) -> None:
         self._levels, self._worlds, self._setting = levels, setting.worlds, setting
-        self._kernel = setting.kernel(measure_distance)
+        self._kernel = setting.worlds.kernel(measure_distance)
         self._made: dict[int, Heuristics] = {}
         count = setting.count
         self.ticks, self.start = np.zeros((2, count))

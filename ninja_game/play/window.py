@@ -133,7 +133,7 @@ def _prefer_shared_memory() -> None:
     """Under X11 show pictures through shared memory instead of OpenGL, unless the environment says otherwise.
 
     Only the px that changed are sent then; through OpenGL the whole window goes to the card in every picture, and
-    without a card that costs 20 ms (measured with tools/measure/frame_cost.py --display).
+    without a card that costs 20 ms (measured with benchmarks/frame_cost.py --display).
     """
     if pygame.display.get_driver() == "x11":
         os.environ.setdefault("SDL_FRAMEBUFFER_ACCELERATION", "0")

@@ -21,7 +21,7 @@ from functools import partial
 from hashlib import sha256
 from itertools import chain, islice
 from pathlib import Path
-from typing import IO, Any, NamedTuple, TypeAlias
+from typing import IO, Any, TypeAlias
 
 from ninja_game.backend.memories import choose_memory
 from ninja_game.batch.thread_pool import cores
@@ -258,14 +258,6 @@ TRACES = 32
 """Recordings that a job traces: sending one costs more than a short run."""
 
 
-class Traced(NamedTuple):
-    """A trace, the file of its recording and the comment there."""
-
-    file: str
-    comment: str
-    trace: FiledTrace
-
-
 def trace_all(
     paths: Iterable[Path],
     *,
@@ -274,7 +266,7 @@ def trace_all(
     jobs: int | None = None,
     memory: str = "auto",
     **options: Any,
-) -> Iterator[Traced | Unreadable]:
+) -> Iterator[FiledTrace | Unreadable]:
     """A trace of every recording in files and folders, in order; what cannot be read is reported and stops nothing.
 
     ``level``: what recordings that do not hold their level are played on; ``record``: only this one of each file.
@@ -283,33 +275,28 @@ def trace_all(
     found = recordings_in(paths, level)
     rest = (item for item in found if record is None or isinstance(item, Unreadable) or item.record == record)
     first = list(islice(rest, TRACES))
-    trace = partial(_trace, {"memory": memory, **options})
+    options |= {"memory": memory}
     if len(first) < TRACES or jobs == 1:
         # Few recordings are done before a second worker has started.
-        yield from map(trace, chain(first, rest))
+        yield from map(partial(_trace, options), chain(first, rest))
         return
     # Compiled code leaves the interpreter's lock, plain code needs processes.
     processes = choose_memory(memory) == "plain"
     with workers(jobs or cores(), processes=processes) as pool:
-        for job, results in in_order(pool, partial(_trace_job, trace), chain([first], _batches(rest))):
+        for job, results in in_order(
+            pool, partial(_trace_job, options), chain([first], iter(lambda: list(islice(rest, TRACES)), []))
+        ):
             if isinstance(results, WorkerLostError):
                 yield Unreadable(f"{len(job)} recordings: {results}")
             else:
                 yield from results
 
 
-def _batches(items: Iterator[Recording | Unreadable]) -> Iterator[list[Recording | Unreadable]]:
-    while batch := list(islice(items, TRACES)):
-        yield batch
+def _trace_job(options: dict[str, Any], job: list[Recording | Unreadable]) -> list[FiledTrace | Unreadable]:
+    return [_trace(options, item) for item in job]
 
 
-def _trace_job(
-    trace: Callable[[Recording | Unreadable], Traced | Unreadable], job: list[Recording | Unreadable]
-) -> list[Traced | Unreadable]:
-    return [trace(item) for item in job]
-
-
-def _trace(options: dict[str, Any], recording: Recording | Unreadable) -> Traced | Unreadable:
+def _trace(options: dict[str, Any], recording: Recording | Unreadable) -> FiledTrace | Unreadable:
     if isinstance(recording, Unreadable):
         return recording
     try:
@@ -317,5 +304,4 @@ def _trace(options: dict[str, Any], recording: Recording | Unreadable) -> Traced
     except NinjaGameError as error:
         return Unreadable(str(error))
     inputs = recording.replay.playback(len(run.ninja))
-    trace = FiledTrace(recording.record, recording.name, run, recording.file, inputs)
-    return Traced(recording.file, recording.comment, trace)
+    return FiledTrace(recording.record, recording.name, run, recording.file, inputs, recording.comment)

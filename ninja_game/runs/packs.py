@@ -12,7 +12,7 @@ from ninja_game.errors import NinjaGameError, ReplayError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, PARS, Pack, certificate_name
-from ninja_game.formats.pack.pars import DIGITS, Pars, parse_pars
+from ninja_game.formats.pack.pars import DIGITS, Pars
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.levels.findings import DESIGN_RULES, PackFinding, in_pack
 from ninja_game.levels.warnings import level_findings
@@ -81,7 +81,7 @@ def make_pars(pack: Pack, *, tries: int = TRIES) -> Iterator[tuple[str, Pars]]:
     What is in the pack's table and still right is not measured again. ``tries``: as ``difficulty`` has them, 0 for no
     difficulty. Raises what ``certificate`` raises.
     """
-    known = parse_pars(pack.files.text(PARS), file=pack.files.place(PARS)) if PARS in pack.files.names else {}
+    known = pack.read_pars()
     for file, named in pack.levels.items():
         run, rich = certificate(pack, file, "exit"), certificate(pack, file, "gold")
         if run is None or run.problems:
@@ -229,9 +229,7 @@ def _about_pars(pack: Pack) -> Iterator[PackFinding]:
         yield in_pack("no-pars", place)
         return
     try:
-        known = parse_pars(pack.files.text(PARS), file=place)
+        if pack.read_pars() != dict(make_pars(pack, tries=0)):
+            yield in_pack("old-pars", place)
     except NinjaGameError as error:
         yield in_pack("unreadable", why=error)
-        return
-    if known != dict(make_pars(pack, tries=0)):
-        yield in_pack("old-pars", place)

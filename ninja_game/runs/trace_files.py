@@ -41,13 +41,17 @@ _UNREADABLE = (*UNREADABLE, csv.Error)
 
 
 class FiledTrace(NamedTuple):
-    """A trace, and which record of which name and file it was made from; ``inputs``: one byte per tick."""
+    """A trace, and which record of which name and file it was made from; ``inputs``: one byte per tick.
+
+    ``comment``: of the recording; files of traces do not hold it.
+    """
 
     record: int
     name: str
     run: RunTrace
     file: str = ""
     inputs: bytes = b""
+    comment: str = ""
 
 
 def keys_text(keys: int) -> str:
@@ -63,7 +67,7 @@ def write_csv(traces: Iterable[FiledTrace], out: IO[str]) -> None:
     """Write traces; numbers are the shortest decimals that read back as the same double."""
     table = csv.DictWriter(out, COLUMNS, restval="", lineterminator="\n")
     table.writeheader()
-    for record, name, run, file, inputs in traces:
+    for record, name, run, file, inputs, _ in traces:
         about = {"file": file, "record": record, "name": name}
         for row in rows(run):
             keys = {"keys": keys_text(inputs[row["tick"]])} if inputs and row["kind"] == NINJA_NAME else {}
@@ -133,7 +137,7 @@ def _checked(**fields: Any) -> RunTrace:
 def write_npz(traces: Iterable[FiledTrace], out: IO[bytes]) -> None:
     """Write traces as arrays: ``ninja_0``, ``objects_0`` and so on of the first, ``ninja_1`` … of the second."""
     arrays: dict[str, Any] = {}
-    for number, (record, name, run, file, inputs) in enumerate(traces):
+    for number, (record, name, run, file, inputs, _) in enumerate(traces):
         arrays |= {
             f"ninja_{number}": run.ninja,
             f"objects_{number}": run.objects,

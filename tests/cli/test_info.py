@@ -55,6 +55,13 @@ def test_json_is_one_object_a_level(two: Path) -> None:
     assert any("no ninja" in warning for warning in second["warnings"])
 
 
+def test_a_broken_recording_hides_no_other(tmp_path: Path) -> None:
+    source = tmp_path / "two.txt"
+    source.write_text(f'$Walk###{WALK}#{running(25)}#\n$Odd###{WALK}#A"g#\n')
+    first, second = map(json.loads, info(source, "--json").stdout.splitlines())
+    assert (first["recording_ticks"], "recording_ticks" in second) == (26, False)
+
+
 def test_level_without_recording_has_none(tmp_path: Path) -> None:
     source = write_records(tmp_path / "walk.txt", ("Walk", WALK, ""))
     assert "recording_ticks" not in json.loads(info(source, "--json").stdout)

@@ -25,7 +25,6 @@ from tests.support.samples import WALK, WALK_END
 from tests.support.strategies import mutations_of
 
 RUNS = sorted((PACK / "certificates").glob("0*.exit.replay.txt"))
-OTHERS = RUNS[5:]
 WALKED = replay(), replay(bytes(9) + WALKING + b"\2")
 EPISODE = write_episode([parse_replay(each) for each in WALKED])
 

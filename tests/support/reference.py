@@ -7,10 +7,10 @@ missing.
 from __future__ import annotations
 
 import lzma
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeVar, get_type_hints
 
 import pytest
 
@@ -19,6 +19,8 @@ from ninja_game.formats.n14.level_string import parse_level_string
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 FOLDER = ROOT.parent / "shared" / "n14"
+
+R = TypeVar("R")
 
 
 def reference_folder() -> Path | None:
@@ -110,101 +112,63 @@ def _rows(table: str) -> Iterator[dict[str, str]]:
             yield dict(zip(header, line.rstrip("\n").split("\t"), strict=True))
 
 
-@cache
-def levels() -> tuple[LevelRow, ...]:
-    """The 500 published levels."""
-    return tuple(LevelRow(row["level"], row["name"], row["author"], row["data"]) for row in _rows("levels"))
-
-
-def _run(table: str, number: int, row: dict[str, str], data: str) -> RunRow:
-    return RunRow(
-        table,
-        number,
-        row["level"],
-        row.get("source", ""),
-        row.get("kind", ""),
-        row["outcome"],
-        int(row["end_tick"]),
-        int(row.get("score_ticks", "0")),
-        int(row["gold"]),
-        int(row["ticks"]),
-        int(row["offset"]),
-        row["sha256_xy"],
-        data,
-        row["demo"],
-    )
-
-
-@cache
-def recordings() -> tuple[RunRow, ...]:
-    """The 1108 recordings of passed levels, each with the level that it was made on."""
-    published = {level.label: level.data for level in levels()}
-    return tuple(
-        _run("recordings", number, row, row["own_level"] or published[row["level"]])
-        for number, row in enumerate(_rows("recordings"))
-    )
-
-
-@cache
-def random_runs() -> tuple[RunRow, ...]:
-    """The 1834 runs with random keys."""
-    return tuple(_run("random_runs", number, row, row["data"]) for number, row in enumerate(_rows("random_runs")))
-
-
 def _objects(text: str) -> dict[int, str]:
     """``id:digest,id:digest`` as a dictionary."""
     return {int(part.partition(":")[0]): part.partition(":")[2] for part in text.split(",") if part}
 
 
+_READ: dict[Any, Callable[[str], Any]] = {int: int, str: str, dict[int, str]: _objects}
+
+
+def _read(kind: Callable[..., R], row: dict[str, str], /, **more: object) -> R:
+    """A row of a table: each field from the column of its name, read as its type says. ``more``: other fields."""
+    fields = {name: _READ[hint](row[name]) for name, hint in get_type_hints(kind).items() if name in row}
+    return kind(**fields | more)
+
+
+@cache
+def levels() -> tuple[LevelRow, ...]:
+    """The 500 published levels."""
+    return tuple(_read(LevelRow, row, label=row["level"]) for row in _rows("levels"))
+
+
+def _runs(table: str, published: dict[str, str]) -> Iterator[RunRow]:
+    """The runs of a table. ``published``: levels of those that do not say theirs."""
+    for number, row in enumerate(_rows(table)):
+        label = row["level"]
+        data = row.get("data") or row["own_level"] or published[label]
+        filled = {"source": "", "kind": "", "score_ticks": "0"} | row
+        yield _read(RunRow, filled, table=table, row=number, label=label, data=data)
+
+
+@cache
+def recordings() -> tuple[RunRow, ...]:
+    """The 1108 recordings of passed levels, each with the level that it was made on."""
+    return tuple(_runs("recordings", {level.label: level.data for level in levels()}))
+
+
+@cache
+def random_runs() -> tuple[RunRow, ...]:
+    """The 1834 runs with random keys."""
+    return tuple(_runs("random_runs", {}))
+
+
 @cache
 def aftermath() -> tuple[AftermathRow, ...]:
     """The 2942 runs of both tables with 150 ticks more."""
-    return tuple(
-        AftermathRow(
-            row["table"],
-            int(row["row"]),
-            int(row["ticks"]),
-            row["ninja_sha256"],
-            row["run_sha256"],
-            _objects(row["objects"]),
-        )
-        for row in _rows("aftermath")
-    )
+    return tuple(_read(AftermathRow, row) for row in _rows("aftermath"))
 
 
 @cache
 def scenes() -> tuple[SceneRow, ...]:
     """The 1142 scenes, each made to show one rule."""
-    return tuple(
-        SceneRow(
-            row["name"],
-            row["rule"],
-            int(row["ticks"]),
-            row["ninja_sha256"],
-            row["run_sha256"],
-            int(row["offset"]),
-            row["data"],
-            row["demo"],
-        )
-        for row in _rows("scenes")
-    )
+    return tuple(_read(SceneRow, row) for row in _rows("scenes"))
 
 
 @cache
 def fuzz() -> tuple[FuzzRow, ...]:
     """The 1500 crowded random levels."""
-    return tuple(
-        FuzzRow(
-            row["name"],
-            int(row["ticks"]),
-            row["ninja_sha256"],
-            row["run_sha256"],
-            _objects(row["objects"]),
-            row["data"],
-            row["demo"],
-        )
-        for row in _rows("fuzz")
-    )
+    return tuple(_read(FuzzRow, row) for row in _rows("fuzz"))
 
 
 @cache

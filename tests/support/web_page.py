@@ -15,7 +15,7 @@ from ninja_game.web.site.build import build_site, site_server
 from ninja_game.web.site.game_archive import VERSION
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-BUSY = ROOT / "tools" / "measure" / "busy.py"
+BUSY = ROOT / "benchmarks" / "busy.py"
 DIGESTS, SCENES = (ROOT / "tests" / "support" / f"page_{name}.py" for name in ("digests", "scenes"))
 """Files that Python runs here and in a page alike."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
 import sysconfig
@@ -42,9 +43,10 @@ def test_dev_runs_nothing_from_the_current_folder(
     poisoned: Path, installed: list[tuple[str, ...]], capfd: pytest.CaptureFixture[str]
 ) -> None:
     assert dev.main(["run", "info", LEVEL]) == 0
-    assert dev.main(["tool", "board_size", "--help"]) != 0  # tools are found, in their folders
-    assert dev.main(["tool", "measure.board_size", "--help"]) == 0
-    assert "usage: board_size.py" in capfd.readouterr().out
+    assert dev.main(["tool", "doors", "--help"]) != 0  # tools are found, in their folders
+    assert dev.main(["tool", "soak.doors", "--help"]) == 0
+    assert dev.main(["benchmark", "board_size", "--help"]) == 0
+    assert re.findall("usage: (.*?) ", capfd.readouterr().out) == ["doors.py", "board_size.py"]
     assert dev.main(["tool", "golden", "--help"]) == 0  # has no options, and would write files
     assert capfd.readouterr().out.startswith("Write golden digests")
     assert not (poisoned / "ran").exists()

@@ -10,12 +10,12 @@ import pygame
 import pytest
 from numpy.typing import NDArray
 
+from benchmarks.busy import BusyRun, Restless, busy_level
 from ninja_game.play.app import App, build_app
 from ninja_game.ui.audio.player import AudioOutput
 from ninja_game.ui.theme import PALETTES
 from tests.support.page_scenes import Scene, scenes, show_scene
 from tests.support.web_page import BUSY, SCENES, SIZE, run_in
-from tools.measure.busy import BusyRun, Restless, busy_level
 
 MOST = 1.6
 """Mean difference of a channel, of 255: a page rounds faint layers down, a desktop up, so that rock is darker there."""

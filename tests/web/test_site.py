@@ -10,8 +10,10 @@ import tarfile
 import threading
 import urllib.error
 import urllib.request
+from contextlib import nullcontext
 from http.server import ThreadingHTTPServer
 from pathlib import Path
+from unittest.mock import Mock
 from zipfile import ZipFile
 
 import pytest
@@ -214,7 +216,8 @@ def test_the_commands_of_the_document_run(pyodide: Path, tmp_path: Path, monkeyp
     assert lines == ["site public", "site --serve", "player export my-data.zip"]
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("NINJA_GAME_HOME", str(tmp_path / "home"))
-    monkeypatch.setattr("ninja_game.cli.web._serve", lambda folder, _: (folder / "index.html").open().close())
+    served = Mock(side_effect=lambda folder, _: nullcontext(Mock(page=(folder / "index.html").read_bytes())))
+    monkeypatch.setattr(build, "site_server", served)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     monkeypatch.setattr("ninja_game.web.pages.gallery.write_gallery", lambda folder, _, address: folder)
     for line in lines:
@@ -223,4 +226,5 @@ def test_the_commands_of_the_document_run(pyodide: Path, tmp_path: Path, monkeyp
         assert result.exit_code == 0, result.output
     assert "compressed by gzip" in CliRunner().invoke(cli, ["site", "public", "--pyodide", str(pyodide)]).output
     assert (tmp_path / "public" / "index.html").is_file()
+    assert served.call_count == 1
     assert (tmp_path / "my-data.zip").is_file()

@@ -193,13 +193,17 @@ class Pack:
                 found[episode] = levels[:LEVELS_PER_EPISODE]
         return found
 
+    def read_pars(self) -> dict[str, Pars]:
+        """The table of pars as it stands, by level file. Raises PackError, FileError; OSError as it comes."""
+        if PARS not in self.files.names:
+            return {}
+        return parse_pars(self.files.text(PARS), file=self.files.place(PARS))
+
     @cached_property
     def pars(self) -> dict[str, Pars]:
         """The pars of levels, by level file; those of a level that was changed since count no more."""
-        if PARS not in self.files.names:
-            return {}
         try:
-            found = parse_pars(self.files.text(PARS), file=self.files.place(PARS))
+            found = self.read_pars()
         except (NinjaGameError, OSError) as error:
             self.problems.append(str(error))
             return {}

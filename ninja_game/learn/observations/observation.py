@@ -81,7 +81,7 @@ class Observation:
         for part in self.parts:
             array = memory[part.name] if isinstance(memory, dict) else memory
             kernel, *tables = part.tables(setting)
-            writers.append((setting.kernel(kernel), (array.reshape(len(array), -1), offset, *tables)))
+            writers.append((setting.worlds.kernel(kernel), (array.reshape(len(array), -1), offset, *tables)))
             offset += part.length if self.flat else 0
         return writers
 

@@ -19,7 +19,7 @@ from ninja_game.batch.batch import Indices
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.interface import Kernel, R, Worlds
+from ninja_game.sim.memory.interface import Worlds
 from ninja_game.sim.memory.plain import PlainWorlds, load_plain
 from ninja_game.sim.memory.schema import World
 
@@ -44,14 +44,6 @@ class Setting:
     goal: Any = None
     room: int = 0
     writers: list[Callable[[int], None]] = field(default_factory=list, repr=False)
-
-    @property
-    def maps(self) -> Any:
-        return self.worlds.maps
-
-    def kernel(self, entry: Kernel[R]) -> Kernel[R]:
-        """An entry point as these worlds run it."""
-        return self.worlds.kernel(entry)
 
     @property
     def count(self) -> int:

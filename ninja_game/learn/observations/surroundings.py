@@ -49,7 +49,7 @@ def solidity(
     """A level in (down, across) points, each in the middle of its share of the world, or so many px apart; 1: solid."""
     points = np.zeros((down, across), np.uint8)
     wide, high = spacing or (WORLD_WIDTH / across, WORLD_HEIGHT / down)
-    setting.kernel(mark_solid)(setting.maps, number, wide, high, points)
+    setting.worlds.kernel(mark_solid)(setting.worlds.maps, number, wide, high, points)
     return points
 
 
@@ -228,7 +228,7 @@ class Rays(Part):
 
         def edges(number: int) -> NDArray[np.uint8]:
             states = np.zeros(EDGE_STATES, np.uint8)
-            setting.kernel(mark_edges)(setting.worlds.fresh, number, states)
+            setting.worlds.kernel(mark_edges)(setting.worlds.fresh, number, states)
             return states
 
         factor = 1.0 / self.reach if self.normalised else 1.0

@@ -1,4 +1,4 @@
-"""What a picture costs: `tool measure.frame_cost`, a busy level at 1584 x 1200 px on SDL's software renderer.
+"""What a picture costs: `benchmark frame_cost`, a busy level at 1584 x 1200 px on SDL's software renderer.
 
 The first level and the next one, a retry, drawing alone (median, 99th percentile, worst), then the share of a core that
 playing at 60 pictures a second takes; `work` is the time in which the processor was ours. The targets are 50 ms for a
@@ -11,6 +11,7 @@ from __future__ import annotations
 import argparse
 import gc
 import json
+import os
 import sys
 import tempfile
 import time
@@ -20,6 +21,7 @@ from random import Random
 
 import pygame
 
+from benchmarks.busy import Restless, busy_level, busy_screen, go_on
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
@@ -28,7 +30,6 @@ from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.sim.level import Level
 from ninja_game.ui.audio.player import AudioOutput
-from tools.measure.busy import Restless, busy_level, busy_screen, go_on
 
 SIZE = (1584, 1200)
 
@@ -111,6 +112,8 @@ def main() -> int:
     parser.add_argument("--seconds", type=float, default=8.0)
     parser.add_argument("--json", action="store_true")
     arguments = parser.parse_args()
+    if not arguments.display:
+        os.environ |= {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
     level = load_levels(arguments.level)[0].level if arguments.level else busy_level()
     home = tempfile.TemporaryDirectory()
     app = build_app(Path(home.name), size=SIZE, controls=Restless(), audio_output=AudioOutput())

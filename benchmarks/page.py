@@ -1,6 +1,6 @@
 """Measure the page with the game in Chromium: how it starts, what it weighs, what its turns take of the processor.
 
-    python3 tools/dev.py tool measure.page --visits 5 --seconds 30
+    python3 tools/dev.py benchmark page --visits 5 --seconds 30
 
 Starts: a first and a second visit, and one without a network. Turns: of the busy level, and of the start of a level;
 time of the thread, not of the clock, so that what else the machine does hardly counts. 0 leaves out the one or other.

@@ -1,7 +1,7 @@
 """What a board of many runs costs: time in all and with one run more, bytes, weight of the pages (docs/board.md).
 
-    nice -n 19 python3 tools/dev.py tool measure.board_size 1000 10000
-    nice -n 19 python3 tools/dev.py tool measure.board_size reference
+    nice -n 19 python3 tools/dev.py benchmark board_size 1000 10000
+    nice -n 19 python3 tools/dev.py benchmark board_size reference
 
 Runs are certificates of the game's levels with up to ten light edits each, by as many players as there would be if each
 had sent twenty; ``reference``: the recordings of people on the levels of the reference instead.
