@@ -191,7 +191,7 @@ class Catalogue:
         return self.ours.episodes
 
     @property
-    def told(self) -> list[str]:
+    def shown_problems(self) -> list[str]:
         """The problems, each once, with paths below the player's folder."""
         return list(dict.fromkeys(problem.replace(f"{self.folder}{os.sep}", "") for problem in self.problems))
 

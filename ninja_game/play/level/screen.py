@@ -174,8 +174,8 @@ class LevelScreen(Screen):
         if self.phase is Phase.PLAY:
             self.play.pause()
 
-        told = "Restarts the level. No records until you turn it off here"
-        slow = f"Slow down to {SLOWER}%", partial(self._play_at, SLOWER), told
+        hint = "Restarts the level. No records until you turn it off here"
+        slow = f"Slow down to {SLOWER}%", partial(self._play_at, SLOWER), hint
         full = "Full speed", partial(self._play_at, 100), "Back to normal: records count again"
         watch_it = partial(self._watch, run), "See the author of the level do it"
         why = f"after {STUCK_AFTER} failed tries" if run else "no run recorded"
