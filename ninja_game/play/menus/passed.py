@@ -10,7 +10,7 @@ import pygame
 
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
-from ninja_game.play.level.hud import SHINE_TICKS
+from ninja_game.play.level.hud_view import SHINE_TICKS
 from ninja_game.play.level.play import STAMP_TICKS
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.replays import watch
