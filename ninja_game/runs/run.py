@@ -56,7 +56,6 @@ class RunResult:
 
     @property
     def ticks(self) -> int:
-        """Ticks run."""
         return len(self.state_numbers)
 
     @property

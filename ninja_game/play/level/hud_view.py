@@ -29,8 +29,7 @@ _TOOLS = {"quick_save": "save", "quick_load": "load", "rewind": "rewind", "slow"
 _TOOLS_NAMED = 600  # ticks of a practice run in which their keys are named: where they work, and not for ever
 _THINGS = {"switch": SWITCH, "exit": EXIT}
 
-KeyName = Callable[[str], str]
-"""Gives what to press for an action."""
+KeyName = Callable[[str], str]  # gives what to press for an action
 
 
 def hud_view(play: LevelPlay) -> HudView:
@@ -143,7 +142,6 @@ def _hint(play: LevelPlay, key: KeyName) -> str:
 
 
 def _after_death(play: LevelPlay, key: KeyName) -> str:
-    """What to press after a death."""
     again = f"{key('confirm')} or {key('jump')}: try again"
     return f"{again}    {key('replay')}: watch it" + f"    {key('skip')}: get help" * play.is_stuck
 

@@ -150,7 +150,7 @@ class RollMouse:
         self._doing = ""
 
     def update(self, real_ms: int) -> None:
-        """Scroll on while the pointer is beyond the upper or lower edge; what is told of a row stays true."""
+        """Scroll on while the pointer is beyond the upper or lower edge; the hint about a row stays true."""
         if self._row_hint and self._editor.hint == self._row_hint:
             self._tell(*self._at)
         if self._doing not in ("paint", "select"):
