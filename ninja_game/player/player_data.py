@@ -111,10 +111,12 @@ class PlayerData:
         if mark is None and self.marks.is_passed(entry.digest):
             return HELPED
         episode = None if mark else self.catalogue.episode_of(entry)
-        if episode:
-            place = episode.number, int(entry.episode.partition("-")[2])
-            if self.progress_in(episode.pack).columns[episode.column].beaten > place:
-                return "Skipped, not passed yet"
+        if (
+            episode
+            and entry.position
+            and self.progress_in(episode.pack).columns[episode.column].beaten > entry.position
+        ):
+            return "Skipped, not passed yet"
         return reached(entry, mark) or "Not passed yet"
 
     @cached_property

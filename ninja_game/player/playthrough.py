@@ -233,11 +233,11 @@ class LevelRun(LevelContext):
     def _open_following(self, entry: Entry) -> None:
         """Where its episode stands at this level it goes on behind it, and behind those passed before."""
         data, episode = self.data, self.data.catalogue.episode_of(entry)
-        if episode is None or data.episode_state(episode) != UNLOCKED:
+        if episode is None or entry.position is None or data.episode_state(episode) != UNLOCKED:
             return
-        position = int(entry.episode.partition("-")[2])
-        if data.progress_in(episode.pack).columns[episode.column].beaten != (episode.number, position):
+        if data.progress_in(episode.pack).columns[episode.column].beaten != entry.position:
             return
+        position = entry.position[1]
         while True:
             move_on(data, episode, position, kept=kept_place(data.store)[0] in {"", episode.key})
             position += 1

@@ -23,7 +23,7 @@ from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.attempt import Attempt
-from ninja_game.player.catalogue import Entry
+from ninja_game.player.catalogue import Entry, Mood
 from ninja_game.player.player_data import keep_replay
 from ninja_game.player.playthrough import EpisodeRun, LevelContext, LevelRun, Navigation
 from ninja_game.player.progress import opens_author
@@ -58,7 +58,7 @@ class LevelScreen(Screen):
         self.play.view.overlays = self.overlays
 
     @property
-    def mood(self) -> int:
+    def mood(self) -> Mood:
         return self.context.entry.mood
 
     @property
@@ -67,7 +67,7 @@ class LevelScreen(Screen):
         if self.context.practice_mode and not self.app.settings.music_in_practice:
             return SILENCE
         entry = self.context.entry
-        column = entry.mood % 10 if entry.episode else int(entry.digest[:8], 16)
+        column = entry.mood.column if entry.episode else int(entry.digest[:8], 16)
         return BY_COLUMN[column % len(BY_COLUMN)]
 
     @property
