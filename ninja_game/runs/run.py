@@ -56,6 +56,7 @@ class RunResult:
 
     @property
     def ticks(self) -> int:
+        """How many ticks were run."""
         return len(self.state_numbers)
 
     @property
