@@ -69,7 +69,7 @@ def turns(chromium: Any, page: Any, act: Callable[[], object]) -> list[float]:
     return [each["tdur"] / 1000 for each in events if each["name"] == "FireAnimationFrame" and "tdur" in each]
 
 
-def told(name: str, found: list[float]) -> str:
+def summary(name: str, found: list[float]) -> str:
     middle, high, worst = np.percentile(found, (50, 99, 100))
     return f"{name}: {len(found)} turns, median {middle:.1f} ms, 99th percentile {high:.1f}, worst {worst:.1f}"
 
@@ -86,12 +86,12 @@ def tell_turns(chromium: Any, address: str, seconds: int) -> None:
             page.keyboard.press(key, delay=60)
             page.wait_for_timeout(2000)
 
-    print(told("start of a level", turns(chromium, page, start)))
+    print(summary("start of a level", turns(chromium, page, start)))
     page.evaluate("() => (window.python = ninjaGame.python)")
     run_in(page, BUSY)
     page.evaluate("text => { python.runPython(text); }", OPEN)
     page.wait_for_timeout(1000)
-    print(told("busy level", turns(chromium, page, lambda: page.wait_for_timeout(1000 * seconds))))
+    print(summary("busy level", turns(chromium, page, lambda: page.wait_for_timeout(1000 * seconds))))
 
 
 def main() -> None:

@@ -311,14 +311,14 @@ def main() -> int:
             row = {"commit": commit, "break": broken, "result": result, "seconds": seconds, "tests": failed}
             print(json.dumps(row), file=log, flush=True)
             results[broken] = result
-            print(f"{len(results)} {result}: {told(broken)}", flush=True)
+            print(f"{len(results)} {result}: {described(broken)}", flush=True)
     git("worktree", "prune")
     survivors = [broken for broken in drawn if results[broken] == "survived"]
-    print(f"\n{len(survivors)} of {len(drawn)} survived", *map(told, survivors), sep="\n")
+    print(f"\n{len(survivors)} of {len(drawn)} survived", *map(described, survivors), sep="\n")
     return 1 if len(survivors) > (ALLOWED if options.rules is not None else 0) else 0
 
 
-def told(broken: Break) -> str:
+def described(broken: Break) -> str:
     """A break as a reader finds it."""
     text = (ROOT / broken.file).read_bytes()
     line = text[: broken.start].count(b"\n") + 1

@@ -1,5 +1,8 @@
 """Which memory to use, and compiled kernels, each made once per process.
 
+There are two: "plain" (Python objects) and "compiled" (arrays, by Numba). "checked" is the compiled one with each
+index checked, "auto" chooses between both, and JUDGED is "auto" with "checked" in place of "compiled".
+
 "auto" is the compiled memory. One run of little work, for which loading Numba would take longer, stays on the plain
 memory. Where its kernels are not in the cache yet, any run begins there, and goes on (``go_on``) on the compiled one
 once a process in the background has compiled them: the bits are the same.
@@ -261,8 +264,8 @@ def _unusable(what: str, error: Exception) -> MemoryUnavailableError:
 DIGEST = "a9b523980fd14511af830676f2ff771f63e63377f06c53930c18638b709954e3"
 """The digest of all runs, on every machine; `python3 tools/dev.py golden` writes it where a rule is meant to change."""
 
-RUNS, TICKS = 8, 400
-"""How many runs, the last one by the box, and how long at most."""
+RUNS = 8  # the last one by the box
+TICKS = 400  # of each, at most
 
 _OBJECTS = (
     (5, 132, 156), (0, 468, 516), (0, 588, 180), (0, 228, 156), (1, 540, 396), (1, 636, 372), (1, 204, 204),

@@ -179,7 +179,7 @@ def _file_names(found: Sequence[NamedLevel | Recording], suffix: str) -> Iterato
     help="The replay. [default: FILE's name and .replay.txt, in the current folder]",
 )
 @click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")
-@options.other_level_option
+@options.play_on_option
 @options.budget_option
 @click.option("--force", is_flag=True, help="Replace a file that exists. FILE is never replaced.")
 def record(

@@ -18,7 +18,7 @@ from ninja_game import __version__
 from ninja_game.backend.numba_import import remove_foreign_settings
 from ninja_game.cli.terminal import BAD_INPUT, complain, guard_terminal, say
 from ninja_game.errors import NinjaGameError
-from ninja_game.files.reading import keep_inputs
+from ninja_game.files.reading import protect_inputs
 from ninja_game.signals import Terminated, announced, end_on_signals, leave_signals, raising, received
 
 GROUPS = {
@@ -113,7 +113,7 @@ class Commands(click.Group):
         if near:
             ctx.fail(f"No such command {args[0]!r}; did you mean '{near[0]}'?")
         found = super().resolve_command(ctx, args)
-        keep_inputs(found[0] not in IN_PLACE)
+        protect_inputs(found[0] not in IN_PLACE)
         return found
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
@@ -138,7 +138,7 @@ class Commands(click.Group):
             # click would write an empty line for one.
             raise click.Abort from error
         finally:
-            keep_inputs(False)
+            protect_inputs(False)
         return code
 
     def main(self, args: Sequence[str] | None = None, *more: Any, **named: Any) -> NoReturn:

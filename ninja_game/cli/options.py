@@ -95,7 +95,7 @@ level_option = click.option(
     help="The level of recordings that do not hold theirs.",
 )  # fmt: skip
 
-other_level_option = click.option(
+play_on_option = click.option(
     "--level", "level_path", metavar="FILE", type=LevelPath(dir_okay=False),
     help="Play the inputs on this level, also where they were recorded on another one.",
 )  # fmt: skip

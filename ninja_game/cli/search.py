@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli import options
-from ninja_game.files.reading import keep_inputs
+from ninja_game.files.reading import protect_inputs
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
 
@@ -115,7 +115,7 @@ def improve(
     from ninja_game.search.solve import Task, solve
 
     earlier = load_replays(output) if resume and output.exists() else []
-    keep_inputs(on=True)  # what was read of the output may be replaced
+    protect_inputs(on=True)  # what was read of the output may be replaced
     recording = options.choose(
         load_replays(replay, level=options.level_given(level_path)), "recordings", replay, record
     )

@@ -302,11 +302,11 @@ def _answer(
     from ninja_game.runs.compare import run_splits
 
     rows: Any = [_row(each, category) for each in found]
-    told = RANKED
+    form = RANKED
     replays = [replace(each.run.replay, name=each.run.player) for each in found if what not in ("rank", "best")]
     runs = [Recording(each.run.entry.named.level, replay) for each, replay in zip(found, replays, strict=False)]
     if what == "inputs":
-        told, rows = TYPED, [row | _inputs(run.inputs) for row, run in zip(rows, runs, strict=True)]
+        form, rows = TYPED, [row | _inputs(run.inputs) for row, run in zip(rows, runs, strict=True)]
     elif what == "splits":
         table = table_of([run_splits(each, memory="auto") for each in runs], [])
         if not as_data:
@@ -324,12 +324,12 @@ def _answer(
     else:
         entry, ladder = found[0].run.entry, found[0].run.ladder
         click.echo(shown_text(f"{entry.episode} {entry.title}, {category.name.lower()}, {ladder}:".strip(), LONGEST))
-        click.echo("\n".join(_line(told, row) for row in rows))
+        click.echo("\n".join(_line(form, row) for row in rows))
 
 
-def _line(told: str, row: Mapping[str, Any]) -> str:
+def _line(form: str, row: Mapping[str, Any]) -> str:
     note = f"; note: {row['remark']}" if row["remark"] else ""
-    return shown_text(told.format(**row).rstrip() + note, LONGEST)
+    return shown_text(form.format(**row).rstrip() + note, LONGEST)
 
 
 def _film(runs: Sequence[Recording], output: Path) -> None:

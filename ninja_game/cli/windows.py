@@ -104,7 +104,7 @@ def edit(level: Path | None, record: int, **window: Any) -> int:
 @click.command()
 @click.argument("file", type=options.OLD_FILE)
 @click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")
-@options.other_level_option
+@options.play_on_option
 @click.option(
     "--against", multiple=True, type=options.OLD_FILE,
     help="Compare with the runs of the same level in this file; may be given several times.",

@@ -12,6 +12,7 @@ from ninja_game.formats.ascii.legend import TILE_CHARS
 from ninja_game.formats.ascii.object_lines import Listed, natural_offset, read_object_line
 from ninja_game.sim import kinds
 from ninja_game.sim.level import ObjectSpec
+from ninja_game.sim.rules import CELL, HALF
 
 SNAPS: dict[str, float] = {"cell": 24.0, "half": 12.0, "quarter": 6.0, "px": 1.0}
 """px between the places where objects can be put, by name; "cell": in the middle, or where the kind sits in a cell."""
@@ -123,7 +124,7 @@ def placed(spec: ObjectSpec, x: float, y: float, snap: str) -> ObjectSpec:
     if spec.kind == kinds.DRONE:
         px, py = snapped(x, y, "cell")
     elif spec.kind == kinds.FLOOR_GUARD:
-        py = 24.0 * cell_of(px, y)[1] + 18.0
+        py = CELL * cell_of(px, y)[1] + 18.0
     elif snap == "cell":
         direction = word(spec, "direction") if spec.kind == kinds.LAUNCH_PAD else ""
         dx, dy = natural_offset(object_type_of(spec), direction)
@@ -134,7 +135,7 @@ def placed(spec: ObjectSpec, x: float, y: float, snap: str) -> ObjectSpec:
 
 def _placed_door(spec: ObjectSpec, x: float, y: float, switch: tuple[float, float]) -> ObjectSpec:
     column, row = cell_of(x, y)
-    right, down = x - 24.0 * column - 12.0, y - 24.0 * row - 12.0
+    right, down = x - CELL * column - HALF, y - CELL * row - HALF
     if (right, down) != (0.0, 0.0):
         wide = abs(right) >= abs(down)
         side = ("right" if right > 0 else "left") if wide else ("bottom" if down > 0 else "top")

@@ -10,7 +10,7 @@ from ninja_game.editor.draft import Cell, cell_of
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.collision.tiles import UNIT_X, UNIT_Y
 from ninja_game.sim.memory.schema import TileMap
-from ninja_game.sim.rules import STRIDE, WORLD_HEIGHT, WORLD_WIDTH
+from ninja_game.sim.rules import CELL, HALF, STRIDE, WORLD_HEIGHT, WORLD_WIDTH
 
 TILE_IDS = range(34)
 
@@ -42,7 +42,7 @@ class Motion(NamedTuple):
         return a + self.dx, b + self.dy
 
     def cell(self, cell: Cell) -> Cell:
-        return cell_of(*self.point(24.0 * cell[0] + 12.0, 24.0 * cell[1] + 12.0))
+        return cell_of(*self.point(CELL * cell[0] + HALF, CELL * cell[1] + HALF))
 
     def direction(self, number: float) -> float:
         """The number of a direction (0 right, 1 down, 2 left, 3 up) then; what is not a direction stays."""

@@ -12,6 +12,7 @@ from ninja_game.formats.ascii.legend import DIRECTION_WORDS, PAD_NORMALS
 from ninja_game.formats.ascii.object_lines import DOORS, MOVEMENTS, SIDES, WEAPONS, door_middle
 from ninja_game.sim.kinds import DOOR, DRONE, EXIT, FLOOR_GUARD, KIND_NAMES, LAUNCH_PAD, ONE_WAY, THWUMP
 from ninja_game.sim.level import ObjectSpec, makes_object, well_formed
+from ninja_game.sim.rules import CELL, HALF
 
 BODY, SWITCH = 0, 1
 """Parts of an object: the thing itself, and what opens it."""
@@ -115,8 +116,8 @@ def carried(spec: ObjectSpec, motion: Motion, parts: Collection[int] = (BODY, SW
         return spec
     if kind == FLOOR_GUARD and motion.turns:
         # It stands on the floor of its cell, whichever side that was.
-        x, y = motion.point(values[0], 24.0 * cell_of(*values[:2])[1] + 12.0)
-        values[:2] = x, 24.0 * cell_of(x, y)[1] + 18.0
+        x, y = motion.point(values[0], CELL * cell_of(*values[:2])[1] + HALF)
+        values[:2] = x, CELL * cell_of(x, y)[1] + 18.0
         return spec._replace(values=tuple(values))
     values[:2] = motion.point(*values[:2])
     if well_formed(spec) and motion.turns:
@@ -145,8 +146,8 @@ def _carried_in_parts(spec: ObjectSpec, motion: Motion, parts: Collection[int]) 
     if BODY in parts:
         # A door moves by whole cells.
         whole = motion if motion.turns else motion._replace(dx=_whole(motion.dx), dy=_whole(motion.dy))
-        x, y = whole.point(24.0 * values[4] + 12.0, 24.0 * values[5] + 12.0)
-        values[4:6] = (x - 12.0) / 24.0, (y - 12.0) / 24.0
+        x, y = whole.point(CELL * values[4] + HALF, CELL * values[5] + HALF)
+        values[4:6] = (x - HALF) / CELL, (y - HALF) / CELL
         side = word(spec, "side")
         if motion.turns and side:
             turned = _SIDES[int(motion.direction(_SIDES.index(side)))]
@@ -155,4 +156,4 @@ def _carried_in_parts(spec: ObjectSpec, motion: Motion, parts: Collection[int]) 
 
 
 def _whole(length: float) -> float:
-    return 24.0 * round(length / 24.0)
+    return CELL * round(length / CELL)

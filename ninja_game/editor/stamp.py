@@ -15,6 +15,7 @@ from ninja_game.editor.motion import Motion
 from ninja_game.editor.specs import Point, carried, points
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec
+from ninja_game.sim.rules import CELL, HALF
 
 CellArea = tuple[int, int, int, int]
 """First column, first row, columns, rows."""
@@ -178,13 +179,13 @@ def middle_of(draft: Draft, selection: Selection, *, quarter: bool) -> tuple[flo
     """
     if selection.area:
         column, row, columns, rows = selection.area
-        x, y = 24.0 * column + 12.0 * columns, 24.0 * row + 12.0 * rows
+        x, y = CELL * column + HALF * columns, CELL * row + HALF * rows
     else:
         places = [points(draft.objects[number])[part] for number, part in selection.parts]
         xs, ys = zip(*places, strict=True)
-        x, y = (12.0 * round((min(along) + max(along)) / 24.0) for along in (xs, ys))
-    aside = (x + y) % 24.0 * quarter
-    return x + (aside if x % 24.0 == 0.0 else -aside), y
+        x, y = (HALF * round((min(along) + max(along)) / CELL) for along in (xs, ys))
+    aside = (x + y) % CELL * quarter
+    return x + (aside if x % CELL == 0.0 else -aside), y
 
 
 def nearest(draft: Draft, x: float, y: float, reach: float) -> ObjectPart | None:
@@ -255,7 +256,7 @@ def covered(shape: str, a: Cell, b: Cell, bend: float) -> list[Cell]:
     """The cells of a box or of the ellipse in it, filled, or those of a line."""
     area = area_between(a, b)
     if shape == "line":
-        start, end = ((24.0 * column + 12, 24.0 * row + 12) for column, row in (a, b))
+        start, end = ((CELL * column + HALF, CELL * row + HALF) for column, row in (a, b))
         path = [cell_of(*point) for point in curve(shape, start, end, bend)]
         return [cell for ends in pairwise(path) for cell in cells_between(*ends)]
     column, row, columns, rows = area

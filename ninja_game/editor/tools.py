@@ -12,7 +12,7 @@ from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.specs import has_switch, points, properties, with_word
 from ninja_game.sim.kinds import GOLD, MINE, NINJA
 from ninja_game.sim.level import ObjectSpec
-from ninja_game.sim.rules import WORLD_HEIGHT, WORLD_WIDTH
+from ninja_game.sim.rules import CELL, HALF, WORLD_HEIGHT, WORLD_WIDTH
 
 CURVES = ("line", "ellipse")
 SHAPES = ("rectangle", *CURVES)
@@ -125,7 +125,7 @@ class EditorTools:
     def _begin_to_draw(self, *, erase: bool) -> None:
         if self.effective_tool == "fill" and not erase:
             cells = stamps.filled(self.draft, self.cell)
-            middles = [(24.0 * column + 12, 24.0 * row + 12) for column, row in cells if self.objects]
+            middles = [(CELL * column + HALF, CELL * row + HALF) for column, row in cells if self.objects]
             objects = tuple(brush.placed(self.spec, *middle, "cell") for middle in middles)
             self._change(stamps.Stamp({} if self.objects else dict.fromkeys(cells, self.tile), objects))
             return
@@ -305,7 +305,7 @@ class EditorTools:
 
     def nudge(self, dx: float, dy: float) -> None:
         """Move what is chosen by steps of the snap, or of cells."""
-        step = 24.0 if self.selection.area else brush.SNAPS[self.snap]
+        step = CELL if self.selection.area else brush.SNAPS[self.snap]
         draft, self.selection = stamps.moved(self.draft, self.selection, Motion(dx=dx * step, dy=dy * step))
         self.history.change(draft)
 
@@ -360,8 +360,8 @@ class EditorTools:
             return False
         tiles = self.clipboard.tiles
         places = [point for spec in self.clipboard.objects for point in points(spec).values()]
-        corner = (24.0 * min(c for c, _ in tiles), 24.0 * min(r for _, r in tiles)) if tiles else min(places)
-        there = (24.0 * self.cell[0], 24.0 * self.cell[1]) if tiles else brush.snapped(*self.pointer, self.snap)
+        corner = (CELL * min(c for c, _ in tiles), CELL * min(r for _, r in tiles)) if tiles else min(places)
+        there = (CELL * self.cell[0], CELL * self.cell[1]) if tiles else brush.snapped(*self.pointer, self.snap)
         motion = Motion(dx=there[0] - corner[0], dy=there[1] - corner[1])
         draft, self.selection = stamps.pasted(self.draft, self.clipboard.carried(motion))
         self.tool = "select"

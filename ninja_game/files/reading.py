@@ -108,7 +108,7 @@ def path_below(folder: Path, name: str) -> Path | None:
         return None
 
 
-def keep_inputs(on: bool) -> None:
+def protect_inputs(on: bool) -> None:
     """From now on ``files.writing`` replaces no file that is read; or any, with a new beginning."""
     global _inputs  # noqa: PLW0603 - of the process, as its files are
     _inputs = set() if on else None

@@ -62,7 +62,6 @@ def shown_text(text: str, longest: int = MAX_SHOWN) -> str:
 
 
 def shown_character(character: str) -> str:
-    """One character of ``shown_text``."""
     if character.isprintable():
         return character
     return " " if character.isspace() else _escape(character)

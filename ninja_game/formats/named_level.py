@@ -88,8 +88,8 @@ def parse_levels(text: str, *, file: str = "") -> list[NamedLevel]:
         ]
     if form == "ascii":
         read = parse_ascii_level(text, file=file)
-        told = read.name or Path(file).stem, read.author, read.comment, read.level, file
-        return [NamedLevel(*told, form=form, teaches=read.teaches, says=read.says)]
+        fields = read.name or Path(file).stem, read.author, read.comment, read.level, file
+        return [NamedLevel(*fields, form=form, teaches=read.teaches, says=read.says)]
     if form == "file":
         found = []
         for record in read_level_file(text, file=file):

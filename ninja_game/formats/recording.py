@@ -114,8 +114,8 @@ def record_of(recording: Recording) -> LevelRecord:
         short = Demo(inputs[:-1], float(len(inputs) - 1))
         demo = short if short.playback(len(inputs)) == inputs else Demo(inputs, float(len(inputs)))
     level = write_level_string(recording.level, exact=True)
-    told = with_made(recording.comment, replay.made, replay.co_authors)
-    return LevelRecord(recording.name, recording.author or replay.level_author, told, level, write_demo(demo))
+    comment = with_made(recording.comment, replay.made, replay.co_authors)
+    return LevelRecord(recording.name, recording.author or replay.level_author, comment, level, write_demo(demo))
 
 
 def holds_recordings(text: str) -> bool:

@@ -22,7 +22,6 @@ def dome(x: float, y: float, wide: float, high: float) -> Ink:
 
 
 def heart(board: RockBoard, rng: Random) -> None:
-    """A heart in a heart."""
     board.air(disc(9.6, 8.3, 7.9, 7.1), poly((2.6, 11), (MID, 24.2), (30.4, 11), (MID, 6)))
     board.rock(box(1, 22, 32, 24), disc(12.7, 10.5, 4.5, 3.8), poly((8.5, 12), (MID, 19.3), (24.5, 12), (MID, 9.5)))
     board.air(disc(12.9, 10.7, 3.1, 2.4), box(11.5, 10.5, 21.5, 14))

@@ -9,6 +9,7 @@ from random import Random
 
 import numpy as np
 
+from ninja_game.formats.ascii.object_lines import WEAPONS
 from ninja_game.generator.gold import along, lay_about
 from ninja_game.generator.scene import MIDDLE, Cell, Point, Scene, middle, mirrored, places, spec
 from ninja_game.sim import kinds
@@ -55,7 +56,7 @@ def zaps(scene: Scene, rng: Random) -> Iterator[str]:
 
 def patrols(scene: Scene, rng: Random) -> Iterator[str]:
     """Drones that go to and fro over a floor."""
-    kind = rng.choice(("zap drone", "zap drone", "laser drone", "chaingun drone"))
+    kind = rng.choice(("zap drone", *WEAPONS))
     for run in scene.runs():
         if run.length >= 4:
             direction = rng.choice(("left", "right"))

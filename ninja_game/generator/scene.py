@@ -29,7 +29,7 @@ def mirrored(cell: Cell) -> Cell:
     return COLUMNS + 1 - cell[0], cell[1]
 
 
-def inside(cell: Cell) -> bool:
+def is_inside(cell: Cell) -> bool:
     """Whether a cell is one of the level, not of its border."""
     return 1 <= cell[0] <= COLUMNS and 1 <= cell[1] <= ROWS
 
@@ -120,7 +120,7 @@ class RockBoard:
 
     def holds(self, cell: Cell) -> bool:
         """Whether the middle of a cell is rock, or of the border."""
-        return not inside(cell) or bool(self.ink[cell[1] * FINE - FINE // 2, cell[0] * FINE - FINE // 2])
+        return not is_inside(cell) or bool(self.ink[cell[1] * FINE - FINE // 2, cell[0] * FINE - FINE // 2])
 
     def unroof(self, rng: Random) -> None:
         """Close the way into the vault and open its roof instead, if there is open space not far above."""
@@ -281,7 +281,7 @@ class Scene:
 
     def full(self, cell: Cell) -> bool:
         """Whether a cell is a full tile or of the border."""
-        return self.tiles.get(cell) == "#" or not inside(cell)
+        return self.tiles.get(cell) == "#" or not is_inside(cell)
 
     def stands(self, cell: Cell) -> bool:
         """Whether one can come to a cell and stand in it."""

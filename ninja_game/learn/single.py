@@ -161,7 +161,7 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
 
     @property
     def level(self) -> Level:
-        """The level of this episode."""
+        """The level that is played now."""
         level: Level = self.worlds.levels[self.worlds.levels_now[0]]
         return level
 

@@ -45,7 +45,7 @@ from ninja_game.simulation import Body, SaveState, Simulation, is_box
 
 PAID_EXIT, PAID_DEATH, PAID_PIECE, PAID_TICK = range(4)  # columns of what is paid
 OUTCOME, TICKS, GOLD, EVENTS, ENDED, PLAYED, WAIT, RANDOM = range(8)
-"""Columns of what is told of each world; the last three are the keys of its last step, and of `protocol.py`."""
+"""Columns of the facts about each world; the last three are the keys of its last step, and of `protocol.py`."""
 TERMINATED, TRUNCATED = 1, 2  # how an episode has ended; 0: it goes on
 CHANGES = (1 << GOLD_TAKEN) | (1 << MINE_EXPLODED) | (1 << EXIT_OPENED)
 """Events after which objects that stay where they are look another way."""
@@ -317,7 +317,7 @@ class EnvWorlds:
         thread_pool(self.threads).share(lambda first, last: self._write(which, first, last), len(which))
 
     def facts(self, index: int) -> list[int]:
-        """What is told of one world, OUTCOME to RANDOM (the kernels above): faster than number by number."""
+        """The facts about one world, OUTCOME to RANDOM (the kernels above): faster than number by number."""
         numbers: list[int] = self._facts[index].tolist()
         return numbers
 

@@ -16,9 +16,7 @@ from ninja_game.sim import kinds, rules
 from ninja_game.sim.arithmetic import is_set
 from ninja_game.sim.collision import tiles
 from ninja_game.sim.collision.rays import solid_at
-from ninja_game.sim.collision.tiles import COLUMN, FULL, ROW, SHAPE
 from ninja_game.sim.grid import cell_at, grid_remove
-from ninja_game.sim.kinds import DOOR, KIND_NAMES, NINJA, VALUE_COUNTS
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec, makes_object, well_formed
 from ninja_game.sim.loader import grid_tiles
 from ninja_game.sim.memory.object_fields import Object
@@ -30,7 +28,7 @@ from ninja_game.sim.states import LOCKED, TRAP
 def _made_door(world: World, record: ObjectSpec) -> Object:
     """The door that the game makes of a well-formed record."""
     door = Object()
-    door.kind, (door.x, door.y) = DOOR, record.values[:2]
+    door.kind, (door.x, door.y) = kinds.DOOR, record.values[:2]
     create_door(world, door, record.values)
     grid_remove(world, door)
     return door
@@ -54,17 +52,20 @@ class Ground:
         world = World()
         tiles.set_edges(self.level, world)
         self.edges: list[int] = list(world.edges)
-        specs = [spec for spec in level.objects if spec.kind == DOOR and well_formed(spec)]
+        specs = [spec for spec in level.objects if spec.kind == kinds.DOOR and well_formed(spec)]
         self.doors = {spec: _made_door(world, spec) for spec in set(specs)}
         self.doors_on_side = Counter(edges_of(self.doors[spec]) for spec in specs)
         self.closed_edges = {edge for door in self.doors.values() if door.mechanism != TRAP for edge in edges_of(door)}
-        ninjas = [record for record in level.objects if record.kind == NINJA]
+        ninjas = [record for record in level.objects if record.kind == kinds.NINJA]
         start = cell_at(*ninjas[-1].values) if ninjas and well_formed(ninjas[-1]) else 0
         # A ninja that starts in a tile may be pushed out on any side: nothing is certain then.
         self.certain = bool(start) and tiles.SHAPE[self.level.tiles[start]] == tiles.EMPTY
         self.cells: set[int] = set()
         if self.certain:
             self._fill(start)
+
+    def is_full(self, cell: int) -> bool:
+        return bool(tiles.SHAPE[self.level.tiles[cell]] == tiles.FULL)
 
     def touchable(self, x: float, y: float, radius: float) -> bool:
         """Whether a ninja in a reached cell could touch a disc (radius at most 14 px); True if nothing is certain."""
@@ -99,7 +100,7 @@ class Ground:
     def _ways(self, cell: int, closed: set[int]) -> Iterator[int]:
         for side, step in enumerate(tiles.NEIGHBOUR_OFFSET):
             there, here = 4 * cell + side, 4 * (cell + step) + (side ^ 2)
-            if tiles.EXISTS[cell + step] and tiles.SHAPE[self.level.tiles[cell + step]] != tiles.FULL:
+            if tiles.EXISTS[cell + step] and not self.is_full(cell + step):
                 tiles_open = self.edges[there] != rules.SOLID and self.edges[here] != rules.SOLID
                 if tiles_open and there not in closed and here not in closed:
                     yield cell + step
@@ -158,7 +159,7 @@ def level_findings(level: Level) -> list[Finding]:
 def object_name(record: ObjectSpec, number: int) -> str:
     """An object as its level's file places it: ``thwump at 12,3 (object 7)``; ids count from 0."""
     keyword, place, _ = best_form(record)
-    name = keyword or KIND_NAMES[record.kind]
+    name = keyword or kinds.KIND_NAMES[record.kind]
     if not place and len(record.values) > 1:
         place = place_text(*record.values[:2])
         name = f"{name} with its switch" if record.kind == kinds.DOOR else name
@@ -248,7 +249,7 @@ _UNIT_TOLERANCE = 0.02  # pads of other editors have 0.7 for both parts of a dia
 def oddities(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
     """What is odd about an object of the level that ``ground`` describes; nothing for a proper one."""
     if not well_formed(record):
-        count, needed = len(record.values), VALUE_COUNTS[record.kind]
+        count, needed = len(record.values), kinds.VALUE_COUNTS[record.kind]
         does = "starts at 45,70px" if record.kind == kinds.NINJA else "does nothing"
         yield found("value-count", count=count, needed=needed, does=does)
         return
@@ -270,9 +271,9 @@ def _place_oddities(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
     if not cell:
         yield found("outside-grid")
     elif record.kind in _IN_TILE and _deep(ground, x, y):
-        border = COLUMN[cell] in (0, COLUMNS + 1) or ROW[cell] in (0, ROWS + 1)
+        border = tiles.COLUMN[cell] in (0, COLUMNS + 1) or tiles.ROW[cell] in (0, ROWS + 1)
         yield found("in-border") if border else found("in-tile", what=_IN_TILE[record.kind])
-    elif record.kind in (kinds.DRONE, kinds.THWUMP) and SHAPE[ground.level.tiles[cell]] == FULL:
+    elif record.kind in (kinds.DRONE, kinds.THWUMP) and ground.is_full(cell):
         yield found("in-full-tile")
 
 
@@ -328,9 +329,9 @@ def _thwump(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:  # noqa: A
 
 def _floor_guard(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
     cell = cell_at(*record.values[:2])
-    if COLUMN[cell] in (0, COLUMNS + 1):
+    if tiles.COLUMN[cell] in (0, COLUMNS + 1):
         yield found("guard-in-border")
-    elif SHAPE[ground.level.tiles[cell]] == FULL:
+    elif ground.is_full(cell):
         yield found("in-full-tile")
     elif ground.edges[4 * cell + 1] != rules.SOLID:
         yield found("guard-without-floor")
@@ -367,7 +368,7 @@ def _door(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
         yield found("door-outside")
     elif ground.doors_on_side[edges] > 1:
         yield found("doors-on-one-side")
-    elif any(ground.edges[edge] == rules.SOLID or SHAPE[ground.level.tiles[edge // 4]] == FULL for edge in edges):
+    elif any(ground.edges[edge] == rules.SOLID or ground.is_full(edge // 4) for edge in edges):
         yield found("closed-anyway")
     if (is_set(trap) or is_set(locked)) and not ground.touchable(x, y, rules.DOOR_SWITCH_RADIUS):
         yield found("unreachable-switch", place=place_text(x, y))

@@ -16,6 +16,7 @@ from ninja_game.files.user_folder import data_folder, export_path
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
 from ninja_game.play.window import TITLE, Window, Wipe, save_picture
+from ninja_game.player.catalogue import Mood
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import FASTEST_TICK_GAIN
 from ninja_game.player.settings import BY_COLUMN, Settings
@@ -50,8 +51,8 @@ class Screen:
         return self.app.theme
 
     @property
-    def mood(self) -> int:
-        """The number of its look (``Entry.mood``); by default that of the screen before."""
+    def mood(self) -> Mood:
+        """Its look; by default that of the screen before."""
         return self.app.mood
 
     @property
@@ -169,7 +170,7 @@ class ScreenStack:
         return self._screens[max(first, 0) :]
 
 
-CALM = 0
+CALM = Mood()
 """The mood of all menus, whatever level was played before."""
 
 UNSEEN = {"dummy", "offscreen"}
@@ -178,11 +179,12 @@ UNSEEN = {"dummy", "offscreen"}
 FALLBACK_RATE = 60
 """Pictures per second where the display does not say its rate."""
 
-NOTICE, IN_BORDER, NOTICE_WIDE, NOTICE_LINES = 12.5, 10.0, 620.0, 5
-"""Size of a notice's letters, also in the border below a level; how wide its lines are at most, how many are shown."""
-
-NOTICE_MS, WARNING_MS = 4000, 12_000
-"""How long a notice is shown, and what went wrong when the game started."""
+NOTICE = 12.5  # letters of a notice
+IN_BORDER = 10.0  # the same in the border below a level
+NOTICE_WIDE = 620.0  # its longest line, px
+NOTICE_LINES = 5  # that are shown at most
+NOTICE_MS = 4000
+WARNING_MS = 12_000  # of what went wrong when the game started
 
 
 TasEditorOpener = Callable[["App", Recording, Sequence[Recording], int], object]
@@ -194,7 +196,7 @@ class App:
     ``controls``: keys to actions. ``player``: the player's data with the settings, which ``change_settings`` changes.
     ``overclock``: ms by which ticks are shorter until the program ends, 0 to 10 (game.md §1.1). ``tas_editor``:
     opens a run in the TAS editor, with others beside it, at a tick; None where there is none, as in a page.
-    ``mood``: the number of the present look. ``menu_theme``: that of menus over a level.
+    ``mood``: the present look. ``menu_theme``: that of menus over a level.
     ``size``: px of the window; ``window``: one that is open already. Raises NinjaGameError where there is no display.
     """
 
@@ -217,7 +219,7 @@ class App:
         self.aside: list[Aside] = []
         self.running = True
         self.frame_ms = 0.0
-        self.mood = 0
+        self.mood = Mood()
         self.notice = ""
         self._notice_ms = 0
         self._notice_on: Screen | None = None
@@ -279,10 +281,10 @@ class App:
         self.menu_theme = Theme(self.palette_in(CALM), self.canvas, self.settings.text_size)
         self.stack.redraw_all()
 
-    def palette_in(self, mood: int) -> Palette:
-        return palette_named(self.settings.palette, mood)
+    def palette_in(self, mood: Mood) -> Palette:
+        return palette_named(self.settings.palette, *mood)
 
-    def follow_mood(self, mood: int) -> None:
+    def follow_mood(self, mood: Mood) -> None:
         """Look like that."""
         self.mood = mood
         if self.palette_in(mood) is not self.theme.palette:

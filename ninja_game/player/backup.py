@@ -40,11 +40,11 @@ from ninja_game.player.store import Store
 from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.memory.interface import BODIES
 
-MOST_FILES, MOST_BYTES = 4096, 256 * 2**20
-"""Files of a backup, and their bytes when unpacked."""
+MOST_FILES = 4096
+MOST_BYTES = 256 * 2**20  # of all files, unpacked
 
-MOST_REPLAYS, MOST_ROWS = 5_000, 100_000
-"""Replays in its records, and rows of any other table."""
+MOST_REPLAYS = 5_000  # in its records
+MOST_ROWS = 100_000  # of any other table
 
 BRANCHES = ".branches.json"
 """Suffix of a file beside a run: its branches in the TAS editor."""

@@ -29,6 +29,13 @@ OURS = "ninja-game"
 """In the name of every author that is part of the project."""
 
 
+class Mood(NamedTuple):
+    """The look of a level: the column of its episode, and how many levels come before it in that column."""
+
+    column: int = 0
+    level: int = 0
+
+
 @dataclass(frozen=True)
 class Entry:
     """A level that can be played. ``source``: "game", "yours" or the name of a pack; ``episode``: "03-1" if any.
@@ -50,17 +57,21 @@ class Entry:
         return self.named.level.gold
 
     @property
-    def place(self) -> str:
-        """Its place as players count it; "" for a level in no episode."""
+    def position(self) -> tuple[int, int] | None:
+        """Number of its episode, and its place there from 0; None for a level in no episode."""
         episode, _, level = self.episode.partition("-")
-        return f"Episode {episode_code(int(episode))}, level {int(level) + 1}" if level else ""
+        return (int(episode), int(level)) if level else None
 
     @property
-    def mood(self) -> int:
-        """The column of its episode, and ten times its place in that column; 0 for a level in none."""
-        episode, _, level = self.episode.partition("-")
-        column, place = divmod(int(episode) if level else 0, EPISODES_PER_COLUMN)
-        return column + 10 * (LEVELS_PER_EPISODE * place + int(level or 0))
+    def place(self) -> str:
+        """Its place as players count it; "" for a level in no episode."""
+        return f"Episode {episode_code(self.position[0])}, level {self.position[1] + 1}" if self.position else ""
+
+    @property
+    def mood(self) -> Mood:
+        episode, level = self.position or (0, 0)
+        column, place = divmod(episode, EPISODES_PER_COLUMN)
+        return Mood(column, LEVELS_PER_EPISODE * place + level)
 
     @property
     def title(self) -> str:
@@ -191,7 +202,7 @@ class Catalogue:
         return self.ours.episodes
 
     @property
-    def told(self) -> list[str]:
+    def shown_problems(self) -> list[str]:
         """The problems, each once, with paths below the player's folder."""
         return list(dict.fromkeys(problem.replace(f"{self.folder}{os.sep}", "") for problem in self.problems))
 
@@ -229,9 +240,9 @@ class Catalogue:
 
     def episode_of(self, entry: Entry) -> Episode | None:
         pack = self.ours if entry.source == "game" else self._known.get(entry.source)
-        return pack.episodes.get(int(entry.episode.partition("-")[0])) if pack and entry.episode else None
+        return pack.episodes.get(entry.position[0]) if pack and entry.position else None
 
-    def mood_of(self, level: Level) -> int | None:
+    def mood_of(self, level: Level) -> Mood | None:
         """The mood of a level of the game's own pack; None for any other."""
         return next((entry.mood for entry in self.ours.levels if entry.episode and entry.named.level == level), None)
 

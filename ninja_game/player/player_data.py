@@ -38,7 +38,7 @@ class PlayerData:
     def __init__(self, folder: Path | None = None) -> None:
         self.folder = user_folder() if folder is None else folder
         self._messages: list[str] = []
-        self._told: set[str] = set()
+        self._given: set[str] = set()
         self._progress: dict[str, Progress] = {}
         try:
             make_user_folder(self.folder)
@@ -63,8 +63,8 @@ class PlayerData:
 
     def new_messages(self) -> str:
         """The messages that this method has not given yet, as one text."""
-        new = [message for message in self.messages if message not in self._told]
-        self._told.update(new)
+        new = [message for message in self.messages if message not in self._given]
+        self._given.update(new)
         return " ".join(new)
 
     def open_records(self) -> None:
@@ -111,10 +111,12 @@ class PlayerData:
         if mark is None and self.marks.is_passed(entry.digest):
             return HELPED
         episode = None if mark else self.catalogue.episode_of(entry)
-        if episode:
-            place = episode.number, int(entry.episode.partition("-")[2])
-            if self.progress_in(episode.pack).columns[episode.column].beaten > place:
-                return "Skipped, not passed yet"
+        if (
+            episode
+            and entry.position
+            and self.progress_in(episode.pack).columns[episode.column].beaten > entry.position
+        ):
+            return "Skipped, not passed yet"
         return reached(entry, mark) or "Not passed yet"
 
     @cached_property
@@ -166,7 +168,7 @@ def keep_replay(data: PlayerData, replay: Replay) -> str:
         data.records.keep_replay(replay)
         return [REPLAY_KEPT]
 
-    return told(data, work)[-1]
+    return save_work(data, work)[-1]
 
 
 def forget_replay(data: PlayerData, number: int) -> str:
@@ -175,10 +177,10 @@ def forget_replay(data: PlayerData, number: int) -> str:
     def work() -> list[str]:
         return [] if data.records.forget_replay(number) else ["This is one of your bests, so it stays"]
 
-    return "".join(told(data, work)[-1:])
+    return "".join(save_work(data, work)[-1:])
 
 
-def told(data: PlayerData, work: Work) -> list[str]:
+def save_work(data: PlayerData, work: Work) -> list[str]:
     """Save ``work``; its notices, none of which says "saved" about what is not on the disk."""
     notices, problem = data.store.save(work)
     if not problem:

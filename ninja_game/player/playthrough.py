@@ -23,7 +23,7 @@ from ninja_game.formats.replay.text import Replay, lifetimes, parse_replay, writ
 from ninja_game.formats.sayings import Saying, read_sayings
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry, Episode
-from ninja_game.player.player_data import EPISODE_BEST, PlayerData, count_of, replay_of, save_best, told
+from ninja_game.player.player_data import EPISODE_BEST, PlayerData, count_of, replay_of, save_best, save_work
 from ninja_game.player.progress import LOCKED, UNLOCKED, new_unlocks, next_par
 from ninja_game.player.store import Store, Work
 from ninja_game.sim.level import Level
@@ -143,7 +143,7 @@ class LevelContext:
 
     def died(self, attempt: Attempt) -> None:
         """Called once per death: counts it."""
-        told(self.data, count_of(self.data, self.entry, attempt, killer=attempt.killer))
+        save_work(self.data, count_of(self.data, self.entry, attempt, killer=attempt.killer))
 
     def gave_up(self, attempt: Attempt) -> None:
         """Called when an attempt is left or started again, whether it has ended or not: counts one that has not."""
@@ -228,16 +228,16 @@ class LevelRun(LevelContext):
                 self._open_following(entry)
             return notices
 
-        return told(self.data, work)
+        return save_work(self.data, work)
 
     def _open_following(self, entry: Entry) -> None:
         """Where its episode stands at this level it goes on behind it, and behind those passed before."""
         data, episode = self.data, self.data.catalogue.episode_of(entry)
-        if episode is None or data.episode_state(episode) != UNLOCKED:
+        if episode is None or entry.position is None or data.episode_state(episode) != UNLOCKED:
             return
-        position = int(entry.episode.partition("-")[2])
-        if data.progress_in(episode.pack).columns[episode.column].beaten != (episode.number, position):
+        if data.progress_in(episode.pack).columns[episode.column].beaten != entry.position:
             return
+        position = entry.position[1]
         while True:
             move_on(data, episode, position, kept=kept_place(data.store)[0] in {"", episode.key})
             position += 1
@@ -327,7 +327,7 @@ class EpisodeRun(LevelContext):
         work = partial(
             self._save, count, self.position, self.score, replays, legitimate=self.legitimate, whole=self.whole
         )
-        self.notices = told(self.data, work)
+        self.notices = save_work(self.data, work)
         return self.notices
 
     def _save(
@@ -378,7 +378,7 @@ class EpisodeRun(LevelContext):
             move_on(self.data, self.episode, position, legitimate=legitimate)
             return []
 
-        self.notices = told(self.data, work)
+        self.notices = save_work(self.data, work)
 
 
 def move_on(

@@ -9,6 +9,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from ninja_game.errors import NinjaGameError
+from ninja_game.formats.ascii.object_lines import WEAPONS
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
 from ninja_game.formats.replay.made import names_of_text, parse_made
 from ninja_game.formats.replay.text import OUTCOMES, Replay
@@ -18,7 +19,7 @@ from ninja_game.sim.kinds import DRONE, KIND_OF, KINDS
 from ninja_game.sim.memory.interface import BODIES
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
-from ninja_game.sim.states import NO_CAUSE, WEAPON_CHAINGUN, WEAPON_LASER, WEAPON_ZAP
+from ninja_game.sim.states import NO_CAUSE
 
 NEWEST_SHOWN = 500
 """Replays listed at most, the newest first."""
@@ -229,7 +230,7 @@ def level_score(gold: int, exit_tick: int) -> int:
 SELF = "player"
 """Falls, being crushed, suicide, time."""
 
-_DRONES = {WEAPON_ZAP: "zap drone", WEAPON_LASER: "laser drone", WEAPON_CHAINGUN: "chaingun drone"}
+_DRONES = {int(weapon): name for name, weapon in WEAPONS.items()}
 KILLERS = (*_DRONES.values(), *(kind.killer for kind in KINDS if kind.killer and kind.number != DRONE), SELF)
 
 

@@ -17,8 +17,8 @@ from ninja_game.files.locking import locked
 from ninja_game.files.user_folder import quarantine
 from ninja_game.player.schema import OPENING_SECONDS, OtherVersionError, copy_in_memory, open_database
 
-GAME_WAIT_MS, LAST_WAIT_MS = 200, 3000
-"""How long a save waits for another program that writes: during play, where it holds up the picture, and at the end."""
+GAME_WAIT_MS = 200  # a save during play waits so long for another program that writes: it holds up the picture
+LAST_WAIT_MS = 3000  # the last one of a game
 
 STARTS_WAIT = 20.0
 """Seconds that a start waits for other games that are opening the same file."""

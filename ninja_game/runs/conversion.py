@@ -47,10 +47,10 @@ def recorded_again(recording: Recording, budget: int = RUN_BUDGET) -> Replay:
             level, inputs, body=recording.body, name=recording.name, author=recording.player, budget=budget
         )
     markers = tuple(marker for marker in old.markers if marker.tick <= len(new.inputs))
-    told, found = ((each.outcome, each.final_tick, each.gold, each.digest or new.digest) for each in (old, new))
+    claimed, found = ((each.outcome, each.final_tick, each.gold, each.digest or new.digest) for each in (old, new))
     return replace(
         new, level_name=old.level_name, level_author=recording.level_author, markers=markers, co_authors=old.co_authors,
-        made=old.made if old.unclaimed or told == found else old.made.edited(1),
+        made=old.made if old.unclaimed or claimed == found else old.made.edited(1),
     )  # fmt: skip
 
 

@@ -56,7 +56,7 @@ class RunResult:
 
     @property
     def ticks(self) -> int:
-        """Ticks run."""
+        """How many ticks were run."""
         return len(self.state_numbers)
 
     @property

@@ -11,8 +11,8 @@ SPACING = 60  # a save-state every this many ticks, at first
 MOST_STATES = 300
 """With more save-states than this every second one is dropped, so that a run of any length fits into the memory."""
 
-MOST_VALUES, FEWEST_STATES = 300_000, 10
-"""In all save-states together, some 100 MB; and how many there may be of the largest level and run."""
+MOST_VALUES = 300_000  # in all save-states together, some 100 MB
+FEWEST_STATES = 10  # that there may be even of the largest level and run
 
 
 class SaveStates(Generic[State]):

@@ -167,7 +167,6 @@ def ninja_columns(record: TraceRecord) -> dict[str, NDArray[Any]]:
 
 
 def _ninja_rows(record: TraceRecord) -> NDArray[np.void]:
-    """The ninja of each tick as NINJA_RECORD."""
     seen = ninja_columns(record)
     rows = np.empty(len(seen["x"]), NINJA_RECORD)
     for name in NINJA_RECORD.names or ():

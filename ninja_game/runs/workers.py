@@ -35,8 +35,8 @@ AHEAD = 4
 TRIES = 3
 """How often a job may take a process with it before it is given up; a cluster's scheduler counts by itself."""
 
-WORKER_BYTES, JOB_SECONDS = 2 << 30, 3600
-"""Memory of a worker process, and processor time that one job may take there, where the system has such limits."""
+WORKER_BYTES = 2 << 30  # memory of a worker process, where the system has such limits
+JOB_SECONDS = 3600  # processor time of one job there
 
 PATIENCE = 30  # seconds to wait for a cluster's first worker
 

@@ -20,8 +20,8 @@ from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import OUTCOME_RUNNING
 from ninja_game.sim.world import step
 
-LATER, EARLIER = 128, 24
-"""By how many ticks a moment may be ahead of the known run, or behind it."""
+AHEAD = 128  # ticks by which a moment may be ahead of the known run
+BEHIND = 24  # or behind it
 SLOW = 0.5
 """Px/tick; a known run that is slower counts as that fast."""
 
@@ -84,7 +84,7 @@ def nearest(run: KnownRun, w: World, mask: int) -> tuple[int, float]:
     vy = n.y - n.prev_y
     best = -1
     least = UNREACHED
-    for k in range(max(0, w.tick - EARLIER), min(ticks, w.tick + LATER)):
+    for k in range(max(0, w.tick - BEHIND), min(ticks, w.tick + AHEAD)):
         row = run.moves[k]
         dx = abs(n.x - row[0])
         dy = abs(n.y - row[1])

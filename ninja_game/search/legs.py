@@ -17,8 +17,8 @@ MORE_THAN_ANY = 1 << 30
 """More gold than there is: what a leg wants at the exit that is to end elsewhere. And more ticks than a run has."""
 ROLLOUTS = 16
 """Random runs that try whether the end of a leg can be survived. Not tuned."""
-FIELDS_KEPT, MASKS_KEPT = 400, 16
-"""Fields to pieces (53 KB each), and sets of fields to all pieces, that are kept before all are computed again."""
+FIELDS_KEPT = 400  # fields to single pieces, 53 KB each, before all are computed again
+MASKS_KEPT = 16  # sets of fields to all pieces, likewise
 
 Spend = Callable[[int], bool]
 """Counts the ticks that a search has just simulated; true: it is over."""
@@ -195,11 +195,9 @@ def _move_a_segment(tour: list[int], start: Distances, between: Distances, end: 
 
 FAILED = 200.0
 """Ticks that a way counts at least which a leg did not find."""
-SLOWER, TURN = 1.4, 10.0
-"""What legs take, against distance fields, which know no run-ups: so many times the ticks, and ticks more a piece.
-
-Set when legs were measured on tours of gold; the figures were not kept.
-"""
+# Legs against distance fields, which know no run-ups; set on tours of gold, whose figures were not kept.
+SLOWER = 1.4  # times the ticks
+TURN = 10.0  # ticks more for each piece
 
 
 class PieceTicks:

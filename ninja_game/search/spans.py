@@ -33,8 +33,8 @@ LEAST_DELAY_FACTOR, MOST_DELAY_FACTOR = 0.5, 6.0
 """By how much ``max_delay`` is multiplied: more while searches come to an end of their own, less while they do not."""
 FEW_TICKS, MANY_TICKS = 500_000, 2_000_000
 """An end of its own before the first is an early one, after the second a late one."""
-SPAN_TICKS, DOUBLINGS = 1_000_000, 3
-"""Ticks of a search; half of them get twice as many, half of these twice as many again, and so on."""
+SPAN_TICKS = 1_000_000  # of a search
+DOUBLINGS = 3  # half of all searches get twice as many, half of these twice as many again, and so on
 EACH_COSTS = 10_000  # ticks that it takes to prepare a search
 
 

@@ -178,8 +178,8 @@ OTHER_ROUTES = (
 Judged as a whole on the reference levels (docs/solver.md), the numbers of a row were not tuned.
 """
 OTHER_ROUTE_TICKS = 12_000_000
-FOUND_BOUND, GIVEN_BOUND = 0.05, 0.15
-"""By what share a run of theirs may be longer than the best: one that was found here, or one that was given."""
+FOUND_BOUND = 0.05  # share by which a run that was found here may be longer than the best
+GIVEN_BOUND = 0.15  # likewise, one that was given
 OTHER_ROUTE_TURNS = 4
 """One of them is made every so many turns, once runs are shortened."""
 

@@ -113,7 +113,6 @@ def glyph(character: str) -> Glyph | None:
 
 
 def _lines(path: str) -> tuple[tuple[Point, ...], ...]:
-    """The polylines of a path."""
     lines: list[list[Point]] = []
     for command, numbers in _COMMANDS.findall(path):
         values = [float(number) for number in numbers.split()]

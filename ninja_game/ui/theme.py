@@ -343,9 +343,9 @@ turns. The levels of an episode go through them, each episode from another one o
 PALETTES: dict[str, Palette] = {palette.name: palette for palette in (CLASSIC, DARK, CONTRAST, SAFE, SAFE_DARK, *MOODS)}
 
 
-def palette_named(name: str, mood: int = 0) -> Palette:
-    """The palette of a name; for ``settings.BY_COLUMN``, and for an unknown name, a mood as levels number theirs."""
-    return PALETTES.get(name) or _tone(mood % 10 % len(MOODS), mood // 10)
+def palette_named(name: str, column: int = 0, level: int = 0) -> Palette:
+    """The palette of a name; for ``settings.BY_COLUMN``, and for an unknown name, that of a level (``Mood``)."""
+    return PALETTES.get(name) or _tone(column % len(MOODS), level)
 
 
 @lru_cache(maxsize=512)

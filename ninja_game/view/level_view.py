@@ -34,11 +34,13 @@ if TYPE_CHECKING:
     from ninja_game.view.overlays import Overlays
 
 
-SHAKE, SHAKE_KEPT, SHAKE_REACH = 9.0, 0.78, 200.0
-"""How far an explosion at the ninja shakes, px; the share left a tick later; px from which on it is not felt."""
+SHAKE = 9.0  # how far an explosion at the ninja shakes, px
+SHAKE_KEPT = 0.78  # share of it that is left a tick later
+SHAKE_REACH = 200.0  # px from which on it is not felt
 
-DANCE_TICKS, ENTER_TICKS, DOOR_STEP = 36, 10, 2.0
-"""How long the ninja dances before its exit, and steps to it and through it; px that it stands below the middle."""
+DANCE_TICKS = 36  # for which the ninja dances before its exit
+ENTER_TICKS = 10  # in which it steps to it and through it
+DOOR_STEP = 2.0  # px that it stands below the exit's middle
 
 CUE_ABOVE = 24.0
 """How far over its source a mark stands, px."""

@@ -151,11 +151,11 @@ def test_splits_say_by_how_much_others_are_later(tmp_path: Path) -> None:
     late = write_demo(Demo(bytes(4) + bytes([2] * 24), 28.0))
     file = write_records(tmp_path / "two.txt", ("First", WALK, running(24)), ("Late", WALK, late))
     first, second = (run_splits(replace(each, replay=replace(each.replay, author=""))) for each in load_replays(file))
-    texts = [text for _, text in film.told_splits(first, [second])]
+    texts = [text for _, text in film.split_texts(first, [second])]
     assert texts[-1] == "exit, Late +4"
-    assert [text for _, text in film.told_splits(second, [first])][-1] == "exit, First -4"
+    assert [text for _, text in film.split_texts(second, [first])][-1] == "exit, First -4"
     first, second = map(run_splits, load_replays(file))
-    assert [text for _, text in film.told_splits(first, [second])][-1] == "exit, two.txt 1 +4", "both by one name"
+    assert [text for _, text in film.split_texts(first, [second])][-1] == "exit, two.txt 1 +4", "both by one name"
 
 
 def test_runs_with_one_title_have_their_files_above_them(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App, Screen
-from ninja_game.play.level.hud import hud_view
+from ninja_game.play.level.hud_view import hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, LATE_JUMP, Phase
 from ninja_game.play.level.screen import LevelScreen, PausePanel
 from ninja_game.play.menus.menu_screen import Menu
@@ -198,9 +198,9 @@ def test_a_passed_level_says_what_its_keys_do(
     for screen, words in ((two, "Confirm: next level"), (alone, "Confirm: play again")):
         app.push(screen)
         play_to_the_end(app, controls, screen, recording)
-        message = hud_view(screen.play).message
-        assert message is not None
-        assert words in message[1][-1]
+        end = hud_view(screen.play).end
+        assert end is not None
+        assert words in end.lines[-1]
     tap(app, "confirm")
     assert app.top is alone
     assert phase_of(alone) is Phase.READY

@@ -12,7 +12,8 @@ from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App
-from ninja_game.play.level.hud import Hud, bar_length, cause_of_death, hud_view
+from ninja_game.play.level.hud import Hud, bar_length
+from ninja_game.play.level.hud_view import cause_of_death, hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, Phase
 from ninja_game.play.level.screen import LevelScreen, play_level
 from ninja_game.play.replay.screen import ReplayScreen
@@ -130,7 +131,7 @@ def test_a_run_that_was_given_up_is_watched_as_far_as_it_went(app: App, recordin
     tap(app, "confirm", pictures=3)
     press("suicide")
     frames(app, 1)
-    assert "watch it" in (hud_view(screen.play).message or ("", [""], 0))[1][-1]
+    assert "watch it" in (hud_view(screen.play).end or ("", [""], 0))[1][-1]
     tap(app, "replay")
     assert isinstance(app.top, ReplayScreen)
 

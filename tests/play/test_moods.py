@@ -61,7 +61,7 @@ LINES = ("ninja", "ghost", "laser", "electric")
 """Roles of what is drawn as thin lines, or all in one colour."""
 
 GROUNDS = [each for each in PALETTES.values() if each.scenery]
-GROUNDS += [palette_named(BY_COLUMN, column + 10 * level) for column in range(5) for level in range(1, 5)]
+GROUNDS += [palette_named(BY_COLUMN, column, level) for column in range(5) for level in range(1, 5)]
 moods = pytest.mark.parametrize("palette", GROUNDS, ids=lambda palette: palette.name)
 
 
@@ -194,10 +194,10 @@ def test_a_run_of_an_episode_is_watched_in_its_mood(app: App, recording: Recordi
 
 
 def test_each_level_of_an_episode_has_its_tone_and_what_stands_on_it_looks_the_same(app: App) -> None:
-    tones = [palette_named(BY_COLUMN, 10 * level) for level in range(5)]
+    tones = [palette_named(BY_COLUMN, 0, level) for level in range(5)]
     assert len({tuple(tone.tile) for tone in tones}) == len({tuple(tone.background) for tone in tones}) == 5
     assert {tone.base for tone in tones} == {MOODS[0]}
-    following = palette_named(BY_COLUMN, 10 * 5)
+    following = palette_named(BY_COLUMN, 0, 5)
     assert {tuple(following.tile), tuple(tones[2].tile)} == {tuple(following.tile)}, "the next episode begins elsewhere"
     assert len({pygame.image.tobytes(painted(tone), "RGB") for tone in (*tones, following)}) == 6
     assert len({pygame.image.tobytes(grain(tone, "outline"), "RGBA") for tone in (*tones, following)}) == 6

@@ -71,7 +71,7 @@ class Trial:
         self.slowest = 0.0, ""
         self._place, self._findings, self._slow = place / "door", findings, slow
         self._place.mkdir()
-        self.started = self._told = time.monotonic()
+        self.started = self._reported = time.monotonic()
 
     def read(self, name: str, data: bytes) -> None:
         """Let a door read an input."""
@@ -112,8 +112,8 @@ class Trial:
 
     def tell_progress(self, seconds: float = 60) -> None:
         """Print now and then how many inputs were read."""
-        if time.monotonic() - self._told > seconds:
-            self._told = time.monotonic()
+        if time.monotonic() - self._reported > seconds:
+            self._reported = time.monotonic()
             print(f"{self.outcomes.total()} inputs, {len(self.wrong)} findings", flush=True)
 
     def summary(self) -> int:

@@ -69,10 +69,10 @@ def parse_made(text: str) -> Made:
     >>> parse_made("played (practice)"), parse_made("edited 3 from a run by Ann").begun_by
     (Made(played=True, assists=('practice',), edits=0, searches=(), begun_by=''), 'Ann')
     """
-    told, _, begun_by = text.partition(_BEGUN)
-    if match := _MADE.fullmatch(told):
+    how, _, begun_by = text.partition(_BEGUN)
+    if match := _MADE.fullmatch(how):
         assists, searches = (tuple(filter(None, (match[each] or "").split(", "))) for each in ("assists", "searches"))
-        made = Made(told.startswith("played"), assists, int(match["edits"] or 0), searches, begun_by)
+        made = Made(how.startswith("played"), assists, int(match["edits"] or 0), searches, begun_by)
         if str(made) == text:
             return made
     raise ValueError(f"{text[:60]!r} does not say how a run was made")
@@ -87,16 +87,16 @@ def names_of_text(text: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys(filter(None, (" ".join(name.split()) for name in text.split(",")))))
 
 
-def is_told(made: Made, co_authors: tuple[str, ...]) -> bool:
+def can_be_written(made: Made, co_authors: tuple[str, ...]) -> bool:
     """Whether a replay text can hold how a run was made, and with whom.
 
-    >>> is_told(Made(edits=3), ("Bob",)), is_told(Made(edits=3, begun_by="Ann "), ())
+    >>> can_be_written(Made(edits=3), ("Bob",)), can_be_written(Made(edits=3, begun_by="Ann "), ())
     (True, False)
     """
-    told, names = str(made), ", ".join(co_authors)
+    how, names = str(made), ", ".join(co_authors)
     with suppress(ValueError):
-        whole = max(len(told), len(names)) <= MOST_NAME
-        return whole and parse_made(told.strip()) == made and names_of_text(names) == co_authors
+        whole = max(len(how), len(names)) <= MOST_NAME
+        return whole and parse_made(how.strip()) == made and names_of_text(names) == co_authors
     return False
 
 
@@ -111,8 +111,8 @@ def with_made(comment: str, made: Made, co_authors: tuple[str, ...]) -> str:
     """
     if not (made.assisted is not None or co_authors):
         return comment
-    told = f"{_MARK}{made}" + f"{_WITH}{', '.join(co_authors)}" * bool(co_authors) + "]"
-    return f"{comment} {told}".strip()
+    mark = f"{_MARK}{made}" + f"{_WITH}{', '.join(co_authors)}" * bool(co_authors) + "]"
+    return f"{comment} {mark}".strip()
 
 
 def without_made(comment: str) -> tuple[str, Made, tuple[str, ...]]:
@@ -123,9 +123,9 @@ def without_made(comment: str) -> tuple[str, Made, tuple[str, ...]]:
     """
     start = comment.rfind(_MARK)
     if start >= 0 and comment.endswith("]") and len(_MARK) + 1 < len(comment) - start <= 2 * MOST_NAME:
-        told, _, names = comment[start + len(_MARK) : -1].partition(_WITH)
+        how, _, names = comment[start + len(_MARK) : -1].partition(_WITH)
         with suppress(ValueError):
-            made, co_authors = parse_made(told), names_of_text(names)
-            if is_told(made, co_authors):
+            made, co_authors = parse_made(how), names_of_text(names)
+            if can_be_written(made, co_authors):
                 return comment[:start].removesuffix(" "), made, co_authors
     return comment, UNKNOWN, ()

@@ -20,7 +20,7 @@ from ninja_game.formats.numbers import format_number
 from ninja_game.formats.pack.index import LEVELS_PER_EPISODE
 from ninja_game.formats.replay.headers import COUNT_LIMIT, LEVELS_KEPT, Headers, Waypoint, read_level, read_waypoints
 from ninja_game.formats.replay.input_text import included_beside, read_inputs
-from ninja_game.formats.replay.made import UNKNOWN, Made, is_told
+from ninja_game.formats.replay.made import UNKNOWN, Made, can_be_written
 from ninja_game.formats.replay.notations import Marker, is_marker_name, write_inputs
 from ninja_game.sim.inputs import MAX_TICKS, Demo, fitted_inputs
 from ninja_game.sim.level import Level
@@ -207,7 +207,7 @@ def _contradiction(replay: Replay) -> tuple[str, ReplayError] | None:
             return key, ReplayError(f"an unknown {key}", found=repr(word), expected=" or ".join(words))
     if replay.unclaimed and (replay.gold or replay.digest or replay.waypoints):
         return "inputs", ReplayError("claims without an outcome", expected=" or ".join(OUTCOMES))
-    if not is_told(replay.made, replay.co_authors):
+    if not can_be_written(replay.made, replay.co_authors):
         return "made", ReplayError("not how a run is made", found=f"{replay.made!s}, {replay.co_authors}"[:60])
     names = [marker.name for marker in replay.markers]
     if len(set(names)) < len(names) or not all(map(is_marker_name, names)):
@@ -285,8 +285,8 @@ def _claims(replay: Replay) -> dict[str, str]:
     """The headers that tell how far a run goes, and the result of it."""
     final_tick = {"final-tick": str(replay.final_tick)}
     if not replay.unclaimed:
-        told = {"outcome": replay.outcome, "gold": str(replay.gold), "digest": replay.digest}
-        return {**final_tick, **told}
+        claimed = {"outcome": replay.outcome, "gold": str(replay.gold), "digest": replay.digest}
+        return {**final_tick, **claimed}
     if replay.demo_length is not None:
         return {"demo-length": format_number(replay.demo_length)}
     return final_tick if replay.final_tick != max(0, len(replay.inputs) - 1) else {}

@@ -17,6 +17,7 @@ from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import LevelError
 from ninja_game.sim import kinds
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec, well_formed
+from ninja_game.sim.rules import CELL
 from ninja_game.sim.states import TRAP
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
@@ -110,7 +111,7 @@ class ObjectPictures:
         if spec.kind == kinds.FLOOR_GUARD and places:
             # It sinks to the floor of its cell.
             x, y = places[BODY]
-            places = {BODY: (x, 24.0 * cell_of(x, y)[1] + 18.0)}
+            places = {BODY: (x, CELL * cell_of(x, y)[1] + 18.0)}
         sprites = [(key, places[at][0] + x, places[at][1] + y) for at, key, x, y in self._kept[model] if at in places]
         canvas, book = self.target.canvas, self.target.book
         rects, cells = [], [cell_of(*place) for place in places.values()]

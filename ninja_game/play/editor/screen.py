@@ -47,10 +47,6 @@ class EditorScreen(WorkspaceScreen):
         self._entered = not offers_recovered
 
     @property
-    def mood(self) -> int:
-        return 0
-
-    @property
     def parts(self) -> Sequence[Part]:
         return [*self._parts, self.sides[self.view.listing]]
 

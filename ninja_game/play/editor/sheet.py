@@ -20,10 +20,10 @@ from ninja_game.formats.sayings import read_sayings
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.palette_view import ObjectPictures, ObjectSprites
 from ninja_game.sim import kinds
-from ninja_game.sim.level import Level, ObjectSpec
+from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 from ninja_game.sim.loader import grid_tiles
 from ninja_game.sim.memory.schema import TileMap
-from ninja_game.sim.rules import STRIDE
+from ninja_game.sim.rules import CELL, HALF, STRIDE
 from ninja_game.ui.canvas import Canvas, Colour, Point
 from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.drawing import DrawTarget, SpriteBook, is_near
@@ -102,7 +102,7 @@ class LevelSheet:
         for upright, at, middle in lines:
             assert self._grid is not None  # noqa: S101 - for the type checker
             colour = (*self.palette.accent[:3], 150) if middle else (*self.palette.text[:3], 60)
-            ends = ((at, 24.0), (at, 576.0)) if upright else ((24.0, at), (768.0, at))
+            ends = ((at, CELL), (at, CELL * (ROWS + 1))) if upright else ((CELL, at), (CELL * (COLUMNS + 1), at))
             pygame.draw.line(self._grid, colour, self.canvas.point(*ends[0]), self.canvas.point(*ends[1]))
         self._dirty.append(self.surface.get_rect())
 
@@ -171,11 +171,11 @@ class Grid(NamedTuple):
         if not self.step:
             return
         for upright, middle in ((True, MIDDLE[0]), (False, MIDDLE[1])):
-            length = 2 * (middle - 24.0)
+            length = 2 * (middle - CELL)
             step = length / 4 if self.step < 0 else self.step
             for number in range(ceil(length / step)):
-                at = 24.0 + self.shift + number * step
-                if 24.0 < at < 24.0 + length and at != middle:
+                at = CELL + self.shift + number * step
+                if CELL < at < CELL + length and at != middle:
                     yield upright, at, False
             yield upright, middle, True
 
@@ -255,11 +255,11 @@ def said_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
 def said_places(says: str) -> list[Point]:
     """The middles of the cells near which a level says something, px."""
     cells = [each.cell for each in read_sayings(says) if each.when == "at"]
-    return [(24.0 * column + 12.0, 24.0 * row + 12.0) for column, row in cells]
+    return [(CELL * column + HALF, CELL * row + HALF) for column, row in cells]
 
 
 def visit_mark(canvas: Canvas, palette: Palette, cell: Cell, share: float) -> LevelMark:
-    rect = canvas.rect(24.0 * cell[0], 24.0 * cell[1], 24, 24)
+    rect = canvas.rect(CELL * cell[0], CELL * cell[1], CELL, CELL)
     veil = pygame.Surface(rect.size, pygame.SRCALPHA)
     veil.fill((*palette.accent[:3], round(40 + 140 * share)))
     return LevelMark(lambda target: target.covered.append(target.surface.blit(veil, rect)), (rect,))
@@ -277,7 +277,7 @@ def death_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
 
 
 def finding_points(level: Level, finding: Finding) -> list[Point]:
-    places = [(24.0 * column + 12.0, 24.0 * row + 12.0) for column, row in finding.cells]
+    places = [(CELL * column + HALF, CELL * row + HALF) for column, row in finding.cells]
     for number in finding.records:
         found = points(level.objects[number]) if number < len(level.objects) else {}
         place = found.get(SWITCH if finding.about_switch else BODY)

@@ -29,6 +29,8 @@ from ninja_game.play.editor.sheet import (
 )
 from ninja_game.play.workspace import Part
 from ninja_game.sim.kinds import EXIT, NINJA
+from ninja_game.sim.level import COLUMNS, ROWS
+from ninja_game.sim.rules import CELL
 from ninja_game.ui.canvas import Canvas, Colour, Point
 from ninja_game.ui.text_entry import DOUBLE_MS
 from ninja_game.ui.theme import Area, Palette, Theme
@@ -331,7 +333,7 @@ class EditorView(Part):
 
 
 _X, _Y = MIDDLE
-_UPRIGHT, _LEVEL = ((_X, 24.0), (_X, 576.0)), ((24.0, _Y), (768.0, _Y))
+_UPRIGHT, _LEVEL = ((_X, CELL), (_X, CELL * (ROWS + 1))), ((CELL, _Y), (CELL * (COLUMNS + 1), _Y))
 _AXES: dict[str, Sequence[tuple[Point, Point]]] = {
     "left-right": [_UPRIGHT], "up-down": [_LEVEL], "both": [_UPRIGHT, _LEVEL],
     "point": [((_X - 12, _Y), (_X + 12, _Y)), ((_X, _Y - 12), (_X, _Y + 12))],

@@ -2,39 +2,55 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from math import hypot
+from typing import NamedTuple
 
 import pygame
 
-from ninja_game.files.shown_text import shown_text
-from ninja_game.formats.run_time import rounded_text, seconds_text
-from ninja_game.formats.sayings import named_keys
-from ninja_game.play.level.play import MUST, STAMP_TICKS, TAG_ROOM, LevelPlay, Phase, Things, tag_top
-from ninja_game.play.level.sayings import FALL_HELP, WHY
-from ninja_game.player.player_data import FIRST_PASS, NEW_ALL_GOLD, OF_A_LEVEL
-from ninja_game.player.playthrough import Navigation
-from ninja_game.player.progress import NO_MEDAL, Mark, next_par
-from ninja_game.player.records import SELF
+from ninja_game.formats.run_time import rounded_text
+from ninja_game.play.level.play import MUST, TAG_ROOM, Things, tag_top
 from ninja_game.sim.collision.tiles import FULL, SHAPE
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
-from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.level import ROWS
 from ninja_game.sim.rules import CELL, LIFETIME
 from ninja_game.ui.canvas import WIDTH, Point
-from ninja_game.ui.input.bindings import MOVES
 from ninja_game.ui.theme import Palette, Theme, mixed, wrapped
 from ninja_game.ui.widgets import draw_medal, draw_stamp
 
-_BAR_LEFT, _BAR_MIDDLE = 24.0, 12.0
-_BAR_LONGEST = 630.0
-"""Its length, px, with the lifetime that a level begins with, or more."""
-_WARNING_TICKS, _LAST_TICKS = 1800, 800
-_MARKED = "silver", "gold"
-_FOOT_WIDTH = 744.0
+_BAR_LEFT, _BAR_MIDDLE = 24.0, 12.0  # px
+_BAR_LONGEST = 630.0  # px, with the lifetime that a level begins with, or more
+_WARNING_TICKS = 1800  # with less left the time bar begins to grow red
+_LAST_TICKS = 800  # with less left it says so
+_MARK_SIZE = 12.0  # of a medal on the time bar, px
 
+_FOOT_SIZE = 11.0  # letters of the lines in the borders
+_FOOT_WIDTH = 744.0  # px
+_RIGHT = 768.0  # right edge of what is written in the borders, px
+_NAME_FROM = 90.0  # px beside a text in the border from which on there is room for the level's name
+
+_SAID_SIZE = 15.0  # letters of what a level says
+_SAID_LINE = 22.0  # height of its lines, px
+_SAID_WIDE = 440.0  # where its lines are broken, px
+_SAID_WIDEST = 680.0  # where a single word ends, px
+_KEYS_WIDE = 70.0  # room for keys before a line, px
+IN_BORDER = 576.0  # top of what a level says in the border below, px
+_BESIDE_GOLD = 490.0  # its width there, px
+_FAINT = 0.2  # how solid its panel is over the ninja
+_COVERED, _CLEAR = 10.0, 34.0  # px between them at which it is as faint as that, and solid
+
+_POINTER_SIZE = 9.5  # letters of the names of things
+_TITLE_SIZE = 26.0  # letters of an ended run's time or cause of death
+_MEDAL_SIZE = 15.0  # letters of its medal
+_LINE_SIZE = 12.5  # letters of the rest of its panel
+_LINE_WIDEST = WIDTH - 150.0  # a longer line of it is broken, px
+PRIZE = 54.0  # the medal drawn in it, px
+_UPPER = 36.0  # its top, unless it would hide where the run ended or an exit, px
+_LOWEST = 573.0  # where it ends at the latest: below are the level's name and what a pass has brought, px
+_NEAR = 16.0  # px that a panel keeps from the middle of a thing
+_ALONG = 7  # open cells that weigh as much as a cell along rock
 
 _KEYS = (
     (0, KEY_LEFT, ((-3, 0), (2, -4), (2, 4))),
@@ -58,11 +74,43 @@ def trough(palette: Palette) -> pygame.Color:
     return mixed(palette.tile, palette.outline, 0.8)
 
 
-Box = tuple[list[str], float, float, float, float, float, float]
-"""Lines of text; left, top and width of their panel; the height of a line, the margin, the size of the letters."""
+class Box(NamedTuple):
+    """The panel of a text, px. ``high``: of a line; ``size``: of the letters."""
 
-KeyName = Callable[[str], str]
-"""Gives what to press for an action."""
+    lines: list[str]
+    x: float
+    y: float
+    w: float
+    high: float
+    margin: float
+    size: float
+
+    @property
+    def area(self) -> tuple[float, float, float, float]:
+        """Left, top, width and height, px."""
+        return self.x, self.y, self.w, self.high * len(self.lines) + 2 * self.margin - 1
+
+
+class Said(NamedTuple):
+    """A text of a level, the tiles and things of which it covers as little as can be, and near which place it lies.
+
+    ``covers``: it may cover open space too; else it may lie in the border below.
+    """
+
+    text: str
+    tiles: tuple[int, ...]
+    things: Things
+    eye: Point | None
+    covers: bool
+
+
+class EndPanel(NamedTuple):
+    """Title and lines of the panel of an ended run; the tiles and things of which it covers as little as can be."""
+
+    title: str
+    lines: Sequence[str]
+    tiles: tuple[int, ...]
+    things: Things
 
 
 @dataclass(frozen=True)
@@ -73,12 +121,9 @@ class HudView:
     each is lost. ``foot``: texts at the left and the right of the border below, ``name``: what is at the
     left where a text lies there. ``keys``: those of the present tick,
     ``frame_ms``: of the last picture; None: not shown.
-    ``said``: a text of the level, its tiles and the things of which it covers as little as can be, the place near which
-    it should be, and whether it may cover anything but rock: else it may lie in the border below. ``moves``: the keys
-    of each of its lines, ``letters``: what is on the keys of left, jump and right.
-    ``named``: what it names, and where that is, px. ``message``: title and lines of a panel, and the level's tiles
-    and the things of which it covers as little as can be; ``medal``: that of the pass, or "", ``stamp``: how far it has
-    grown, 0…1, ``shine``: how far light has swept over it. ``seen``: how solid the panel is, 0…1.
+    ``moves``: the keys of each line of ``said``, ``letters``: what is on the keys of left, jump and right.
+    ``named``: what a text names, and where that is, px. ``medal``: that of the pass, or "", ``stamp``: how far it has
+    grown, 0…1, ``shine``: how far light has swept over it. ``seen``: how solid the panel of the end is, 0…1.
     ``ninja``: where it is in play, px: what is said over it fades, ``softly`` or at once.
     """
 
@@ -89,11 +134,11 @@ class HudView:
     pars: Sequence[tuple[str, float]] = ()
     keys: int | None = None
     frame_ms: float | None = None
-    said: tuple[str, tuple[int, ...], Things, Point | None, bool] | None = None
+    said: Said | None = None
     moves: Sequence[int] = ()
     letters: Sequence[str] = ()
     named: Sequence[tuple[str, float, float]] = ()
-    message: tuple[str, Sequence[str], tuple[int, ...], Things] | None = None
+    end: EndPanel | None = None
     medal: str = ""
     stamp: float = 1.0
     shine: float = 1.0
@@ -111,15 +156,15 @@ class Hud:
     def draw(self, surface: pygame.Surface, view: HudView) -> list[pygame.Rect]:
         """All of it; the px rectangles that it covers."""
         top = [self.label(surface, view.label)] if view.label else self.time_bar(surface, view.lifetime, view.pars)
-        said = self.box(*view.said, keys=KEYS_WIDE if view.moves else 0) if view.said else None
-        in_border = said is not None and said[2] == IN_BORDER
+        said = self.box(*view.said, keys=_KEYS_WIDE if view.moves else 0) if view.said else None
+        in_border = said is not None and said.y == IN_BORDER
         written = top + self.foot(surface, "" if in_border else view.foot[0], view.foot[1])
         if said is not None and in_border:
             # It lies beside the text at the right, and leaves the rest to the level's own name.
-            left = max(24.0, RIGHT - self.theme.width(view.foot[1], FOOT) - 14 - said[3])
-            said = said[0], left, *said[2:]
-            if left > NAME_FROM:
-                written += self.foot(surface, self.theme.fit(view.name, left - 36, FOOT), "")
+            left = max(24.0, _RIGHT - self.theme.width(view.foot[1], _FOOT_SIZE) - 14 - said.w)
+            said = said._replace(x=left)
+            if left > _NAME_FROM:
+                written += self.foot(surface, self.theme.fit(view.name, left - 36, _FOOT_SIZE), "")
         if view.frame_ms is not None:
             written.append(self.frame_time(surface, view.frame_ms))
         if view.keys is not None:
@@ -127,12 +172,12 @@ class Hud:
         written += [self.pointer(surface, *named) for named in view.named]
         if said is not None:
             seen = 1.0 if in_border else _clear_of(view.ninja, said, softly=view.softly)
-            place = self.theme.canvas.rect(*_area(said))
+            place = self.theme.canvas.rect(*said.area)
             behind = _behind(surface, place, seen)
             written.append(self.said(surface, said, () if in_border else view.moves, view.letters))
             _fade(surface, place, behind, seen)
-        if view.message and view.seen > 0:
-            written.append(self.message(surface, view, *view.message))
+        if view.end and view.seen > 0:
+            written.append(self.end_panel(surface, view, view.end))
         return written
 
     def time_bar(
@@ -153,11 +198,11 @@ class Hud:
             if length := bar_length(ticks):
                 canvas.fill_rect(surface, colour, _BAR_LEFT, top, length, thick, 1.5)
         for medal, ticks in pars:
-            draw_medal(surface, self.theme, medal, _BAR_LEFT + bar_length(ticks), _BAR_MIDDLE, MARK)
+            draw_medal(surface, self.theme, medal, _BAR_LEFT + bar_length(ticks), _BAR_MIDDLE, _MARK_SIZE)
         x = _BAR_LEFT + _BAR_LONGEST
         text = self.theme.text(
-            surface, f"{rounded_text(int(left))} s left" + " to live" * (left < _LAST_TICKS), RIGHT, 7.4, size=9,
-            colour=palette.on_tile, align="right", bold=True, width=RIGHT - x - 10,
+            surface, f"{rounded_text(int(left))} s left" + " to live" * (left < _LAST_TICKS), _RIGHT, 7.4, size=9,
+            colour=palette.on_tile, align="right", bold=True, width=_RIGHT - x - 10,
         )  # fmt: skip
         return [frame.union(canvas.rect(x, 2, 8, 20)) if pars else frame, text.inflate(canvas.px(8), 4)]
 
@@ -173,11 +218,11 @@ class Hud:
         theme, colour = self.theme, self.theme.palette.on_tile
         gap = 14 if left and right else 0
         # The right text grows only where that takes nothing from the left one.
-        beside = min(_FOOT_WIDTH / 2, theme.lettering.width(left, FOOT))
-        room = max(min(_FOOT_WIDTH, theme.lettering.width(right, FOOT)), _FOOT_WIDTH - beside - gap)
-        rect = theme.text(surface, right, 768, y, size=FOOT, colour=colour, align="right", width=room)
+        beside = min(_FOOT_WIDTH / 2, theme.lettering.width(left, _FOOT_SIZE))
+        room = max(min(_FOOT_WIDTH, theme.lettering.width(right, _FOOT_SIZE)), _FOOT_WIDTH - beside - gap)
+        rect = theme.text(surface, right, 768, y, size=_FOOT_SIZE, colour=colour, align="right", width=room)
         room = _FOOT_WIDTH - rect.width / theme.canvas.scale - gap
-        return [rect, theme.text(surface, left, 24, y, size=FOOT, colour=colour, width=room)]
+        return [rect, theme.text(surface, left, 24, y, size=_FOOT_SIZE, colour=colour, width=room)]
 
     def head(self, surface: pygame.Surface, left: str, right: str) -> list[pygame.Rect]:
         """A line in the border above the level, like ``foot`` below it."""
@@ -189,20 +234,21 @@ class Hud:
         rect = self.theme.text(surface, f"{ms:.1f} ms", 768, 566, size=8, colour=colour, align="right")
         return rect.inflate(self.theme.canvas.px(12), 2)
 
-    def message(
-        self, surface: pygame.Surface, view: HudView, title: str, lines: Sequence[str], tiles: tuple[int, ...],
-        things: Things,
-    ) -> pygame.Rect:  # fmt: skip
+    def end_panel(self, surface: pygame.Surface, view: HudView, end: EndPanel) -> pygame.Rect:
         """A panel: a title and lines under it; with a medal at its left, beside it the first line too, in large."""
-        theme, medal = self.theme, view.medal
+        theme, medal, (title, lines, tiles, things) = self.theme, view.medal, end
         below, beside = (26, PRIZE + 14) if medal else (0, 0)
         named, lines = (lines[0], lines[1:]) if medal else ("", lines)
-        head = max(theme.width(title, TITLE, bold=True), theme.width(named, NAMED, bold=True))
-        fits = [[line] if theme.width(line, LINE) < WIDE else wrapped(theme, line, WIDE, LINE) for line in lines]
-        lines = [part for parts in fits for part in parts]
-        w = max(220.0, head + beside, *(theme.width(line, LINE) for line in lines)) + 44
+        head = max(theme.width(title, _TITLE_SIZE, bold=True), theme.width(named, _MEDAL_SIZE, bold=True))
+
+        def fitting(line: str) -> list[str]:
+            fits = theme.width(line, _LINE_SIZE) < _LINE_WIDEST
+            return [line] if fits else wrapped(theme, line, _LINE_WIDEST, _LINE_SIZE)
+
+        lines = [part for line in lines for part in fitting(line)]
+        w = max(220.0, head + beside, *(theme.width(line, _LINE_SIZE) for line in lines)) + 44
         h = 48.0 + 18 * len(lines) + below
-        x, y = (WIDTH - w) / 2, UPPER
+        x, y = (WIDTH - w) / 2, _UPPER
         if any(worth > MUST for worth in _hidden(things, x, y, w, h)):
             x, y, *_ = solid_place(tiles, w, h, things, rows=2)
         place = theme.canvas.rect(x, y, w, h)
@@ -214,11 +260,11 @@ class Hud:
             at = middle - (head + 14) / 2, y + 9 + PRIZE / 2
             draw_stamp(surface, theme, medal, *at, PRIZE, view.stamp, view.shine)
         across = middle + beside / 2
-        theme.text(surface, title, across, y + 9, size=TITLE, align="centre", bold=True)
+        theme.text(surface, title, across, y + 9, size=_TITLE_SIZE, align="centre", bold=True)
         accent = theme.palette.accent
-        theme.text(surface, named, across, y + 43, size=NAMED, colour=accent, align="centre", bold=True)
+        theme.text(surface, named, across, y + 43, size=_MEDAL_SIZE, colour=accent, align="centre", bold=True)
         for k, line in enumerate(lines):
-            theme.text(surface, line, middle, y + 41 + below + 18 * k, size=LINE, align="centre")
+            theme.text(surface, line, middle, y + 41 + below + 18 * k, size=_LINE_SIZE, align="centre")
         _fade(surface, place, behind, view.seen)
         return rect
 
@@ -226,13 +272,13 @@ class Hud:
         """A name with an arrow to what it names: above it, or below where that is at the upper edge."""
         theme, palette = self.theme, self.theme.palette
         way = -1 if y > TAG_ROOM else 1
-        wide = theme.width(name, POINTER, bold=True) + 12
+        wide = theme.width(name, _POINTER_SIZE, bold=True) + 12
         left = min(max(x - wide / 2, 26), WIDTH - 26 - wide)
         tip, base, top = y + way * 17, y + way * 23, tag_top(y)
         box = theme.canvas.fill_rect(surface, palette.accent, left, top, wide, 16, 4)
         theme.canvas.polygon(surface, palette.accent, [(x - 6, base), (x + 6, base), (x, tip)])
         middle = left + wide / 2
-        theme.text(surface, name, middle, top + 3, size=POINTER, colour=palette.panel, align="centre", bold=True)
+        theme.text(surface, name, middle, top + 3, size=_POINTER_SIZE, colour=palette.panel, align="centre", bold=True)
         return box.inflate(theme.canvas.px(4), theme.canvas.px(18))
 
     def box(
@@ -250,12 +296,12 @@ class Hud:
     ) -> pygame.Rect:
         """A text of the level in its panel, its lines behind the keys that they are about."""
         lines, left, y, w, high, margin, size = box
-        rect = self.theme.panel(surface, *_area(box), 4)
+        rect = self.theme.panel(surface, *box.area, 4)
         for k, line in enumerate(lines):
             top = y + margin + high * k
             if moves:
                 self.keys(surface, moves[k], left + 14, top + 2, letters)
-            x, align = (left + 14 + KEYS_WIDE, "left") if moves else (left + w / 2, "centre")
+            x, align = (left + 14 + _KEYS_WIDE, "left") if moves else (left + w / 2, "centre")
             self.theme.text(surface, line, x, top + (high - size) / 2, size=size, align=align)
         return rect
 
@@ -282,20 +328,14 @@ class Hud:
         return rect
 
 
-def _area(box: Box) -> tuple[float, float, float, float]:
-    """Left, top, width and height of a text's panel, px."""
-    lines, left, y, w, high, margin, _ = box
-    return left, y, w, high * len(lines) + 2 * margin - 1
-
-
 def _clear_of(ninja: Point | None, box: Box, *, softly: bool) -> float:
-    """How solid a text's panel is, FAINT…1: the less, the nearer the ninja is to being hidden by it."""
+    """How solid a text's panel is, _FAINT…1: the less, the nearer the ninja is to being hidden by it."""
     if ninja is None:
         return 1.0
-    x, y, w, h = _area(box)
+    x, y, w, h = box.area
     away = hypot(max(x - ninja[0], 0.0, ninja[0] - x - w), max(y - ninja[1], 0.0, ninja[1] - y - h))
-    share = (away - COVERED) / (CLEAR - COVERED) if softly else float(away >= CLEAR)
-    return FAINT + (1 - FAINT) * min(1.0, max(0.0, share))
+    share = (away - _COVERED) / (_CLEAR - _COVERED) if softly else float(away >= _CLEAR)
+    return _FAINT + (1 - _FAINT) * min(1.0, max(0.0, share))
 
 
 def _behind(surface: pygame.Surface, place: pygame.Rect, seen: float) -> pygame.Surface | None:
@@ -316,7 +356,7 @@ def _fade(surface: pygame.Surface, place: pygame.Rect, behind: pygame.Surface | 
 
 def _hidden(things: Things, x: float, y: float, w: float, h: float) -> Iterator[int]:
     """What each thing is worth that a panel would hide."""
-    return (worth for a, b, worth in things if -NEAR < a - x < w + NEAR and -NEAR < b - y < h + NEAR)
+    return (worth for a, b, worth in things if -_NEAR < a - x < w + _NEAR and -_NEAR < b - y < h + _NEAR)
 
 
 @lru_cache(maxsize=4)
@@ -324,20 +364,20 @@ def _box(
     theme: Theme, text: str, tiles: tuple[int, ...], things: Things, eye: Point | None, covers: bool, keys: float
 ) -> Box:
     """As ``Hud.box``. Kept, since a text is drawn in each picture and its place takes longer than all the rest."""
-    high = SAID_LINE * theme.scales[0]
+    high = _SAID_LINE * theme.scales[0]
     if eye:
         things = (*things, (*eye, MUST))
     for rows, width in ((1, 1), (2, 1), (2, 0.6), (0, 1), (0, 0.6)):
-        lines = text.split("\n") if keys else wrapped(theme, text, width * SAID_WIDE, SAID)
-        lines = [theme.fit(line, SAID_WIDEST - keys, SAID) for line in lines]
-        w = max(theme.width(line, SAID) for line in lines) + 28 + keys
+        lines = text.split("\n") if keys else wrapped(theme, text, width * _SAID_WIDE, _SAID_SIZE)
+        lines = [theme.fit(line, _SAID_WIDEST - keys, _SAID_SIZE) for line in lines]
+        w = max(theme.width(line, _SAID_SIZE) for line in lines) + 28 + keys
         left, y, covered, hidden = solid_place(tiles, w, high * len(lines) + 19, things, eye, rows=rows)
         if hidden < (MUST if keys else 1) and (covers or not rows or not covered):
-            return lines, left, y, w, high, 10.0, SAID
+            return Box(lines, left, y, w, high, 10.0, _SAID_SIZE)
     text = text.replace("\n", "    ")
-    size = min(SAID, SAID * BESIDE_GOLD / theme.width(text, SAID))
+    size = min(_SAID_SIZE, _SAID_SIZE * _BESIDE_GOLD / theme.width(text, _SAID_SIZE))
     w = theme.width(text, size) + 28
-    return [text], (WIDTH - w) / 2, IN_BORDER, w, 17.0, 3.0, size
+    return Box([text], (WIDTH - w) / 2, IN_BORDER, w, 17.0, 3.0, size)
 
 
 @lru_cache(maxsize=4)
@@ -358,15 +398,15 @@ def solid_place(
         columns, heights = (slice(int(a // CELL) - 1, int((a + b - 1) // CELL)) for a, b in ((x, w), (y, h)))
         area = (1 << heights.stop) - (1 << heights.start)
         covered = sum((cells & area).bit_count() for cells in open_cells[columns])
-        covered += (ALONG - 1) * sum((cells & area).bit_count() for cells in ways[columns])
+        covered += (_ALONG - 1) * sum((cells & area).bit_count() for cells in ways[columns])
         hidden = sum(_hidden(things, x, y, w, h))
         far = hypot(x + w / 2 - eye[0], y + h / 2 - eye[1]) if eye else 0.0
         return covered + hidden, far or abs(x + w / 2 - WIDTH / 2) + y, hidden
 
     edge = CELL + 4
     lefts = [edge + k * (WIDTH - 2 * edge - w) / 8 for k in range(0, 9, 4 if rows else 1)]
-    apart = (LOWEST - h - edge) / max(1, rows - 1) if rows else 6
-    tops = [edge + k * apart for k in range(rows or int((LOWEST - h - edge) / 6))]
+    apart = (_LOWEST - h - edge) / max(1, rows - 1) if rows else 6
+    tops = [edge + k * apart for k in range(rows or int((_LOWEST - h - edge) / 6))]
     x, y = min(((x, y) for x in lefts for y in tops), key=cost)
     covered, _, hidden = cost((x, y))
     return x, y, covered, hidden
@@ -383,184 +423,3 @@ def _ways(tiles: tuple[int, ...]) -> tuple[list[int], list[int]]:
     return [~each & all_rows for each in full], [
         (near | near << 1 | near >> 1 | edges) & ~each & all_rows for near, each in zip(along, full, strict=True)
     ]
-
-
-NEAR, ALONG = 16.0, 7
-"""px that a panel keeps from the middle of a thing; open cells that weigh as much as a cell along rock."""
-
-FADE_TICKS, SHINE_TICKS, END_ROOM = 8, 20, 36.0
-"""In how many ticks the panel of an ended run fades in, and light sweeps over its medal; px to all sides of where the
-run ended that it leaves free."""
-
-FAINT, COVERED, CLEAR = 0.2, 10.0, 34.0
-"""How solid the panel of a text is over the ninja; px from the ninja to it at which it is so, and solid."""
-
-UPPER = 36.0
-"""Where the panel of an ended run begins, in the middle, unless it would hide that end or an exit."""
-
-LOWEST = 573.0
-"""Where it ends at the latest: below it are the level's name and what a pass has brought."""
-
-TITLE, NAMED, LINE, POINTER = 26.0, 15.0, 12.5, 9.5
-"""Sizes in the panel of a passed level: its time, the medal, the rest; and of the names of things."""
-
-WIDE = WIDTH - 150.0
-"""A longer line of the panel is broken."""
-
-MARK, RIGHT = 12.0, 768.0
-"""Size of a medal on the time bar; right edge of what is written in the borders."""
-
-PRIZE = 54.0
-"""Size of the medal of a pass."""
-
-POINTER_UP, POINTER_REACH = 24.0, 50.0
-"""px from a thing to the middle of its pointer, and to where it ends."""
-
-FOOT, IN_BORDER, BESIDE_GOLD, KEYS_WIDE, NAME_FROM = 11.0, 576.0, 490.0, 70.0, 90.0
-"""Size of the lines in the borders; where what a level says is in a border; its width there; of keys; px from which on
-there is room for a name beside it."""
-
-SAID, SAID_LINE, SAID_WIDE, SAID_WIDEST = 15.0, 22.0, 440.0, 680.0
-"""Size of what a level says, height of its lines, how wide they are at most, and how wide a single word."""
-
-_TOOLS = {"quick_save": "save", "quick_load": "load", "rewind": "rewind", "slow": "slow", "step": "step"}
-_TOOLS_NAMED = 600
-"""Ticks of a practice run in which the keys of its tools are named: where they work, and not for ever."""
-
-_THINGS = {"switch": SWITCH, "exit": EXIT}
-
-
-def hud_view(play: LevelPlay) -> HudView:
-    """What is written over a level now."""
-    app, attempt, context = play.app, play.attempt, play.context
-    key, settings = app.controls.name, app.settings
-    gold = f"{attempt.gold} / {play.all_gold}"
-    message = None
-    text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.sayings.text
-    # The start's text stays where it is; who needs to see what keys do is stuck. Both may cover open space.
-    covers = play.sayings.is_start or "\n" in text
-    said = (named_keys(text, key), context.level.tiles, play.things, play.eye, covers) if text else None
-    if play.phase is Phase.DEAD:
-        cause, _, why = cause_of_death(play).partition(". ")
-        message = cause.rstrip("."), [*filter(None, [why]), _after_death(play, key)], *_covering(play)
-    if play.phase is Phase.PASSED:
-        onward = "go on" if context.way_out is Navigation.EPISODE_END else context.onward
-        keys = f"{key('confirm')}: {onward}    {key('retry')}: play again    {key('replay')}: replay"
-        if not context.leads_on:
-            keys = f"{key('confirm')}: play again    {key('replay')}: replay    {key('back')}: leave"
-        time = f"{seconds_text(attempt.ended_tick)} s"
-        title = f"Time {time}" if play.medal else f"Passed    time {time}"
-        message = title, [*_reached(play), keys], *_covering(play)
-    hint = _hint(play, key)
-    name = shown_text(context.title)
-    title = f"{name} ({play.aim})" if play.phase is Phase.READY and play.aim else name
-    if (settings.game_speed < 100 or play.invincible or attempt.assisted) and not context.practice_mode:
-        title += f"    {NO_MEDAL}"
-    practice = "Practice" + (", slow motion" if play.tools.slow else "")
-    return HudView(
-        play.shown_lifetime,
-        practice if context.practice_mode else "",
-        (title, hint or f"gold {gold}"),
-        name=shown_text(context.entry.title),
-        pars=_pars_ahead(play),
-        keys=play.keys if settings.show_keys and not hint else None,
-        frame_ms=app.frame_ms if settings.show_frame_time else None,
-        said=said,
-        moves=[sum(bit for name, bit in MOVES if f"{{{name}}}" in line) for line in text.split("\n") if "\n" in text],
-        letters=[key(name) for name in ("left", "jump", "right")],
-        message=message,
-        named=() if message else _named(play),
-        medal=play.medal,
-        stamp=play.stamp,
-        shine=1.0 if settings.reduced_motion else (play.after_end + play.fraction - STAMP_TICKS) / SHINE_TICKS,
-        seen=1.0 if settings.reduced_motion else min(1.0, (play.after_end + play.fraction) / FADE_TICKS),
-        ninja=play.ninja_place(),
-        softly=not settings.reduced_motion,
-    )
-
-
-def _pars_ahead(play: LevelPlay) -> list[tuple[str, float]]:
-    """The medals that this try can still bring, in a level that was passed, each with the lifetime at its par."""
-    pars, attempt = play.context.pars, play.attempt
-    if pars is None or not play.aim or play.phase is Phase.PASSED:
-        return []
-    tick = attempt.simulation.tick
-    ahead = ((medal, attempt.lifetime - (pars.par(medal) - tick)) for medal in _MARKED)
-    return [(medal, ticks) for medal, ticks in ahead if 0 < ticks < min(attempt.lifetime, LIFETIME)]
-
-
-def _covering(play: LevelPlay) -> tuple[tuple[int, ...], Things]:
-    """The tiles and things of which the panel of an ended run covers little; never where it ended, nor an exit."""
-    x, y = play.eye or (0.0, 0.0)
-    end = [(x + dx, y + dy, 9 * MUST) for dx in (-END_ROOM, 0, END_ROOM) for dy in (-END_ROOM, 0, END_ROOM)]
-    exits = [(o.x, o.y, 9 * MUST) for o in play.attempt.simulation.world.objects[1:] if o.kind == EXIT]
-    return play.context.level.tiles, (*end, *exits, *play.things)
-
-
-def _reached(play: LevelPlay) -> list[str]:
-    """The medal; what the next one needs; the gold of a passed run, what that has brought, and what it leaves."""
-    attempt, pars = play.attempt, play.context.pars
-    following = (
-        [next_par(pars, Mark(attempt.ended_tick, 0)) or "The best medal there is. Well run!"]
-        if pars and play.medal
-        else []
-    )
-    gold = f"{attempt.gold} of {play.all_gold} gold" if attempt.gold < play.all_gold else f"All {play.all_gold} gold"
-    medal = [f"{play.medal.capitalize()} medal"] if play.medal else []
-    clock = [f"{rounded_text(attempt.lifetime)} s left on the clock, for the next level"] * play.context.carries_clock
-    # Of a first pass all is new, and the medal and the gold are said already.
-    first = FIRST_PASS in play.notices
-    news = [each for each in play.notices if each != NEW_ALL_GOLD and not (first and each in OF_A_LEVEL)]
-    return [*medal, *following, "    ".join([gold, *news]), *clock]
-
-
-def _named(play: LevelPlay) -> list[tuple[str, float, float]]:
-    """What the level names, and where it is until it is used: never over the ninja."""
-    world = play.attempt.simulation.world
-    return [
-        (name, o.x, o.y)
-        for name in play.sayings.named
-        for o in world.objects[1:]
-        if o.kind == _THINGS[name] and not (o.kind == SWITCH and world.objects[o.partner].is_open)
-        if hypot(o.x - world.ninja.x, o.y - POINTER_UP - world.ninja.y) > POINTER_REACH
-    ]
-
-
-def _hint(play: LevelPlay, key: KeyName) -> str:
-    """What to press now; "" in play and after it."""
-    if play.phase is Phase.READY:
-        show_tutorial = play.show_tutorial and not play.sayings.text
-        return _ready_hint(key, practice_mode=play.context.practice_mode, show_tutorial=show_tutorial)
-    if play.tools.stepping:
-        return f"{key('step')}: one tick    {key('confirm')} or any move: go on"
-    named = play.phase is not Phase.PASSED and play.attempt.simulation.tick < _TOOLS_NAMED
-    if play.context.practice_mode and named:
-        return "    ".join(f"{key(action)}: {name}" for action, name in _TOOLS.items())
-    return ""
-
-
-def _after_death(play: LevelPlay, key: KeyName) -> str:
-    """What to press after a death."""
-    again = f"{key('confirm')} or {key('jump')}: try again"
-    return f"{again}    {key('replay')}: watch it" + f"    {key('skip')}: get help" * play.is_stuck
-
-
-def _ready_hint(key: KeyName, *, practice_mode: bool, show_tutorial: bool) -> str:
-    begin = f"{key('confirm')} or any move to start"
-    if show_tutorial:
-        return f"{key('left')} and {key('right')} to run    {key('jump')} to jump, hold it to go higher    {begin}"
-    if practice_mode:
-        return f"{begin}    {key('overlay_hitboxes')} to {key('overlay_thinkers')}: look inside"
-    return begin
-
-
-def cause_of_death(play: LevelPlay) -> str:
-    if play.attempt.own_hand:
-        return "You gave up."
-    if play.killer != SELF:
-        return f"Killed by a {play.killer}." + f" {WHY[play.killer]}" * play.sayings.helps
-    if play.crushed:
-        return "You were crushed."
-    if play.attempt.lifetime <= 0:
-        return "Out of time."
-    return "You hit the ground too hard." + f" {FALL_HELP}" * play.sayings.helps

@@ -34,8 +34,10 @@ LATE_JUMP = 8
 STAMP_TICKS = 14
 """Ticks after the exit contact until the medal is stamped."""
 
-TRIES_FROM, TRIES_TICKS, MOST_TRIES = 40, 80, 24
-"""The failed tries run together: from so many ticks after the exit contact, for so many, the newest so many."""
+# The failed tries run together after a pass.
+TRIES_FROM = 40  # ticks after the exit contact
+TRIES_TICKS = 80  # for so long
+MOST_TRIES = 24  # the newest ones
 
 SLOW_TICK_MS = 100
 """A tick in slow motion: a quarter of the speed."""

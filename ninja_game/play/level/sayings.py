@@ -14,16 +14,17 @@ from ninja_game.sim.states import SLIDING
 NEAR = 2.5 * CELL
 """px from the middle of its cell within which a text with a place is said."""
 
-SHOWN_TICKS, START_TICKS = 240, 480
-"""How long a text stays after its event, and in play those of the start and of the switch, which tell the way."""
+SHOWN_TICKS = 240  # for which a text stays after its event
+START_TICKS = 480  # likewise, in play those of the start and of the switch, which tell the way
 
 STILL = 0.05
 """px in a tick that are no motion."""
 
 AGAIN = "Stuck? {retry} starts the level over"
-STILL_TICKS, QUIET_TICKS, AWAY = 400, 800, 2 * CELL
-"""AGAIN is said to players who stand or lie still for so many ticks, so many after any text, so many px from the start:
-who waits as a text told them is not stuck."""
+# AGAIN is said to players who are stuck; who waits as a text asks them to is not.
+STILL_TICKS = 400  # for which they stand or lie still
+QUIET_TICKS = 800  # since any text
+AWAY = 2 * CELL  # from the start, px
 
 CLIMB = (
     "Hold %s, and press {jump} each time you touch the wall\n"

@@ -13,7 +13,8 @@ from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
 from ninja_game.play.app import App, Screen
 from ninja_game.play.clipboard import copy_level_link, copy_link
-from ninja_game.play.level.hud import Hud, hud_view
+from ninja_game.play.level.hud import Hud
+from ninja_game.play.level.hud_view import hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, LATE_JUMP, STUCK_AFTER, LevelPlay, Phase
 from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.menu_screen import Menu, Panel, Row, nothing
@@ -22,7 +23,7 @@ from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.attempt import Attempt
-from ninja_game.player.catalogue import Entry
+from ninja_game.player.catalogue import Entry, Mood
 from ninja_game.player.player_data import keep_replay
 from ninja_game.player.playthrough import EpisodeRun, LevelContext, LevelRun, Navigation
 from ninja_game.player.progress import opens_author
@@ -57,7 +58,7 @@ class LevelScreen(Screen):
         self.play.view.overlays = self.overlays
 
     @property
-    def mood(self) -> int:
+    def mood(self) -> Mood:
         return self.context.entry.mood
 
     @property
@@ -66,7 +67,7 @@ class LevelScreen(Screen):
         if self.context.practice_mode and not self.app.settings.music_in_practice:
             return SILENCE
         entry = self.context.entry
-        column = entry.mood % 10 if entry.episode else int(entry.digest[:8], 16)
+        column = entry.mood.column if entry.episode else int(entry.digest[:8], 16)
         return BY_COLUMN[column % len(BY_COLUMN)]
 
     @property
@@ -174,8 +175,8 @@ class LevelScreen(Screen):
         if self.phase is Phase.PLAY:
             self.play.pause()
 
-        told = "Restarts the level. No records until you turn it off here"
-        slow = f"Slow down to {SLOWER}%", partial(self._play_at, SLOWER), told
+        hint = "Restarts the level. No records until you turn it off here"
+        slow = f"Slow down to {SLOWER}%", partial(self._play_at, SLOWER), hint
         full = "Full speed", partial(self._play_at, 100), "Back to normal: records count again"
         watch_it = partial(self._watch, run), "See the author of the level do it"
         why = f"after {STUCK_AFTER} failed tries" if run else "no run recorded"

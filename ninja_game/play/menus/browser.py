@@ -84,7 +84,7 @@ class Browser(ThumbnailScreen):
         self.entries = catalogue.singles()
         self.bests = self.player.records.level_bests()
         self.marks = self.player.marks.all()
-        self.problems = of_files(catalogue.told)
+        self.problems = of_files(catalogue.shown_problems)
         self.message = ""
         self._arrange()
         super().enter()

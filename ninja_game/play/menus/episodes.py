@@ -135,7 +135,7 @@ class EpisodeGrid(ThumbnailScreen):
         catalogue = self.player.catalogue
         catalogue.problems.clear()
         self.packs = [pack for pack in catalogue.packs() if pack.episodes]
-        self.problems = of_files(catalogue.told)
+        self.problems = of_files(catalogue.shown_problems)
         self.pack = next((pack for pack in self.packs if pack.key == key), catalogue.ours)
 
     @property

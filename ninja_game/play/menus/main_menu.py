@@ -26,7 +26,7 @@ from ninja_game.play.menus.replays import RecordsScreen, ReplaysScreen
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.playback import Playback, RunClock
 from ninja_game.play.window import LOGO
-from ninja_game.player.catalogue import Entry
+from ninja_game.player.catalogue import Entry, Mood
 from ninja_game.player.playthrough import EpisodeRun, next_run
 from ninja_game.runtime import in_page_or_not
 from ninja_game.simulation import Simulation
@@ -57,7 +57,7 @@ class MainMenu(MenuScreen):
         self._lost = ""
 
     @property
-    def mood(self) -> int:
+    def mood(self) -> Mood:
         """That of the level behind it: other worlds are seen before one gets there."""
         return self.attract.mood
 
@@ -182,7 +182,7 @@ class Attract:
 
     def __init__(self, app: App) -> None:
         self.app = app
-        self.shown = self.mood = 0
+        self.shown, self.mood = 0, Mood()
         self._clock = RunClock()
         self._rng = Random()  # noqa: S311 - the order is no secret
         self._order = self._shuffled()
@@ -210,7 +210,7 @@ class Attract:
                 continue
             self._playback = Playback(simulation, recording.inputs, spacing=0)
             self._until = len(self._playback.inputs) + REST_TICKS
-            self.mood = self.app.player.catalogue.mood_of(recording.level) or 0
+            self.mood = self.app.player.catalogue.mood_of(recording.level) or Mood()
             self.app.follow_mood(self.mood)
             self.view = LevelView(self.app, simulation, seed=self.shown, audible=False)
             self.name = recording.name

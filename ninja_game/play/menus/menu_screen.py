@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 import pygame
 
 from ninja_game.play.app import CALM, App, Screen
+from ninja_game.player.catalogue import Mood
 from ninja_game.player.player_data import PlayerData
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.input.bindings import InputEvent
@@ -51,7 +52,7 @@ class MenuScreen(Screen):
         self._dragged: Widget | None = None
 
     @property
-    def mood(self) -> int:
+    def mood(self) -> Mood:
         return CALM
 
     @property
@@ -299,7 +300,7 @@ class Panel(MenuScreen):
         self._mood = app.mood
 
     @property
-    def mood(self) -> int:
+    def mood(self) -> Mood:
         """That of the screen below, which is seen; the panel itself looks like all menus."""
         return self._mood
 

@@ -10,7 +10,7 @@ import pygame
 
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
-from ninja_game.play.level.hud import SHINE_TICKS
+from ninja_game.play.level.hud_view import SHINE_TICKS
 from ninja_game.play.level.play import STAMP_TICKS
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.replays import watch
@@ -160,18 +160,18 @@ class EpisodePassed(ThumbnailScreen):
             shine = (self.ticks - self._marks_end - STAMP_TICKS) / SHINE_TICKS
             draw_stamp(surface, theme, self.medal, WIDTH / 2 - half - 52, MIDDLE, PRIZE, stamp, shine)
         best = self._best
-        told, news = "", [notice for notice in run.notices if notice not in OF_A_LEVEL and notice != EPISODE_BEST]
+        note, news = "", [notice for notice in run.notices if notice not in OF_A_LEVEL and notice != EPISODE_BEST]
         if not run.whole:
-            told = "A level was skipped or passed with help: this does not count as a record"
-            told = "Practice counts for no record" if run.practice_mode else told
+            note = "A level was skipped or passed with help: this does not count as a record"
+            note = "Practice counts for no record" if run.practice_mode else note
         elif best is None or best.score <= run.score:
             theme.text(surface, "Your best", WIDTH / 2 + half + 16, 310, size=13, colour=palette.good, bold=True)
         else:
-            told = f"Your best: {seconds_text(best.score)} s left"
+            note = f"Your best: {seconds_text(best.score)} s left"
         theme.text(surface, CLOCK, WIDTH / 2, 350, size=11, colour=palette.faint, align="centre")
         if self.medal:
             news.insert(0, f"{self.medal.capitalize()} medal: every level has it, or a better one")
-        for line, notice in enumerate([*filter(None, [told]), *news][:4]):
+        for line, notice in enumerate([*filter(None, [note]), *news][:4]):
             y = 370 + 17 * line
             theme.text(
                 surface, notice, WIDTH / 2, y, size=12, colour=palette.good, align="centre", width=WIDTH - 96, height=17

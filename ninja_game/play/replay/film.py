@@ -117,11 +117,11 @@ def section_of(films: Sequence[Film], first: int, last: int | None) -> list[Film
 
 
 class _Panel:
-    """A run in a picture of its own. ``told``: tick and text of each of its splits."""
+    """A run in a picture of its own. ``splits``: tick and text of each of its splits."""
 
-    def __init__(self, film: Film, run: Recording, told: Sequence[tuple[int, str]]) -> None:
+    def __init__(self, film: Film, run: Recording, splits: Sequence[tuple[int, str]]) -> None:
         context = OffscreenContext(film.size, film.settings)
-        self.film, self.run, self.told, self.time = film, run, told, 0
+        self.film, self.run, self.splits, self.time = film, run, splits, 0
         alike = [each.title for each in (film.run, *film.beside)].count(run.title) > 1
         self.title = run.title + f", {run.place}" * (alike and bool(run.place))
         self.playback = Playback(Simulation(run.level, body=run.body), run.inputs, spacing=0)
@@ -151,7 +151,7 @@ class _Panel:
             covered = [hud.label(surface, self.title)]
         words = [self.title] * bool(run.episode)
         if self.film.splits:
-            words += [f"{seconds_text(self.time)} s", *[text for tick, text in self.told if tick < world.tick][-1:]]
+            words += [f"{seconds_text(self.time)} s", *[text for tick, text in self.splits if tick < world.tick][-1:]]
         for name, ghost in self.ghosts if self.view.context.settings.show_ghost else ():
             x, y = ghost.place(1.0)
             if is_near(x, y):
@@ -169,7 +169,7 @@ def _called(runs: Sequence[Recording]) -> list[str]:
     return [(run.place or name if names.count(name) > 1 else name)[:20] for run, name in zip(runs, names, strict=True)]
 
 
-def told_splits(own: RunSplits, others: Sequence[RunSplits]) -> list[tuple[int, str]]:
+def split_texts(own: RunSplits, others: Sequence[RunSplits]) -> list[tuple[int, str]]:
     """Tick and text of each split of a run: how many ticks later (+) or earlier (-) the others have it."""
     from ninja_game.runs.compare import split_name
 
@@ -186,13 +186,13 @@ def told_splits(own: RunSplits, others: Sequence[RunSplits]) -> list[tuple[int, 
 def film_pictures(film: Film) -> Iterator[pygame.Surface]:
     """One picture a tick, always the same surface. Raises what ``Film.moments`` does."""
     moments, (w, h), runs = film.moments, film.size, (film.run, *film.beside)
-    told: list[list[tuple[int, str]]] = [[]] * len(runs)
+    splits: list[list[tuple[int, str]]] = [[]] * len(runs)
     if film.splits:
         from ninja_game.runs.compare import run_splits
 
         first, *others = [run_splits(each, memory="auto") for each in (*runs, *film.ghosts)]
-        told = [told_splits(first, others), *(told_splits(each, [first]) for each in others[: len(film.beside)])]
-    panels = [_Panel(film, *each) for each in zip(runs, told, strict=True)]
+        splits = [split_texts(first, others), *(split_texts(each, [first]) for each in others[: len(film.beside)])]
+    panels = [_Panel(film, *each) for each in zip(runs, splits, strict=True)]
     panels[0].follow(film.ghosts)
     surface = pygame.Surface(film.whole_size)
     places = [surface.subsurface((number % 2 * w, number // 2 * h, w, h)) for number in range(len(runs))]

@@ -17,6 +17,7 @@ from ninja_game.play.app import App, Screen
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.replay.playback import Ghost, Playback, RunClock
+from ninja_game.player.catalogue import Mood
 from ninja_game.sim.rules import TICK_MS, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
@@ -59,7 +60,7 @@ class ReplayScreen(Screen):
         self.show(0)
 
     @property
-    def mood(self) -> int:
+    def mood(self) -> Mood:
         return super().mood if self._mood is None else self._mood
 
     def show(self, index: int) -> None:

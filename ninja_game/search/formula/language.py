@@ -31,8 +31,8 @@ UNTRUE = -1000.0
 FAR = " far"
 """Behind the name of a fact: what a view may have as its margin where it is not so, less than 0."""
 
-LONGEST, DEEPEST = 1000, 40
-"""Characters of a formula, and how deep its parts lie in one another."""
+LONGEST = 1000  # characters of a formula
+DEEPEST = 40  # levels of brackets and operators in it
 
 _FOREIGN = re.compile(r"[^\w\s.+\-*/<>=!(),]", re.ASCII)
 

@@ -126,8 +126,8 @@ def search_span(
     return results.best
 
 
-CUTS, AHEAD = (20, 60, 180, 540), 600
-"""Last ticks of a run that are left out, one after the other; ticks in which the exit is looked for behind them."""
+CUTS = 20, 60, 180, 540  # last ticks of a run that are left out, one after the other
+AHEAD = 600  # ticks after the cut in which the exit is looked for
 
 
 def to_exit(

@@ -126,7 +126,7 @@ class RollMouse:
         self._at = (0, 0)
         self._waited = 0
         self._clicked = (-1, -DOUBLE_MS)
-        self._told = ""
+        self._row_hint = ""
 
     def handle_mouse(self, event: pygame.Event, x: int, y: int) -> bool:
         """A mouse event at a px; whether it was used."""
@@ -150,8 +150,8 @@ class RollMouse:
         self._doing = ""
 
     def update(self, real_ms: int) -> None:
-        """Scroll on while the pointer is beyond the upper or lower edge; what is told of a row stays true."""
-        if self._told and self._editor.hint == self._told:
+        """Scroll on while the pointer is beyond the upper or lower edge; the hint about a row stays true."""
+        if self._row_hint and self._editor.hint == self._row_hint:
             self._tell(*self._at)
         if self._doing not in ("paint", "select"):
             return
@@ -247,7 +247,7 @@ class RollMouse:
             rest = column.name in ("state", "jump_timer", "contacts", "gold", "exit")
             row = row_facts(self._editor, tick, tick + 1)[0]
             self._editor.hint = keys_in_words(row, other.name) if other else in_words(row, numbers=not rest)
-        self._told = self._editor.hint
+        self._row_hint = self._editor.hint
 
 
 class ScrollBar:

@@ -254,7 +254,6 @@ def arm(shoulder: Point, hand: Point, facing: int) -> Limb:
 
 
 def paint_trunk(s: Sketch, colour: pygame.Color, head: Point, shoulder: Point, pelvis: Point) -> None:
-    """Trunk, neck and head."""
     s.stroke(colour, shoulder, pelvis, 3.4, 2.5)
     s.stroke(colour, shoulder, head, 1.6)
     s.disc(colour, *head, HEAD)

@@ -33,8 +33,9 @@ from ninja_game.view.sprites.sketch import Sketch
 
 _BLEND_TICKS = 3.0
 """A new state's pose takes over from the old one in this many ticks."""
-SQUASH, MOST_SQUASH, SQUASH_KEPT = 0.045, 0.32, 0.72
-"""How much a landing presses the figure together for each px/tick, at most, and the share left a tick later."""
+SQUASH = 0.045  # how much a landing presses the figure together, for each px/tick
+MOST_SQUASH = 0.32
+SQUASH_KEPT = 0.72  # share that is left a tick later
 _BALANCE = 0.65
 """Share of a slope's angle by which a body on it holds itself upright."""
 _UPRIGHT = 0.9

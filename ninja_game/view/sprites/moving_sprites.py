@@ -188,8 +188,9 @@ def draw_moving(target: DrawTarget, world: World, animation: ObjectAnimation, fr
             PAINTERS[m.o.kind](target, m)
 
 
-PULSE_TICKS, PULSE_FROM, PULSE_REACH = 60, 13.0, 12.0
-"""How often a ring leaves a switch; its radius at first, and by how much that grows in half of this time, px."""
+PULSE_TICKS = 60  # between two rings that leave a switch
+PULSE_FROM = 13.0  # radius of a ring at first, px
+PULSE_REACH = 12.0  # by which it grows in half of PULSE_TICKS, px
 
 
 def draw_pulses(target: DrawTarget, world: World, animation: ObjectAnimation, fraction: float) -> None:

@@ -248,8 +248,8 @@ def _play(entry: Entry, game: str) -> Content:
 
 def objects_text(entry: Entry) -> str:
     counts = Counter(KIND_NAMES[spec.kind] for spec in entry.named.level.objects if makes_object(spec))
-    told = [counted(count, kind, "gold" * (kind == "gold")) for kind, count in counts.most_common()]
-    return ", ".join(told) or "none"
+    texts = [counted(count, kind, "gold" * (kind == "gold")) for kind, count in counts.most_common()]
+    return ", ".join(texts) or "none"
 
 
 def _pars(pars: Pars) -> Markup:

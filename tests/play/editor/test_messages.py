@@ -192,7 +192,7 @@ def test_the_selected_message_lies_in_the_level_where_it_does_in_play(
     shown: list[tuple[str, float, float]] = []
 
     def said(_: Hud, __: pygame.Surface, box: Box, *___: object) -> pygame.Rect:
-        shown.append((box[0][0], box[1], box[2]))
+        shown.append((box.lines[0], box.x, box.y))
         return pygame.Rect(0, 0, 1, 1)
 
     monkeypatch.setattr(Hud, "said", said)

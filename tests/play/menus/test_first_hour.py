@@ -9,7 +9,8 @@ import pytest
 
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.sayings import read_sayings
-from ninja_game.play.level.hud import IN_BORDER, Hud, cause_of_death, hud_view, solid_place
+from ninja_game.play.level.hud import IN_BORDER, Hud, Said, solid_place
+from ninja_game.play.level.hud_view import cause_of_death, hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, MUST, STUCK_AFTER, Phase, tag_top
 from ninja_game.play.level.sayings import CLIMB, CLIMBED, FALL_HELP, QUIET_TICKS, START_TICKS, Sayings
 from ninja_game.play.level.screen import LevelScreen, PausePanel, play_level
@@ -118,7 +119,7 @@ def test_text_of_the_start_hides_neither_a_thing_nor_gold_nor_the_way(driver: Me
         hud = Hud(app.theme)
         box = hud.box(*shown)
         card = hud.said(app.surface, box)
-        bands += abs(box[2] - 28) < 1 or abs(box[2] + box[4] * len(box[0]) + 19 - 573) < 1
+        bands += abs(box.y - 28) < 1 or abs(box.y + box.high * len(box.lines) + 19 - 573) < 1
         texts += 1
         way, places = Simulation(each.named.level), [(o.x, o.y) for o in play.attempt.simulation.world.objects[1:]]
         for keys in run.inputs:
@@ -376,9 +377,9 @@ def stuck_level(driver: MenuDriver) -> LevelScreen:
 
 def test_nobody_is_stopped_by_one_level(driver: MenuDriver) -> None:
     level = stuck_level(driver)
-    message = hud_view(level.play).message
-    assert message
-    assert message[1][-1].endswith("N: get help")
+    end = hud_view(level.play).end
+    assert end
+    assert end.lines[-1].endswith("N: get help")
     driver.press("n")
     assert [getattr(each, "text", "") for each in driver.shown(Menu).widgets] == [
         "Try again", "Watch how", "Slow down to 70%", "Skip this level",
@@ -451,9 +452,9 @@ def test_a_win_in_levels_leads_to_the_next_one_that_is_open(driver: MenuDriver) 
         driver.play_replay(number)
         assert level.phase is Phase.PASSED
         titles.append(level.context.title)
-        message = hud_view(level.play).message
-        assert message
-        assert message[1][-1].startswith("Space: next level    R: play again")
+        end = hud_view(level.play).end
+        assert end
+        assert end.lines[-1].startswith("Space: next level    R: play again")
         driver.press("return")
     assert titles == ["First Steps", "Mind the Gap"]
     driver.press("q")
@@ -472,7 +473,7 @@ def test_text_in_play_lies_over_rock_near_the_ninja_or_else_in_the_border(driver
     assert covers, "the text of the start stays where it was"
     level.play.eye = (40, 500)
     level.play.sayings.text = "Another one"
-    assert hud_view(level.play).said == ("Another one", tiles, things, (40, 500), False)
+    assert hud_view(level.play).said == Said("Another one", tiles, things, (40, 500), covers=False)
     for eye in ((40.0, 440.0), (750.0, 440.0)):
         lines, left, y, w, high, *_ = hud.box(text, tiles, things, eye, covers=False)
         assert y < IN_BORDER
@@ -484,7 +485,7 @@ def test_text_in_play_lies_over_rock_near_the_ninja_or_else_in_the_border(driver
     assert shown.top < driver.app.canvas.px(120), "near the upper border, in the open too"
     assert not shown.collidepoint(driver.app.canvas.point(396, 60)), "but never over the ninja"
     everywhere = tuple((12.0 + 24 * x, 12.0 + 24 * y, MUST) for x in range(33) for y in range(25))
-    assert hud.box(text, (0,) * 713, everywhere, None, covers=False)[2] == IN_BORDER
+    assert hud.box(text, (0,) * 713, everywhere, None, covers=False).y == IN_BORDER
 
 
 WELL = room_level(["#...#"] * 10 + ["#@..#"], ())

@@ -8,7 +8,8 @@ import pygame
 import pytest
 
 from ninja_game.formats.run_time import rounded_text, seconds_text
-from ninja_game.play.level.hud import PRIZE, Hud, HudView, hud_view
+from ninja_game.play.level.hud import PRIZE, EndPanel, Hud, HudView, Said
+from ninja_game.play.level.hud_view import hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, MUST, STAMP_TICKS, TRIES_FROM, TRIES_TICKS, Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.passed import FEAST_TICKS, EpisodePassed
@@ -85,26 +86,26 @@ def test_card_says_one_thing_large_one_next_and_the_rest_short(driver: MenuDrive
     assert level.context.pars
     par = level.context.pars.par("gold")
     level.attempt.ended_tick = par + 1
-    title, (medal, following, rest, clock, _), *_ = hud_view(level.play).message or ("", [""], (), ())
+    title, (medal, following, rest, clock, _), *_ = hud_view(level.play).end or EndPanel("", [""], (), ())
     assert title == f"Time {seconds_text(level.attempt.ended_tick)} s"
     assert (medal, following) == ("Silver medal", f"Gold medal: {seconds_text(par)} s, 0.025 s to go")
     assert rest == "1 of 5 gold"
     assert clock == f"{rounded_text(level.attempt.lifetime)} s left on the clock, for the next level"
     level.play.notices = ["New medal", "All gold"]
-    assert "1 of 5 gold    New medal" in hud_view(level.play).message[1]  # type: ignore[index]
+    assert "1 of 5 gold    New medal" in hud_view(level.play).end.lines  # type: ignore[union-attr]
 
 
 def test_panel_of_an_end_has_one_place_unless_it_would_hide_that_end_or_an_exit(driver: MenuDriver) -> None:
     hud, surface = Hud(driver.app.theme), pygame.Surface((792, 600))
 
     def top_of(*things: tuple[float, float, int]) -> int:
-        message = "Time 1 s", ["Go on"], (0,) * 713, things
-        return hud.message(surface, HudView(0, "", ("", ""), message=message), *message).y
+        end = EndPanel("Time 1 s", ["Go on"], (0,) * 713, things)
+        return hud.end_panel(surface, HudView(0, "", ("", ""), end=end), end).y
 
     assert top_of((396, 90, MUST)) == top_of() == top_of((396, 500, 9 * MUST))
     assert top_of((396, 90, 9 * MUST)) != top_of()
     level = passed_level(driver)
-    _, _, _, things = hud_view(level.play).message or ("", [], (), ())
+    _, _, _, things = hud_view(level.play).end or EndPanel("", [], (), ())
     exits = [(o.x, o.y, 9 * MUST) for o in level.attempt.simulation.world.objects[1:] if o.kind == EXIT]
     assert set(exits) <= set(things)
 
@@ -134,12 +135,12 @@ def test_an_episode_passed_is_a_feast_unless_motion_is_reduced(driver: MenuDrive
 
 
 def test_a_text_in_the_border_leaves_room_for_the_name_of_the_level(driver: MenuDriver) -> None:
-    said = (
+    said = Said(
         "Some words that say a lot about a level in which there is no rock at all",
         (0,) * 713,
         tuple((24.0 * column, 24.0 * row, MUST) for column in range(33) for row in range(25)),
         (396.0, 300.0),
-        False,
+        covers=False,
     )
     view = HudView(3600, "", ("Episode 1.1, level 1: Long Name", "gold 0 / 5"), name="Long Name", said=said)
     log = DrawLog()
@@ -236,21 +237,21 @@ def test_cause_of_death_stands_large_at_once(driver: MenuDriver) -> None:
     driver.keys.script = [2] * 60
     driver.frames(60)
     assert level.phase is Phase.DEAD
-    title, lines, *_ = hud_view(level.play).message or ("", [], (), ())
+    title, lines, *_ = hud_view(level.play).end or EndPanel("", [], (), ())
     assert (title, lines[0]) == ("Killed by a mine", "Mines never move: give them some room.")
     for level.play.after_end in (0, DEATH_PAUSE + 1):
-        message = hud_view(level.play).message or ("", [], (), ())
-        assert message[1] == [lines[0], "Space or Z: try again    V: watch it"], "the panel has its size at once"
+        end = hud_view(level.play).end or EndPanel("", [], (), ())
+        assert end.lines == [lines[0], "Space or Z: try again    V: watch it"], "the panel has its size at once"
 
 
 def test_panel_of_an_end_fades_in_as_a_whole_and_its_medal_hides_no_word(driver: MenuDriver) -> None:
     hud, empty = Hud(driver.app.theme), pygame.Surface((792, 600))
-    message = ("Time 123456.8 s", ["Gold medal", "Go on"], (1,) * 713, ())
+    end = EndPanel("Time 123456.8 s", ["Gold medal", "Go on"], (1,) * 713, ())
 
     def drawn(stamp: float, seen: float) -> tuple[pygame.Surface, pygame.Rect]:
         surface = empty.copy()
-        view = HudView(0, "", ("", ""), message=message, medal="gold", stamp=stamp, seen=seen)
-        return surface, hud.message(surface, view, *message)
+        view = HudView(0, "", ("", ""), end=end, medal="gold", stamp=stamp, seen=seen)
+        return surface, hud.end_panel(surface, view, end)
 
     whole, box = drawn(1.0, 1.0)
     assert pygame.image.tobytes(drawn(1.0, 0.0)[0], "RGB") == pygame.image.tobytes(empty, "RGB")
@@ -278,8 +279,8 @@ def test_panel_of_an_end_leaves_free_where_the_run_ended(driver: MenuDriver, siz
             level.begin()
             level.give_up()
             view = hud_view(level.play)
-            assert view.message
-            panel = hud.message(driver.app.surface, view, *view.message)
+            assert view.end
+            panel = hud.end_panel(driver.app.surface, view, view.end)
             assert not panel.colliderect(driver.app.canvas.rect(ninja.x - 30, ninja.y - 30, 60, 60))
             level.retry()
             ninja = level.attempt.simulation.world.ninja

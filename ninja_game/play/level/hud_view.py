@@ -1,0 +1,167 @@
+"""What to write over a level now: its words, medals and panels; ``hud`` places and draws them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import hypot
+
+from ninja_game.files.shown_text import shown_text
+from ninja_game.formats.run_time import rounded_text, seconds_text
+from ninja_game.formats.sayings import named_keys
+from ninja_game.play.level.hud import EndPanel, HudView, Said
+from ninja_game.play.level.play import MUST, STAMP_TICKS, LevelPlay, Phase, Things
+from ninja_game.play.level.sayings import FALL_HELP, WHY
+from ninja_game.player.player_data import FIRST_PASS, NEW_ALL_GOLD, OF_A_LEVEL
+from ninja_game.player.playthrough import Navigation
+from ninja_game.player.progress import NO_MEDAL, Mark, next_par
+from ninja_game.player.records import SELF
+from ninja_game.sim.kinds import EXIT, SWITCH
+from ninja_game.sim.rules import LIFETIME
+from ninja_game.ui.input.bindings import MOVES
+
+FADE_TICKS = 8  # in which the panel of an ended run fades in
+SHINE_TICKS = 20  # in which light sweeps over its medal
+_END_ROOM = 36.0  # px to all sides of where the run ended that the panel leaves free
+_POINTER_UP = 24.0  # px from a thing to the middle of its pointer
+_POINTER_REACH = 50.0  # px between them at which the ninja is clear of the pointer
+_MARKED = "silver", "gold"  # medals on the time bar
+_TOOLS = {"quick_save": "save", "quick_load": "load", "rewind": "rewind", "slow": "slow", "step": "step"}
+_TOOLS_NAMED = 600  # ticks of a practice run in which their keys are named: where they work, and not for ever
+_THINGS = {"switch": SWITCH, "exit": EXIT}
+
+KeyName = Callable[[str], str]  # gives what to press for an action
+
+
+def hud_view(play: LevelPlay) -> HudView:
+    """What is written over a level now."""
+    app, attempt, context = play.app, play.attempt, play.context
+    key, settings = app.controls.name, app.settings
+    gold = f"{attempt.gold} / {play.all_gold}"
+    end = None
+    text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.sayings.text
+    # The start's text stays where it is; who needs to see what keys do is stuck. Both may cover open space.
+    covers = play.sayings.is_start or "\n" in text
+    said = Said(named_keys(text, key), context.level.tiles, play.things, play.eye, covers) if text else None
+    if play.phase is Phase.DEAD:
+        cause, _, why = cause_of_death(play).partition(". ")
+        end = EndPanel(cause.rstrip("."), [*filter(None, [why]), _after_death(play, key)], *_covering(play))
+    if play.phase is Phase.PASSED:
+        onward = "go on" if context.way_out is Navigation.EPISODE_END else context.onward
+        keys = f"{key('confirm')}: {onward}    {key('retry')}: play again    {key('replay')}: replay"
+        if not context.leads_on:
+            keys = f"{key('confirm')}: play again    {key('replay')}: replay    {key('back')}: leave"
+        time = f"{seconds_text(attempt.ended_tick)} s"
+        title = f"Time {time}" if play.medal else f"Passed    time {time}"
+        end = EndPanel(title, [*_reached(play), keys], *_covering(play))
+    hint = _hint(play, key)
+    name = shown_text(context.title)
+    title = f"{name} ({play.aim})" if play.phase is Phase.READY and play.aim else name
+    if (settings.game_speed < 100 or play.invincible or attempt.assisted) and not context.practice_mode:
+        title += f"    {NO_MEDAL}"
+    practice = "Practice" + (", slow motion" if play.tools.slow else "")
+    return HudView(
+        play.shown_lifetime,
+        practice if context.practice_mode else "",
+        (title, hint or f"gold {gold}"),
+        name=shown_text(context.entry.title),
+        pars=_pars_ahead(play),
+        keys=play.keys if settings.show_keys and not hint else None,
+        frame_ms=app.frame_ms if settings.show_frame_time else None,
+        said=said,
+        moves=[sum(bit for name, bit in MOVES if f"{{{name}}}" in line) for line in text.split("\n") if "\n" in text],
+        letters=[key(name) for name in ("left", "jump", "right")],
+        end=end,
+        named=() if end else _named(play),
+        medal=play.medal,
+        stamp=play.stamp,
+        shine=1.0 if settings.reduced_motion else (play.after_end + play.fraction - STAMP_TICKS) / SHINE_TICKS,
+        seen=1.0 if settings.reduced_motion else min(1.0, (play.after_end + play.fraction) / FADE_TICKS),
+        ninja=play.ninja_place(),
+        softly=not settings.reduced_motion,
+    )
+
+
+def _pars_ahead(play: LevelPlay) -> list[tuple[str, float]]:
+    """The medals that this try can still bring, in a level that was passed, each with the lifetime at its par."""
+    pars, attempt = play.context.pars, play.attempt
+    if pars is None or not play.aim or play.phase is Phase.PASSED:
+        return []
+    tick = attempt.simulation.tick
+    ahead = ((medal, attempt.lifetime - (pars.par(medal) - tick)) for medal in _MARKED)
+    return [(medal, ticks) for medal, ticks in ahead if 0 < ticks < min(attempt.lifetime, LIFETIME)]
+
+
+def _covering(play: LevelPlay) -> tuple[tuple[int, ...], Things]:
+    """The tiles and things of which the panel of an ended run covers little; never where it ended, nor an exit."""
+    x, y = play.eye or (0.0, 0.0)
+    end = [(x + dx, y + dy, 9 * MUST) for dx in (-_END_ROOM, 0, _END_ROOM) for dy in (-_END_ROOM, 0, _END_ROOM)]
+    exits = [(o.x, o.y, 9 * MUST) for o in play.attempt.simulation.world.objects[1:] if o.kind == EXIT]
+    return play.context.level.tiles, (*end, *exits, *play.things)
+
+
+def _reached(play: LevelPlay) -> list[str]:
+    """The medal; what the next one needs; the gold of a passed run, what that has brought, and what it leaves."""
+    attempt, pars = play.attempt, play.context.pars
+    following = (
+        [next_par(pars, Mark(attempt.ended_tick, 0)) or "The best medal there is. Well run!"]
+        if pars and play.medal
+        else []
+    )
+    gold = f"{attempt.gold} of {play.all_gold} gold" if attempt.gold < play.all_gold else f"All {play.all_gold} gold"
+    medal = [f"{play.medal.capitalize()} medal"] if play.medal else []
+    clock = [f"{rounded_text(attempt.lifetime)} s left on the clock, for the next level"] * play.context.carries_clock
+    # Of a first pass all is new, and the medal and the gold are said already.
+    first = FIRST_PASS in play.notices
+    news = [each for each in play.notices if each != NEW_ALL_GOLD and not (first and each in OF_A_LEVEL)]
+    return [*medal, *following, "    ".join([gold, *news]), *clock]
+
+
+def _named(play: LevelPlay) -> list[tuple[str, float, float]]:
+    """What the level names, and where it is until it is used: never over the ninja."""
+    world = play.attempt.simulation.world
+    return [
+        (name, o.x, o.y)
+        for name in play.sayings.named
+        for o in world.objects[1:]
+        if o.kind == _THINGS[name] and not (o.kind == SWITCH and world.objects[o.partner].is_open)
+        if hypot(o.x - world.ninja.x, o.y - _POINTER_UP - world.ninja.y) > _POINTER_REACH
+    ]
+
+
+def _hint(play: LevelPlay, key: KeyName) -> str:
+    """What to press now; "" in play and after it."""
+    if play.phase is Phase.READY:
+        show_tutorial = play.show_tutorial and not play.sayings.text
+        return _ready_hint(key, practice_mode=play.context.practice_mode, show_tutorial=show_tutorial)
+    if play.tools.stepping:
+        return f"{key('step')}: one tick    {key('confirm')} or any move: go on"
+    named = play.phase is not Phase.PASSED and play.attempt.simulation.tick < _TOOLS_NAMED
+    if play.context.practice_mode and named:
+        return "    ".join(f"{key(action)}: {name}" for action, name in _TOOLS.items())
+    return ""
+
+
+def _after_death(play: LevelPlay, key: KeyName) -> str:
+    again = f"{key('confirm')} or {key('jump')}: try again"
+    return f"{again}    {key('replay')}: watch it" + f"    {key('skip')}: get help" * play.is_stuck
+
+
+def _ready_hint(key: KeyName, *, practice_mode: bool, show_tutorial: bool) -> str:
+    begin = f"{key('confirm')} or any move to start"
+    if show_tutorial:
+        return f"{key('left')} and {key('right')} to run    {key('jump')} to jump, hold it to go higher    {begin}"
+    if practice_mode:
+        return f"{begin}    {key('overlay_hitboxes')} to {key('overlay_thinkers')}: look inside"
+    return begin
+
+
+def cause_of_death(play: LevelPlay) -> str:
+    if play.attempt.own_hand:
+        return "You gave up."
+    if play.killer != SELF:
+        return f"Killed by a {play.killer}." + f" {WHY[play.killer]}" * play.sayings.helps
+    if play.crushed:
+        return "You were crushed."
+    if play.attempt.lifetime <= 0:
+        return "Out of time."
+    return "You hit the ground too hard." + f" {FALL_HELP}" * play.sayings.helps
