@@ -115,6 +115,11 @@ def asset_lines(name: str) -> Iterator[str]:
     return (line for line in asset_text(name).splitlines() if line and not line.startswith("# "))
 
 
+def asset_rows(name: str) -> Iterator[list[str]]:
+    """The cells of those lines, between bars."""
+    return ([cell.strip() for cell in line.split("|")] for line in asset_lines(name))
+
+
 def is_bundled(path: Path) -> bool:
     """Whether a file is one of the game's own, in its folder of levels, by whatever name."""
     return path.resolve().is_relative_to(data_folder("levels").resolve())

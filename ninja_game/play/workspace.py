@@ -11,7 +11,7 @@ import pygame
 
 from ninja_game.document import OccupiedError
 from ninja_game.errors import NinjaGameError, reason
-from ninja_game.files.user_folder import asset_lines
+from ninja_game.files.user_folder import asset_rows
 from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import CANCEL, MOUSE, Action, Menu, MenuScreen, Row, nothing
 from ninja_game.ui.audio.music import SILENCE
@@ -41,7 +41,7 @@ class Command(NamedTuple):
 
 def read_commands(file: str) -> list[Command]:
     """The commands of an editor from a bundled file, whose head says what its columns are."""
-    return [_command(*map(str.strip, line.split("|"))) for line in asset_lines(f"commands/{file}")]
+    return [_command(*cells) for cells in asset_rows(f"commands/{file}")]
 
 
 def _command(name: str, label: str = "", keys: str = "", pad: str = "", repeats_ms: str = "0") -> Command:
