@@ -39,7 +39,7 @@ class Command(NamedTuple):
     repeats_ms: int = 0
 
 
-def read_commands(file: str) -> list[Command]:
+def bundled_commands(file: str) -> list[Command]:
     """The commands of an editor from a bundled file, whose head says what its columns are."""
     return [_command(*cells) for cells in asset_rows(f"commands/{file}")]
 

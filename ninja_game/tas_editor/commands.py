@@ -18,7 +18,7 @@ from ninja_game.play.clipboard import copy_link
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.menu_screen import Action, Menu, Row, ask_text, nothing
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.play.workspace import CommandMenu, Commands, CommandTable, DocumentCommands, read_commands
+from ninja_game.play.workspace import CommandMenu, Commands, CommandTable, DocumentCommands, bundled_commands
 from ninja_game.player.player_data import keep_replay
 from ninja_game.tas.files import SUFFIX, branches_path, replay_of_track, same_level
 from ninja_game.tas.journal import RecoveredRun, recovered
@@ -30,7 +30,7 @@ BY_PAD = {
 }  # fmt: skip
 """Commands by buttons of a pad; of a run that is taken over, only those that step."""
 
-TABLE = CommandTable(read_commands("tas-editor.txt"), BY_PAD)
+TABLE = CommandTable(bundled_commands("tas-editor.txt"), BY_PAD)
 """Everything that a key does, unless the run is taken over: then the keys of the game play."""
 
 IN_MENU = {"save", "save_as", "open_other", "help"}

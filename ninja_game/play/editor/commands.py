@@ -32,7 +32,7 @@ from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.menu_screen import CANCEL, Action, FormPanel, Menu, Row, ask_text, nothing
-from ninja_game.play.workspace import CommandMenu, CommandTable, DocumentCommands, read_commands
+from ninja_game.play.workspace import CommandMenu, CommandTable, DocumentCommands, bundled_commands
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import LevelContext, Navigation, PacedRun
@@ -40,7 +40,7 @@ from ninja_game.sim.level import COLUMNS, ROWS, Level
 from ninja_game.ui.audio.music import SILENCE
 from ninja_game.ui.widgets import following
 
-TABLE = CommandTable(read_commands("level-editor.txt"))
+TABLE = CommandTable(bundled_commands("level-editor.txt"))
 """Everything that a key does by itself. Other keys choose tiles and objects."""
 
 DIRECTION_KEYS = {"w": "up", "a": "left", "s": "down", "d": "right"}
