@@ -19,6 +19,7 @@ READS = re.compile(
 """Names of what reads, as sources write them."""
 
 OURS = {
+    "files/user_folder": "tables and texts of the package",
     "__main__": "opens what was closed, to lead nowhere", "runtime": "asks what the system can do",
     "cli/machine": "starts programs of the system, and reads nothing of what they say",
     "files/locking": "holds locks", "files/writing": "writes", "ui/audio/player": "silences a library",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import shlex
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from itertools import count
 from pathlib import Path
@@ -103,6 +103,21 @@ def data_folder(name: str) -> Path:
     """The folder of the bundled ``levels``, ``assets`` or ``docs``."""
     inside = PACKAGE / "data" / name
     return inside if inside.is_dir() else CHECKOUT[name]
+
+
+def asset_text(name: str) -> str:
+    """The text of a bundled file of ``assets``."""
+    return (data_folder("assets") / name).read_text("utf-8")
+
+
+def asset_lines(name: str) -> Iterator[str]:
+    """The lines of such a file, without comments (``# ...``) and empty ones."""
+    return (line for line in asset_text(name).splitlines() if line and not line.startswith("# "))
+
+
+def asset_rows(name: str) -> Iterator[list[str]]:
+    """The cells of those lines, between bars."""
+    return ([cell.strip() for cell in line.split("|")] for line in asset_lines(name))
 
 
 def is_bundled(path: Path) -> bool:

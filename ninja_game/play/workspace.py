@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import ClassVar, NamedTuple, Protocol
@@ -11,10 +11,11 @@ import pygame
 
 from ninja_game.document import OccupiedError
 from ninja_game.errors import NinjaGameError, reason
+from ninja_game.files.user_folder import asset_rows
 from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import CANCEL, MOUSE, Action, Menu, MenuScreen, Row, nothing
 from ninja_game.ui.audio.music import SILENCE
-from ninja_game.ui.input.bindings import InputEvent
+from ninja_game.ui.input.bindings import ACTIONS, InputEvent
 from ninja_game.ui.input.gamepad import Gamepads
 from ninja_game.ui.input.keys import HeldKey, chord, key_label_of, scancode_of
 from ninja_game.ui.text_entry import TextEntry
@@ -26,12 +27,27 @@ FIRST_REPEAT_MS = 300
 
 
 class Command(NamedTuple):
-    """``keys``: names of keys, with ``ctrl+`` and ``shift+`` before them; ``pad``: inputs of a standard gamepad."""
+    """``keys``: names of keys, with ``ctrl+`` and ``shift+`` before them; ``pad``: an input of a standard gamepad.
+
+    ``repeats_ms``: how often it is repeated while it is held; 0: not at all.
+    """
 
     name: str
     label: str
     keys: tuple[str, ...] = ()
     pad: str = ""
+    repeats_ms: int = 0
+
+
+def bundled_commands(file: str) -> list[Command]:
+    """The commands of an editor from a bundled file, whose head says what its columns are."""
+    return [_command(*cells) for cells in asset_rows(f"commands/{file}")]
+
+
+def _command(name: str, label: str = "", keys: str = "", pad: str = "", repeats_ms: str = "0") -> Command:
+    if label:
+        return Command(name, label, tuple(keys.split()), pad, int(repeats_ms))
+    return Command(name, ACTIONS[name].label, ACTIONS[name].keys)
 
 
 def key_text(command: Command) -> str:
@@ -42,15 +58,11 @@ def key_text(command: Command) -> str:
 class CommandTable:
     """All commands of an editor by what means them. The help page shows ``commands``.
 
-    ``pads``: commands by buttons of a pad, besides those in the commands. ``repeating``: the commands that are repeated
-    while they are held, and then how often, ms.
+    ``pads``: commands by buttons of a pad, besides those in the commands.
     """
 
-    def __init__(
-        self, commands: Sequence[Command], *, repeating: Mapping[str, int], pads: Mapping[str, str] | None = None
-    ) -> None:
+    def __init__(self, commands: Sequence[Command], pads: Mapping[str, str] | None = None) -> None:
         self.commands = commands
-        self.repeating = repeating
         self.by_name = {command.name: command for command in commands}
         self._by_key = {key: command.name for command in commands for key in command.keys}
         self._by_pad = {command.pad: command.name for command in commands if command.pad} | dict(pads or {})
@@ -68,20 +80,39 @@ class CommandTable:
         return "    ".join(filter(None, (command.label, key_text(command))))
 
 
+class CommandMenu(Menu):
+    """A menu of a document; the keys of the commands ``names`` do the same as without it."""
+
+    def __init__(
+        self, app: App, title: str, rows: Sequence[Row], table: CommandTable, names: Collection[str],
+        run: Callable[[str], object],
+    ) -> None:  # fmt: skip
+        super().__init__(app, title, rows)
+        self._table, self._names, self._run = table, names, run
+
+    def handle(self, event: InputEvent) -> None:
+        name = self._table.meaning(event)
+        if name in self._names and event.source and event.source[0] == "keys":
+            self.app.pop()
+            self._run(name)
+        else:
+            super().handle(event)
+
+
 class HeldCommand(HeldKey[str]):
     """The command whose key, or button of one of these pads, is held, if it is one that repeats."""
 
     def __init__(self, table: CommandTable, pads: Gamepads) -> None:
         super().__init__()
-        self._repeating, self._pads = table.repeating, pads
+        self._table, self._pads = table, pads
         self._button = ""
 
     def hold(self, name: str, event: InputEvent) -> None:
-        if name in self._repeating:
+        if every := self._table.by_name[name].repeats_ms:
             kind, button = event.source or ("", "")
             self._button = button if kind == "pad" else ""
             key = 0 if kind == "pad" else scancode_of(event.raw)
-            self.begin(name, key, first=FIRST_REPEAT_MS, every=self._repeating[name])
+            self.begin(name, key, first=FIRST_REPEAT_MS, every=every)
 
     def follow(self, event: pygame.Event) -> None:
         super().follow(event)

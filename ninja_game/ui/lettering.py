@@ -14,8 +14,8 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.files.shown_text import shown_text
+from ninja_game.files.user_folder import asset_lines
 from ninja_game.ui.canvas import Canvas, Colour, Point, draw_limb
-from ninja_game.ui.glyphs import ASCENDERS, CAP, GLYPHS, LOW_MARKS, MARKS
 
 _KEPT = 400
 """Texts kept; a changing time adds one a picture."""
@@ -81,6 +81,28 @@ _LOWERED = 0.8
 _COMMANDS = re.compile(r"([MLQOAD])([^MLQOAD]*)")
 
 
+CAP = 7.0
+"""Height of capitals on the glyphs' grid."""
+ASCENDERS = frozenset("bdfhklt")
+"""Small letters as tall as capitals: with an accent they are drawn lower."""
+
+
+def _read_glyphs() -> dict[str, tuple[float, str]]:
+    """Width and path of every letter and mark of the bundled table."""
+    rows = (line.split(" ", 2) for line in asset_lines("glyphs.txt"))
+    return {
+        chr(int(name, base=0)) if name.startswith("0x") else name: (float(width), "".join(path))
+        for name, width, *path in rows
+    }
+
+
+_STROKES = _read_glyphs()
+GLYPHS = {name: glyph for name, glyph in _STROKES.items() if not unicodedata.combining(name)}
+MARKS = {name: path for name, (_, path) in _STROKES.items() if unicodedata.combining(name)}
+ABOVE = 230
+"""The combining class of marks above a letter."""
+
+
 class Glyph(NamedTuple):
     """Width of a letter, and its polylines, on the glyphs' grid; a dot is a line of one point."""
 
@@ -96,9 +118,9 @@ def glyph(character: str) -> Glyph | None:
         return Glyph(width, _lines(path))
     parts = unicodedata.normalize("NFD", character)
     base, marks = parts[0], parts[1:]
-    if base not in GLYPHS or not marks or not set(marks) <= MARKS.keys() | LOW_MARKS.keys():
+    if base not in GLYPHS or not marks or not set(marks) <= MARKS.keys():
         return None
-    raised = MARKS.keys() & set(marks)
+    raised = any(map(_stands_on_top, marks))
     dotless = {"i": "\u0131", "j": "\u0237"}.get(base, base) if raised else base
     width, path = GLYPHS[dotless]
     lines = _lines(path)
@@ -106,10 +128,14 @@ def glyph(character: str) -> Glyph | None:
     if raised and tall:
         lines = tuple(tuple((x, CAP - (CAP - y) * _LOWERED) for x, y in line) for line in lines)
     for mark in marks:
-        dy = 0.0 if mark in LOW_MARKS else 0.6 if tall else 1.1
-        drawn = _lines(MARKS.get(mark) or LOW_MARKS[mark])
+        dy = (0.6 if tall else 1.1) if _stands_on_top(mark) else 0.0
+        drawn = _lines(MARKS[mark])
         lines += tuple(tuple((x + width / 2, y + dy) for x, y in line) for line in drawn)
     return Glyph(width, lines)
+
+
+def _stands_on_top(mark: str) -> bool:
+    return unicodedata.combining(mark) == ABOVE
 
 
 def _lines(path: str) -> tuple[tuple[Point, ...], ...]:

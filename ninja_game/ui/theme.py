@@ -13,6 +13,7 @@ from typing import Any
 
 import pygame
 
+from ninja_game.files.user_folder import asset_lines
 from ninja_game.ui.canvas import Canvas, Colour
 from ninja_game.ui.lettering import HEIGHT, Lettering
 
@@ -218,116 +219,24 @@ class Palette:
 
 ROLES = tuple(entry.name for entry in fields(Palette) if entry.name not in {"name", "danger_by_shape", "scenery"})
 
-_CLASSIC = dict(  # noqa: C408 - one form for all palettes
-    background="#cacad0", tile="#787887", text="#17171c", faint="#5f5f6b", on_tile="#e4e4ea", panel="#dcdce1",
-    panel_edge="#9a9aa6", accent="#a33a2c", good="#2d6a3a", bad="#992222", bar_full="#c0ccff",
-    bar_empty="#ffab9f", ninja="#1d1d22", band="#a33a2c", ghost="#5865a0", blood="#990000", outline="#3a3a42",
-    dark="#5b5b66", middle="#9a9aa5", light="#b8b8c1", bright="#ebebef", gold="#cc9900", gold_light="#f4dd55",
-    gold_dark="#8a6500", exit="#8f6fb0", exit_light="#cbb4dd", switch="#5b7fb0", mine="#990f0f",
-    weapon="#882222", laser="#9c1c1c", warning="#cb7679", turret="#7f335a", launcher="#4d0f2c",
-    electric="#0099cc", spark="#d8f8ff", drone="#26262c", lock="#6d5a2c", trap="#8f3b3b", flame="#ffe45c",
-    ember="#f09022", smoke="#84848c", dust="#8e8e9c",
-)  # fmt: skip
+
+def _read_palettes() -> dict[str, Palette]:
+    """The palettes of the bundled table, by name: a column each, a row for each role."""
+    table = {role: values for role, *values in map(str.split, asset_lines("palettes.txt"))}
+    sceneries = ["" if scenery == "none" else scenery for scenery in table["scenery"]]
+    columns = zip(table["palette"], table["danger-by-shape"], sceneries, *(table[role] for role in ROLES), strict=True)
+    return {
+        name: Palette(
+            name, danger == "yes", **dict(zip(ROLES, map(pygame.Color, colours), strict=True)), scenery=scenery
+        )
+        for name, danger, scenery, *colours in columns
+    }
 
 
-def _palette(
-    name: str, base: Palette | None = None, *, danger_by_shape: bool = False, scenery: str = "", **colours: str
-) -> Palette:
-    before = _CLASSIC if base is None else {role: getattr(base, role) for role in ROLES}
-    horizon = colours.get("background", _CLASSIC["background"])
-    changed = {"sky": horizon, "far": horizon, "near": horizon} | colours
-    inks = {role: pygame.Color(colour) for role, colour in (before | changed).items()}
-    return Palette(name, danger_by_shape, **inks, scenery=scenery)
+PALETTES = _read_palettes()
+CLASSIC = PALETTES["classic"]
 
-
-CLASSIC = _palette(
-    "classic", scenery="paper", sky="#c3c6d4", background="#e4e1dc", tile="#666779", exit_light="#fbf4ff"
-)
-
-DARK = _palette(
-    "dark", scenery="paper", background="#23252e", sky="#15161c", tile="#565b70", text="#e8e8ee", faint="#9a9eac",
-    on_tile="#e8e8ee", panel="#2e313a", panel_edge="#565b69", accent="#ff8f6b", good="#7fd08c", bad="#ff7b74",
-    bar_full="#7f92e0", bar_empty="#e06a6a", ninja="#f1f1f5", band="#ff6b4a", ghost="#8fa0ff", blood="#d92626",
-    outline="#0f1014", dark="#757a88", middle="#8e93a1", light="#a9aebb", bright="#e4e6ec",
-    gold="#e0ae1c", gold_light="#fff08a", gold_dark="#7d5c00", exit="#9c78c8", exit_light="#d9c4ee",
-    switch="#7ba4dd", mine="#ff5148", weapon="#e0433c", laser="#ff4a40", warning="#a85456", turret="#d0659c",
-    launcher="#b3487c", electric="#22b8f0", spark="#e8fbff", drone="#8a8f9e", lock="#c9a24a", trap="#d06a6a",
-    flame="#fff07a", ember="#ffa033", smoke="#6d707a", dust="#7b808e",
-)  # fmt: skip
-
-CONTRAST = _palette(
-    "contrast", danger_by_shape=True, background="#ffffff", tile="#3a3a3a", text="#000000", faint="#333333",
-    on_tile="#ffffff", panel="#ffffff", panel_edge="#000000", accent="#0033cc", good="#006000", bad="#b00000",
-    bar_full="#7fb2ff", bar_empty="#ff8080", ninja="#000000", band="#0033cc", ghost="#4a6fff", blood="#c00000",
-    outline="#000000", dark="#333333", middle="#888888", light="#c4c4c4", bright="#ffffff",
-    gold="#c08000", gold_light="#ffe000", gold_dark="#4d3300", exit="#7a2fc0", exit_light="#d8b0ff",
-    switch="#0050d0", mine="#d00000", weapon="#d00000", laser="#d00000", warning="#ff5a5a", turret="#a00060",
-    launcher="#600030", electric="#0078d8", spark="#bfe8ff", drone="#000000", lock="#7a5500", trap="#a00000",
-    flame="#ffd800", ember="#ff7a00", smoke="#777777", dust="#777777",
-)  # fmt: skip
-
-# Blue and orange differ for every common kind of colour blindness; danger is always orange to vermilion, and spiked.
-SAFE = _palette(
-    "safe", danger_by_shape=True, scenery="paper", background="#eceae4", sky="#c2cfdd", tile="#4f6078", text="#14161a",
-    faint="#565c66", on_tile="#eef0f3", panel="#e3e5e8", panel_edge="#8f959f", accent="#0060a8", good="#0060a8",
-    bad="#c24a00", bar_full="#a6dcfa", bar_empty="#ffb877", ninja="#101216", band="#0060a8", ghost="#0072b2",
-    blood="#8a2c00", gold="#e6c200", gold_light="#fff27a", gold_dark="#6b5900", exit="#56b4e9", exit_light="#f4fbff",
-    switch="#0072b2", mine="#d55e00", weapon="#d55e00", laser="#d55e00", warning="#e8a06a", turret="#b04a00",
-    launcher="#7a3300", electric="#d55e00", spark="#fff0d8", drone="#202329", lock="#5b5f22", trap="#a34700",
-    flame="#ffe9a0", ember="#e69f00",
-)  # fmt: skip
-
-SAFE_DARK = _palette(
-    "safe-dark", danger_by_shape=True, scenery="paper", background="#232a36", sky="#141920", tile="#4b525c",
-    text="#eceff3", faint="#a2a9b3", on_tile="#eceff3", panel="#2a2f36", panel_edge="#5a626d", accent="#56b4e9",
-    good="#56b4e9", bad="#ff9a4d", bar_full="#56b4e9", bar_empty="#ff8c33", ninja="#f4f6f8", band="#56b4e9",
-    ghost="#56b4e9", blood="#d06a2c", outline="#0c0e10", dark="#78808c", middle="#8f97a3", light="#aab1bc",
-    bright="#e6e9ee", gold="#f0e442", gold_light="#fffbc0", gold_dark="#7a7200", exit="#56b4e9",
-    exit_light="#d0ecfc", switch="#3a9bdc", mine="#ff8c33", weapon="#ff7a1a", laser="#ff8c33", warning="#a8642e",
-    turret="#ff9a4d", launcher="#d0702a", electric="#ff8c33", spark="#fff0d8", drone="#8b939f", lock="#c0c060",
-    trap="#ff9a4d", flame="#fff0b0", ember="#f0a820", smoke="#6d737c", dust="#7d848f",
-)  # fmt: skip
-
-# A mood for each column of episodes. What lies behind stays near the sky in lightness, the tiles far from both.
-MORNING = _palette(
-    "morning", scenery="hills", background="#fae3d2", sky="#c9d3f2", far="#e3d3dd", near="#cdbfd6", tile="#46557f",
-    text="#1c1730", faint="#5b5472", on_tile="#f6eef2", panel="#fbeee4", panel_edge="#a497b4", ninja="#1b1730",
-    accent="#a8324a", band="#d8204c", bar_full="#c0d4ff", dark="#4f4868", middle="#6a6289", light="#857da8",
-    gold="#c48a00", exit="#6a3ca4", exit_light="#fff6e0", electric="#0058a8", dust="#a596a8", smoke="#8a8296",
-)  # fmt: skip
-
-NOON = _palette(
-    "noon", scenery="clouds", background="#e4f5f4", sky="#86c8ee", far="#b5def0", near="#d3edf4", tile="#2b6554",
-    text="#0d2026", faint="#3d5c64", on_tile="#eaf6ee", panel="#eff9f7", panel_edge="#86abaf", ninja="#0d1c24",
-    accent="#b03a18", band="#d0401c", bar_full="#bfe6ff", dark="#3f5662", middle="#52707e", light="#6c8692",
-    exit="#6a3ca4", exit_light="#fff8dc", electric="#0046a0", dust="#8fa8ac", smoke="#86969a",
-)  # fmt: skip
-
-AFTERNOON = _palette(
-    "afternoon", scenery="dunes", background="#fde6c8", sky="#f3ba94", far="#f4cfa6", near="#e8b98d", tile="#7c3d33",
-    text="#2a120c", faint="#6e4a38", on_tile="#fdeedd", panel="#fdefdc", panel_edge="#bd9276", ninja="#22110f",
-    accent="#8a1f5c", band="#1f6a8a", bar_full="#cfe0ff", dark="#4a4c58", middle="#6d7180", light="#868da0",
-    gold="#b47800", gold_light="#fff3a0", exit="#6a3ca4", exit_light="#fffbe8", electric="#0070b0", dust="#b08a70",
-    smoke="#937c70",
-)  # fmt: skip
-
-DUSK = _palette(
-    "dusk", DARK, scenery="towers", background="#763a5c", sky="#513e7c", far="#6d3f69", near="#56376b", tile="#150e26",
-    text="#fbf2ff", faint="#d8c8e2", on_tile="#f0e4f6", panel="#3a2752", panel_edge="#8d6fa0", ninja="#fff4ea",
-    accent="#ffb072", band="#ffb072", good="#8fe0a0", bad="#ff9a94", weapon="#ff6f64", middle="#b0a4c6",
-    light="#d6cde6", exit="#42c8be", exit_light="#dcfff8", turret="#ffa6d2", launcher="#ffb08a", electric="#5cd2ff",
-    drone="#dcd8ec", dust="#b892b0", smoke="#a0869e",
-)  # fmt: skip
-
-NIGHT = _palette(
-    "night", DARK, scenery="crystals", background="#24406a", sky="#0d1430", far="#1e3560", near="#172750",
-    tile="#586c9c", text="#eaf1ff", faint="#a9b8d8", on_tile="#f2f6ff", panel="#1c2747", panel_edge="#5d71a3",
-    ninja="#f4f7ff", accent="#7fd8ff", band="#ff8a5c", good="#7fe0b0", bad="#ff8f88", bar_full="#b4c8ff",
-    bar_empty="#ff9d90", exit="#a87ce8", exit_light="#e6d6f8", turret="#ff98cc", launcher="#ffa27c",
-    electric="#5cd2ff", drone="#c8d2ea",
-)  # fmt: skip
-
-MOODS = (MORNING, NOON, AFTERNOON, DUSK, NIGHT)
+MOODS = tuple(PALETTES[name] for name in ("morning", "noon", "afternoon", "dusk", "night"))
 """By column of episodes; a pack with more columns begins again."""
 
 GROUND_ROLES = "sky", "background", "far", "near"
@@ -339,8 +248,6 @@ TONES = (
 )
 """By mood and tone: degrees in YIQ by which the scenery turns, how much more colourful it is, and degrees by which rock
 turns. The levels of an episode go through them, each episode from another one on."""
-
-PALETTES: dict[str, Palette] = {palette.name: palette for palette in (CLASSIC, DARK, CONTRAST, SAFE, SAFE_DARK, *MOODS)}
 
 
 def palette_named(name: str, column: int = 0, level: int = 0) -> Palette:

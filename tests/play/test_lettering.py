@@ -8,8 +8,7 @@ import pygame
 import pytest
 
 from ninja_game.ui.canvas import Canvas
-from ninja_game.ui.glyphs import GLYPHS
-from ninja_game.ui.lettering import Lettering, StrokeFont, glyph
+from ninja_game.ui.lettering import GLYPHS, Lettering, StrokeFont, glyph
 from ninja_game.ui.theme import CLASSIC, Theme, wrapped
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -32,66 +32,16 @@ from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.menu_screen import CANCEL, Action, FormPanel, Menu, Row, ask_text, nothing
-from ninja_game.play.workspace import Command, CommandTable, DocumentCommands
+from ninja_game.play.workspace import CommandMenu, CommandTable, DocumentCommands, bundled_commands
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import LevelContext, Navigation, PacedRun
 from ninja_game.sim.level import COLUMNS, ROWS, Level
 from ninja_game.ui.audio.music import SILENCE
-from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.widgets import following
 
-COMMANDS = (
-    Command("help", "This page", ("f1",)),
-    Command("menu", "File menu; gives up what is half done", ("escape",), "b"),
-    Command("test", "Test: play it; Esc comes back", ("f5",), "start"),
-    Command("test_here", "Test with the ninja at the pointer", ("f6",)),
-    Command("certify", "Certify: the solver looks for a run", ("f7",)),
-    Command("save", "Save", ("ctrl+s",)),
-    Command("save_as", "Save under another name", ("ctrl+shift+s",)),
-    Command("open", "Open a level", ("ctrl+o",)),
-    Command("new", "New level", ("ctrl+n",)),
-    Command("about", "Name, author, comment, teaches", ("f2",)),
-    Command("messages", "Messages to the player", ("shift+m",)),
-    Command("undo", "Undo", ("ctrl+z",), "lefttrigger+"),
-    Command("redo", "Redo", ("ctrl+y", "ctrl+shift+z"), "righttrigger+"),
-    Command("copy", "Copy", ("ctrl+c",)),
-    Command("cut", "Cut", ("ctrl+x",)),
-    Command("paste", "Paste at the pointer", ("ctrl+v",)),
-    Command("choose_all", "Select everything", ("ctrl+a",)),
-    Command("delete", "Delete what is selected, or pointed at", ("delete", "backspace"), "x"),
-    Command("brush", "Brush", ("b",)),
-    Command("rectangle", "Box: fill a rectangle", ("r",)),
-    Command("line", "Line; the wheel bends it", ("shift+l",)),
-    Command("ellipse", "Ellipse", ("shift+e",)),
-    Command("fill", "Fill with a tile or objects", ("f",)),
-    Command("select", "Select and move", ("v",)),
-    Command("pick", "Pick: draw with what is there", ("k",), "y"),
-    Command("next_tool", "Next tool", (), "rightstick"),
-    Command("swap", "Tiles or objects", ("grave", "insert"), "leftstick"),
-    Command("mirror", "Mirror left-right", ("h",)),
-    Command("flip", "Flip up-down", ("j",)),
-    Command("turn", "Turn by a quarter", ("u",)),
-    Command("symmetry", "Mirror: next symmetry", ("m",)),
-    Command("grid", "Next grid", ("g",)),
-    Command("snap_next", "Next snap for objects"),
-    Command("snap_cell", "Snap to cells", ("l",)),
-    Command("snap_half", "Snap to half cells", ("x",)),
-    Command("snap_quarter", "Snap to quarter cells", ("c",)),
-    Command("snap_px", "Snap to px", ("z",)),
-    Command("slopes", "Slopes set themselves, on or off", ("shift+s",)),
-    Command("list", "List of objects, or the palette", ("f3",)),
-    Command("lines", "Lines from switches, on or off", ("t",)),
-    Command("paths", "Paths of the last test and of the solver", ("f8",)),
-    Command("tests", "Map of tests: where they went and died", ("f9",)),
-    Command("reach", "What can be reached from the pointer", ("y",)),
-    Command("next_finding", "Go to the next problem", ("f4",)),
-    Command("next_entry", "Next tile or object", ("pagedown",), "rightshoulder"),
-    Command("previous_entry", "Tile or object before", ("pageup",), "leftshoulder"),
-)
+TABLE = CommandTable(bundled_commands("level-editor.txt"))
 """Everything that a key does by itself. Other keys choose tiles and objects."""
-
-TABLE = CommandTable(COMMANDS, repeating=dict.fromkeys(("undo", "redo"), 100))
 
 DIRECTION_KEYS = {"w": "up", "a": "left", "s": "down", "d": "right"}
 """Directions of objects, as in Ned."""
@@ -129,24 +79,8 @@ IN_MENU = {"save", "save_as", "open", "new", "about", "messages", "test", "certi
 _UNDO = "Undo brings back what was here"
 
 
-class LevelMenu(Menu):
-    """The file menu; the keys that it shows, and those beside them, do the same as without it."""
-
-    def __init__(self, app: App, rows: Sequence[Row], run: Callable[[str], object]) -> None:
-        super().__init__(app, "Level", rows)
-        self._run = run
-
-    def handle(self, event: InputEvent) -> None:
-        name = TABLE.meaning(event)
-        if name in IN_MENU and event.source and event.source[0] == "keys":
-            self.app.pop()
-            self._run(name)
-        else:
-            super().handle(event)
-
-
 class EditorCommands(DocumentCommands):
-    """Runs commands by name (``COMMANDS``)."""
+    """Runs commands by name (``TABLE``)."""
 
     def __init__(self, app: App, session: EditorSession, view: EditorView, palette: PaletteView) -> None:
         super().__init__(app, session)
@@ -169,7 +103,7 @@ class EditorCommands(DocumentCommands):
     def _table(self) -> dict[str, Action]:
         tools, view = self.session.tools, self.view
         return {
-            "help": lambda: self.app.push(HelpPage(self.app, "The editor", HELP, COMMANDS)), "menu": self.menu,
+            "help": lambda: self.app.push(HelpPage(self.app, "The editor", HELP, TABLE.commands)), "menu": self.menu,
             "test": self.test, "test_here": lambda: self.test(here=True), "certify": self.certify,
             "save": self.save, "save_as": self.save_as, "open": self.open, "new": self.new, "about": self.about,
             "messages": self.messages,
@@ -281,7 +215,7 @@ class EditorCommands(DocumentCommands):
             ("Ten good levels", self.good_levels, "Ten of the game's, and what makes each of them good"),
             ("Leave the editor", self.leave, ""),
         ]  # fmt: skip
-        self.app.push(LevelMenu(self.app, rows, self.run))
+        self.app.push(CommandMenu(self.app, "Level", rows, TABLE, IN_MENU, self.run))
 
     @property
     def _levels(self) -> Path:

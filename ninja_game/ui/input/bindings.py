@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import pygame
 
+from ninja_game.files.user_folder import asset_rows
 from ninja_game.runtime import in_page_or_not
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.ui.input.gamepad import Gamepads, pad_label
@@ -177,41 +178,15 @@ class Action(NamedTuple):
     pad: tuple[str, ...] = ()
 
 
-ACTIONS: dict[str, Action] = {
-    "left": Action("Run left", ("left", "a"), ("dpad-left", "leftx-", "hat-left", "axis-0-")),
-    "right": Action("Run right", ("right", "d"), ("dpad-right", "leftx+", "hat-right", "axis-0+")),
-    "jump": Action("Jump", ("z", "space", "up", "w", "lshift", "rshift"), ("a", "button-0")),
-    "confirm": Action("Begin, continue", ("space", "return"), ("a", "button-0")),
-    "back": Action("Back", ("escape",), ("b", "button-1")),
-    "pause": Action("Pause", ("p",), ("start", "button-7")),
-    "retry": Action("Retry", ("r",), ("x", "button-2")),
-    "suicide": Action("Give up", ("k",), ("back", "button-6")),
-    "replay": Action("Watch the replay", ("v",), ("y", "button-3")),
-    "quit": Action("Leave to the menu", ("q",)),
-    "skip": Action("Help with a level, or skip it", ("n",)),
-    "boss": Action("Hide the game", ("tab",)),
-    "ghost": Action("Ghost on or off", ("g",), ("rightshoulder",)),
-    "quick_save": Action("Quick save (practice)", ("f5",), ("leftstick",)),
-    "quick_load": Action("Quick load (practice)", ("f9",), ("rightstick",)),
-    "rewind": Action("Rewind (practice)", ("backspace",), ("lefttrigger+",)),
-    "slow": Action("Slow motion (practice)", ("lctrl",), ("righttrigger+",)),
-    "step": Action("Single step (practice)", ("period",), ("leftshoulder",)),
-    "overlay_hitboxes": Action("Show hit boxes", ("1",)),
-    "overlay_grid": Action("Show the grid", ("2",)),
-    "overlay_edges": Action("Show edges", ("3",)),
-    "overlay_rays": Action("Show rays", ("4",)),
-    "overlay_cells": Action("Show cells", ("5",)),
-    "overlay_thinkers": Action("Show who thinks", ("6",)),
-    "faster": Action("Replay: faster", ("equals", "kp_plus"), ("rightshoulder",)),
-    "slower": Action("Replay: slower", ("minus", "kp_minus"), ("leftshoulder",)),
-    "frame_back": Action("Replay: previous tick", ("comma",)),
-    "frame_forward": Action("Replay: next tick", ("period",)),
-    "export": Action("Replay: export", ("e",)),
-    "edit": Action("Replay: edit", ("t",)),
-    "link": Action("Copy a link", ("c",)),
-    "screenshot": Action("Save a picture", ("f12",)),
-    "fullscreen": Action("Full screen", ("f11",)),
-}
+def _read_actions() -> dict[str, Action]:
+    """The actions of the bundled table, whose head says what its columns are."""
+    return {
+        name: Action(label, tuple(keys.split()), tuple(" ".join(pad).split()))
+        for name, label, keys, *pad in asset_rows("commands/game.txt")
+    }
+
+
+ACTIONS = _read_actions()
 
 PAGE_KEYS = {"slow": ("x",), "screenshot": ("f10",)}
 """Keys in a page instead of those that the browser has its own use for: Ctrl with W, a jump, closes the tab."""

@@ -15,8 +15,7 @@ from ninja_game.files.reading import stamp_of
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.tree import Tree, leads_below
 from ninja_game.play.window import icon, png_of
-from ninja_game.ui.glyphs import CAP
-from ninja_game.ui.lettering import SPACING, WEIGHTS, glyph
+from ninja_game.ui.lettering import CAP, SPACING, WEIGHTS, glyph
 from ninja_game.ui.theme import PALETTES, Palette, mixed
 from ninja_game.web.pages.memo import Memo, digest_of, program
 

@@ -24,7 +24,7 @@ from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import parse_replay
 from ninja_game.levels.findings import Finding
-from ninja_game.play.editor.commands import COMMANDS, TryScreen
+from ninja_game.play.editor.commands import TABLE, TryScreen
 from ninja_game.play.editor.parts import FIRST_STEPS, Findings, ObjectList
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.menus.help import HelpPage
@@ -249,7 +249,7 @@ def test_a_click_on_a_property_changes_the_selected_object(room: Maker) -> None:
 
 
 def test_every_command_runs_and_help_names_all_keys(room: Maker) -> None:
-    for command in COMMANDS:
+    for command in TABLE.commands:
         if command.name not in ("certify", "menu", "test", "test_here"):
             room.editor.commands.run(command.name)
             room.frames()
@@ -257,7 +257,7 @@ def test_every_command_runs_and_help_names_all_keys(room: Maker) -> None:
                 room.app.pop()
     room.press("f1")
     assert isinstance(room.top(), HelpPage)
-    keys = [key for command in COMMANDS for key in command.keys]
+    keys = [key for command in TABLE.commands for key in command.keys]
     assert len(keys) == len(set(keys))
 
 

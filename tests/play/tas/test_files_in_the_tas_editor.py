@@ -13,7 +13,7 @@ from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.sim.inputs import KEY_LEFT
 from ninja_game.tas.journal import FOLDER, recovered
-from ninja_game.tas_editor.commands import COMMANDS
+from ninja_game.tas_editor.commands import TABLE
 from ninja_game.tas_editor.opening import open_tas_editor
 from ninja_game.tas_editor.screen import TasScreen
 from tests.play.tas.conftest import RUN
@@ -35,7 +35,18 @@ def journals(at: TasDriver) -> list[Path]:
 
 
 def test_every_command_of_the_table_is_offered_by_some_part(at: TasDriver) -> None:
-    assert set(at.screen.commands()) == {command.name for command in COMMANDS}
+    assert set(at.screen.commands()) == {command.name for command in TABLE.commands}
+
+
+def test_keys_of_the_file_menu_work_while_it_is_open(at: TasDriver) -> None:
+    change(at)
+    at.press("escape")
+    at.chord("s", CTRL)
+    assert at.session.is_saved
+    assert at.top() is at.screen
+    at.press("escape")
+    at.press("f1")
+    assert isinstance(at.top(), HelpPage)
 
 
 def test_a_run_is_saved_into_its_file(at: TasDriver) -> None:
