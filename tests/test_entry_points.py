@@ -25,6 +25,7 @@ OURS = {
     "files/locking": "holds locks", "files/writing": "writes", "ui/audio/player": "silences a library",
     "play/lab/figure": "the program's own figures", "play/menus/help": "its own help",
     "play/menus/good_levels": "its own levels",
+    "levels/findings": "its own texts",
     "learn/levels/source": "its own levels", "learn/levels/bench": "its own table",
     "sim/memory/declare": "its own code, made from its own rules",
     "web/site/compiling": "its own code",
