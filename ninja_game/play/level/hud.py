@@ -11,7 +11,7 @@ import pygame
 
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.run_time import rounded_text, seconds_text
-from ninja_game.formats.sayings import named_keys
+from ninja_game.formats.sayings import THINGS, named_keys
 from ninja_game.play.level.play import MUST, STAMP_TICKS, TAG_ROOM, LevelPlay, Phase, Things, tag_top
 from ninja_game.play.level.sayings import FALL_HELP, WHY
 from ninja_game.player.player_data import FIRST_PASS, NEW_ALL_GOLD, OF_A_LEVEL
@@ -22,6 +22,7 @@ from ninja_game.sim.collision.tiles import FULL, SHAPE
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.level import ROWS
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL, LIFETIME
 from ninja_game.ui.canvas import WIDTH, Point
 from ninja_game.ui.input.bindings import MOVES
@@ -74,7 +75,8 @@ class HudView:
     left where a text lies there. ``keys``: those of the present tick,
     ``frame_ms``: of the last picture; None: not shown.
     ``said``: a text of the level, its tiles and the things of which it covers as little as can be, the place near which
-    it should be, and whether it may cover anything but rock: else it may lie in the border below. ``moves``: the keys
+    it should be, whether it may cover anything but rock: else it may lie in the border below, and whether it is about
+    that place: then it lies beside it, whatever it covers, and points to it. ``moves``: the keys
     of each of its lines, ``letters``: what is on the keys of left, jump and right.
     ``named``: what it names, and where that is, px. ``message``: title and lines of a panel, and the level's tiles
     and the things of which it covers as little as can be; ``medal``: that of the pass, or "", ``stamp``: how far it has
@@ -89,7 +91,7 @@ class HudView:
     pars: Sequence[tuple[str, float]] = ()
     keys: int | None = None
     frame_ms: float | None = None
-    said: tuple[str, tuple[int, ...], Things, Point | None, bool] | None = None
+    said: tuple[str, tuple[int, ...], Things, Point | None, bool, bool] | None = None
     moves: Sequence[int] = ()
     letters: Sequence[str] = ()
     named: Sequence[tuple[str, float, float]] = ()
@@ -129,6 +131,8 @@ class Hud:
             seen = 1.0 if in_border else _clear_of(view.ninja, said, softly=view.softly)
             place = self.theme.canvas.rect(*_area(said))
             behind = _behind(surface, place, seen)
+            if view.said and view.said[-1] and view.said[3]:
+                written.append(self._tail(surface, said, view.said[3]))
             written.append(self.said(surface, said, () if in_border else view.moves, view.letters))
             _fade(surface, place, behind, seen)
         if view.message and view.seen > 0:
@@ -235,15 +239,29 @@ class Hud:
         theme.text(surface, name, middle, top + 3, size=POINTER, colour=palette.panel, align="centre", bold=True)
         return box.inflate(theme.canvas.px(4), theme.canvas.px(18))
 
+    def _tail(self, surface: pygame.Surface, box: Box, at: Point) -> pygame.Rect:
+        """From a text's panel to the place that it is about."""
+        x, y, w, h = _area(box)
+        near = min(max(at[0], x + TAIL), x + w - TAIL), min(max(at[1], y + TAIL), y + h - TAIL)
+        upright = not y < at[1] < y + h
+        rects = []
+        for colour, wide in ((self.theme.palette.panel_edge, TAIL), (self.theme.palette.panel, TAIL - 2)):
+            dx, dy = (wide, 0) if upright else (0, wide)
+            ends = (near[0] - dx, near[1] - dy), (near[0] + dx, near[1] + dy)
+            rects.append(self.theme.canvas.polygon(surface, colour, [*ends, at]))
+        return rects[0].union(self.theme.canvas.circle(surface, self.theme.palette.accent, at, 3)).inflate(2, 2)
+
     def box(
-        self, text: str, tiles: tuple[int, ...], things: Things, eye: Point | None, covers: bool, *, keys: float = 0.0
-    ) -> Box:
+        self, text: str, tiles: tuple[int, ...], things: Things, eye: Point | None, covers: bool, near: bool = False, *,
+        keys: float = 0.0,
+    ) -> Box:  # fmt: skip
         """Where a text of the level lies: along the upper border, else the lower one, over what is solid.
 
         Where it would hide something there, or open space that it may not cover, it lies where it hides least; over
-        nothing that it is to keep clear of, nor the ninja, or else in the border below, beside the gold.
+        nothing that it is to keep clear of, nor the ninja, or else in the border below, beside the gold. ``near``: at
+        most two cells from ``eye``.
         """
-        return _box(self.theme, text, tiles, things, eye, covers, keys)
+        return _box(self.theme, text, tiles, things, eye, covers, near, keys)
 
     def said(
         self, surface: pygame.Surface, box: Box, moves: Sequence[int] = (), letters: Sequence[str] = ()
@@ -288,12 +306,16 @@ def _area(box: Box) -> tuple[float, float, float, float]:
     return left, y, w, high * len(lines) + 2 * margin - 1
 
 
+def _away(point: Point, x: float, y: float, w: float, h: float) -> float:
+    """How far a point is from a panel, px."""
+    return hypot(max(x - point[0], 0.0, point[0] - x - w), max(y - point[1], 0.0, point[1] - y - h))
+
+
 def _clear_of(ninja: Point | None, box: Box, *, softly: bool) -> float:
     """How solid a text's panel is, FAINT…1: the less, the nearer the ninja is to being hidden by it."""
     if ninja is None:
         return 1.0
-    x, y, w, h = _area(box)
-    away = hypot(max(x - ninja[0], 0.0, ninja[0] - x - w), max(y - ninja[1], 0.0, ninja[1] - y - h))
+    away = _away(ninja, *_area(box))
     share = (away - COVERED) / (CLEAR - COVERED) if softly else float(away >= CLEAR)
     return FAINT + (1 - FAINT) * min(1.0, max(0.0, share))
 
@@ -321,19 +343,25 @@ def _hidden(things: Things, x: float, y: float, w: float, h: float) -> Iterator[
 
 @lru_cache(maxsize=4)
 def _box(
-    theme: Theme, text: str, tiles: tuple[int, ...], things: Things, eye: Point | None, covers: bool, keys: float
-) -> Box:
+    theme: Theme, text: str, tiles: tuple[int, ...], things: Things, eye: Point | None, covers: bool, near: bool,
+    keys: float,
+) -> Box:  # fmt: skip
     """As ``Hud.box``. Kept, since a text is drawn in each picture and its place takes longer than all the rest."""
     high = SAID_LINE * theme.scales[0]
     if eye:
         things = (*things, (*eye, MUST))
-    for rows, width in ((1, 1), (2, 1), (2, 0.6), (0, 1), (0, 0.6)):
+    beside: list[tuple[int, Box]] = []
+    for rows, width in ((0, 1), (0, 0.6), (0, 0.4)) if near else ((1, 1), (2, 1), (2, 0.6), (0, 1), (0, 0.6)):
         lines = text.split("\n") if keys else wrapped(theme, text, width * SAID_WIDE, SAID)
         lines = [theme.fit(line, SAID_WIDEST - keys, SAID) for line in lines]
         w = max(theme.width(line, SAID) for line in lines) + 28 + keys
-        left, y, covered, hidden = solid_place(tiles, w, high * len(lines) + 19, things, eye, rows=rows)
+        left, y, covered, hidden = solid_place(tiles, w, high * len(lines) + 19, things, eye, rows=rows, near=near)
+        box = lines, left, y, w, high, 10.0, SAID
         if hidden < (MUST if keys else 1) and (covers or not rows or not covered):
-            return lines, left, y, w, high, 10.0, SAID
+            return box
+        beside.append((hidden, box))
+    if near:
+        return min(beside)[1]
     text = text.replace("\n", "    ")
     size = min(SAID, SAID * BESIDE_GOLD / theme.width(text, SAID))
     w = theme.width(text, size) + 28
@@ -342,14 +370,15 @@ def _box(
 
 @lru_cache(maxsize=4)
 def solid_place(
-    tiles: tuple[int, ...], w: float, h: float, things: Things = (), eye: Point | None = None, *, rows: int = 0
-) -> tuple[float, float, int, int]:
+    tiles: tuple[int, ...], w: float, h: float, things: Things = (), eye: Point | None = None, *, rows: int = 0,
+    near: bool = False,
+) -> tuple[float, float, int, int]:  # fmt: skip
     """Upper left corner of a panel of that size, px, where it covers no thing, little gold and the least of any way.
 
     The third is how much it covers, the last how much of that are things, gold and the author's way. What is full is no
     way, open space far from all that is full hardly one. Of equal places it is the one nearest to ``eye``, or to the
     middle of the upper border. ``rows``: at the left, in the middle and at the right of so many heights only, from the
-    upper border to the lower one.
+    upper border to the lower one; ``near``: around ``eye`` only, BESIDE px from it.
     """
     open_cells, ways = _ways(tiles)
 
@@ -367,7 +396,14 @@ def solid_place(
     lefts = [edge + k * (WIDTH - 2 * edge - w) / 8 for k in range(0, 9, 4 if rows else 1)]
     apart = (LOWEST - h - edge) / max(1, rows - 1) if rows else 6
     tops = [edge + k * apart for k in range(rows or int((LOWEST - h - edge) / 6))]
-    x, y = min(((x, y) for x in lefts for y in tops), key=cost)
+    if near and eye:
+        ends = (eye[0], w, WIDTH - edge), (eye[1], h, LOWEST)
+        lefts, tops = (
+            [min(max(edge, at + k * (BESIDE + size / 2) / 4 - size / 2), end - size) for k in range(-4, 5)]
+            for at, size, end in ends
+        )
+    places = [(x, y) for x in lefts for y in tops if not near or eye is None or _away(eye, x, y, w, h) >= BESIDE - 1]
+    x, y = min(places, key=cost)
     covered, _, hidden = cost((x, y))
     return x, y, covered, hidden
 
@@ -394,6 +430,9 @@ run ended that it leaves free."""
 
 FAINT, COVERED, CLEAR = 0.2, 10.0, 34.0
 """How solid the panel of a text is over the ninja; px from the ninja to it at which it is so, and solid."""
+
+BESIDE, TAIL = 36.0, 8.0
+"""px from a place to the panel of what is said about it: solid while the ninja is there; half its pointer's width."""
 
 UPPER = 36.0
 """Where the panel of an ended run begins, in the middle, unless it would hide that end or an exit."""
@@ -439,7 +478,9 @@ def hud_view(play: LevelPlay) -> HudView:
     text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.sayings.text
     # The start's text stays where it is; who needs to see what keys do is stuck. Both may cover open space.
     covers = play.sayings.is_start or "\n" in text
-    said = (named_keys(text, key), context.level.tiles, play.things, play.eye, covers) if text else None
+    place = play.sayings.place
+    where = context.level.tiles, play.things, place or play.eye, covers, place is not None
+    said = (named_keys(text, key), *where) if text else None
     if play.phase is Phase.DEAD:
         cause, _, why = cause_of_death(play).partition(". ")
         message = cause.rstrip("."), [*filter(None, [why]), _after_death(play, key)], *_covering(play)
@@ -469,7 +510,7 @@ def hud_view(play: LevelPlay) -> HudView:
         moves=[sum(bit for name, bit in MOVES if f"{{{name}}}" in line) for line in text.split("\n") if "\n" in text],
         letters=[key(name) for name in ("left", "jump", "right")],
         message=message,
-        named=() if message else _named(play),
+        named=() if message else named_in(attempt.simulation.world, play.sayings.named),
         medal=play.medal,
         stamp=play.stamp,
         shine=1.0 if settings.reduced_motion else (play.after_end + play.fraction - STAMP_TICKS) / SHINE_TICKS,
@@ -514,12 +555,11 @@ def _reached(play: LevelPlay) -> list[str]:
     return [*medal, *following, "    ".join([gold, *news]), *clock]
 
 
-def _named(play: LevelPlay) -> list[tuple[str, float, float]]:
-    """What the level names, and where it is until it is used: never over the ninja."""
-    world = play.attempt.simulation.world
+def named_in(world: World, names: Sequence[str] = THINGS) -> list[tuple[str, float, float]]:
+    """What a level names, and where it is until it is used: never over the ninja."""
     return [
         (name, o.x, o.y)
-        for name in play.sayings.named
+        for name in names
         for o in world.objects[1:]
         if o.kind == _THINGS[name] and not (o.kind == SWITCH and world.objects[o.partner].is_open)
         if hypot(o.x - world.ninja.x, o.y - POINTER_UP - world.ninja.y) > POINTER_REACH
