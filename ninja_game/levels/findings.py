@@ -83,8 +83,8 @@ LEVEL_RULES = {
     ),
     "duplicate": Rule("the same object is in this place already", "Delete one of the two."),
     "mine-over-gold": Rule("it is drawn over a piece of gold", "Move one of the two."),
-    "untouched-switch": Rule("its switch was touched in no try of the solver", _EASIER, True),
-    "unreached-exit": Rule("open, it was reached in no try of the solver", _EASIER),
+    "untouched-switch": Rule("the solver never touched its switch", _EASIER, True),
+    "unreached-exit": Rule("the solver never reached it, although it was open", _EASIER),
     "gold-left": Rule("{most} at most were collected at once, {never}", _EASIER),
 }
 

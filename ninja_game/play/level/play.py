@@ -82,7 +82,11 @@ def things_in(world: World, *, tagged: bool) -> Things:
     objects = world.objects[1:]
     places = [(o.x, o.y, MAY if o.kind == GOLD else MUST) for o in objects]
     names = [o for o in objects if tagged and o.kind in {SWITCH, EXIT}]
-    return (world.ninja.x, world.ninja.y, MUST), *places, *((o.x + dx, tag_top(o.y) + 8, MUST) for o in names for dx in (-12, 12))
+    return (
+        (world.ninja.x, world.ninja.y, MUST),
+        *places,
+        *((o.x + dx, tag_top(o.y) + 8, MUST) for o in names for dx in (-12, 12)),
+    )
 
 
 class Phase(Enum):

@@ -53,7 +53,8 @@ FALL_HELP = "Slide down a wall to slow a fall, or land on a downhill slope."
 class Sayings:
     """The texts of one level. Each event's text is said once; those of the start at each start until the exit is open.
 
-    ``text``: what is to be read now, or "", ``place``: near which place, px. ``helps``: the game itself says what helps too: to try again, to climb.
+    ``text``: what is to be read now, or "", ``place``: near which place, px. ``helps``: the game itself says what helps
+    too: to try again, to climb.
     """
 
     def __init__(self, sayings: Sequence[Saying], *, helps: bool = False) -> None:

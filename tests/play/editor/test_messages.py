@@ -10,8 +10,8 @@ import pytest
 
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.formats.sayings import MOST_LETTERS, MOST_SAYINGS, read_sayings
-from ninja_game.play.editor.commands import TryScreen
 from ninja_game.play.editor import messages as messages_module
+from ninja_game.play.editor.commands import TryScreen
 from ninja_game.play.editor.messages import _WHEN, PICTURE, Message, MessagesScreen, messages_of
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import said_places
@@ -263,7 +263,9 @@ def test_the_preview_is_the_games_picture_painted_once_with_its_labels(
 
 
 def test_a_long_text_is_seen_whole_and_up_and_down_go_through_its_lines(room: Maker) -> None:
-    text = "This text has many words and all of them are seen, since the field has three lines for its 117 letters or so, you see"
+    text = (
+        "This text has many words and all of them are seen, since the field has three lines for its 117 letters or so."
+    )
     screen = opened(room)
     screen.messages = [Message("start", "", text), Message("start", "", "y")]
     screen.enter()

@@ -517,13 +517,14 @@ def test_what_is_said_of_a_place_lies_beside_it_and_points_to_it(
 
 def test_a_text_knows_its_place_until_another_comes() -> None:
     told = Sayings(read_sayings("start: Go | at 3,22: Here"))
-    assert told.place is None
+    assert not told.place
     simulation = Simulation(room_level(["#@..#"], ()))
     simulation.world.ninja.x, simulation.world.ninja.y = 84.0, 540.0
     assert told.on_tick(simulation.world)
-    assert (told.text, told.place) == ("Here", (84.0, 540.0))
+    assert told.text == "Here"
+    assert told.place == (84.0, 540.0)
     told.at_start()
-    assert told.place is None
+    assert not told.place
 
 
 WELL = room_level(["#...#"] * 10 + ["#@..#"], ())
