@@ -113,7 +113,7 @@ def snapped(x: float, y: float, snap: str) -> tuple[float, float]:
 
 
 def placed(spec: ObjectSpec, x: float, y: float, snap: str, *, nearest: bool = True) -> ObjectSpec:
-    """The brush's object put at a point; doors on their side of the cell, or on the ``nearest``, the switch at the point.
+    """The brush's object put at a point; doors on their side of the cell or the ``nearest``, the switch at the point.
 
     Drones sit in the middle of their cell, guards on its floor, whatever the snap.
     """

@@ -220,11 +220,11 @@ _OTHER_HALF = {
     for (dx, dy), quarter in _AIR.items()
 }
 """Where the other half of a slope of two tiles is, cells from it."""
-_ROUND = (EMPTY, FULL, *(family.tiles[3] for family in FAMILIES if family.key in "123678"))
+_ROUND = (EMPTY, FULL, *(family.tiles[3] for family in FAMILIES if family.key in "12367"))
 """What the left upper quarter of an ellipse is made of: full at its lower right."""
 _INSIDE = [(x + 0.5, y + 0.5) for x in range(0, 24, 2) for y in range(0, 24, 2)]
-_SWEEPS = 6
-"""Points of a cell, px from its corner; how often all tiles are tried."""
+_STEP, _SWEEPS = 4, 6
+"""Points of a cell, px from its corner; how much a step of a px weighs; how often all tiles are tried."""
 _LONGEST = 4
 """Steps that are longer, or end on both sides farther apart, are all alike."""
 
@@ -300,7 +300,7 @@ def sloped(before: Draft, after: Draft) -> Draft:
 
 @cache
 def rounded(columns: int, rows: int) -> Mapping[Cell, int]:
-    """The full tiles, slopes and curves, by column and row from 0 on, that are most like the ellipse of so many cells.
+    """The full tiles and slopes, by column and row from 0 on, that are most like the ellipse of so many cells.
 
     Each tile of a quarter is the one whose solid part and edges differ least from the ellipse and from the tiles beside
     it; the rest is its image.
@@ -317,7 +317,7 @@ def rounded(columns: int, rows: int) -> Mapping[Cell, int]:
         beside = (-1, 0), (1, 0), (0, -1), (0, 1)
         edges = [((x, y), tiles.get((i + x, j + y), EMPTY)) for x, y in beside if i + x < wide and j + y < high]
         steps = sum(len(_solid(tile, x, y) ^ _solid(there, -x, -y)) for (x, y), there in edges)
-        return len(_solid(tile) ^ goal[i, j]) + steps
+        return len(_solid(tile) ^ goal[i, j]) + _STEP * steps
 
     crossed = [cell for cell, inside in goal.items() if 0 < len(inside) < len(_INSIDE)]
     for sweep in range(_SWEEPS):

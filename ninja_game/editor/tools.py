@@ -36,8 +36,8 @@ class EditorTools:
     ``tile`` and ``spec``: what the brush draws, ``objects`` which of them. ``snap``, ``symmetry``: by name.
     ``tool``: one of TOOLS; ``marquee``: the corners of the frame that is being drawn around what to select.
     ``spacing``: of objects along a line or ellipse, px, of SPACINGS. ``slopes``: whether slopes set themselves.
-    ``nearest``: whether doors go to the side of a cell that is nearest to the pointer, not to their own. ``ghost``: what
-    is pasted by the next press.
+    ``nearest``: whether doors go to the side of a cell that is nearest to the pointer, not to their own. ``ghost``:
+    what is pasted by the next press.
     """
 
     def __init__(self, draft: Draft) -> None:

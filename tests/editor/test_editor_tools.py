@@ -377,9 +377,7 @@ def test_a_line_that_slants_is_a_ramp_where_slopes_set_themselves(tools: EditorT
 def test_an_ellipse_is_round_where_slopes_set_themselves(tools: EditorTools) -> None:
     tools.slopes, tools.tool = True, "ellipse"
     drag(tools, (60, 60), (324, 324))
-    upper = [
-        "...fF##Dd...", "..K######J..", ".K########J.", "h##########g", "H##########G", "############",
-    ]  # fmt: skip
+    upper = ["...fF##Dd...", "..s######a..", ".s########a.", "h##########g", "H##########G", "############"]
     assert picture(tools, range(2, 14), range(2, 8)) == upper
     tools.undo()
     drag(tools, (60, 60), (108, 108))

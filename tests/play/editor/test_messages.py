@@ -263,9 +263,7 @@ def test_the_preview_is_the_games_picture_painted_once_with_its_labels(
 
 
 def test_a_long_text_is_seen_whole_and_up_and_down_go_through_its_lines(room: Maker) -> None:
-    text = (
-        "This text has many words and all of them are seen, since the field has three lines for its 117 letters or so."
-    )
+    text = "This text has many words and all of them are seen, since the field has three lines for its 110 letters"
     screen = opened(room)
     screen.messages = [Message("start", "", text), Message("start", "", "y")]
     screen.enter()
