@@ -383,6 +383,7 @@ def test_an_ellipse_is_round_where_slopes_set_themselves(tools: EditorTools) -> 
     drag(tools, (60, 60), (108, 108))
     assert picture(tools, range(2, 5), range(2, 5)) == ["s#a", "###", "w#q"]
     tools.undo()
+    tools.tool = "line"
     drag(tools, (36, 132), (204, 132))
     tools.tool = "ellipse"
     drag(tools, (60, 60), (132, 132))

@@ -225,7 +225,7 @@ class MessagesScreen(MenuScreen):
         theme.paragraph(surface, (*about, *_HELP), below, 11, 15, colour=theme.palette.faint)
 
     def _draw_level(self, surface: pygame.Surface, message: Message | None) -> None:
-        """The level with a message as in play. The level is drawn once, the message anew."""
+        """The level with a message as in play. The level is drawn once, the message each time."""
         theme, draft, place = self.theme, self._draft, self.theme.canvas.rect(*PICTURE)
         key = theme.palette.name, place.size, self.app.settings.text_size
         if self._stage is None or self._stage[0] != key:

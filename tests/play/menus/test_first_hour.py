@@ -515,16 +515,20 @@ def test_what_is_said_of_a_place_lies_beside_it_and_points_to_it(
         assert any(rect.collidepoint(there) for rect in covered), "so it is taken away again"
 
 
+def hud_place(told: Sayings) -> tuple[float, float] | None:
+    return told.place
+
+
 def test_a_text_knows_its_place_until_another_comes() -> None:
     told = Sayings(read_sayings("start: Go | at 3,22: Here"))
-    assert not told.place
+    assert hud_place(told) is None
     simulation = Simulation(room_level(["#@..#"], ()))
     simulation.world.ninja.x, simulation.world.ninja.y = 84.0, 540.0
     assert told.on_tick(simulation.world)
     assert told.text == "Here"
-    assert told.place == (84.0, 540.0)
+    assert hud_place(told) == (84.0, 540.0)
     told.at_start()
-    assert not told.place
+    assert hud_place(told) is None
 
 
 WELL = room_level(["#...#"] * 10 + ["#@..#"], ())

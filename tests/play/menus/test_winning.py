@@ -140,6 +140,7 @@ def test_a_text_in_the_border_leaves_room_for_the_name_of_the_level(driver: Menu
         tuple((24.0 * column, 24.0 * row, MUST) for column in range(33) for row in range(25)),
         (396.0, 300.0),
         False,
+        False,
     )
     view = HudView(3600, "", ("Episode 1.1, level 1: Long Name", "gold 0 / 5"), name="Long Name", said=said)
     log = DrawLog()
