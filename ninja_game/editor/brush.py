@@ -113,14 +113,14 @@ def snapped(x: float, y: float, snap: str) -> tuple[float, float]:
     return step * round(x / step), step * round(y / step)
 
 
-def placed(spec: ObjectSpec, x: float, y: float, snap: str) -> ObjectSpec:
-    """The brush's object put at a point; doors on the side of the cell that is nearest, its switch where it would be.
+def placed(spec: ObjectSpec, x: float, y: float, snap: str, *, nearest: bool = True) -> ObjectSpec:
+    """The brush's object put at a point; doors on their side of the cell or the ``nearest``, the switch at the point.
 
     Drones sit in the middle of their cell, guards on its floor, whatever the snap.
     """
     px, py = snapped(x, y, snap)
     if spec.kind == kinds.DOOR:
-        return _placed_door(spec, x, y, (px, py))
+        return _placed_door(spec, x, y, (px, py), nearest=nearest)
     if spec.kind == kinds.DRONE:
         px, py = snapped(x, y, "cell")
     elif spec.kind == kinds.FLOOR_GUARD:
@@ -133,10 +133,10 @@ def placed(spec: ObjectSpec, x: float, y: float, snap: str) -> ObjectSpec:
     return spec._replace(values=values)
 
 
-def _placed_door(spec: ObjectSpec, x: float, y: float, switch: tuple[float, float]) -> ObjectSpec:
+def _placed_door(spec: ObjectSpec, x: float, y: float, switch: tuple[float, float], *, nearest: bool) -> ObjectSpec:
     column, row = cell_of(x, y)
     right, down = x - CELL * column - HALF, y - CELL * row - HALF
-    if (right, down) != (0.0, 0.0):
+    if nearest and (right, down) != (0.0, 0.0):
         wide = abs(right) >= abs(down)
         side = ("right" if right > 0 else "left") if wide else ("bottom" if down > 0 else "top")
         spec = with_word(spec, "side", side)

@@ -149,7 +149,9 @@ class Certifier:
                 return "Another level's search comes first. Go on editing, or save and leave: it goes on"
             waited = f"{monotonic() - search.began:.0f} s"
             return f"Getting ready, {waited}: minutes the first time. Go on editing, or save and leave: it goes on"
-        return f"Looking for a run: {search.progress.ticks // 1000} thousand ticks tried"
+        ticks = search.progress.ticks
+        tried = f"{ticks / 1e6:.1f} million" if ticks >= 1e6 else f"{ticks // 1000} thousand"
+        return f"Looking for a run: {tried} ticks tried"
 
     @property
     def busy(self) -> bool:

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import cache
 from itertools import accumulate, pairwise
 from math import cos, dist, hypot, pi, sin
 from typing import NamedTuple
 
 from ninja_game.editor.brush import EMPTY, FAMILIES, FULL, QUARTERS, cells_between
 from ninja_game.editor.draft import Cell, Draft, Tiles, cell_of, changed_cells, is_inside
-from ninja_game.editor.motion import Motion
+from ninja_game.editor.motion import FLIP, MIRROR, Motion
 from ninja_game.editor.specs import Point, carried, points
+from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec
-from ninja_game.sim.rules import CELL, HALF
+from ninja_game.sim.memory.schema import TileMap
+from ninja_game.sim.rules import CELL, HALF, STRIDE
 
 CellArea = tuple[int, int, int, int]
 """First column, first row, columns, rows."""
@@ -217,6 +220,11 @@ _OTHER_HALF = {
     for (dx, dy), quarter in _AIR.items()
 }
 """Where the other half of a slope of two tiles is, cells from it."""
+_ROUND = (EMPTY, FULL, *(family.tiles[3] for family in FAMILIES if family.key in "12367"))
+"""What the left upper quarter of an ellipse is made of: full at its lower right."""
+_INSIDE = [(x + 0.5, y + 0.5) for x in range(0, 24, 2) for y in range(0, 24, 2)]
+_STEP, _SWEEPS = 4, 6
+"""Points of a cell, px from its corner; how much a step of a px weighs; how often all tiles are tried."""
 _LONGEST = 4
 """Steps that are longer, or end on both sides farther apart, are all alike."""
 
@@ -288,6 +296,57 @@ def sloped(before: Draft, after: Draft) -> Draft:
         if after.tile(cell) in _SOFT:
             tiles |= _corner(after, cell, near)
     return after.with_tiles({cell: tile for cell, tile in tiles.items() if after.tile(cell) in _SOFT})
+
+
+@cache
+def rounded(columns: int, rows: int) -> Mapping[Cell, int]:
+    """The full tiles and slopes, by column and row from 0 on, that are most like the ellipse of so many cells.
+
+    Each tile of a quarter is the one whose solid part and edges differ least from the ellipse and from the tiles beside
+    it; the rest is its image.
+    """
+    wide, high = (columns + 1) // 2, (rows + 1) // 2
+    goal = {
+        (i, j): {(x, y) for x, y in _INSIDE if hypot((i + x / 24) / columns - 0.5, (j + y / 24) / rows - 0.5) <= 0.5}
+        for i in range(wide)
+        for j in range(high)
+    }
+    tiles = {cell: FULL if 2 * len(inside) > len(_INSIDE) else EMPTY for cell, inside in goal.items()}
+
+    def differs(tile: int, i: int, j: int) -> int:
+        beside = (-1, 0), (1, 0), (0, -1), (0, 1)
+        edges = [((x, y), tiles.get((i + x, j + y), EMPTY)) for x, y in beside if i + x < wide and j + y < high]
+        steps = sum(len(_solid(tile, x, y) ^ _solid(there, -x, -y)) for (x, y), there in edges)
+        return len(_solid(tile) ^ goal[i, j]) + _STEP * steps
+
+    crossed = [cell for cell, inside in goal.items() if 0 < len(inside) < len(_INSIDE)]
+    for sweep in range(_SWEEPS):
+        for i, j in sorted(crossed, key=sum, reverse=sweep % 2 == 0):
+            middle = (columns % 2 and i == wide - 1) or (rows % 2 and j == high - 1)
+            choice = sorted(_ROUND[: 2 if middle else None], key=tiles[i, j].__ne__)
+            tiles[i, j] = min(choice, key=lambda tile: differs(tile, i, j))
+    halves = {cell: _OTHER_HALF[tile] for cell, tile in tiles.items() if tile in _OTHER_HALF}
+    for (i, j), (dx, dy) in halves.items():
+        # A slope of two tiles has both of them.
+        if halves.get((i + dx, j + dy)) != (-dx, -dy):
+            tiles[i, j] = FULL if dx + dy < 0 else EMPTY
+    for i, j in [(i, j) for i in range(columns) for j in range(rows) if (i, j) not in tiles]:
+        tile = tiles[min(i, columns - 1 - i), min(j, rows - 1 - j)]
+        tile = MIRROR.tile(tile) if i >= wide else tile
+        tiles[i, j] = FLIP.tile(tile) if j >= high else tile
+    return {cell: tile for cell, tile in tiles.items() if tile != EMPTY}
+
+
+@cache
+def _solid(tile: int, dx: int = 0, dy: int = 0) -> frozenset[Point]:
+    """Which points of a tile are solid, px from its corner; ``dx``, ``dy``: those along that side, px along it."""
+    level = TileMap()
+    level.tiles[STRIDE + 1] = tile
+    along = [(k + 0.5, 0.0) for k in range(24)]
+    sides = {(0, 0): {each: each for each in _INSIDE}}
+    sides |= {(x, 0): {(12 + 11.95 * x, at): (at, zero) for at, zero in along} for x in (-1, 1)}
+    sides |= {(0, y): {(at, 12 + 11.95 * y): (at, zero) for at, zero in along} for y in (-1, 1)}
+    return frozenset(name for at, name in sides[dx, dy].items() if solid_at(level, *at))
 
 
 def _corner(draft: Draft, cell: Cell, near: set[Cell]) -> Tiles:

@@ -5,12 +5,14 @@ They know no window: points are px of the level.
 
 from __future__ import annotations
 
+from math import ceil
+
 from ninja_game.document import History
 from ninja_game.editor import brush, stamp as stamps
 from ninja_game.editor.draft import Cell, Draft, Tiles, cell_of, changed_cells, is_inside
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.specs import has_switch, points, properties, with_word
-from ninja_game.sim.kinds import GOLD, MINE, NINJA
+from ninja_game.sim.kinds import DOOR, GOLD, LAUNCH_PAD, MINE, NINJA
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import CELL, HALF, WORLD_HEIGHT, WORLD_WIDTH
 
@@ -20,6 +22,8 @@ TOOLS = ("brush", *SHAPES, "fill", "select", "pick")
 SPACINGS = (12.0, 16.0, 20.0, 24.0, 36.0, 48.0, 72.0)
 BEND = 12.0
 """Px by which one step bends a line."""
+NEAREST = "nearest"
+"""The side of doors that follow the pointer."""
 DRAGGED = PICK_REACH = 12.0
 """A press that moves farther than this is a drag; an object that is nearer is picked, px."""
 REACH = 17.32
@@ -32,6 +36,8 @@ class EditorTools:
     ``tile`` and ``spec``: what the brush draws, ``objects`` which of them. ``snap``, ``symmetry``: by name.
     ``tool``: one of TOOLS; ``marquee``: the corners of the frame that is being drawn around what to select.
     ``spacing``: of objects along a line or ellipse, px, of SPACINGS. ``slopes``: whether slopes set themselves.
+    ``nearest``: whether doors go to the side of a cell that is nearest to the pointer, not to their own. ``ghost``:
+    what is pasted by the next press.
     """
 
     def __init__(self, draft: Draft) -> None:
@@ -41,7 +47,7 @@ class EditorTools:
         self.spec: ObjectSpec = brush.object_of_type("gold")
         self.snap = "cell"
         self.symmetry = "off"
-        self.spacing, self.slopes = 24.0, False
+        self.spacing, self.slopes, self.nearest = 24.0, False, True
         self._bend = 0.0
         self.pointer = (396.0, 300.0)
         self._pressed_at = self.pointer
@@ -49,6 +55,7 @@ class EditorTools:
         self.tool = "brush"
         self.selection = stamps.Selection()
         self.clipboard: stamps.Stamp | None = None
+        self.ghost: stamps.Stamp | None = None
         self.marquee: tuple[Cell, Cell] | None = None
         self._doing = ""
         self._chosen_before = stamps.Selection()
@@ -112,6 +119,12 @@ class EditorTools:
             else:
                 self.finish()
             return
+        if self.ghost is not None:
+            if erase:
+                self.ghost = None
+            else:
+                self._put_ghost()
+            return
         self._pressed_at, self._bend = self.pointer, 0.0
         if pick or (self.tool == "pick" and not erase):
             self.pick()
@@ -126,7 +139,7 @@ class EditorTools:
         if self.effective_tool == "fill" and not erase:
             cells = stamps.filled(self.draft, self.cell)
             middles = [(CELL * column + HALF, CELL * row + HALF) for column, row in cells if self.objects]
-            objects = tuple(brush.placed(self.spec, *middle, "cell") for middle in middles)
+            objects = tuple(self.placed(*middle, "cell") for middle in middles)
             self._change(stamps.Stamp({} if self.objects else dict.fromkeys(cells, self.tile), objects))
             return
         many = not self.objects or self.spec.kind in (GOLD, MINE)
@@ -136,7 +149,7 @@ class EditorTools:
 
     def release(self) -> None:
         if self._doing == "drop" and has_switch(self._dropped()):
-            self._switchless = brush.placed(self.spec, *self._pressed_at, self.snap)
+            self._switchless = self.placed(*self._pressed_at)
             self._doing = ""
             far = max(abs(a - b) for a, b in zip(self.pointer, self._pressed_at, strict=True)) > DRAGGED
             if far:
@@ -149,16 +162,16 @@ class EditorTools:
         self.history.end()
 
     def finish(self) -> None:
-        self._switchless = None
+        self._switchless = self.ghost = None
         self._doing, self.marquee = "", None
         self.history.end()
 
     def cancel(self) -> bool:
         """Give up what is half done, or the selection; whether there was any."""
-        busy = bool(self._doing or self.placing_switch or self.selection)
+        busy = bool(self._doing or self.placing_switch or self.ghost or self.selection)
         if self._doing or self.placing_switch:
             self.history.abandon()
-        self._switchless = None
+        self._switchless = self.ghost = None
         self._doing, self.marquee, self.selection = "", None, stamps.Selection()
         return busy
 
@@ -179,6 +192,9 @@ class EditorTools:
             self.tool = "brush"
 
     # --- drawing ---
+
+    def placed(self, x: float, y: float, snap: str = "") -> ObjectSpec:
+        return brush.placed(self.spec, x, y, snap or self.snap, nearest=self.nearest)
 
     def _change(self, stamp: stamps.Stamp, draft: Draft | None = None) -> None:
         self.history.change(self._with(stamp, draft or self.draft))
@@ -204,7 +220,7 @@ class EditorTools:
         elif erasing:
             self.delete_nearest()
         else:
-            self._change(stamps.Stamp({}, (brush.placed(self.spec, *self.pointer, self.snap),)))
+            self._change(stamps.Stamp({}, (self.placed(*self.pointer),)))
 
     def _draw_shape(self) -> None:
         """Tiles that fill it, or objects: a box is full of them, a line or an ellipse has them along it."""
@@ -212,7 +228,13 @@ class EditorTools:
             cells = stamps.covered(self._doing, cell_of(*self._pressed_at), self.cell, self._bend)
             if self.slopes and self._doing == "line" and self.tile in (brush.EMPTY, brush.FULL):
                 cells = stamps.joined(cells)
-            self._change(stamps.Stamp(dict.fromkeys(cells, self.tile)), self.history.began)
+            tiles = dict.fromkeys(cells, self.tile)
+            if self.slopes and self._doing == "ellipse" and self.tile == brush.FULL:
+                column, row, *size = stamps.area_between(cell_of(*self._pressed_at), self.cell)
+                round_ = {(column + i, row + j): tile for (i, j), tile in stamps.rounded(*size).items()}
+                before = self.history.began
+                tiles = {cell: tile for cell, tile in round_.items() if tile == brush.FULL or not before.tile(cell)}
+            self._change(stamps.Stamp(tiles), self.history.began)
             return
         ends = brush.snapped(*self._pressed_at, self.snap), brush.snapped(*self.pointer, self.snap)
         if self._doing in CURVES:
@@ -222,9 +244,7 @@ class EditorTools:
             (x, right), (y, bottom) = (sorted(along) for along in zip(*ends, strict=True))
             rows, columns = (range(int(length // step) + 1) for length in (bottom - y, right - x))
             places = [(x + step * i, y + step * j) for j in rows for i in columns]
-        self._change(
-            stamps.Stamp({}, tuple(brush.placed(self.spec, *place, snap) for place in places)), self.history.began
-        )
+        self._change(stamps.Stamp({}, tuple(self.placed(*place, snap) for place in places)), self.history.began)
 
     def bend(self, steps: int) -> bool:
         """Bend the line that is being drawn to its right; whether anything is being drawn or dragged."""
@@ -234,12 +254,12 @@ class EditorTools:
         return bool(self._doing)
 
     def _dropped(self) -> ObjectSpec:
-        return brush.placed(self.spec, *self.pointer, self.snap)
+        return self.placed(*self.pointer)
 
     def _drop(self) -> None:
         spec = self._dropped()
         if has_switch(spec):
-            spec = brush.with_switch(brush.placed(self.spec, *self._pressed_at, self.snap), *self.pointer, self.snap)
+            spec = brush.with_switch(self.placed(*self._pressed_at), *self.pointer, self.snap)
         self._change(stamps.Stamp({}, (spec,)), self.history.began)
 
     def _put_switch(self) -> None:
@@ -354,19 +374,35 @@ class EditorTools:
             self.delete_nearest(PICK_REACH)
 
     def paste(self) -> bool:
-        """Put what was copied under the pointer, and choose it; whether anything was copied."""
+        """Take what was copied in hand, for the next press to put it; whether anything was copied."""
         self.finish()
-        if self.clipboard is None:
-            return False
-        tiles = self.clipboard.tiles
-        places = [point for spec in self.clipboard.objects for point in points(spec).values()]
-        corner = (CELL * min(c for c, _ in tiles), CELL * min(r for _, r in tiles)) if tiles else min(places)
-        there = (CELL * self.cell[0], CELL * self.cell[1]) if tiles else brush.snapped(*self.pointer, self.snap)
-        motion = Motion(dx=there[0] - corner[0], dy=there[1] - corner[1])
-        draft, self.selection = stamps.pasted(self.draft, self.clipboard.carried(motion))
-        self.tool = "select"
-        self.history.change(draft)
-        return True
+        self.selection, self.ghost = stamps.Selection(), self.clipboard
+        return self.ghost is not None
+
+    @property
+    def pasted(self) -> stamps.Stamp | None:
+        """What is in hand, as it comes to lie: its middle under the pointer, all of it in the level if it has room."""
+        if self.ghost is None:
+            return None
+        cells = [(CELL * column + at, CELL * row + at) for column, row in self.ghost.tiles for at in (0.0, CELL)]
+        # Only pads and doors may lie on the border's edge.
+        rims = [(spec, 0.0 if spec.kind in (DOOR, LAUNCH_PAD) else 0.5) for spec in self.ghost.objects]
+        ends = [(x + d, y + d) for spec, rim in rims for x, y in points(spec).values() for d in (-rim, rim)]
+        places = [*cells, *ends]
+        moves = []
+        for along, at, end in zip(zip(*places, strict=True), self.pointer, (WORLD_WIDTH, WORLD_HEIGHT), strict=True):
+            low, high, step = min(along), max(along), CELL if cells else brush.SNAPS[self.snap]
+            by = step * round((at - (low + high) / 2) / step)
+            # The border stays free, by whole steps.
+            by += step * max(0, ceil((CELL - low - by) / step))
+            moves.append(by - step * max(0, ceil((high + by - end + CELL) / step)))
+        return self.ghost.carried(Motion(dx=moves[0], dy=moves[1]))
+
+    def _put_ghost(self) -> None:
+        stamp, self.ghost, self.tool = self.pasted, None, "select"
+        if stamp:
+            draft, self.selection = stamps.pasted(self.draft, stamp)
+            self.history.change(draft)
 
     @property
     def chosen(self) -> ObjectSpec | None:
@@ -389,7 +425,8 @@ class EditorTools:
     def put_word(self, name: str, text: str) -> None:
         """Give the subjects this property, as one edit."""
         if not self.selection:
-            self.spec = with_word(self.spec, name, text)
+            self.nearest = text == NEAREST if name == "side" else self.nearest
+            self.spec = self.spec if text == NEAREST else with_word(self.spec, name, text)
         objects = list(self.draft.objects)
         for number in self.selection.numbers:
             if name in properties(objects[number]):

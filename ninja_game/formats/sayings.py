@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from ninja_game.errors import LevelError
 from ninja_game.sim.level import COLUMNS, ROWS
+from ninja_game.sim.rules import CELL
 
 MOST_SAYINGS, MOST_LETTERS = 4, 120
 BAR = "|"
@@ -33,6 +34,11 @@ class Saying(NamedTuple):
     text: str
     deaths: int = 0
     cell: tuple[int, int] = (0, 0)
+
+    @property
+    def place(self) -> tuple[float, float] | None:
+        """The middle of the cell near which it is said, px; None for every other moment."""
+        return ((self.cell[0] + 0.5) * CELL, (self.cell[1] + 0.5) * CELL) if self.when == "at" else None
 
 
 def read_sayings(value: str) -> tuple[Saying, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 
 import pygame
@@ -17,6 +17,8 @@ MAX_ENTRY = 40
 """How many characters can be typed unless a field says otherwise."""
 _NO_TEXT = {"tab", "escape", "return", "kp_enter", "up", "down", "pageup", "pagedown", "insert"}
 _FUNCTION_KEY = re.compile("f[0-9]+")
+TEXT_LINE = TEXT + 4.0
+"""Height of a line where there are several, px."""
 DOUBLE_MS = 400
 """A second click within so many ms selects a word, a third one everything."""
 
@@ -158,6 +160,64 @@ class TextEntry(Widget):
                 break
             self._stops.append(left + width)
         return self.text[self._first : self._first + len(self._stops) - 1]
+
+
+class TextArea(TextEntry):
+    """A text in as many lines as have room, wrapped at words; up and down lead from line to line, and then on."""
+
+    _rows: Sequence[tuple[int, list[float]]] = ((0, [0.0]),)
+    _top, _upper, _high = 0, 0.0, TEXT_LINE
+
+    def nudge(self, action: str) -> bool:
+        firsts = [first for first, _ in self._rows]
+        row = bisect_right(firsts, self.edited.cursor) - 1
+        to = row + {"up": -1, "down": 1}.get(action, 0)
+        if to == row or not 0 <= to < len(firsts):
+            return False
+        self.edited.go(min(firsts[to] + self.edited.cursor - firsts[row], [*firsts, len(self.text) + 1][to + 1] - 1))
+        return True
+
+    def click(self, x: float, y: float) -> bool:
+        self._to_row(y)
+        return super().click(x, y)
+
+    def drag(self, x: float, y: float) -> bool:
+        self._to_row(y)
+        return super().drag(x, y)
+
+    def _to_row(self, y: float) -> None:
+        row = self._top + int((y - self._upper) // self._high)
+        self._first, self._stops = self._rows[min(max(0, row), len(self._rows) - 1)]
+
+    def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
+        self.draw_base(surface, theme, focused=focused)
+        x, y, w, h = self.area
+        left, text, fill = x + PAD, self.text, theme.canvas.fill_rect
+        rows: list[tuple[int, list[float]]] = []
+        self._rows, self._first, measured = rows, 0, -1
+        while measured < len(text):
+            shown = self._measure(theme, left, w - 2 * PAD - 4)
+            measured = self._first + len(shown)
+            if measured < len(text) and " " in shown:
+                self._stops = self._stops[: shown.rindex(" ") + 2]
+            rows.append((self._first, self._stops))
+            self._first += max(1, len(self._stops) - 1)
+        self._high = TEXT_LINE * theme.scales[0]
+        room = max(1, int((h - 4) // self._high))
+        at = bisect_right([first for first, _ in self._rows], self.edited.cursor) - 1
+        self._top = max(0, min(max(self._top, at - room + 1), at, len(self._rows) - room))
+        self._upper = y + (h - room * self._high) / 2
+        begin, end = self.edited.span
+        for row, (first, stops) in enumerate(self._rows[self._top : self._top + room], self._top):
+            top, last = self._upper + (row - self._top) * self._high, first + len(stops) - 1
+            a, b = (stops[min(max(0, k - first), len(stops) - 1)] for k in (begin, end))
+            if focused and a < b:
+                fill(surface, theme.palette.bar_full, a - 1, top, b - a + 2, self._high)
+            line, colour = (text[first:last], theme.palette.text) if text else (self.prompt, theme.palette.faint)
+            theme.text(surface, line, left, top + (self._high - TEXT) / 2, size=TEXT, colour=colour)
+            if focused and row == at:
+                cursor = stops[min(self.edited.cursor - first, len(stops) - 1)]
+                fill(surface, theme.palette.accent, cursor - 1, top + 1, 1.5, self._high - 2)
 
 
 class EditedText:

@@ -17,11 +17,11 @@ from ninja_game.editor.brush import (
     tile_key,
     tile_name,
 )
-from ninja_game.editor.draft import Draft, cell_of, changed_cells
+from ninja_game.editor.draft import Draft, cell_of, changed_cells, is_inside
 from ninja_game.editor.files import open_source
 from ninja_game.editor.motion import CLOCKWISE, MIRROR
 from ninja_game.editor.specs import points, word
-from ninja_game.editor.stamp import Selection, chosen_in, covered
+from ninja_game.editor.stamp import Selection, chosen_in, covered, rounded
 from ninja_game.editor.tools import EditorTools
 from ninja_game.formats.ascii.legend import TILE_CHARS
 from ninja_game.formats.ascii.writer import best_form
@@ -160,11 +160,17 @@ def test_what_is_selected_moves_turns_copies_and_goes(tools: EditorTools) -> Non
     tools.turn(MIRROR)
     assert tools.copy()
     tools.move(300, 300)
+    before = tools.draft
     assert tools.paste()
-    assert tools.draft.tile((12, 12)) == 2
-    assert tools.draft.objects[1].values[:2] == (324.0, 300.0)
+    assert tools.draft is before, "it follows the pointer"
+    assert tools.cancel()
+    assert tools.ghost is None
+    assert tools.paste()
+    drag(tools, (300, 300))
+    assert tools.draft.tile((11, 12)) == 2
+    assert tools.draft.objects[1].values[:2] == (300.0, 300.0)
     tools.nudge(0, 1)
-    assert tools.draft.tile((12, 13)) == 2
+    assert tools.draft.tile((11, 13)) == 2
     tools.turn(CLOCKWISE)
     tools.delete()
     assert tools.draft.tile((2, 4)) == 2
@@ -368,16 +374,53 @@ def test_a_line_that_slants_is_a_ramp_where_slopes_set_themselves(tools: EditorT
     assert picture(tools, range(2, 12), range(2, 7)) == gentle, "22°"
 
 
-def test_an_ellipse_has_gentle_and_steep_ends_where_its_steps_are_long(tools: EditorTools) -> None:
+def test_an_ellipse_is_round_where_slopes_set_themselves(tools: EditorTools) -> None:
     tools.slopes, tools.tool = True, "ellipse"
-    drag(tools, (60, 60), (516, 324))
-    assert picture(tools, range(2, 22), range(2, 8)) == [
-        "......fF####Dd......", "...fF##########Dd...", "..s##############a..", ".s################a.",
-        "h##################g", "H##################G",
-    ]  # fmt: skip
+    drag(tools, (60, 60), (324, 324))
+    upper = ["...fF##Dd...", "..s######a..", ".s########a.", "h##########g", "H##########G", "############"]
+    assert picture(tools, range(2, 14), range(2, 8)) == upper
     tools.undo()
-    drag(tools, (60, 60), (204, 204))
-    assert picture(tools, range(2, 9), range(2, 9))[0] == "..s#a..", "not where the two ends would meet"
+    drag(tools, (60, 60), (108, 108))
+    assert picture(tools, range(2, 5), range(2, 5)) == ["s#a", "###", "w#q"]
+    tools.undo()
+    tools.tool = "line"
+    drag(tools, (36, 132), (204, 132))
+    tools.tool = "ellipse"
+    drag(tools, (60, 60), (132, 132))
+    assert all(tools.draft.tile((column, 5)) for column in range(2, 6))
+    for size in ((5, 4), (20, 8), (17, 17), (31, 23)):
+        round_ = rounded(*size)
+        mirrored = {(size[0] - 1 - i, j): MIRROR.tile(tile) for (i, j), tile in round_.items()}
+        assert mirrored == round_
+        gentle = {cell for cell, tile in round_.items() if TILE_CHARS[tile] == "f"}
+        assert {(i + 1, j) for i, j in gentle} == {cell for cell, tile in round_.items() if TILE_CHARS[tile] == "F"}
+
+
+@pytest.mark.parametrize("corner", [(0, 0), (791, 0), (0, 599), (791, 599)])
+def test_what_is_pasted_stays_in_the_level(tools: EditorTools, corner: tuple[float, float]) -> None:
+    for name, x in (("mine", 300), ("gold", 372)):
+        tools.pick_up(object_of_type(name))
+        drag(tools, (x, 300))
+    for area in ((12, 12, 5, 2), None):
+        tools.selection = Selection(area, chosen_in(tools.draft, (1, 1, 31, 23)).parts)
+        tools.copy()
+        tools.move(*corner)
+        tools.paste()
+        stamp = tools.pasted
+        assert stamp
+        assert all(is_inside(cell) for cell in stamp.tiles)
+        assert all(is_inside(cell_of(*spec.values[:2])) for spec in stamp.objects)
+        tools.cancel()
+
+
+def test_a_chosen_side_of_a_door_wins_over_the_pointer(tools: EditorTools) -> None:
+    tools.pick_up(object_of_type("automatic door"))
+    tools.put_word("side", "bottom")
+    drag(tools, (241, 250))
+    assert word(tools.draft.objects[-1], "side") == "bottom"
+    tools.put_word("side", "nearest")
+    drag(tools, (289, 300))
+    assert word(tools.draft.objects[-1], "side") == "left"
 
 
 def test_the_preview_of_a_press_shows_the_slopes_too(tools: EditorTools) -> None:

@@ -175,7 +175,7 @@ def test_gold_that_was_never_collected_is_told() -> None:
     assert [WALLED_IN.objects[number].kind for number in why.records] == [GOLD]
 
 
-UNTOUCHED, UNREACHED = "its switch was touched in no try of the solver", "open, it was reached in no try of the solver"
+UNTOUCHED, UNREACHED = "the solver never touched its switch", "the solver never reached it, although it was open"
 FAR_SWITCH = {3: "." * 27 + "x", 23: "..@............X"}
 FAR_EXIT = {3: "." * 27 + "X", 23: "..@........x"}
 WALLED = "." * 19 + "#"

@@ -24,7 +24,7 @@ from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
 from ninja_game.play.editor.messages import MessagesScreen
 from ninja_game.play.editor.palette_view import PaletteView
-from ninja_game.play.editor.session import EditorSession
+from ninja_game.play.editor.session import UNREACHABLE, EditorSession
 from ninja_game.play.editor.sheet import finding_points
 from ninja_game.play.editor.view import EditorView
 from ninja_game.play.level.screen import LevelScreen
@@ -36,6 +36,7 @@ from ninja_game.play.workspace import CommandMenu, CommandTable, DocumentCommand
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import LevelContext, Navigation, PacedRun
+from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import COLUMNS, ROWS, Level
 from ninja_game.ui.audio.music import SILENCE
 from ninja_game.ui.widgets import following
@@ -66,7 +67,8 @@ HELP = """\
 A first level: draw a floor with the left mouse button. Take the ninja from the objects at the right and click where \
 it begins; take the exit, click where it is, then where its switch is. Test plays the level, Certify lets the solver \
 look for a run, Save (in File) puts it into the menu Levels.
-The right button erases, the middle one picks. Doors go to the nearest side of a cell; then click where the switch is. \
+The right button erases, the middle one picks. Doors go to the nearest side of a cell, \
+or to the one chosen; then click where the switch is. \
 Tiles: 1 to 8 choose a shape, Q W A S its solid corner, E is full, D empty. Objects: the keys that the palette shows; \
 W A S D turn them. Without a mouse: arrows move the pointer, Space draws, Shift and arrows move what is selected."""
 
@@ -195,7 +197,16 @@ class EditorCommands(DocumentCommands):
         elif any(finding.code in ("no-ninja", "no-exit") for finding in self.session.findings):
             self.app.notify("Place a ninja and an exit with its switch first")
         else:
-            certifier.start(self.session.draft.level)
+            level, start = self.session.draft.level, partial(certifier.start, self.session.draft.level)
+            odd = [f for f in self.session.examine() if f.code in UNREACHABLE]
+            if any(level.objects[number].kind == EXIT for finding in odd for number in finding.records):
+                rows: list[Row] = [
+                    ("Look for a run anyway", start, "It may be reached in a way nobody expects"),
+                    CANCEL,
+                ]
+                self.app.push(Menu(self.app, "The ninja cannot reach the exit or its switch", rows))
+            else:
+                start()
 
     # --- files ---
 

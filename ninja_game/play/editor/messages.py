@@ -13,27 +13,35 @@ from ninja_game.editor.specs import BODY, SWITCH, points
 from ninja_game.errors import LevelError
 from ninja_game.formats.sayings import BAR, KEYS, MOST_LETTERS, MOST_SAYINGS, THINGS, named_keys, read_sayings
 from ninja_game.play.app import App
-from ninja_game.play.editor.sheet import LevelSheet, said_places
-from ninja_game.play.level.hud import Hud
-from ninja_game.play.level.play import MAY, MUST, tag_top
+from ninja_game.play.level.hud import Hud, HudView
+from ninja_game.play.level.hud_view import named_in
+from ninja_game.play.level.play import things_in
 from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuScreen, Row
 from ninja_game.sim.kinds import EXIT, GOLD
-from ninja_game.ui.canvas import HEIGHT, WIDTH, Point
-from ninja_game.ui.text_entry import TextEntry
+from ninja_game.sim.rules import LIFETIME
+from ninja_game.simulation import Simulation
+from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas, Point
+from ninja_game.ui.text_entry import TextArea, TextEntry
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Choice, Widget
+from ninja_game.view.sprites.thumbnail import thumbnail
 
-ROW, TOP, WIDE = 78, 66, 384
-PICTURE: Area = (436, 66, 320, 320 * HEIGHT / WIDTH)
+ROW, TOP, WIDE = 112, 60, 294
+PICTURE: Area = (342, TOP, 422, 422 * HEIGHT / WIDTH)
 """Rows of the messages; where the level is shown with the selected one."""
 
-_WHEN = [
-    ("At the start", "start"), ("The exit opens", "switch"), ("The first gold", "gold"), ("After deaths", "death"),
-    ("A locked door opens", "lock"), ("A trap closes", "trap"), ("Near a place", "at"),
-]  # fmt: skip
+_WHEN = {
+    "start": ("At the start", "At each start, until the exit is open"),
+    "switch": ("The exit opens", "Once, when the ninja opens the exit"),
+    "gold": ("The first gold", "Once, when the ninja takes the first gold"),
+    "death": ("After deaths", "At the start, after so many deaths"),
+    "lock": ("A door unlocks", "Once, when a locked door opens"),
+    "trap": ("A trap closes", "Once, when a trap door closes"),
+    "at": ("Near a place", "Beside its place, the first time that the ninja comes near it"),
+}
+"""What each moment is called, and when that is."""
 
 _HELP = (
-    "At the start: at each start, until the exit is open. Near a place: the first time that the ninja comes near.",
     f"{', '.join(f'{{{key}}}' for key in KEYS)} become the key or button of whoever plays;",
     f"{' and '.join(f'{{{thing}}}' for thing in THINGS)} become these words; arrows lead to both where messages are.",
 )
@@ -89,6 +97,7 @@ class MessagesScreen(MenuScreen):
     """
 
     title = "Messages to the player"
+    offers_back = False
 
     def __init__(
         self, app: App, draft: Draft, here: Cell, pick: Callable[[Callable[[Cell | None], None]], object],
@@ -98,6 +107,7 @@ class MessagesScreen(MenuScreen):
         self.messages = messages_of(draft.says)
         self._draft = draft
         self._selected = 0
+        self._stage: tuple[tuple[object, ...], pygame.Surface, Hud] | None = None
         self._before = self.source
         self._wanted = "{},{}".format(*at) if at else ""
         self._here, self._pick, self._put = here, pick, put
@@ -116,15 +126,15 @@ class MessagesScreen(MenuScreen):
     def build(self) -> Sequence[Widget]:
         self._row_widgets = [self._row(number) for number in range(len(self.messages))]
         rows = [widget for row in self._row_widgets for widget in row]
-        y = TOP + ROW * len(self.messages)
+        y = TOP + ROW * MOST_SAYINGS + 14
         add = Button((36, y, 160, 28), "Add a message", self._add if len(self.messages) < MOST_SAYINGS else None)
         add.hint = f"A level has at most {MOST_SAYINGS}"
-        end = [Button((480, y, 132, 28), "OK", self._accept), Button((624, y, 132, 28), "Cancel", self.app.pop)]
+        end = [Button((488, y, 132, 28), "OK", self._accept), Button((632, y, 132, 28), "Cancel", self.app.pop)]
         return [*rows, add, *end]
 
     def _row(self, number: int) -> list[Widget]:
         message, y = self.messages[number], TOP + ROW * number
-        text = TextEntry((36, y + 34, WIDE, 30), "What is said", message.text, lambda _: None, longest=MOST_LETTERS)
+        text = TextArea((36, y + 31, WIDE, 60), "What is said", message.text, lambda _: None, longest=MOST_LETTERS)
 
         def put(typed: str) -> None:
             message.text = typed
@@ -132,18 +142,19 @@ class MessagesScreen(MenuScreen):
 
         put(message.text)
         text.put = put
-        moment = Choice((36, y, 140, 28), "", _WHEN, lambda: message.when, partial(self._choose, message))
-        moment.hint = f"When it is said: {', '.join(words[0].lower() + words[1:] for words, _ in _WHEN)}"
+        words = [(name, when) for when, (name, _) in _WHEN.items()]
+        moment = Choice((36, y, 116, 28), "", words, lambda: message.when, partial(self._choose, message))
+        moment.hint = "When it is said: left and right, or a click, change it"
         about: list[Widget] = []
         if message.when in ("death", "at"):
             hint = "Column and row of the cell" if message.when == "at" else "How many deaths"
             detail = partial(setattr, message, "detail")
-            about.append(TextEntry((180, y, 56, 28), hint, message.detail, detail, longest=6, hint=hint))
+            about.append(TextEntry((155, y, 66, 28), hint, message.detail, detail, longest=6, hint=hint))
         if message.when == "at":
-            show = Button((240, y, 104, 28), "Pick a place...", partial(self._point, message), size=10)
-            show.hint = "The next click in the level says where"
+            show = Button((224, y, 48, 28), "Pick...", partial(self._point, message), size=10)
+            show.hint = "Pick its place: the next click in the level says where"
             about.append(show)
-        remove = Button((348, y, 72, 28), "Remove", lambda: self._remove(message), size=10)
+        remove = Button((275, y, 55, 28), "Remove", lambda: self._remove(message), size=10)
         return [moment, *about, remove, text]
 
     def _choose(self, message: Message, when: str) -> None:
@@ -203,36 +214,42 @@ class MessagesScreen(MenuScreen):
             row, length = TOP + ROW * number, len(message.text)
             colour = theme.palette.faint if length < MOST_LETTERS else theme.palette.bad
             count = f"{length} of {MOST_LETTERS}"
-            theme.text(surface, count, 36 + WIDE, row + 65, size=8.5, colour=colour, align="right")
+            theme.text(surface, count, 36 + WIDE, row + 95, size=8.5, colour=colour, align="right")
             if self.focus in self._row_widgets[number]:
                 self._selected = number
-        if self._selected < len(self.messages):
-            self._draw_level(surface, self.messages[self._selected])
-        theme.paragraph(surface, _HELP, (36, 506, 720, 54), 11, 15, colour=theme.palette.faint)
+        selected = self.messages[self._selected] if self._selected < len(self.messages) else None
+        self._draw_level(surface, selected)
+        name, when = _WHEN[selected.when] if selected else ("", "")
+        about = [f"{name}: {when[0].lower()}{when[1:]}."] if selected else []
+        x, y, w, h = PICTURE
+        below = x, y + h + 10, w, TOP + ROW * MOST_SAYINGS - y - h - 10
+        theme.paragraph(surface, (*about, *_HELP), below, 11, 15, colour=theme.palette.faint)
 
-    def _draw_level(self, surface: pygame.Surface, message: Message) -> None:
-        """The level with a message in the place where it lies in play."""
-        place = self.theme.canvas.rect(*PICTURE)
-        sheet = LevelSheet(place.size, self.theme.palette)
-        sheet.show(self._draft)
-        sheet.paint()
-        said = named_keys(
+    def _draw_level(self, surface: pygame.Surface, message: Message | None) -> None:
+        """The level with a message as in play. The level is drawn once, the message each time."""
+        theme, draft, place = self.theme, self._draft, self.theme.canvas.rect(*PICTURE)
+        key = theme.palette.name, place.size, self.app.settings.text_size
+        if self._stage is None or self._stage[0] != key:
+            picture = thumbnail(draft.level, theme.palette, place.width)
+            self._stage = key, picture, Hud(Theme(theme.palette, Canvas(picture.get_size()), key[2]))
+        picture, hud = self._stage[1].copy(), self._stage[2]
+        said = message and named_keys(
             message.text.strip(), lambda name: self.app.controls.name(name) if name in KEYS else f"{{{name}}}"
         )
-        if said:
-            hud = Hud(Theme(self.theme.palette, sheet.canvas, self.app.settings.text_size))
-            spots = [(spec.kind, part, *at) for spec in self._draft.objects for part, at in points(spec).items()]
-            things = [(x, y, MAY if kind == GOLD else MUST) for kind, _, x, y in spots]
-            things += [(x + dx, tag_top(y) + 8, MUST) for kind, _, x, y in spots if kind == EXIT for dx in (-12, 12)]
-            hud.said(
-                sheet.surface,
-                hud.box(said, self._draft.level.tiles, tuple(things), self._eye(message), message.when == "start"),
-            )
-        surface.blit(sheet.surface, place)
+        try:
+            world = Simulation(draft.level).world
+            things, named = things_in(world, tagged=True), named_in(world)
+        except LevelError:
+            things, named = (), []
+        where = (draft.level.tiles, things, self._eye(message), message.when == "start") if message else None
+        text = Said(said, *where, message.when == "at") if message and said and where else None
+        foot = draft.name, f"gold 0 / {draft.level.gold}"
+        hud.draw(picture, HudView(LIFETIME, "", foot, name=draft.name, said=text, named=named if text else ()))
+        surface.blit(picture, place)
 
     def _eye(self, message: Message) -> Point | None:
         """Where the ninja is when a message is said, px; None at the start, or where that is not known."""
         if message.when == "at" and not message.problem[0]:
-            return said_places(f"{message.moment}: a text")[0]
+            return read_sayings(f"{message.moment}: a text")[0].place
         kind, part = {"switch": (EXIT, SWITCH), "gold": (GOLD, BODY)}.get(message.when, (-1, BODY))
         return next((points(spec).get(part) for spec in self._draft.objects if spec.kind == kind), None)

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from functools import lru_cache, partial
 
 import pygame
 
 from ninja_game.editor.brush import tile_name
+from ninja_game.editor.draft import cell_of
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, Motion
 from ninja_game.editor.specs import SWITCH, carried, has_switch, object_type_name, points, properties, word
-from ninja_game.editor.tools import CURVES, SPACINGS, EditorTools
+from ninja_game.editor.tools import CURVES, NEAREST, SPACINGS, EditorTools
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.places import place_text, read_place
 from ninja_game.formats.ascii.writer import best_form
@@ -99,6 +101,8 @@ def _common(specs: Sequence[ObjectSpec]) -> list[str]:
 
 def _present(tools: EditorTools, name: str) -> str:
     """The word for a property of all subjects, "" where they differ."""
+    if name == "side" and tools.nearest and not tools.selection:
+        return NEAREST
     found = {word(spec, name) for spec in tools.subjects if name in properties(spec)}
     return found.pop() if len(found) == 1 else ""
 
@@ -111,7 +115,8 @@ def _choice(tools: EditorTools, name: str) -> Callable[[Area], Widget]:
             tools.put_word(name, text)
 
     label = "" if name in ("type", "movement") else f"{name}: "
-    words = [(label + text, text) for text in properties(tools.subjects[0])[name].words]
+    follows = [NEAREST] if name == "side" and not tools.selection else []
+    words = [(label + text, text) for text in (*follows, *properties(tools.subjects[0])[name].words)]
     unsaid = f"{name}: (several)" if len(tools.subjects) > 1 else "(other)"
     options = [*words, *([] if _present(tools, name) else [(unsaid, "")])]
     hint = f"The {name} of all that is selected" if len(tools.subjects) > 1 else f"The object's {name}"
@@ -250,7 +255,7 @@ class Properties(EditorPart):
 
     def render_key(self) -> tuple[object, ...]:
         tools = self.session.tools
-        return self._subject, tools.tile, tools.subject, tools.selection, tools.slopes, tools.spacing
+        return self._subject, tools.tile, tools.subject, tools.selection, tools.slopes, tools.spacing, tools.nearest
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)
@@ -335,6 +340,8 @@ class StatusLine(EditorPart):
         tools = self.session.tools
         if tools.placing_switch:
             return "Click where the switch is; Esc gives up"
+        if tools.ghost:
+            return "Click where it is pasted; Esc gives up"
         return self.view.hint or _TOOL_HINTS[tools.effective_tool]
 
     def render_key(self) -> tuple[object, ...]:
@@ -360,9 +367,13 @@ _TOOL_HINTS = {
 }
 
 
+_PX_PLACE = re.compile(r"(-?[0-9.]+),(-?[0-9.]+)px")
+
+
 @lru_cache(maxsize=2000)
 def object_text(spec: ObjectSpec) -> str:
-    return " ".join(filter(None, best_form(spec))) or object_type_name(spec)
+    text = " ".join(filter(None, best_form(spec))) or object_type_name(spec)
+    return _PX_PLACE.sub(lambda px: "{},{} ({})".format(*cell_of(float(px[1]), float(px[2])), px[0]), text)
 
 
 _MOVES = (

@@ -48,6 +48,9 @@ from ninja_game.view.sprites.thumbnail import thumbnail
 LOOK_SPACING = 0.5
 """Seconds from one look at the level's file to the next."""
 
+UNREACHABLE = "unreachable", "unreachable-switch"
+"""Codes of the findings about what the ninja cannot reach."""
+
 CHECK_SPACING = 0.1
 """Seconds from one examination of the level to the next, at least."""
 
@@ -60,7 +63,10 @@ Examined = tuple[Level, list[Finding]]
 
 def _examine(question: Question) -> Examined:
     level, found = question
-    return level, [*found, *level_findings(level)]
+    odd = level_findings(level)
+    # What the ninja cannot reach at all need not be told of the solver too.
+    told = {number for each in odd if each.code in UNREACHABLE for number in each.records}
+    return level, [*(each for each in found if not told.intersection(each.records)), *odd]
 
 
 class EditorSession:

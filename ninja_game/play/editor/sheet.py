@@ -254,8 +254,7 @@ def said_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
 
 def said_places(says: str) -> list[Point]:
     """The middles of the cells near which a level says something, px."""
-    cells = [each.cell for each in read_sayings(says) if each.when == "at"]
-    return [(CELL * column + HALF, CELL * row + HALF) for column, row in cells]
+    return [each.place for each in read_sayings(says) if each.place]
 
 
 def visit_mark(canvas: Canvas, palette: Palette, cell: Cell, share: float) -> LevelMark:

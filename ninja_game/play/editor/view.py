@@ -7,12 +7,11 @@ from typing import NamedTuple
 
 import pygame
 
-from ninja_game.editor.brush import placed
 from ninja_game.editor.certify import NO_TESTS, SQUARE, Reach, Route
 from ninja_game.editor.draft import Cell, Draft, cell_of, is_inside
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.specs import BODY, SWITCH, carried, points
-from ninja_game.editor.stamp import CellArea, area_between, nearest
+from ninja_game.editor.stamp import CellArea, Stamp, area_between, nearest
 from ninja_game.editor.tools import PICK_REACH, EditorTools
 from ninja_game.play.app import App
 from ninja_game.play.editor.palette_view import tile_icon
@@ -131,9 +130,21 @@ class Overlay:
         pygame.draw.rect(self.target.surface, colour, rect, self.canvas.px(1.6))
         self._note(rect)
 
+    def _ghost(self, stamp: Stamp) -> None:
+        """What would be pasted."""
+        for cell, tile in stamp.tiles.items():
+            self._ghost_tile(cell, tile)
+        for each in self.sheet.pictures.sprites_of(stamp.objects).values():
+            each.draw(self.target, alpha=GHOST)
+        if stamp.tiles:
+            self._frame(area_between(min(stamp.tiles), max(stamp.tiles)), self.sheet.palette.accent)
+
     def _hover(self, tools: EditorTools) -> None:
         """What a press would do here, and in the images of the symmetry."""
         if tools.placing_switch:
+            return
+        if tools.pasted:
+            self._ghost(tools.pasted)
             return
         draws = tools.effective_tool not in ("select", "pick")
         motions = (Motion(), *(SYMMETRIES[tools.symmetry] if draws else ()))
@@ -148,7 +159,7 @@ class Overlay:
             for motion in motions:
                 self._frame((*motion.cell(tools.cell), 1, 1), self.sheet.palette.accent)
             return
-        spec = placed(tools.spec, *tools.pointer, tools.snap)
+        spec = tools.placed(*tools.pointer)
         x, y = points(spec).get(BODY, tools.pointer)
         there = nearest(tools.draft, x, y, NEAR_SWITCH_PX)
         if there is None or there[1] != SWITCH:
@@ -282,8 +293,8 @@ class EditorView(Part):
         tools = self.session.tools
         return (
             tools.pointer, self.hovering, tools.tool, tools.objects, tools.tile, tools.spec, tools.snap,
-            tools.symmetry, tools.slopes, tools.selection, tools.marquee, tools.placing_switch, tools.draft,
-            self.session.reach and id(self.session.reach),
+            tools.symmetry, tools.slopes, tools.nearest, tools.ghost, tools.selection, tools.marquee,
+            tools.placing_switch, tools.draft, self.session.reach and id(self.session.reach),
         )  # fmt: skip
 
     def draw(self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool) -> list[pygame.Rect]:

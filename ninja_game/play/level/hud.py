@@ -39,7 +39,9 @@ _KEYS_WIDE = 70.0  # room for keys before a line, px
 IN_BORDER = 576.0  # top of what a level says in the border below, px
 _BESIDE_GOLD = 490.0  # its width there, px
 _FAINT = 0.2  # how solid its panel is over the ninja
-_COVERED, _CLEAR = 10.0, 34.0  # px between them at which it is as faint as that, and solid
+_COVERED, CLEAR = 10.0, 34.0  # px between them at which it is as faint as that, and solid
+_BESIDE = 36.0  # px from a place to the panel of what is said about it: solid while the ninja is there
+_TAIL = 8.0  # half the width of its pointer, px
 
 _POINTER_SIZE = 9.5  # letters of the names of things
 _TITLE_SIZE = 26.0  # letters of an ended run's time or cause of death
@@ -94,7 +96,8 @@ class Box(NamedTuple):
 class Said(NamedTuple):
     """A text of a level, the tiles and things of which it covers as little as can be, and near which place it lies.
 
-    ``covers``: it may cover open space too; else it may lie in the border below.
+    ``covers``: it may cover open space too; else it may lie in the border below. ``near``: it is about that place,
+    so it lies beside it, whatever it covers, and points to it.
     """
 
     text: str
@@ -102,6 +105,7 @@ class Said(NamedTuple):
     things: Things
     eye: Point | None
     covers: bool
+    near: bool = False
 
 
 class EndPanel(NamedTuple):
@@ -156,7 +160,7 @@ class Hud:
     def draw(self, surface: pygame.Surface, view: HudView) -> list[pygame.Rect]:
         """All of it; the px rectangles that it covers."""
         top = [self.label(surface, view.label)] if view.label else self.time_bar(surface, view.lifetime, view.pars)
-        said = self.box(*view.said, keys=_KEYS_WIDE if view.moves else 0) if view.said else None
+        said = self.box(view.said, keys=_KEYS_WIDE if view.moves else 0) if view.said else None
         in_border = said is not None and said.y == IN_BORDER
         written = top + self.foot(surface, "" if in_border else view.foot[0], view.foot[1])
         if said is not None and in_border:
@@ -174,6 +178,8 @@ class Hud:
             seen = 1.0 if in_border else _clear_of(view.ninja, said, softly=view.softly)
             place = self.theme.canvas.rect(*said.area)
             behind = _behind(surface, place, seen)
+            if view.said and view.said.near and view.said.eye:
+                written.append(self._tail(surface, said, view.said.eye))
             written.append(self.said(surface, said, () if in_border else view.moves, view.letters))
             _fade(surface, place, behind, seen)
         if view.end and view.seen > 0:
@@ -281,15 +287,26 @@ class Hud:
         theme.text(surface, name, middle, top + 3, size=_POINTER_SIZE, colour=palette.panel, align="centre", bold=True)
         return box.inflate(theme.canvas.px(4), theme.canvas.px(18))
 
-    def box(
-        self, text: str, tiles: tuple[int, ...], things: Things, eye: Point | None, covers: bool, *, keys: float = 0.0
-    ) -> Box:
+    def _tail(self, surface: pygame.Surface, box: Box, at: Point) -> pygame.Rect:
+        """From a text's panel to the place that it is about."""
+        x, y, w, h = box.area
+        near = min(max(at[0], x + _TAIL), x + w - _TAIL), min(max(at[1], y + _TAIL), y + h - _TAIL)
+        upright = not y < at[1] < y + h
+        rects = []
+        for colour, wide in ((self.theme.palette.panel_edge, _TAIL), (self.theme.palette.panel, _TAIL - 2)):
+            dx, dy = (wide, 0) if upright else (0, wide)
+            ends = (near[0] - dx, near[1] - dy), (near[0] + dx, near[1] + dy)
+            rects.append(self.theme.canvas.polygon(surface, colour, [*ends, at]))
+        return rects[0].union(self.theme.canvas.circle(surface, self.theme.palette.accent, at, 3)).inflate(2, 2)
+
+    def box(self, said: Said, *, keys: float = 0.0) -> Box:
         """Where a text of the level lies: along the upper border, else the lower one, over what is solid.
 
         Where it would hide something there, or open space that it may not cover, it lies where it hides least; over
-        nothing that it is to keep clear of, nor the ninja, or else in the border below, beside the gold.
+        nothing that it is to keep clear of, nor the ninja, or else in the border below, beside the gold. One that is
+        about its place lies at most two cells from it. ``keys``: room before its lines, px.
         """
-        return _box(self.theme, text, tiles, things, eye, covers, keys)
+        return _box(self.theme, said, keys)
 
     def said(
         self, surface: pygame.Surface, box: Box, moves: Sequence[int] = (), letters: Sequence[str] = ()
@@ -328,13 +345,17 @@ class Hud:
         return rect
 
 
+def _away(point: Point, x: float, y: float, w: float, h: float) -> float:
+    """How far a point is from a panel, px."""
+    return hypot(max(x - point[0], 0.0, point[0] - x - w), max(y - point[1], 0.0, point[1] - y - h))
+
+
 def _clear_of(ninja: Point | None, box: Box, *, softly: bool) -> float:
     """How solid a text's panel is, _FAINT…1: the less, the nearer the ninja is to being hidden by it."""
     if ninja is None:
         return 1.0
-    x, y, w, h = box.area
-    away = hypot(max(x - ninja[0], 0.0, ninja[0] - x - w), max(y - ninja[1], 0.0, ninja[1] - y - h))
-    share = (away - _COVERED) / (_CLEAR - _COVERED) if softly else float(away >= _CLEAR)
+    away = _away(ninja, *box.area)
+    share = (away - _COVERED) / (CLEAR - _COVERED) if softly else float(away >= CLEAR)
     return _FAINT + (1 - _FAINT) * min(1.0, max(0.0, share))
 
 
@@ -360,20 +381,24 @@ def _hidden(things: Things, x: float, y: float, w: float, h: float) -> Iterator[
 
 
 @lru_cache(maxsize=4)
-def _box(
-    theme: Theme, text: str, tiles: tuple[int, ...], things: Things, eye: Point | None, covers: bool, keys: float
-) -> Box:
+def _box(theme: Theme, said: Said, keys: float) -> Box:
     """As ``Hud.box``. Kept, since a text is drawn in each picture and its place takes longer than all the rest."""
+    text, tiles, things, eye, covers, near = said
     high = _SAID_LINE * theme.scales[0]
     if eye:
         things = (*things, (*eye, MUST))
-    for rows, width in ((1, 1), (2, 1), (2, 0.6), (0, 1), (0, 0.6)):
+    beside: list[tuple[int, Box]] = []
+    for rows, width in ((0, 1), (0, 0.6), (0, 0.4)) if near else ((1, 1), (2, 1), (2, 0.6), (0, 1), (0, 0.6)):
         lines = text.split("\n") if keys else wrapped(theme, text, width * _SAID_WIDE, _SAID_SIZE)
         lines = [theme.fit(line, _SAID_WIDEST - keys, _SAID_SIZE) for line in lines]
         w = max(theme.width(line, _SAID_SIZE) for line in lines) + 28 + keys
-        left, y, covered, hidden = solid_place(tiles, w, high * len(lines) + 19, things, eye, rows=rows)
+        left, y, covered, hidden = solid_place(tiles, w, high * len(lines) + 19, things, eye, rows=rows, near=near)
+        box = Box(lines, left, y, w, high, 10.0, _SAID_SIZE)
         if hidden < (MUST if keys else 1) and (covers or not rows or not covered):
-            return Box(lines, left, y, w, high, 10.0, _SAID_SIZE)
+            return box
+        beside.append((hidden, box))
+    if near:
+        return min(beside)[1]
     text = text.replace("\n", "    ")
     size = min(_SAID_SIZE, _SAID_SIZE * _BESIDE_GOLD / theme.width(text, _SAID_SIZE))
     w = theme.width(text, size) + 28
@@ -382,14 +407,21 @@ def _box(
 
 @lru_cache(maxsize=4)
 def solid_place(
-    tiles: tuple[int, ...], w: float, h: float, things: Things = (), eye: Point | None = None, *, rows: int = 0
+    tiles: tuple[int, ...],
+    w: float,
+    h: float,
+    things: Things = (),
+    eye: Point | None = None,
+    *,
+    rows: int = 0,
+    near: bool = False,
 ) -> tuple[float, float, int, int]:
     """Upper left corner of a panel of that size, px, where it covers no thing, little gold and the least of any way.
 
     The third is how much it covers, the last how much of that are things, gold and the author's way. What is full is no
     way, open space far from all that is full hardly one. Of equal places it is the one nearest to ``eye``, or to the
     middle of the upper border. ``rows``: at the left, in the middle and at the right of so many heights only, from the
-    upper border to the lower one.
+    upper border to the lower one; ``near``: around ``eye`` only, _BESIDE px from it.
     """
     open_cells, ways = _ways(tiles)
 
@@ -407,7 +439,14 @@ def solid_place(
     lefts = [edge + k * (WIDTH - 2 * edge - w) / 8 for k in range(0, 9, 4 if rows else 1)]
     apart = (_LOWEST - h - edge) / max(1, rows - 1) if rows else 6
     tops = [edge + k * apart for k in range(rows or int((_LOWEST - h - edge) / 6))]
-    x, y = min(((x, y) for x in lefts for y in tops), key=cost)
+    if near and eye:
+        ends = (eye[0], w, WIDTH - edge), (eye[1], h, _LOWEST)
+        lefts, tops = (
+            [min(max(edge, at + k * (_BESIDE + size / 2) / 4 - size / 2), end - size) for k in range(-4, 5)]
+            for at, size, end in ends
+        )
+    places = [(x, y) for x in lefts for y in tops if not near or eye is None or _away(eye, x, y, w, h) >= _BESIDE - 1]
+    x, y = min(places, key=cost)
     covered, _, hidden = cost((x, y))
     return x, y, covered, hidden
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from math import hypot
 
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.run_time import rounded_text, seconds_text
-from ninja_game.formats.sayings import named_keys
+from ninja_game.formats.sayings import THINGS, named_keys
 from ninja_game.play.level.hud import EndPanel, HudView, Said
 from ninja_game.play.level.play import MUST, STAMP_TICKS, LevelPlay, Phase, Things
 from ninja_game.play.level.sayings import FALL_HELP, WHY
@@ -16,6 +16,7 @@ from ninja_game.player.playthrough import Navigation
 from ninja_game.player.progress import NO_MEDAL, Mark, next_par
 from ninja_game.player.records import SELF
 from ninja_game.sim.kinds import EXIT, SWITCH
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.ui.input.bindings import MOVES
 
@@ -41,7 +42,9 @@ def hud_view(play: LevelPlay) -> HudView:
     text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.sayings.text
     # The start's text stays where it is; who needs to see what keys do is stuck. Both may cover open space.
     covers = play.sayings.is_start or "\n" in text
-    said = Said(named_keys(text, key), context.level.tiles, play.things, play.eye, covers) if text else None
+    place = play.sayings.place
+    where = context.level.tiles, play.things, place or play.eye, covers, place is not None
+    said = Said(named_keys(text, key), *where) if text else None
     if play.phase is Phase.DEAD:
         cause, _, why = cause_of_death(play).partition(". ")
         end = EndPanel(cause.rstrip("."), [*filter(None, [why]), _after_death(play, key)], *_covering(play))
@@ -71,7 +74,7 @@ def hud_view(play: LevelPlay) -> HudView:
         moves=[sum(bit for name, bit in MOVES if f"{{{name}}}" in line) for line in text.split("\n") if "\n" in text],
         letters=[key(name) for name in ("left", "jump", "right")],
         end=end,
-        named=() if end else _named(play),
+        named=() if end else named_in(attempt.simulation.world, play.sayings.named),
         medal=play.medal,
         stamp=play.stamp,
         shine=1.0 if settings.reduced_motion else (play.after_end + play.fraction - STAMP_TICKS) / SHINE_TICKS,
@@ -116,12 +119,11 @@ def _reached(play: LevelPlay) -> list[str]:
     return [*medal, *following, "    ".join([gold, *news]), *clock]
 
 
-def _named(play: LevelPlay) -> list[tuple[str, float, float]]:
-    """What the level names, and where it is until it is used: never over the ninja."""
-    world = play.attempt.simulation.world
+def named_in(world: World, names: Sequence[str] = THINGS) -> list[tuple[str, float, float]]:
+    """What a level names, and where it is until it is used: never over the ninja."""
     return [
         (name, o.x, o.y)
-        for name in play.sayings.named
+        for name in names
         for o in world.objects[1:]
         if o.kind == _THINGS[name] and not (o.kind == SWITCH and world.objects[o.partner].is_open)
         if hypot(o.x - world.ninja.x, o.y - _POINTER_UP - world.ninja.y) > _POINTER_REACH

@@ -14,6 +14,7 @@ from ninja_game.player.playthrough import LevelContext
 from ninja_game.player.progress import HELPED
 from ninja_game.player.records import cause_of
 from ninja_game.sim.kinds import EXIT, GOLD, SWITCH
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.states import CRUSHED
 from ninja_game.simulation import Simulation
@@ -76,6 +77,18 @@ TAG_ROOM = 72.0
 def tag_top(y: float) -> float:
     """Upper edge of the name of a thing at ``y``, px: above it, or below where that is at the upper edge."""
     return y - 39 if y > TAG_ROOM else y + 23
+
+
+def things_in(world: World, *, tagged: bool) -> Things:
+    """The ninja and what else is in a world; ``tagged``: the names beside switches and exits too."""
+    objects = world.objects[1:]
+    places = [(o.x, o.y, MAY if o.kind == GOLD else MUST) for o in objects]
+    names = [o for o in objects if tagged and o.kind in {SWITCH, EXIT}]
+    return (
+        (world.ninja.x, world.ninja.y, MUST),
+        *places,
+        *((o.x + dx, tag_top(o.y) + 8, MUST) for o in names for dx in (-12, 12)),
+    )
 
 
 class Phase(Enum):
@@ -144,19 +157,14 @@ class LevelPlay:
     def _things(self) -> Things:
         """What a player looks for at the start: what there is, and, where the level has texts, the author's way."""
         run = self.context.data.catalogue.author_run(self.context.entry) if self.context.sayings() else None
-        objects = self.attempt.simulation.world.objects[1:]
-        places = [(o.x, o.y, MAY if o.kind == GOLD else MUST) for o in objects]
-        if self.context.sayings():
-            # Their names beside them.
-            tagged = [o for o in objects if o.kind in {SWITCH, EXIT}]
-            places += [(o.x + dx, tag_top(o.y) + 8, MUST) for o in tagged for dx in (-12, 12)]
+        places = list(things_in(self.attempt.simulation.world, tagged=bool(self.context.sayings())))
         if run:
             way = Simulation(self.context.level)
             for keys in run.inputs:
                 way.step_keys(keys)
                 if way.tick % 4 == 0:
                     places.append((way.world.ninja.x, way.world.ninja.y, MAY))
-        return (*self.ninja_place(), MUST), *places
+        return tuple(places)
 
     # --- from phase to phase ---
 

@@ -10,6 +10,7 @@ from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLO
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL
 from ninja_game.sim.states import SLIDING
+from ninja_game.ui.canvas import Point
 
 NEAR = 2.5 * CELL
 """px from the middle of its cell within which a text with a place is said."""
@@ -53,7 +54,8 @@ FALL_HELP = "Slide down a wall to slow a fall, or land on a downhill slope."
 class Sayings:
     """The texts of one level. Each event's text is said once; those of the start at each start until the exit is open.
 
-    ``text``: what is to be read now, or "". ``helps``: the game itself says what helps too: to try again, to climb.
+    ``text``: what is to be read now, or "", ``place``: near which place, px. ``helps``: the game itself says what helps
+    too: to try again, to climb.
     """
 
     def __init__(self, sayings: Sequence[Saying], *, helps: bool = False) -> None:
@@ -73,8 +75,8 @@ class Sayings:
         self._still = self._quiet = 0
         self._jumped_at = self._wall = 0.0
 
-    def _say(self, text: str, ticks: int, then: str = "") -> None:
-        self.text, self._left, self._then = text, ticks, then
+    def _say(self, text: str, ticks: int, then: str = "", place: Point | None = None) -> None:
+        self.text, self._left, self._then, self.place = text, ticks, then, place
 
     def _start(self) -> str:
         return next((each.text for each in self._sayings if each.when == "start" and each not in self._said), "")
@@ -109,9 +111,9 @@ class Sayings:
             # The goal is understood: no need to say how it begins again.
             self._said.update(each for each in self._sayings if each.when == "start")
         for each in self._sayings:
-            if each not in self._said and (each.when in happened or (each.when == "at" and _is_near(world, each))):
+            if each not in self._said and (each.when in happened or _is_near(world, each.place)):
                 self._said.add(each)
-                self._say(each.text, START_TICKS if each.when == "switch" else SHOWN_TICKS)
+                self._say(each.text, START_TICKS if each.when == "switch" else SHOWN_TICKS, place=each.place)
         if self._again and self._is_stuck(world):
             self._again = False
             self._say(AGAIN, SHOWN_TICKS)
@@ -145,6 +147,5 @@ class Sayings:
         return away and self._still >= STILL_TICKS and self._quiet >= QUIET_TICKS
 
 
-def _is_near(world: World, saying: Saying) -> bool:
-    x, y = ((number + 0.5) * CELL for number in saying.cell)
-    return max(abs(world.ninja.x - x), abs(world.ninja.y - y)) <= NEAR
+def _is_near(world: World, place: Point | None) -> bool:
+    return place is not None and max(abs(world.ninja.x - place[0]), abs(world.ninja.y - place[1])) <= NEAR

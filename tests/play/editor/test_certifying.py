@@ -14,10 +14,14 @@ from ninja_game.editor.files import open_source
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import Replay, parse_replay
+from ninja_game.levels.findings import found
+from ninja_game.play.editor.session import _examine
+from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.runs.packs import lint, make_pars
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.task import Progress, Task
 from ninja_game.sim.inputs import with_press_bits
+from ninja_game.sim.kinds import EXIT
 from tests.support.level_maker import ROOM, Maker
 from tests.support.waiting import LONGEST
 
@@ -145,3 +149,24 @@ def test_a_pass_of_ones_own_certifies_the_level_as_it_is(room: Maker, tmp_path: 
 def test_a_pass_with_help_certifies_nothing(room: Maker) -> None:
     assert passed(room, helped="period") == "", "a single step"
     assert passed(room) != ""
+
+
+def test_a_search_for_an_exit_that_cannot_be_reached_is_asked_about(
+    room: Maker, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    started: list[object] = []
+    monkeypatch.setattr(room.editor.session.certifier, "start", started.append)
+    shut = dict.fromkeys([(i, j) for i in (6, 7, 8) for j in (21, 22) if (i, j) != (7, 22)], 1)
+    room.editor.session.tools.history.change(room.draft.with_tiles(shut))
+    room.frames()
+    room.press("f7")
+    assert room.shown(Menu).title == "The ninja cannot reach the exit or its switch"
+    room.choose("Cancel")
+    assert not started
+    room.press("f7")
+    room.choose("Look for a run anyway")
+    assert started == [room.draft.level]
+    exit_ = next(n for n, spec in enumerate(room.draft.objects) if spec.kind == EXIT)
+    never = found("unreached-exit", (exit_,))
+    assert [each.code for each in _examine((room.draft.level, (never,)))[1] if exit_ in each.records] == ["unreachable"]
+    assert _examine((ROOM.level, (never,)))[1] == [never]

@@ -10,16 +10,19 @@ import pytest
 
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.formats.sayings import MOST_LETTERS, MOST_SAYINGS, read_sayings
+from ninja_game.play.editor import messages as messages_module
 from ninja_game.play.editor.commands import TryScreen
-from ninja_game.play.editor.messages import Message, MessagesScreen, messages_of
+from ninja_game.play.editor.messages import _WHEN, PICTURE, Message, MessagesScreen, messages_of
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import said_places
 from ninja_game.play.level.hud import Box, Hud
 from ninja_game.play.level.sayings import Sayings
 from ninja_game.sim.events import LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.kinds import GOLD
-from ninja_game.sim.level import ObjectSpec
-from ninja_game.ui.text_entry import TextEntry
+from ninja_game.sim.level import Level, ObjectSpec
+from ninja_game.ui.text_entry import TextArea, TextEntry
+from ninja_game.ui.theme import Palette
+from ninja_game.view.sprites.thumbnail import thumbnail
 from tests.support.draw_log import drawn
 from tests.support.level_maker import Maker
 
@@ -106,11 +109,11 @@ def test_a_place_begins_at_the_pointer_or_with_what_is_selected_and_is_shown_by_
     room.type("here")
     room.mouse(screen.widgets[0].area[0] + 5, screen.widgets[0].centre[1])
     assert (screen.messages[0].when, screen.messages[0].detail) == ("at", "7,9")
-    room.choose("Pick a place...")
+    room.choose("Pick...")
     before = room.draft
     room.press("escape")
     assert room.top() is screen, "given up"
-    room.choose("Pick a place...")
+    room.choose("Pick...")
     room.drag((24 * 20 + 5, 24 * 4 + 5))
     assert room.top() is screen
     assert room.draft is before, "the click draws nothing"
@@ -216,3 +219,70 @@ def test_the_selected_message_lies_in_the_level_where_it_does_in_play(
     room.press("f5")
     room.frames(2)
     assert [each for each in shown if each[0] == "Go"][-1][1:] == pytest.approx(start[1:], abs=4), "but for its letters"
+
+
+@pytest.mark.parametrize("count", range(MOST_SAYINGS + 1))
+def test_buttons_stay_in_their_place_and_nothing_lies_over_anything_else(room: Maker, count: int) -> None:
+    screen = opened(room)
+    fixed = [room.button(text).area for text in ("Add a message", "OK", "Cancel")]
+    screen.messages = [Message("at", "8,21", "x") for _ in range(count)]
+    screen.enter()
+    assert [room.button(text).area for text in ("Add a message", "OK", "Cancel")] == fixed
+    areas = [pygame.Rect(*map(round, area)) for area in (PICTURE, *(widget.area for widget in screen.widgets))]
+    assert all(area.collidelistall(areas) == [place] for place, area in enumerate(areas))
+    assert not screen.offers_back, "OK and Cancel are the ways out"
+
+
+def test_each_moment_is_explained_by_its_row(room: Maker) -> None:
+    screen = opened(room)
+    for when, (name, text) in _WHEN.items():
+        screen.messages = [Message(when, "", "x")]
+        screen.enter()
+        shown = " ".join(line.split("'")[1] for line in drawn(room.app).splitlines() if line.startswith("text '"))
+        assert f"{name}: {text[0].lower()}{text[1:]}." in shown
+
+
+def test_the_preview_is_the_games_picture_painted_once_with_its_labels(
+    room: Maker, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    painted: list[int] = []
+
+    def paint(level: Level, palette: Palette, width: int) -> pygame.Surface:
+        painted.append(width)
+        return thumbnail(level, palette, width)
+
+    monkeypatch.setattr(messages_module, "thumbnail", paint)
+    opened(room)
+    room.choose("Add a message")
+    room.type("all of it")
+    shown = drawn(room.app)
+    assert "text 'switch'" in shown
+    assert "text 'exit'" in shown
+    assert shown.count("text 'all of it'") == 2, "in its field and in the level"
+    assert len(painted) == 1
+
+
+def test_a_long_text_is_seen_whole_and_up_and_down_go_through_its_lines(room: Maker) -> None:
+    text = "This text has many words and all of them are seen, since the field has three lines for its 110 letters"
+    screen = opened(room)
+    screen.messages = [Message("start", "", text), Message("start", "", "y")]
+    screen.enter()
+    field = screen._row_widgets[0][-1]
+    assert isinstance(field, TextArea)
+    screen.redraw = True
+    room.frames()
+    room.mouse(*field.centre)
+    lines = [text[first : first + len(stops) - 1] for first, stops in field._rows]
+    assert "".join(lines) == text
+    assert 2 <= len(lines) <= 3
+    assert all(f"text '{line}'" in drawn(room.app) for line in lines)
+    assert all(line.endswith(" ") for line in lines[:-1]), "broken between words"
+    row_of_cursor = len(lines[0]) <= field.edited.cursor < len(lines[0] + lines[1])
+    assert row_of_cursor, "a click leads to the line that it hits"
+    room.press("home")
+    assert field.edited.cursor == 0
+    room.press(*["down"] * (len(lines) - 1))
+    assert field.edited.cursor == len("".join(lines[:-1]))
+    assert screen.focus is field
+    room.press("down")
+    assert screen.focus is not field

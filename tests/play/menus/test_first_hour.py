@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import hypot
 from unittest.mock import patch
 
 import pytest
 
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.sayings import read_sayings
-from ninja_game.play.level.hud import IN_BORDER, Hud, Said, solid_place
+from ninja_game.play.level.hud import CLEAR, IN_BORDER, Hud, Said, solid_place
 from ninja_game.play.level.hud_view import cause_of_death, hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, MUST, STUCK_AFTER, Phase, tag_top
 from ninja_game.play.level.sayings import CLIMB, CLIMBED, FALL_HELP, QUIET_TICKS, START_TICKS, Sayings
@@ -117,7 +118,7 @@ def test_text_of_the_start_hides_neither_a_thing_nor_gold_nor_the_way(driver: Me
         if shown is None or run is None:
             continue
         hud = Hud(app.theme)
-        box = hud.box(*shown)
+        box = hud.box(shown)
         card = hud.said(app.surface, box)
         bands += abs(box.y - 28) < 1 or abs(box.y + box.high * len(box.lines) + 19 - 573) < 1
         texts += 1
@@ -235,7 +236,7 @@ def test_a_text_under_which_the_ninja_comes_fades_while_it_is_there(driver: Menu
     view = hud_view(level.play)
     assert view.said
     hud, surface = Hud(driver.app.theme), driver.app.surface
-    _, x, y, w, *_ = hud.box(*view.said)
+    _, x, y, w, *_ = hud.box(view.said)
     corner = driver.app.canvas.point(x + 8, y + 6)
 
     def shown(away: float) -> int:
@@ -469,23 +470,70 @@ def test_text_in_play_lies_over_rock_near_the_ninja_or_else_in_the_border(driver
     level = driver.shown(LevelScreen)
     level.begin()
     hud = Hud(driver.app.theme)
-    (text, tiles, things, _, covers), far = hud_view(level.play).said or ("", (), (), None, True), []
+    (text, tiles, things, _, covers, _), far = hud_view(level.play).said or ("", (), (), None, True, False), []
     assert covers, "the text of the start stays where it was"
     level.play.eye = (40, 500)
     level.play.sayings.text = "Another one"
     assert hud_view(level.play).said == Said("Another one", tiles, things, (40, 500), covers=False)
     for eye in ((40.0, 440.0), (750.0, 440.0)):
-        lines, left, y, w, high, *_ = hud.box(text, tiles, things, eye, covers=False)
+        lines, left, y, w, high, *_ = hud.box(Said(text, tiles, things, eye, covers=False))
         assert y < IN_BORDER
         cells = {(int(a // 24) - 1, int(b // 24) - 1) for a in (left, left + w) for b in (y, y + high * len(lines))}
         assert all(tiles[column * ROWS + row] == 1 for column, row in cells), "over rock only"
         far.append(left)
     assert far[0] < far[1]
-    shown = hud.said(driver.app.surface, hud.box("One" + 9 * " word", (0,) * 713, (), (396.0, 60.0), covers=False))
+    shown = hud.said(
+        driver.app.surface, hud.box(Said("One" + 9 * " word", (0,) * 713, (), (396.0, 60.0), covers=False))
+    )
     assert shown.top < driver.app.canvas.px(120), "near the upper border, in the open too"
     assert not shown.collidepoint(driver.app.canvas.point(396, 60)), "but never over the ninja"
     everywhere = tuple((12.0 + 24 * x, 12.0 + 24 * y, MUST) for x in range(33) for y in range(25))
-    assert hud.box(text, (0,) * 713, everywhere, None, covers=False).y == IN_BORDER
+    assert hud.box(Said(text, (0,) * 713, everywhere, None, covers=False)).y == IN_BORDER
+
+
+@pytest.mark.parametrize("place", [(204.0, 516.0), (36.0, 36.0), (756.0, 564.0), (396.0, 300.0), (756.0, 36.0)])
+@pytest.mark.parametrize("words", [2, 9, 22])
+def test_what_is_said_of_a_place_lies_beside_it_and_points_to_it(
+    driver: MenuDriver, place: tuple[float, float], words: int
+) -> None:
+    level, text = LevelScreen(driver.app, LevelRun(driver.player, entry(short_level()))), " ".join(["word"] * words)
+    level.play.sayings._say(text, 99, place=place)
+    level.play.eye = (10.0, 10.0)
+    view = hud_view(level.play)
+    assert view.said
+    assert view.said[3:] == (place, False, True)
+    hud, surface = Hud(driver.app.theme), driver.app.surface
+    everywhere = tuple((12.0 + 24 * x, 12.0 + 24 * y, MUST) for x in range(33) for y in range(25))
+    for tiles, things in (((0,) * 713, ()), ((1,) * 713, ()), ((0,) * 713, everywhere)):
+        lines, x, y, w, high, margin, _ = hud.box(Said(text, tiles, things, *view.said[3:]))
+        h = high * len(lines) + 2 * margin - 1
+        away = hypot(max(x - place[0], 0, place[0] - x - w), max(y - place[1], 0, place[1] - y - h))
+        assert CLEAR <= away <= 2.2 * CELL, "beside it, and solid while the ninja is there"
+        assert 24 <= x < x + w <= 768
+        assert 24 <= y < y + h <= 576
+        surface.fill("black")
+        covered = hud.draw(
+            surface, replace(view, said=Said(text, tiles, things, *view.said[3:]), named=(), ninja=place)
+        )
+        there = driver.app.canvas.point(*place)
+        assert surface.get_at(there)[:3] == driver.app.theme.palette.accent[:3]
+        assert any(rect.collidepoint(there) for rect in covered), "so it is taken away again"
+
+
+def hud_place(told: Sayings) -> tuple[float, float] | None:
+    return told.place
+
+
+def test_a_text_knows_its_place_until_another_comes() -> None:
+    told = Sayings(read_sayings("start: Go | at 3,22: Here"))
+    assert hud_place(told) is None
+    simulation = Simulation(room_level(["#@..#"], ()))
+    simulation.world.ninja.x, simulation.world.ninja.y = 84.0, 540.0
+    assert told.on_tick(simulation.world)
+    assert told.text == "Here"
+    assert hud_place(told) == (84.0, 540.0)
+    told.at_start()
+    assert hud_place(told) is None
 
 
 WELL = room_level(["#...#"] * 10 + ["#@..#"], ())
@@ -550,7 +598,7 @@ def test_text_of_the_start_covers_no_name_of_a_thing(driver: MenuDriver) -> None
     text, tiles, *_ = hud_view(play).said or ("", ())
     for o in play.attempt.simulation.world.objects[1:]:
         if o.kind in {SWITCH, EXIT}:
-            lines, left, y, w, high, margin, _ = hud.box(text, tiles, play.things, None, covers=True)
+            lines, left, y, w, high, margin, _ = hud.box(Said(text, tiles, play.things, None, covers=True))
             middle = tag_top(o.y) + 8
             assert not (left < o.x < left + w and y < middle < y + high * len(lines) + 2 * margin)
             assert (o.x - 12, middle, MUST) in play.things
