@@ -91,7 +91,7 @@ LEVEL_RULES = {
 _MAKE_PARS = "Make it with `ninja-game levels pars`."
 PACK_RULES = {
     "unreadable": Rule("{why}", "Mend the file as the message says, or take it out of the pack."),
-    "no-author": Rule("no author", "Name one: it is that of every level without its own."),
+    "no-author": Rule("the pack has no author", "Name one: it is that of every level without its own."),
     "no-name": Rule("no name", "Give it one."),
     "column-without-name": Rule(
         "column {column} has episodes and no name; expected {needed} names in columns", "Name every column."
@@ -99,7 +99,7 @@ PACK_RULES = {
     "episode-name": Rule("episode {number} has no name", "Give it one."),
     "same-episode-name": Rule("episode {number} has the name of episode {other}", "Choose another name."),
     "empty-episode": Rule("episode {number} has no levels; expected files {number:02d}-….txt", "Add levels to it."),
-    "no-episodes": Rule("no episodes; expected a table [[episode]] for each", "Add a table for each episode."),
+    "no-episodes": Rule("no episodes; expected a table [[episode]] for each", "Add an episode."),
     "single-level": Rule("in no episode; it can be played as a single level", "Add it to an episode, if it belongs."),
     "same-name": Rule("the same name as {other}", "Choose another name."),
     "same-content": Rule("the same content as {other}", "Delete one of the two."),
@@ -115,8 +115,8 @@ PACK_RULES = {
     ),
     "certificate": Rule("{why}", "Make it again with `ninja-game check --replays`."),
     "accepted-in-vain": Rule("accepts {finding} of {file}, which is not found there", "Take it out of the index."),
-    "no-pars": Rule("no table of par times", _MAKE_PARS),
-    "old-pars": Rule("made from other levels or certificates", _MAKE_PARS),
+    "no-pars": Rule("no medal times yet", _MAKE_PARS),
+    "old-pars": Rule("medal times of other levels or certificates", _MAKE_PARS),
 }
 """What may be odd about a pack, by code; what is odd about its levels has the codes of levels."""
 
