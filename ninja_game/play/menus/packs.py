@@ -537,6 +537,8 @@ class PackScreen(ThumbnailScreen):
         elif entry:
             known = why or next((each for each in level_findings(entry.named.level) if each.code == finding.code), None)
             go, text = partial(self._edit, entry, known), f"{entry.title}: {finding.text}"
+            for other, named in pack.levels.items():
+                text = text.replace(f"as {other}", f"as {named.name}")
 
         def accept(why: str) -> None:
             packs.accept(self.path, file, finding.code, why)
