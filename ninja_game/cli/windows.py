@@ -79,7 +79,7 @@ def play(
 def edit(level: Path | None, record: int, **window: Any) -> int:
     """Make a level, or change one, in a window.
 
-    LEVEL is a file of levels, or the name of one of the game's own; without it an empty level. A readable level is
+    LEVEL is a file of levels, or the name of one of the game's own; without it a room. A readable level is
     saved into its file, with its comments; a level of N or of the game becomes a new file among yours.
 
     \b

@@ -176,7 +176,10 @@ class Certifier:
         self._job.ask(self.search)
 
     def passed(self, level: Level, run: Replay) -> None:
-        """A player's own run certifies a level, until the solver has a better one."""
+        """A player's own run certifies a level, until the solver has a better one; one that fails there does not."""
+        played = _played(level, run.inputs + bytes(1))  # the tick of the contact may read no input
+        if played is None or played.outcome != "exit":
+            return
         if self.search.level != level:
             self.stop()
             self.search = Search(level, end="Done")

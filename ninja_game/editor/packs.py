@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import count
+from operator import attrgetter
 from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any
@@ -305,9 +306,15 @@ def problems_of(pack: Pack, obstacles: Obstacles) -> list[PackFinding]:
     return [finding._replace(text=_with_obstacle(pack, finding, obstacles)) for finding in lint(pack, with_gold=True)]
 
 
-def obstacle_of(pack: Pack, finding: PackFinding, obstacles: Obstacles) -> Finding | None:
+def missing_run(pack: Pack, finding: PackFinding) -> tuple[Level, str] | None:
+    """The level and the kind of the run of which a finding says that it is missing, as ``Obstacles`` have them."""
     file, kind = _missing(pack, file_of(pack, finding), finding.code)
-    return obstacles.get((pack.levels[file].level, kind)) if kind and file in pack.levels else None
+    return (pack.levels[file].level, kind) if kind and file in pack.levels else None
+
+
+def obstacle_of(pack: Pack, finding: PackFinding, obstacles: Obstacles) -> Finding | None:
+    missing = missing_run(pack, finding)
+    return obstacles.get(missing) if missing else None
 
 
 def _missing(pack: Pack, file: str, code: str) -> tuple[str, str]:
@@ -334,7 +341,10 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstac
         known = (pack.levels[file].level, kind) in obstacles or (file, kind) in accepted
         return not (known or is_certified(pack, file, kind))
 
-    levels = {file: named for file, named in pack.levels.items() if any(is_open(file, kind) for kind in KINDS)}
+    episodes = sorted(pack.index.episodes, key=attrgetter("number"))
+    in_order = [file for each in episodes for file in each.files(pack.files.levels) if file in pack.levels]
+    files_open = [file for file in dict.fromkeys([*in_order, *pack.levels]) if any(is_open(file, k) for k in KINDS)]
+    levels = {file: pack.levels[file] for file in files_open}
     wanted = Wanted({"exit": 0, "gold": -1}, {"seconds": seconds})
     files = [{kind: path / certificate_name(file, kind) for kind in KINDS} for file in levels]
     names = {Path(file).stem: shown_text(named.name) for file, named in levels.items()}

@@ -89,8 +89,9 @@ class EditorTools:
         return self._doing == "drag"
 
     def load(self, draft: Draft) -> None:
-        """Work on another level, with the same tool in hand."""
+        """Work on another level, with the same tool in hand; what is drawn there has no images yet."""
         self.finish()
+        self.symmetry = "off"
         self.history, self.selection = History(draft), stamps.Selection()
 
     def move(self, x: float, y: float) -> None:

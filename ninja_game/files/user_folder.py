@@ -72,6 +72,13 @@ def quarantine(path: Path, why: str) -> Path:
     return target
 
 
+def short_path(path: Path) -> str:
+    """A path as people read it: ``~`` is the user's own folder."""
+    with suppress(RuntimeError, ValueError):
+        return str(Path("~") / path.relative_to(Path.home()))
+    return str(path)
+
+
 def free_path(folder: Path, stem: str, suffix: str, first: int = 1) -> Path:
     """The first of ``stem.txt``, ``stem-2.txt``, … (for ``.txt``) that is not a file of a folder on any system.
 

@@ -12,7 +12,7 @@ import pygame
 
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.shown_text import shown_text
-from ninja_game.files.user_folder import data_folder, export_path
+from ninja_game.files.user_folder import data_folder, export_path, short_path
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
 from ninja_game.play.window import TITLE, Window, Wipe, save_picture
@@ -33,13 +33,15 @@ class Screen:
 
     ``see_through``: the screen below is drawn first. ``below_runs``: the screen below is updated too. ``redraw``: the
     app sets it when the whole window must be drawn again (resized, uncovered, another palette). ``wipes``: whether it
-    comes and goes with a wipe. ``plays``: a level is played in it, over which nothing is to be written.
+    comes and goes with a wipe. ``plays``: a level is played in it, over which nothing is to be written. ``notice_top``:
+    where notices are shown, below the title and what one goes back with.
     """
 
     see_through = False
     wipes = True
     below_runs = False
     plays = False
+    notice_top = 44.0
 
     def __init__(self, app: App) -> None:
         self.app = app
@@ -424,8 +426,7 @@ class App:
     def _draw_notice(self, theme: Theme) -> pygame.Rect:
         (left, _), (right, _) = theme.canvas.logical((0, 0)), theme.canvas.logical(theme.canvas.window)
         middle, lines = (left + right) / 2, wrapped(theme, self.notice, NOTICE_WIDE, NOTICE)[:NOTICE_LINES]
-        # Below the title, and what one goes back with.
-        y, size, margin, high = 44.0, NOTICE, 6.0, 1.5 * NOTICE * theme.scales[0]
+        y, size, margin, high = self.top.notice_top, NOTICE, 6.0, 1.5 * NOTICE * theme.scales[0]
         if self.top.plays and len(lines) == 1:
             # In the border: nothing is written over a level in which somebody runs.
             y, size, margin, high = 577.0, IN_BORDER, 1.0, 20.0
@@ -436,8 +437,11 @@ class App:
             theme.text(self.surface, line, middle, top, size=size, align="centre", width=NOTICE_WIDE + 4)
         return rect
 
-    def write_export(self, title: str, suffix: str, content: str | Callable[[Path], object]) -> None:
-        """Write a file among the player's exports, and say where. ``content``: text, or what writes the path."""
+    def write_export(self, title: str, suffix: str, content: str | Callable[[Path], object]) -> Path | None:
+        """Write a file among the player's exports, and say where; its path, None where that failed.
+
+        ``content``: text, or what writes the path.
+        """
         try:
             path = export_path(self.player.folder, title, suffix)
             if callable(content):
@@ -446,8 +450,9 @@ class App:
                 write_atomically(path, content)
         except (OSError, NinjaGameError) as error:
             self.notify(f"Not written: {reason(error)}")
-        else:
-            self.notify(f"Saved: {path}")
+            return None
+        self.notify(f"Saved: {short_path(path)}")
+        return path
 
     def keep_screenshot(self) -> None:
         """Put the picture, without a notice in it, among the player's exports, and say where."""

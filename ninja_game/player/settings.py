@@ -139,6 +139,7 @@ class Settings:
         0, "tas", 0, 99, "of the tabs in the TAS editor, percent of the window; 0: as it suits the window"
     )
     play_speed: int = _whole(100, "tas", 10, 800, "of playing in the TAS editor, percent")
+    slopes: bool = _flag(False, "editor", "slopes set themselves where full tiles are drawn")
     practice: bool = _flag(False, "play", "practice mode: saving states, rewinding, slow motion; nothing counts")
     level_texts: bool = _flag(True, "play", "levels that have not been passed say how they are meant")
     game_speed: int = _whole(100, "accessibility", 50, 100, "of play, percent; below 100 a run is assisted: no record")

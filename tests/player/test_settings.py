@@ -31,6 +31,7 @@ VALUES = {
     "level_width": st.integers(0, 99),
     "tabs_height": st.integers(0, 99),
     "play_speed": st.integers(10, 800),
+    "slopes": st.booleans(),
     "game_speed": st.integers(50, 100),
     "text_size": st.integers(100, 150),
     "shake": st.integers(0, 100),

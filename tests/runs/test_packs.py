@@ -50,7 +50,7 @@ def test_index_is_looked_at(pack: Path) -> None:
         index.write('[[episode]]\nnumber = 12\nname = "Learning to fall"\n')
     assert findings(pack) == [
         "gone.txt: not there",
-        "pack.toml: no author",
+        "pack.toml: the pack has no author",
         "pack.toml: column 1 has episodes and no name; expected 2 names in columns",
         "pack.toml:15: episode 12 has the name of episode 0",
         "pack.toml:15: episode 12 has no levels; expected files 12-….txt",
@@ -59,7 +59,10 @@ def test_index_is_looked_at(pack: Path) -> None:
     result = CliRunner().invoke(cli, ["levels", "lint", str(pack)])
     assert result.exit_code == 1
     assert "6 findings" in result.output
-    assert "pack.toml: no author. Name one: it is that of every level without its own. [no-author]\n" in result.output
+    assert (
+        "pack.toml: the pack has no author. Name one: it is that of every level without its own. [no-author]\n"
+        in result.output
+    )
 
 
 def test_levels_are_looked_at(pack: Path) -> None:
@@ -141,14 +144,14 @@ def test_a_certificate_is_what_a_strict_verdict_accepts(field: str, pack: Path) 
 def test_pars_are_made_by_a_command_and_told_when_they_are_stale(pack: Path) -> None:
     before = Pack(pack).pars
     (pack / "pars.toml").unlink()
-    assert findings(pack) == ["pars.toml: no table of par times"]
+    assert findings(pack) == ["pars.toml: no medal times yet"]
     result = CliRunner().invoke(cli, ["levels", "pars", str(pack)])
     assert result.exit_code == 0
     assert "8 levels with pars, 0 without a sound certificate" in result.output
     assert Pack(pack).pars == before
     assert findings(pack) == []
     change(pack / "pars.toml", "exit = 156", "exit = 150")
-    assert findings(pack) == ["pars.toml: made from other levels or certificates"]
+    assert findings(pack) == ["pars.toml: medal times of other levels or certificates"]
 
 
 def test_pars_of_a_changed_level_count_no_more(pack: Path) -> None:

@@ -5,7 +5,9 @@ from __future__ import annotations
 import pygame
 
 from ninja_game.editor.draft import Draft
+from ninja_game.editor.files import new_source
 from ninja_game.editor.stamp import Stamp, put
+from ninja_game.play.app import Screen
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.view import LAYOUT
 from ninja_game.sim.kinds import EXIT, NINJA
@@ -30,6 +32,14 @@ def examine(editor: EditorScreen) -> None:
 
 class Maker(MenuDriver):
     """Somebody who makes a level."""
+
+    def open(self, entry: str) -> Screen:
+        """In the editor with nothing drawn, instead of the room with which it begins."""
+        screen = super().open(entry)
+        if isinstance(screen, EditorScreen) and not screen.session.source.path:
+            screen.session.begin(new_source(self.app.settings.name))
+            screen.follow_parts()
+        return self.top()
 
     @property
     def editor(self) -> EditorScreen:

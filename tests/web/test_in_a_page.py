@@ -62,7 +62,7 @@ def level_picture():
     app.top.session.export_picture()
     return head_of(app.notice)
 def head_of(notice):
-    with open(notice.removeprefix("Saved: "), "rb") as file:
+    with open(__import__("os").path.expanduser(notice.removeprefix("Saved: ")), "rb") as file:
         data = file.read()
     return [data[:8].hex(), int.from_bytes(data[16:20]), int.from_bytes(data[20:24])]
 def modules():

@@ -32,7 +32,7 @@ from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.menu_screen import CANCEL, Action, FormPanel, Menu, Row, ask_text, nothing
-from ninja_game.play.workspace import CommandMenu, CommandTable, DocumentCommands, bundled_commands
+from ninja_game.play.workspace import CommandMenu, CommandTable, DocumentCommands, bundled_commands, key_text
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import LevelContext, Navigation, PacedRun
@@ -78,6 +78,8 @@ NAMELESS = "My level"
 
 IN_MENU = {"save", "save_as", "open", "new", "about", "messages", "test", "certify"}
 
+IN_MORE = ("reach", "tests", "paths", "lines", "list", "slopes", "next_finding")
+
 _UNDO = "Undo brings back what was here"
 
 
@@ -105,7 +107,8 @@ class EditorCommands(DocumentCommands):
     def _table(self) -> dict[str, Action]:
         tools, view = self.session.tools, self.view
         return {
-            "help": lambda: self.app.push(HelpPage(self.app, "The editor", HELP, TABLE.commands)), "menu": self.menu,
+            "help": lambda: self.app.push(HelpPage(self.app, "The editor", HELP, TABLE.commands)),
+            "menu": self.menu, "file": self.file_menu, "more": self.more,
             "test": self.test, "test_here": lambda: self.test(here=True), "certify": self.certify,
             "save": self.save, "save_as": self.save_as, "open": self.open, "new": self.new, "about": self.about,
             "messages": self.messages,
@@ -212,9 +215,29 @@ class EditorCommands(DocumentCommands):
 
     def menu(self) -> None:
         """Give up what is half done, or open the file menu."""
+        if not (self.view.take(None) or self.session.tools.cancel()):
+            self.file_menu()
+
+    def more(self) -> None:
+        """Everything about tests and what is shown, for the mouse."""
+
+        def test_at(cell: Cell | None) -> None:
+            if cell:
+                self.test(here=True)
+
+        def ask() -> None:
+            self.view.taker, self.view.hint = test_at, "Click where the ninja begins; Esc gives up"
+
+        at = ("Test with the ninja at a click", ask, f"Key at the pointer: {key_text(TABLE.by_name['test_here'])}")
+        commands = map(TABLE.by_name.__getitem__, IN_MORE)
+        rows = [(each.label, partial(self.run, each.name), f"Key: {key_text(each)}") for each in commands]
+        self.app.push(Menu(self.app, "More", [at, *rows, CANCEL]))
+
+    def file_menu(self) -> None:
+        """The button opens it whatever is half done, which is given up."""
         session = self.session
-        if self.view.take(None) or session.tools.cancel():
-            return
+        self.view.take(None)
+        session.tools.cancel()
         rows = [
             ("Save", self.save, "Ctrl+S"), ("Save as...", self.save_as, "Ctrl+Shift+S"),
             ("Open...", self.open, "Ctrl+O"), ("New", self.new, "Ctrl+N"), ("About the level...", self.about, "F2"),
@@ -265,7 +288,7 @@ class EditorCommands(DocumentCommands):
         self._load(follow)
 
     def saved_text(self, path: Path) -> str:
-        return f"Saved{', and in the menu Levels' * path.is_relative_to(self._levels)}: {path}"
+        return f"Saved{', and in the menu Levels' * path.is_relative_to(self._levels)}: {path.name}"
 
     def save_as(self, then: Action = nothing) -> None:
         """Ask for the level's name, write it into a file of that name, and do ``then``."""
@@ -327,9 +350,14 @@ class EditorCommands(DocumentCommands):
             self.open_file(path)
         else:
             self.session.begin(Source(draft_of(entry.named)))
+            self.session.recognise()
 
     def open_file(self, path: Path) -> None:
-        self._load(lambda: self.session.begin(open_source(path)))
+        def begin() -> None:
+            self.session.begin(open_source(path))
+            self.session.recognise()
+
+        self._load(begin)
 
     def _load(self, action: Action) -> None:
         """Do something with a file that perhaps cannot be read."""

@@ -13,7 +13,7 @@ from ninja_game.editor.specs import BODY, SWITCH, points
 from ninja_game.errors import LevelError
 from ninja_game.formats.sayings import BAR, KEYS, MOST_LETTERS, MOST_SAYINGS, THINGS, named_keys, read_sayings
 from ninja_game.play.app import App
-from ninja_game.play.level.hud import Hud, HudView
+from ninja_game.play.level.hud import Hud, HudView, Said
 from ninja_game.play.level.hud_view import named_in
 from ninja_game.play.level.play import things_in
 from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuScreen, Row

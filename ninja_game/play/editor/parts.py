@@ -14,6 +14,7 @@ from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, Motion
 from ninja_game.editor.specs import SWITCH, carried, has_switch, object_type_name, points, properties, word
 from ninja_game.editor.tools import CURVES, NEAREST, SPACINGS, EditorTools
 from ninja_game.errors import LevelError
+from ninja_game.files.user_folder import short_path
 from ninja_game.formats.ascii.places import place_text, read_place
 from ninja_game.formats.ascii.writer import best_form
 from ninja_game.levels.findings import Finding
@@ -145,11 +146,11 @@ def _place(tools: EditorTools, part: int) -> Callable[[Area], Widget]:
 TOP, TALL, GAP = 4.0, 21.0, 2.0
 
 _BUTTONS = (
-    ("menu", "File", 34, 0), ("undo", "Undo", 38, 0), ("redo", "Redo", 38, 4),
+    ("file", "File", 34, 0), ("undo", "Undo", 36, 0), ("redo", "Redo", 36, 4),
     ("brush", "Brush", 40, 0), ("rectangle", "Box", 32, 0), ("line", "Line", 34, 0), ("ellipse", "Ellipse", 46, 0),
     ("fill", "Fill", 30, 0), ("select", "Select", 44, 0), ("pick", "Pick", 34, 4),
-    ("symmetry", "Mirror: {symmetry}", 90, 0), ("grid", "Grid: {grid}", 90, 0), ("snap_next", "Snap: {snap}", 64, 4),
-    ("test", "Test", 38, 0), ("certify", "Certify", 48, 0), ("help", "Help", 38, 0),
+    ("symmetry", "Mirror: {symmetry}", 80, 0), ("grid", "Grid: {grid}", 80, 0), ("snap_next", "Snap: {snap}", 64, 4),
+    ("test", "Test", 34, 0), ("certify", "Certify", 46, 0), ("more", "More", 34, 0), ("help", "Help", 32, 0),
 )  # fmt: skip
 """Command, text, width, more than the usual gap behind it, px."""
 
@@ -303,6 +304,11 @@ class Findings(EditorPart):
 class FilePart(EditorPart):
     area = LAYOUT.file
 
+    def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
+        used, path = super().mouse(event, x, y), self.session.source.path
+        self.view.hint = short_path(path) if used and path else self.view.hint
+        return used
+
     def render_key(self) -> tuple[object, ...]:
         session, certifier = self.session, self.session.certifier
         solver = certifier.text, certifier.busy, certifier.search.share, certifier.search.run is None
@@ -377,14 +383,23 @@ def object_text(spec: ObjectSpec) -> str:
 
 
 _MOVES = (
-    ("Earlier", -1, "Earlier in the order; with Shift the first of all"),
-    ("Later", 1, "Later in the order; with Shift the last of all"),
+    ("Move up", -1, "What is selected goes up in the list, and moves earlier in play; with Shift to its top"),
+    ("Move down", 1, "What is selected goes down in the list, and moves later in play; with Shift to its end"),
 )
 """Texts and hints of the buttons that move what is selected so many places."""
 
 
 def _shift() -> bool:
     return bool(pygame.key.get_mods() & pygame.KMOD_SHIFT)
+
+
+class _Find(TextEntry):
+    """What is typed after a click is looked for instead of the words that were there."""
+
+    def click(self, x: float, y: float) -> bool:
+        super().click(x, y)
+        self.edited.select_all()
+        return True
 
 
 class ObjectList(EditorPart):
@@ -396,12 +411,12 @@ class ObjectList(EditorPart):
         super().__init__(view)
         x, y, w, h = self.area
         self.shown: list[int] = []
-        self._words = ""
+        self._level = self.session.tools.history
         self._state: tuple[object, ...] = ()
         hint = "A click selects it, with Shift too; what comes first is made first, and moves first"
         self.list = ListView((x + 2, y + 26, w - 6, h - 50), 15, self._draw_row, self._choose, empty="None", hint=hint)
-        find = TextEntry((x + 4, y + 3, w - 60, 18), "Find: drone left", "", self._find)
-        find.hint = "Objects whose lines have all these words"
+        self._find = _Find((x + 4, y + 3, w - 60, 18), "Find: drone left", "", lambda _: None)
+        self._find.hint = "Objects whose lines have all these words"
         moves = [
             Button((x + 2 + 52 * k, y + h - 22, 49, 19), text, partial(self._move, by), size=9, hint=hint)
             for k, (text, by, hint) in enumerate(_MOVES)
@@ -409,21 +424,21 @@ class ObjectList(EditorPart):
         every = Button((x + 106, y + h - 22, 70, 19), "Select all", self._choose_shown, size=9)
         every.hint = "Select all that are shown; a property that all of them have is changed at once, below"
         palette = ToolButton((x + w - 54, y + 3, 46, 17), "list", "Palette", run, view)
-        self.widgets = [find, palette, self.list, *moves, every]
+        self.widgets = [self._find, palette, self.list, *moves, every]
 
     def _move(self, by: int) -> None:
         self.session.tools.reorder(by * len(self.session.draft.objects) if _shift() else by)
 
-    def _find(self, text: str) -> None:
-        self._words = text
-
     def update(self, real_ms: int) -> None:
         tools = self.session.tools
-        state = self._words, tools.draft.objects, tools.selection
+        if tools.history is not self._level:
+            self._level = tools.history
+            self._find.show("")
+        state = self._find.text, tools.draft.objects, tools.selection
         if len(state) == len(self._state) and all(a is b for a, b in zip(state, self._state, strict=True)):
             return
         self._state = state
-        words = self._words.lower().split()
+        words = self._find.text.lower().split()
         texts = map(object_text, tools.draft.objects)
         self.shown = [number for number, text in enumerate(texts) if all(word in text for word in words)]
         chosen = next((place for place, number in enumerate(self.shown) if number in tools.selection.numbers), None)

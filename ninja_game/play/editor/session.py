@@ -30,6 +30,7 @@ from ninja_game.files.reading import NO_FILE, stamp_of
 from ninja_game.files.user_folder import LEVELS
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import write_level_string
+from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pack import is_pack
 from ninja_game.formats.replay.made import Made
 from ninja_game.levels.findings import Finding
@@ -38,6 +39,7 @@ from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link, copy_text, pasted_text
 from ninja_game.play.window import save_picture
 from ninja_game.player.attempt import Attempt
+from ninja_game.player.catalogue import Entry
 from ninja_game.player.player_data import keep_replay
 from ninja_game.runtime import NewestJob
 from ninja_game.sim.level import Level
@@ -80,8 +82,10 @@ class EditorSession:
         self.app = app
         self.certifier = Certifier()
         self.tools = EditorTools(new_source().draft)
-        self.start = "off"
-        self._begin(source or new_source(app.settings.name))
+        self.tools.slopes = app.settings.slopes
+        self._begin(source or new_source(app.settings.name, room=True))
+        if source:
+            self.recognise()
 
     def _begin(self, source: Source, found: RecoveredDraft | None = None) -> None:
         self.autosave = Autosave(self.app.player.folder, found.file if found else None)
@@ -92,7 +96,7 @@ class EditorSession:
         self._checks: NewestJob[Question, Examined] = NewestJob(_examine)
         self._reaches: NewestJob[Ask, Reach] = NewestJob(find_reach)
         self._maps: NewestJob[tuple[Try, ...], TestMap] = NewestJob(map_of)
-        self._start_asked: Ask | None = None
+        self.start, self._start_asked = "off", None
         self.tries: tuple[Try, ...] = ()
         self.last_try: Route = ()
         self._file_stamp, self._looked_at = NO_FILE, 0.0
@@ -109,6 +113,14 @@ class EditorSession:
         self._leave_search()
         self._begin(source, found)
         before.close()
+
+    def recognise(self) -> None:
+        """Take up the certificate of this level: beside its file, or wherever the same level has one."""
+        catalogue, level, path = self.app.player.catalogue, self.draft.level, self.source.path
+        same = [Entry(NamedLevel(self.name, "", "", level, str(path)), "yours")] if path else []
+        same += [each for each in catalogue.singles() if each.named.level == level]
+        if run := next(filter(None, map(catalogue.author_run, same)), None):
+            self.certifier.passed(level, run)
 
     @property
     def draft(self) -> Draft:

@@ -13,9 +13,10 @@ from ninja_game.files.writing import write_atomically
 from ninja_game.play.app import App, Aside, Screen
 from ninja_game.play.clipboard import copy_link
 from ninja_game.runtime import NewestJob
+from ninja_game.sim.level import Level
 
-SECONDS = 20.0
-"""For each search of a run."""
+SECONDS, LONGER = 20.0, 300.0
+"""For each search of a run; for one that found none before."""
 
 HALF_SECONDS = 30.0
 """After so long half of a bar is full where nobody knows how long something takes, then half of the rest."""
@@ -24,12 +25,14 @@ HALF_SECONDS = 30.0
 class Packer(Aside):
     """``path``: the pack that is, or was, made ready; ``text``: how that stands or ended, ``share``: of its step.
 
-    ``desk``: the screen at which a link is waited for.
+    ``saved``: the zip that came of it. ``desk``: the screen at which a link is waited for.
     """
 
     def __init__(self, app: App) -> None:
         self.app = app
         self.path = Path()
+        self.saved: Path | None = None
+        self._seconds = SECONDS
         self.desk: Screen | None = None
         self.obstacles: Obstacles = {}
         self.busy = self._stopped = False
@@ -37,10 +40,16 @@ class Packer(Aside):
         self._step: tuple[str, float | None, float] = "", None, 0.0
         self._job: NewestJob[Path, ReadyPack] = NewestJob(self._make_ready)
 
-    def start(self, path: Path) -> None:
+    def start(self, path: Path, seconds: float = SECONDS) -> None:
         self.path, self.busy, self._stopped = path, True, False
+        self.saved, self._seconds = None, seconds
         self._say("Beginning", 0.0)
         self._job.ask(path)
+
+    def search_longer(self, path: Path, missing: tuple[Level, str]) -> None:
+        """Make the pack ready with another search of a run that was looked for in vain."""
+        self.obstacles.pop(missing, None)
+        self.start(path, LONGER)
 
     def end(self) -> None:
         """Stop; what was found is on the disk already."""
@@ -53,7 +62,7 @@ class Packer(Aside):
 
     def _make_ready(self, path: Path) -> ReadyPack:
         jobs = max(1, (os.cpu_count() or 2) - 1)
-        return make_ready(path, seconds=SECONDS, jobs=jobs, say=self._say, obstacles=self.obstacles)
+        return make_ready(path, seconds=self._seconds, jobs=jobs, say=self._say, obstacles=self.obstacles)
 
     def update(self) -> None:
         if not self.busy:
@@ -70,8 +79,8 @@ class Packer(Aside):
     def _share(self, ready: ReadyPack) -> str:
         """Write the zip, and put the link into the clipboard of who waits for it; all that is to be said."""
         app, name, waited_for = self.app, ready.pack.name, self.app.top is self.desk
-        app.write_export(name, ".zip", lambda path: write_atomically(path, ready.zipped))
-        said = [app.notice.replace(f"{app.player.folder}{os.sep}", "")]
+        self.saved = app.write_export(name, ".zip", lambda path: write_atomically(path, ready.zipped))
+        said = [app.notice]
         if ready.link and waited_for:
             copy_link(app, lambda: ready.link, title=name)
             said.append("the link is in the clipboard")

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import os
+import re
+import webbrowser
 from collections.abc import Callable, Sequence
 from functools import partial
 from math import dist
@@ -12,9 +13,10 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.editor import packs
-from ninja_game.editor.packs import obstacle_of, problems_of
+from ninja_game.editor.packs import missing_run, obstacle_of, problems_of
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.shown_text import counted, shown_text
+from ninja_game.files.user_folder import short_path
 from ninja_game.formats.links import link_kind
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, Accepted, EpisodeIndex
 from ninja_game.formats.pack.pack import INDEX, Pack, certificate_name
@@ -47,6 +49,9 @@ RENEW_MS = 500
 DELETED = "deleted"
 """The folder among the player's files into which packs go that are deleted."""
 
+NOT_FOUND = "no run found"
+"""The state of a level that was searched in vain."""
+
 NOT_CERTIFIED = ("changed", "no run yet")
 """States of levels of which nobody knows whether they can be passed as they are."""
 
@@ -63,6 +68,8 @@ _NO_LEVELS = (
     "Make ready then certifies all, and gives you a zip and a link to share.",
 )
 
+_READY_HINT = "It can be stopped at any time: what was found is kept."
+
 Edit = Callable[[Entry, Finding | None], object]
 
 
@@ -75,10 +82,11 @@ class Cell(NamedTuple):
 
 
 class _Checked(NamedTuple):
-    """What was odd about a pack. ``places``: the paths of the files that it is about."""
+    """What was odd about a pack. ``to_do``: what Make ready does; ``places``: the files that the others are about."""
 
     pack: Pack
     findings: list[PackFinding]
+    to_do: list[PackFinding]
     places: frozenset[str]
 
 
@@ -124,6 +132,7 @@ class PackScreen(ThumbnailScreen):
     """
 
     title = "Packs"
+    notice_top = 525.0
 
     def __init__(self, app: App, edit: Edit) -> None:
         super().__init__(app)
@@ -142,6 +151,7 @@ class PackScreen(ThumbnailScreen):
         self.packer = packer_of(app)
         self.packer.desk = self
         self._told = False, ""
+        self._vain = 0
         self._since_read = 0
         self._checks: NewestJob[Pack, _Checked] = NewestJob(self._check)
         self._checked: _Checked | None = None
@@ -211,7 +221,25 @@ class PackScreen(ThumbnailScreen):
         show = partial(ProblemsScreen, self.app, self.problems)
         problems = Button((526, 60, 78, 28), "Problems", lambda: self.app.push(show()), size=10)
         make = Button((610, 60, 146, 28), ready, self._ready_or_stop, hint=hint)
-        return [self.shelves, chosen, new, paste, about, problems, make, beside, self.tray] if have else [new, paste]
+        link = Button((662, 525, 94, 24), "Copy the link", self._copy_link, size=10)
+        link.hint = "Whoever opens it, or pastes it in Levels > Packs, gets the pack"
+        folder = Button((562, 525, 94, 24), "Open the folder", self._open_folder, size=10, hint="Where the zip is")
+        share = [] if self.packer.busy else [*[folder] * bool(self._saved), link]
+        first = [self.shelves, chosen, new, paste, about, problems, make, beside, self.tray]
+        return [*first, *share] if have else [new, paste]
+
+    @property
+    def _saved(self) -> Path | None:
+        """The zip that was just made of this pack."""
+        return self.packer.saved if self.packer.path == self.path else None
+
+    def _open_folder(self) -> None:
+        if self._saved and not webbrowser.open(self._saved.parent.as_uri()):
+            self.app.notify(f"Nothing here opens folders: it is {short_path(self._saved.parent)}")
+
+    def _copy_link(self) -> None:
+        pack = Pack(self.path)
+        copy_link(self.app, pack.files.link, title=pack.index.name, notice="Link copied")
 
     def _choose_pack(self, key: str) -> None:
         self._show(next(each for each in self.mine if each.key == key))
@@ -280,14 +308,11 @@ class PackScreen(ThumbnailScreen):
         copied = Pack(self.path)
         index = copied.index
         copy = partial(packs.copy_pack, copied, self.folder)
-        notice = "Link copied: whoever opens it, or pastes it in Levels > Packs, gets the pack"
-        link = partial(copy_link, self.app, copied.files.link, title=index.name, notice=notice)
         busy = self.packer.busy and self.packer.path == self.path
         gone = "It is being made ready" if busy else "It goes to a folder beside your levels"
         rows: list[Row] = [
             ("Name, author, version...", self._form, ""),
             ("Copy of the pack...", lambda: self.ask("Name of the copy", f"{index.name} copy", copy), ""),
-            ("Copy link", link, "Opens the pack; or Levels > Packs takes it in"),
             ("Delete the pack...", None if busy else self._delete, gone),
             CANCEL,
         ]
@@ -402,14 +427,31 @@ class PackScreen(ThumbnailScreen):
         else:
             super().back()
 
-    def _drop(self, goal: Cell | None) -> None:
+    def _drop(self, goal: Cell | None, *, after: bool = False) -> None:
         held, self.held, self.pointer = self.held, None, None
-        if held and held.level:
-            self.do(partial(self._put_level, held.level, goal))
+        if held and held.level and not (goal and goal.level is held.level):
+            self.do(partial(self._put_level, held.level, goal, after=after))
         elif held and held.episode and goal and goal.episode:
             self.do(partial(packs.move_episode, self.path, held.episode.number, goal.episode.number))
 
-    def _put_level(self, level: Entry, goal: Cell | None) -> None:
+    def _is_after(self, index: int) -> bool:
+        """Whether the mouse is over the right half of a cell: what it has lands behind what is there."""
+        left, _, w, _ = self.shelves.row_area(index)
+        return self.pointer is not None and self.pointer[0] > left + w / 2
+
+    def _landing(self) -> Area | None:
+        """Where a mark shows that the level that is held would land."""
+        over = self.shelves.at(*self.pointer) if self.pointer else self.shelves.index
+        if over is None or not (self.held and self.held.level):
+            return None
+        goal, index, after = self.cells[over], over, self._is_after(over)
+        if not goal.level:
+            row = [k for k, each in enumerate(self.cells) if each.episode is goal.episode]
+            index, after = next((k for k in row if not (self.cells[k].head or self.cells[k].level)), row[-1]), False
+        x, y, w, h = self.shelves.row_area(index)
+        return x + w * after - 2, y + 4, 4, h - 8
+
+    def _put_level(self, level: Entry, goal: Cell | None, *, after: bool) -> None:
         file, target = Path(level.named.file), self.path
         if goal is None and self.beside != "none":
             target = next((each.path for each in self.sets if each.key == self.beside and each.path), self.folder)
@@ -422,7 +464,10 @@ class PackScreen(ThumbnailScreen):
             number = goal.episode.number if goal and goal.episode else None
             if goal and number is None:
                 number = packs.new_episode(target, "New episode", self._column())
-            packs.place(target, name, number, Path(goal.level.named.file).name if goal and goal.level else "")
+            row = [each.level for each in self.cells if goal and each.episode is goal.episode and each.level]
+            row = [each for each in row if each is not level]
+            behind = row[row.index(goal.level) + after :] if goal and goal.level else []
+            packs.place(target, name, number, Path(behind[0].named.file).name if behind else "")
 
     def _handle_mouse(self, event: pygame.Event) -> None:
         dragged = self._dragged
@@ -432,7 +477,8 @@ class PackScreen(ThumbnailScreen):
             if self.pointer is None:
                 dragged.release()
             elif (index := self.shelves.at(x, y)) is not None:
-                self._drop(self.cells[index])
+                self.pointer = (x, y)
+                self._drop(self.cells[index], after=self._is_after(index))
             elif self.tray.contains(x, y):
                 self._drop(None)
             self.held, self.pointer = (self.held if self.pointer is None else None), None
@@ -441,8 +487,11 @@ class PackScreen(ThumbnailScreen):
     # --- problems, and what takes time ---
 
     def _check(self, pack: Pack) -> _Checked:
-        found = problems_of(pack, self.packer.obstacles)
-        return _Checked(pack, found, frozenset(pack.files.place(file_of(pack, each)) for each in found))
+        found, to_do = list[PackFinding](), list[PackFinding]()
+        for each in problems_of(pack, self.packer.obstacles):
+            made_ready = "`ninja-game" in each.hint and not obstacle_of(pack, each, self.packer.obstacles)
+            (to_do if made_ready else found).append(each)
+        return _Checked(pack, found, to_do, frozenset(pack.files.place(file_of(pack, each)) for each in found))
 
     @property
     def findings(self) -> list[PackFinding] | None:
@@ -456,7 +505,21 @@ class PackScreen(ThumbnailScreen):
             return []
         if self.findings is None:
             self._checked = self._check(pack)
-        return [*(self._problem(pack, each) for each in self.findings or ()), *map(self._accepted, pack.index.accepted)]
+        to_do = [Problem(text, _READY_HINT, to_do=True)] if (text := self._to_do()) else []
+        found = [self._problem(pack, each) for each in self.findings or ()]
+        return [*found, *to_do, *map(self._accepted, pack.index.accepted)]
+
+    def _to_do(self) -> str:
+        """What Make ready will do; "" for nothing."""
+        levels, checked = self.pack.levels if self.pack else [], self._checked
+        states = [self.state(each) for each in levels]
+        known = checked.to_do if checked and self.findings is not None else []
+        certify, gold = sum(map(states.count, NOT_CERTIFIED)), [each.code for each in known].count("no-gold-run")
+        work = {"certify": (certify, "level"), "measure": (certify + states.count("certified"), "medal time")}
+        work["look for all gold in"] = gold, "level"
+        parts = [f"{what} {counted(*count)}" for what, count in work.items() if count[0]]
+        parts = parts or ["renew the medal times"] * bool(known)
+        return f"Make ready will {', '.join(parts[:-1])}{' and ' * (len(parts) > 1)}{parts[-1]}" if parts else ""
 
     def _entry(self, file: str) -> Entry | None:
         levels = self.pack.levels if self.pack else []
@@ -465,21 +528,26 @@ class PackScreen(ThumbnailScreen):
     def _problem(self, pack: Pack, finding: PackFinding) -> Problem:
         file = file_of(pack, finding)
         entry, why = self._entry(level_of(pack, file)), obstacle_of(pack, finding, self.packer.obstacles)
-        text = str(finding).replace(f"{self.path}{os.sep}", "")
+        # Files count columns and episodes from 0; what is behind the semicolon is about files.
+        said = re.sub(r"((?:column|episode) )(\d+)", lambda n: f"{n[1]}{int(n[2]) + 1}", finding.text.partition(";")[0])
+        text = said[:1].upper() + said[1:]
         go: Callable[[], object] | None = self._about if file == INDEX else None
         if finding.code == "no-author":
             go = partial(self._form, 1)
         elif entry:
             known = why or next((each for each in level_findings(entry.named.level) if each.code == finding.code), None)
             go, text = partial(self._edit, entry, known), f"{entry.title}: {finding.text}"
+            for other, named in pack.levels.items():
+                text = text.replace(f"as {other}", f"as {named.name}")
 
         def accept(why: str) -> None:
             packs.accept(self.path, file, finding.code, why)
 
         may = bool(file) and finding.code not in NEVER_ACCEPTED
-        asked = partial(self.ask, "Accepted: why is it meant so?", "", accept) if may else None
-        hint = why.hint if why else "Make ready does that." if "`ninja-game" in finding.hint else finding.hint
-        return Problem(text, hint, go, asked)
+        asked = partial(self.ask, "Accept this warning: why?", "", accept) if may else None
+        missing = missing_run(pack, finding) if why and not self.packer.busy else None
+        longer = partial(self.packer.search_longer, self.path, missing) if missing else None
+        return Problem(text, why.hint if why else finding.hint, go, asked, search=longer)
 
     def _accepted(self, accepted: Accepted) -> Problem:
         entry, code = self._entry(accepted.file), accepted.code.replace("-", " ")
@@ -497,7 +565,8 @@ class PackScreen(ThumbnailScreen):
                 known = f"{seconds_text(level.pars.exit)} s"
             else:
                 run = self.player.catalogue.author_run(level)
-                known = "certified" if run else "changed" if beside else "no run yet"
+                vain = (level.named.level, "exit") in self.packer.obstacles
+                known = "certified" if run else NOT_FOUND if vain else "changed" if beside else "no run yet"
             self.states[id(level)] = known
         return known
 
@@ -511,8 +580,10 @@ class PackScreen(ThumbnailScreen):
         super().update(real_ms)
         packer, (busy, _) = self.packer, self._told
         self._since_read += real_ms
-        if packer.busy != busy:
-            self._asked = None
+        if packer.busy != busy or len(packer.obstacles) != self._vain:
+            # What was searched in vain changes nothing on the disk.
+            self._asked = self._checked = None
+            self._vain = len(packer.obstacles)
             self.enter()
         elif busy and self._since_read >= RENEW_MS:
             self._since_read = 0
@@ -525,7 +596,7 @@ class PackScreen(ThumbnailScreen):
     def leave(self) -> None:
         super().leave()
         self.held = self.pointer = None
-        if not self.packer.busy:
+        if not (self.packer.busy or self.packer.saved):
             self.packer.text = ""
 
     # --- picture ---
@@ -537,7 +608,9 @@ class PackScreen(ThumbnailScreen):
             theme.paragraph(surface, _NO_LEVELS if self.pack else _NO_PACK, (36, 360, 560, 90), 13, 20, align="centre")
         packer = self.packer
         whose = f"{shown_text(packer.path.name)}: " * bool(packer.text and packer.path != self.path)
-        theme.paragraph(surface, [whose + packer.text or self._counts()], (36, 527, 720, 28), 10, 13.5, colour=faint)
+        texts = [packer.text, self._counts()] if packer.text and not whose else [whose + packer.text or self._counts()]
+        place = (36, 524, 720 if packer.busy else 516, 41)
+        theme.paragraph(surface, texts[:1] if packer.busy else texts, place, 10, 13.5, colour=faint)
         if packer.busy:
             theme.panel(surface, 36, 546, 720, 7)
             theme.canvas.fill_rect(surface, theme.palette.accent, 36, 546, max(1.0, 720 * packer.share), 7, 3)
@@ -546,18 +619,18 @@ class PackScreen(ThumbnailScreen):
         if self.pack is None:
             return ""
         levels, found = self.pack.levels, self.findings
-        states = [self.state(each) for each in levels]
-        counts = {"to certify": sum(map(states.count, NOT_CERTIFIED)), "to measure": states.count("certified")}
-        missing = ", ".join(f"{count} {what}" for what, count in counts.items() if count)
-        to_do = missing or "all certified and measured"
+        vain = [self.state(each) for each in levels].count(NOT_FOUND)
+        to_do = self._to_do() or (f"{vain} without a run" if vain else "All certified and measured")
         alone = f", {len(self.pack.singles)} in none" if self.pack.singles else ""
         episodes = sum(cell.head for cell in self.cells) - 1
         where = f"{counted(len(levels), 'level')} in {counted(episodes, 'episode')}{alone}"
-        open_ones = "looking for problems" if found is None else counted(len(found), "open problem")
-        return f"{where}; {to_do}; {open_ones}" if levels else where
+        open_ones = "Looking for problems" if found is None else counted(len(found), "problem")
+        return f"{where}. {to_do}. {open_ones}" if levels else where
 
     def draw_widgets(self, surface: pygame.Surface) -> None:
         super().draw_widgets(surface)
+        if landing := self._landing():
+            self.theme.canvas.fill_rect(surface, self.theme.palette.accent, *landing, 2)
         if self.held and self.pointer:
             x, y = self.pointer
             if self.held.level:
@@ -587,7 +660,7 @@ class PackScreen(ThumbnailScreen):
     def _draw_state(self, surface: pygame.Surface, theme: Theme, level: Entry, x: float, y: float, w: float) -> None:
         palette, state = theme.palette, self.state(level)
         done = level.pars and state not in NOT_CERTIFIED
-        colour = palette.good if done else palette.bad if state == "changed" else palette.faint
+        colour = palette.good if done else palette.bad if state in ("changed", NOT_FOUND) else palette.faint
         theme.text(surface, state, x, y, size=8.5, colour=colour, width=w - 14)
         if done and level.pars and level.pars.gold is not None:
             draw_all_gold(surface, theme, x + w - 5, y + 5, 8)

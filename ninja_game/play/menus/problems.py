@@ -11,10 +11,11 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.ui.list_view import ListView
-from ninja_game.ui.theme import Area, Theme
+from ninja_game.ui.theme import Area, Theme, wrapped
 from ninja_game.ui.widgets import Button, Widget
 
 ROW = 33
+SEARCH = "Search for 5 minutes"
 LONGEST = 900
 """Characters of a problem that are shown, more than any message of the program has."""
 
@@ -22,7 +23,8 @@ LONGEST = 900
 class Problem(NamedTuple):
     """``text``: where and what; ``hint``: how to mend it. ``go``: leads to its place, ``accept``: lets it be.
 
-    ``accepted``: it is accepted already, and ``accept`` takes that back.
+    ``accepted``: it is accepted already, and ``accept`` takes that back. ``search``: gives the solver more time.
+    ``to_do``: no problem, but work that nobody has begun.
     """
 
     text: str
@@ -30,6 +32,8 @@ class Problem(NamedTuple):
     go: Callable[[], object] | None = None
     accept: Callable[[], object] | None = None
     accepted: bool = False
+    search: Callable[[], object] | None = None
+    to_do: bool = False
 
 
 class ProblemsScreen(MenuScreen):
@@ -45,6 +49,8 @@ class ProblemsScreen(MenuScreen):
             (44, 66, 704, 10 * ROW), ROW, self._draw_row, lambda _: self._go(), empty="There are no problems",
             selected=lambda _: self._offer(), opens=True,
         )  # fmt: skip
+        self.search = Button((316, 530, 136, 28), SEARCH, self._search, size=10)
+        self.search.hint = "For the run that is missing: the solver had less time before"
         self.go = Button((464, 530, 136, 28), "Go there", self._go)
         self.accept = Button((612, 530, 136, 28), "Accept it...", self._accept)
 
@@ -52,7 +58,8 @@ class ProblemsScreen(MenuScreen):
         self.problems = self._find()
         self.list.fill(self.problems)
         self._offer()
-        return [self.list, self.go, self.accept]
+        searches = [self.search] * any(each.search for each in self.problems)
+        return [self.list, *searches, self.go, self.accept]
 
     @property
     def selected(self) -> Problem:
@@ -60,6 +67,7 @@ class ProblemsScreen(MenuScreen):
 
     def _offer(self) -> None:
         self.go.enabled, self.accept.enabled = bool(self.selected.go), bool(self.selected.accept)
+        self.search.enabled = bool(self.selected.search)
         self.accept.text = "Take it back" if self.selected.accepted else "Accept it..."
         self.accept.hint = "It is a problem again" if self.selected.accepted else "With a reason, kept in the pack"
         self.list.hint = "Enter or a second click leads there" if self.selected.go else ""
@@ -67,6 +75,11 @@ class ProblemsScreen(MenuScreen):
     def _go(self) -> None:
         if self.selected.go:
             self.selected.go()
+
+    def _search(self) -> None:
+        if self.selected.search:
+            self.app.pop()
+            self.selected.search()
 
     def _accept(self) -> None:
         if self.selected.accept:
@@ -78,16 +91,18 @@ class ProblemsScreen(MenuScreen):
         theme.panel(surface, 44, 418, 704, 104)
         texts = [f"{shown_text(problem.text, LONGEST)}.", problem.hint] if problem.text else []
         theme.paragraph(surface, texts, (54, 426, 684, 90), 11, 14)
-        accepted = sum(each.accepted for each in self.problems)
-        count = counted(len(self.problems) - accepted, "problem") + f", {accepted} accepted" * bool(accepted)
+        accepted, to_do = (sum(getattr(each, kind) for each in self.problems) for kind in ("accepted", "to_do"))
+        count = counted(len(self.problems) - accepted - to_do, "problem") + f", {accepted} accepted" * bool(accepted)
         theme.text(surface, count, 44, 538, size=10, colour=theme.palette.faint)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         x, y, w, h = area
         theme.row(surface, (x, y + 1, w, h - 2), chosen=index == self.list.index, focused=focused)
-        problem, place = self.problems[index], (x + 10, y + 4, w - 20, h - 6)
-        colour = theme.palette.faint if problem.accepted else theme.palette.text
-        theme.paragraph(surface, [shown_text(problem.text, LONGEST)], place, 10, 13, colour=colour)
+        problem = self.problems[index]
+        text, colour = shown_text(problem.text, LONGEST), theme.palette.text
+        top = y + (h - 13 * min(2, len(wrapped(theme, text, w - 20, 10)))) / 2
+        colour = theme.palette.faint if problem.accepted or problem.to_do else colour
+        theme.paragraph(surface, [text], (x + 10, top, w - 20, y + h - top), 10, 13, colour=colour)
 
 
 def of_files(texts: Sequence[str]) -> list[Problem]:

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
-from pathlib import Path
 
 import pygame
 
-from ninja_game.files.user_folder import LEVELS
+from ninja_game.files.user_folder import LEVELS, short_path
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.play.app import App, Screen
 from ninja_game.play.menus.menu_screen import CANCEL, Menu, Row
@@ -326,7 +325,7 @@ class SettingsScreen(ThumbnailScreen):
                        lambda value: setattr(self.app, "overclock", round(value)),
                        hint="Speeds the game up until you quit")
             )  # fmt: skip
-        folder = str(self.player.folder / LEVELS).replace(str(Path.home()), "~")
+        folder = short_path(self.player.folder / LEVELS)
         texts = ("Put level files into this folder, and they appear under Levels:", folder)
         below = TOP + STEP * 9
         return [*widgets, *(Label((LEFT, below + 20 * k, WIDTH_OF_ROW, 14), text) for k, text in enumerate(texts))]

@@ -377,11 +377,13 @@ def test_good_levels_are_shown_with_notes_and_opened_as_copies(
     page = (root / "docs" / "good-levels.md").read_text("utf-8")
     assert written(page, screen.levels) == page, "`python3 tools/dev.py docs` writes the chapter"
     room.press("down")
+    vars(room.app.player.catalogue).pop("ours", None)
     room.editor.session.tools.history.change(new_source().draft)
     room.choose("Edit a copy")
     room.choose("Discard changes")
     assert isinstance(room.top(), EditorScreen)
     assert (room.draft.name, room.editor.session.source.path) == ("Rolling Hills", None)
+    assert room.editor.session.certifier.text.startswith("Certified: "), "an unchanged copy"
 
 
 def test_enter_in_the_search_opens_the_only_level_that_is_found(room: Maker) -> None:

@@ -482,9 +482,8 @@ def test_text_in_play_lies_over_rock_near_the_ninja_or_else_in_the_border(driver
         assert all(tiles[column * ROWS + row] == 1 for column, row in cells), "over rock only"
         far.append(left)
     assert far[0] < far[1]
-    shown = hud.said(
-        driver.app.surface, hud.box(Said("One" + 9 * " word", (0,) * 713, (), (396.0, 60.0), covers=False))
-    )
+    high_up = Said("One" + 9 * " word", (0,) * 713, (), (396.0, 60.0), covers=False)
+    shown = hud.said(driver.app.surface, hud.box(high_up))
     assert shown.top < driver.app.canvas.px(120), "near the upper border, in the open too"
     assert not shown.collidepoint(driver.app.canvas.point(396, 60)), "but never over the ninja"
     everywhere = tuple((12.0 + 24 * x, 12.0 + 24 * y, MUST) for x in range(33) for y in range(25))
@@ -512,9 +511,8 @@ def test_what_is_said_of_a_place_lies_beside_it_and_points_to_it(
         assert 24 <= x < x + w <= 768
         assert 24 <= y < y + h <= 576
         surface.fill("black")
-        covered = hud.draw(
-            surface, replace(view, said=Said(text, tiles, things, *view.said[3:]), named=(), ninja=place)
-        )
+        said = Said(text, tiles, things, *view.said[3:])
+        covered = hud.draw(surface, replace(view, said=said, named=(), ninja=place))
         there = driver.app.canvas.point(*place)
         assert surface.get_at(there)[:3] == driver.app.theme.palette.accent[:3]
         assert any(rect.collidepoint(there) for rect in covered), "so it is taken away again"

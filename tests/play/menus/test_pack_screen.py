@@ -15,10 +15,11 @@ import pygame
 import pytest
 
 from ninja_game.editor import packs
-from ninja_game.editor.packs import ReadyPack, Say
+from ninja_game.editor.packs import Obstacles, ReadyPack, Say
+from ninja_game.files.user_folder import short_path
 from ninja_game.formats.links import write_link
 from ninja_game.formats.pack.pack import Pack
-from ninja_game.levels.findings import in_pack
+from ninja_game.levels.findings import found, in_pack
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
@@ -28,6 +29,7 @@ from ninja_game.play.menus.problems import ProblemsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.runs.packs import lint
 from ninja_game.ui.input.gamepad import BUTTONS
+from ninja_game.ui.theme import Area
 from tests.support.draw_log import drawn
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK
@@ -60,10 +62,36 @@ def typed(driver: MenuDriver, text: str) -> None:
     driver.fill(text, "OK")
 
 
+def half(screen: PackScreen, index: int, *, right: bool = False) -> Area:
+    """A half of a cell on the shelves."""
+    x, y, w, h = screen.shelves.row_area(index)
+    return x + right * w / 2, y, w / 2, h
+
+
+def test_a_level_lands_on_the_side_of_a_card_where_it_is_let_go(driver: MenuDriver, path: Path) -> None:
+    screen = opened(driver)
+    shelves = screen.shelves
+    driver.carry(shelves.row_area(1), half(screen, 5, right=True), drop=False)
+    x, y, w, _ = shelves.row_area(5)
+    assert screen._landing() == (x + w - 2, y + 4, 4, shelves.cell_height - 8), "a mark shows where"
+    driver.mouse_up(half(screen, 5, right=True))
+    assert layout(path)[0] == ["00-1", "00-2", "00-3", "00-4", "00-0"]
+    driver.carry(shelves.row_area(5), half(screen, 2, right=True))
+    assert layout(path)[0] == ["00-1", "00-2", "00-0", "00-3", "00-4"]
+    for right in (False, True):
+        driver.carry(shelves.row_area(3), half(screen, 3, right=right))
+        driver.carry(shelves.row_area(3), half(screen, 2, right=True))
+        assert layout(path)[0] == ["00-1", "00-2", "00-0", "00-3", "00-4"], "it stays where it was"
+    driver.carry(shelves.row_area(3), half(screen, 11), drop=False)
+    assert screen._landing() == (shelves.row_area(10)[0] - 2, shelves.row_area(10)[1] + 4, 4, shelves.cell_height - 8)
+    driver.mouse_up(half(screen, 11))
+    assert layout(path)[1] == ["01-0", "01-1", "01-2", "00-0"]
+
+
 def test_levels_and_episodes_are_dragged(driver: MenuDriver, path: Path) -> None:
     screen = opened(driver)
     shelves = screen.shelves
-    driver.carry(shelves.row_area(2), shelves.row_area(8))
+    driver.carry(shelves.row_area(2), half(screen, 8))
     assert layout(path) == {0: ["00-0", "00-2", "00-3", "00-4"], 1: ["01-0", "00-1", "01-1", "01-2"]}
     driver.carry(shelves.row_area(1), screen.tray.area)
     assert layout(path)[0] == ["00-2", "00-3", "00-4"]
@@ -182,8 +210,9 @@ def test_a_problem_leads_to_its_place_and_is_accepted_with_a_reason(driver: Menu
     opened(driver)
     driver.choose("Problems")
     screen = driver.shown(ProblemsScreen)
-    assert [problem.text for problem in screen.problems if not problem.text.endswith("gold is known")] == [
-        "00-0-first-steps: no name"
+    assert [problem.text for problem in screen.problems] == [
+        "00-0-first-steps: no name",
+        "Make ready will look for all gold in 8 levels",
     ]
     count = len(screen.problems)
     driver.press("return")
@@ -229,18 +258,27 @@ def test_a_pack_is_made_ready_in_the_background(
     zipped = driver.player.folder / "exports" / "laundry-1.zip"
     assert begun == [path]
     assert ZipFile(zipped).namelist()[0] == "laundry/pack.toml"
-    saved, rest = f"Saved: {Path('exports', 'laundry-1.zip')}", "the link is in the clipboard"
+    saved, rest = f"Saved: {short_path(zipped)}", "the link is in the clipboard"
     assert driver.app.notice == f"{saved}; {rest}"
     assert screen.packer.text == f"{saved}, with 1 open problem (no author); {rest}; No par times"
     driver.wait(lambda: screen.findings is not None, "the problems are known")
     driver.choose("Problems")
     assert driver.app.notice == "", "what is said there goes with the screen"
-    assert len(driver.shown(ProblemsScreen).problems) == 8
+    assert [problem.to_do for problem in driver.shown(ProblemsScreen).problems] == [True]
+    assert "0 problems" in drawn(driver.app)
     driver.press("escape")
-    assert screen._counts() == "8 levels in 2 episodes; all certified and measured; 8 open problems"
-    assert screen._counts() in drawn(driver.app)
-    assert all(problem.go and problem.accept for problem in screen.problems())
+    assert screen._counts() == "8 levels in 2 episodes. Make ready will look for all gold in 8 levels. 0 problems"
+    assert screen._counts()[:30] in drawn(driver.app)
+    assert "laundry-1.zip" in drawn(driver.app), "it stays"
     assert driver.button("Make ready")
+    opened_folders: list[str] = []
+    monkeypatch.setattr("webbrowser.open", lambda uri: opened_folders.append(uri) or True)
+    driver.choose("Open the folder")
+    assert opened_folders == [zipped.parent.as_uri()]
+    copied: list[str] = []
+    with patch("pygame.scrap.put_text", copied.append):
+        driver.choose("Copy the link")
+    assert copied[0].endswith(ready.link)
 
 
 def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
@@ -274,7 +312,7 @@ def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
     assert driver.button("Stop")
     [entry] = [cell.level for cell in screen.cells if cell.level and cell.level.title == "First Steps"]
     assert screen.state(entry) == "no run yet", "though its time is measured"
-    assert screen._counts().startswith("8 levels in 2 episodes; 1 to certify; ")
+    assert screen._counts().startswith("8 levels in 2 episodes. Make ready will certify 1 level")
     go_on.set()
 
     def state() -> str:
@@ -287,8 +325,56 @@ def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
     go_on.set()
     driver.wait(lambda: driver.app.notice == "Laundry is ready to share", "it is said elsewhere")
     driver.choose("Packs")
-    assert driver.shown(PackScreen).packer.text == f"Saved: {Path('exports', 'laundry-1.zip')}"
+    assert driver.shown(PackScreen).packer.text == (
+        f"Saved: {short_path(driver.player.folder / 'exports' / 'laundry-1.zip')}"
+    )
     assert driver.button("Make ready")
+
+
+def test_what_was_searched_in_vain_is_said_at_once_and_searched_longer_from_its_row(
+    driver: MenuDriver, path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pack, go_on, seconds_each, known_each = Pack(path), Event(), list[float](), list[int]()
+    (path / "certificates" / "00-0-first-steps.exit.replay.txt").unlink()
+    level = pack.levels["00-0-first-steps.txt"].level
+
+    def made(folder: Path, *, seconds: float, jobs: int, say: Say, obstacles: Obstacles) -> ReadyPack:
+        seconds_each.append(seconds)
+        known_each.append(len(obstacles))
+        obstacles[level, "exit"] = found("unreached-exit")
+        say("Certifying, 1 of 1 levels done", 1.0)
+        assert go_on.wait(LONGEST)
+        return ReadyPack(pack, [], pack.files.zipped(), pack.files.link(), [])
+
+    monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", made)
+    screen = opened(driver)
+    path_of_level = str(path / "00-0-first-steps.txt")
+    driver.wait(lambda: screen.findings is not None, "the problems are known")
+    assert screen._checked
+    assert path_of_level not in screen._checked.places, "nobody has looked for a run yet"
+    driver.choose("Make ready")
+    driver.wait(lambda: "no run found" in drawn(driver.app), "the card says so before all is done")
+    assert screen.packer.busy
+    assert all(each.search is None for each in screen.problems())
+    go_on.set()
+    driver.wait(lambda: not screen.packer.busy)
+    driver.choose("Problems")
+    assert "reached in no try of the solver" in drawn(driver.app)
+    driver.choose("Search for 5 minutes")
+    driver.shown(PackScreen)
+    driver.wait(lambda: len(seconds_each) == 2)
+    assert (seconds_each, known_each) == ([20.0, 300.0], [0, 0]), "this run alone is looked for again"
+    driver.wait(lambda: not screen.packer.busy)
+
+
+def test_problems_speak_of_what_is_seen_not_of_files(driver: MenuDriver, path: Path) -> None:
+    (path / "pars.toml").unlink()
+    packs.describe(path, {"author": ""})
+    packs.new_episode(path, "", 0)
+    screen = opened(driver)
+    texts = [problem.text for problem in screen.problems() if not problem.to_do]
+    assert texts == ["The pack has no author", "Episode 3 has no name", "Episode 3 has no levels"]
+    assert "medal times" in screen._to_do()
 
 
 def test_making_ready_is_stopped(driver: MenuDriver, path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -313,13 +399,13 @@ def test_what_changed_is_marked(driver: MenuDriver, path: Path) -> None:
     screen = opened(driver)
     stale = [cell.level.title for cell in screen.cells if cell.level and cell.level.pars is None]
     assert stale == ["Mind the Gap"]
-    assert screen._counts().startswith("8 levels in 2 episodes; 1 to certify; ")
+    assert screen._counts().startswith("8 levels in 2 episodes. Make ready will certify 1 level")
     driver.wait(lambda: screen.findings is not None, "the problems are known")
     assert [screen.state(cell.level) for cell in screen.cells if cell.level][1] == "changed"
     packs.place(path, packs.new_level(path, "Empty", "me"), 1)
     screen.enter()
     driver.wait(lambda: screen.findings is not None, "the problems are known")
-    assert screen._counts().startswith("9 levels in 2 episodes; 2 to certify; ")
+    assert screen._counts().startswith("9 levels in 2 episodes. Make ready will certify 2 levels")
     [entry] = [each.level for each in screen.cells if each.level and each.level.title == "Empty"]
     assert screen.state(entry) == "no run yet"
     no_ninja = [problem for problem in screen.problems() if "there is no ninja" in problem.text]
@@ -362,9 +448,8 @@ def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path) 
     screen = opened(driver)
     clipboard = [""]
     with patch("pygame.scrap.put_text", clipboard.append), patch("pygame.scrap.get_text", lambda: clipboard[-1]):
-        driver.choose("About it...")
-        driver.choose("Copy link")
-        assert "pastes it in Levels > Packs" in driver.app.notice
+        driver.choose("Copy the link")
+        assert driver.app.notice == "Link copied"
         clipboard.append(f"https://example.org/game/ {clipboard[-1]}\n")
         shutil.rmtree(path)
         screen.enter()
@@ -372,8 +457,9 @@ def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path) 
         driver.choose("Paste link")
         assert "Laundry is among your packs now" in driver.app.notice
         driver.wait(lambda: screen.findings is not None, "the problems are known")
-        assert screen._counts() == "8 levels in 2 episodes; all certified and measured; 8 open problems"
-        assert {finding.code for finding in screen.findings or ()} == {"no-gold-run"}
+        assert screen._counts() == "8 levels in 2 episodes. Make ready will look for all gold in 8 levels. 0 problems"
+        assert screen._checked
+        assert {finding.code for finding in screen._checked.to_do} == {"no-gold-run"}
         assert [pack.name for pack in screen.mine] == ["Laundry"]
         first = layout(screen.path)
         driver.chord("v", pygame.KMOD_LCTRL)

@@ -1,0 +1,117 @@
+"""What stays when another level is edited, and what ends with the level; what the buttons at the top lead to."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pygame
+
+from ninja_game.editor.files import Source, new_source, open_source
+from ninja_game.editor.stamp import everything
+from ninja_game.files.user_folder import short_path
+from ninja_game.play.editor.commands import IN_MORE, TryScreen
+from ninja_game.play.editor.parts import FilePart, ObjectList
+from ninja_game.play.editor.screen import EditorScreen
+from ninja_game.play.menus.menu_screen import Menu
+from ninja_game.ui.widgets import Button
+from tests.support.level_maker import ROOM, Maker
+from tests.support.menu_driver import MenuDriver
+from tests.support.own_pack import PACK
+
+
+def find_field(room: Maker) -> tuple[float, float]:
+    x, y, w, _ = room.editor.sides[1].area
+    return x + w / 3, y + 12
+
+
+def test_what_belongs_to_a_level_ends_with_it_and_slopes_stay(room: Maker) -> None:
+    session = room.editor.session
+    room.press("m", "y", "f3")
+    room.chord("s", pygame.KMOD_LSHIFT)
+    room.mouse(*find_field(room))
+    room.type("exit")
+    listed = room.editor.sides[1]
+    assert isinstance(listed, ObjectList)
+    room.frames()
+    assert len(listed.shown) == 1
+    room.mouse(*find_field(room))
+    room.type("ninja")
+    room.frames()
+    assert (listed._find.text, len(listed.shown)) == ("ninja", 1), "a click selects what was typed"
+    assert (session.tools.symmetry, session.start, session.tools.slopes) == ("left-right", "standing", True)
+    session.begin(Source(ROOM))
+    room.frames()
+    assert (session.tools.symmetry, session.start, session.tools.slopes) == ("off", "off", True)
+    assert (listed._find.text, len(listed.shown)) == ("", 2)
+    room.editor.focus = None
+    room.press("escape")
+    room.choose("Leave the editor")
+    room.open("Editor")
+    assert room.editor.session.tools.slopes
+    assert room.app.settings.slopes
+
+
+def test_the_editor_begins_with_a_room_without_problems(tmp_path: Path) -> None:
+    driver = MenuDriver(tmp_path)
+    editor = driver.open("Editor")
+    assert isinstance(editor, EditorScreen)
+    assert editor.session.draft == new_source(room=True).draft
+    assert (editor.session.examine(), editor.session.is_saved) == ([], True)
+    editor.session.close()
+    driver.close()
+
+
+def test_file_opens_its_menu_also_where_something_is_selected(room: Maker) -> None:
+    tools = room.editor.session.tools
+    tools.tool, tools.selection = "select", everything(room.draft)
+    room.choose("File")
+    room.choose("New")
+    room.choose("A room")
+    assert room.draft != ROOM, "nothing is drawn over the level that was left"
+    tools.selection = everything(room.draft)
+    room.press("escape")
+    assert (room.top(), bool(tools.selection)) == (room.editor, False), "the key gives up what is half done first"
+
+
+def test_more_has_a_button_for_each_tool_of_tests_and_of_what_is_shown(room: Maker) -> None:
+    room.choose("More")
+    menu = room.shown(Menu)
+    hints = [each.hint for each in menu.widgets if isinstance(each, Button)]
+    keys = ["Y", "F9", "F8", "T", "F3", "Shift+S", "F4"]
+    assert hints == ["Key at the pointer: F6", *(f"Key: {key}" for key in keys), ""]
+    assert len(hints) == len(IN_MORE) + 2
+    room.choose("What can be reached from the pointer")
+    assert room.editor.session.start == "standing"
+    room.choose("More")
+    room.choose("Test with the ninja at a click")
+    room.drag((300, 400))
+    ninja = room.shown(TryScreen).attempt.simulation.world.ninja
+    assert abs(ninja.x - 300) < 12
+
+
+def test_the_certificate_of_the_same_level_counts_wherever_it_lies(room: Maker, tmp_path: Path) -> None:
+    levels, name = tmp_path / "levels", "00-0-first-steps"
+    session = room.editor.session
+    shutil.copy(PACK / f"{name}.txt", levels / "mine.txt")
+    room.editor.commands.open_file(levels / "mine.txt")
+    assert session.certifier.text.startswith("Certified: "), "the game's own has one"
+    text = (PACK / f"{name}.txt").read_text("utf-8").replace("@", ".", 1)
+    (levels / "mine.txt").write_text(text, "utf-8")
+    room.editor.commands.open_file(levels / "mine.txt")
+    assert session.certifier.text == "", "of another level"
+
+
+def test_a_save_says_the_name_and_the_panel_where_the_file_is(room: Maker, tmp_path: Path) -> None:
+    room.chord("s", pygame.KMOD_LCTRL)
+    assert room.app.notice == "Saved, and in the menu Levels: room.txt"
+    path, session = tmp_path / "levels" / "room.txt", room.editor.session
+    part = next(each for each in room.editor.parts if isinstance(each, FilePart))
+    room.mouse(part.area[0] + 9, part.area[1] + 9, click=False)
+    assert room.editor.view.hint == short_path(path)
+    assert open_source(path).draft == session.draft
+
+
+def test_a_path_is_said_short(tmp_path: Path) -> None:
+    assert short_path(Path.home() / "a" / "b") == str(Path("~", "a", "b"))
+    assert short_path(tmp_path).endswith(tmp_path.name)
