@@ -96,7 +96,8 @@ class EditorSession:
         self._checks: NewestJob[Question, Examined] = NewestJob(_examine)
         self._reaches: NewestJob[Ask, Reach] = NewestJob(find_reach)
         self._maps: NewestJob[tuple[Try, ...], TestMap] = NewestJob(map_of)
-        self.start, self._start_asked = "off", None
+        self.start = "off"
+        self._start_asked: Ask | None = None
         self.tries: tuple[Try, ...] = ()
         self.last_try: Route = ()
         self._file_stamp, self._looked_at = NO_FILE, 0.0
