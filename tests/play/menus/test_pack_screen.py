@@ -359,7 +359,7 @@ def test_what_was_searched_in_vain_is_said_at_once_and_searched_longer_from_its_
     go_on.set()
     driver.wait(lambda: not screen.packer.busy)
     driver.choose("Problems")
-    assert "reached in no try of the solver" in drawn(driver.app)
+    assert "the solver never reached it, although it was open" in drawn(driver.app)
     driver.choose("Search for 5 minutes")
     driver.shown(PackScreen)
     driver.wait(lambda: len(seconds_each) == 2)
