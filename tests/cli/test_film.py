@@ -151,7 +151,7 @@ def test_runs_stand_beside_each_other_with_their_splits(
 def test_splits_say_by_how_much_others_are_later(tmp_path: Path) -> None:
     late = write_demo(Demo(bytes(4) + bytes([2] * 24), 28.0))
     file = write_records(tmp_path / "two.txt", ("First", WALK, running(24)), ("Late", WALK, late))
-    first, second = (run_splits(replace(each, file="")) for each in load_replays(file))
+    first, second = (run_splits(replace(each, file="", record=0)) for each in load_replays(file))
     texts = [text for _, text in film.told_splits(first, [second])]
     assert texts[-1] == "exit, Late +4"
     assert [text for _, text in film.told_splits(second, [first])][-1] == "exit, First -4"
