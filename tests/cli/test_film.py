@@ -16,8 +16,8 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.demo import write_demo
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.recording import Recording
-from ninja_game.formats.replay.text import Replay, parse_replay, write_episode
 from ninja_game.formats.replay.made import Made
+from ninja_game.formats.replay.text import Replay, parse_replay, write_episode
 from ninja_game.play.replay import film
 from ninja_game.play.replay.film import Film, section_of
 from ninja_game.play.replay.playback import Playback
