@@ -61,7 +61,7 @@ class ReplayRow(NamedTuple):
 
 
 class ReplaysScreen(MenuScreen):
-    """One list of all replays. Delete removes one of the records that no best needs. ``hint``, ``empty``: the list's."""
+    """All replays. Delete removes one of the records that no best needs. ``hint``, ``empty``: the list's."""
 
     title = "Replays"
     heads = "Level", "Player", "Result, time", "From"

@@ -42,7 +42,7 @@ class OtherRuns:
         }  # fmt: skip
 
     def open(self, recordings: Sequence[Recording]) -> None:
-        """Show recordings beside the run, the first one chosen. Raises ReplayError for another level or another body."""
+        """Show recordings beside the run, the first chosen. Raises ReplayError for another level or another body."""
         editor = self.editor
         found = len(editor.others)
         for recording in recordings:
