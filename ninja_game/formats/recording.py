@@ -73,9 +73,20 @@ class Recording:
         return Path(self.file).name.removesuffix(".replay.txt") + f" {self.record}" * (self.record > 0)
 
     @property
+    def whose(self) -> str:
+        """What it is called beside other runs: its player, or where that is unknown its file."""
+        return self.player or self.place or self.name
+
+    @property
+    def credit(self) -> str:
+        """Who made the run, and how, as ``Replay.credit``; in a record of N stands its level's maker."""
+        return replace(self.replay, author=self.player).credit
+
+    @property
     def title(self) -> str:
-        """What is written above its picture: also who made it where it comes from a file."""
-        return (self.name or "Replay") + f" - {self.replay.credit}" * bool(self.replay.credit and self.file)
+        """What is written above its picture: also who made it, or its file, where it comes from one."""
+        credit = replace(self.replay, author=self.whose).credit if self.file else ""
+        return " - ".join(dict.fromkeys(filter(None, (self.replay.name or self.place, credit)))) or "Replay"
 
     @property
     def body(self) -> Body:

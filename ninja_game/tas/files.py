@@ -7,12 +7,10 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import Any, Self
 
 from ninja_game.document import check_free, digest_of, digest_of_file
 from ninja_game.errors import DAMAGED, NinjaGameError, ReplayError
 from ninja_game.files.reading import read_bytes, read_utf8
-from ninja_game.files.shown_text import file_stem
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import is_bundled
 from ninja_game.files.writing import write_atomically
@@ -22,7 +20,6 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.input_text import Inputs, read_inputs
-from ninja_game.formats.replay.made import names_of_text
 from ninja_game.formats.replay.notations import in_our_notation, is_tas_text
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay, write_replay
 from ninja_game.runs.conversion import on_level
@@ -253,43 +250,3 @@ def read_branches(path: Path) -> Branches:
     except DAMAGED as error:
         hint = "move it away, and the run opens without branches"
         raise ReplayError("not the branches of a run", str(beside), found=str(error)[:60], hint=hint) from None
-
-
-def _player_of(recording: Recording) -> str:
-    file = Path(recording.file).name or recording.name
-    return recording.player or f"unknown ({file_stem(file, 'no file')})"
-
-
-@dataclass(frozen=True)
-class Contributions:
-    """``edits``: of keys; ``commands``: those that searched keys which were taken; ``names``: who else took part."""
-
-    edits: int = 0
-    commands: tuple[str, ...] = ()
-    names: tuple[str, ...] = ()
-
-    @classmethod
-    def of(cls, recording: Recording) -> Self:
-        """Those of a run whose keys are taken; an author who is not known is called by the file."""
-        replay = recording.replay
-        return cls(0, replay.made.searches, names_of_text(", ".join((_player_of(recording), *replay.co_authors))))
-
-    def __add__(self, other: Contributions) -> Contributions:
-        return Contributions(self.edits + other.edits, self.commands + other.commands, self.names + other.names)
-
-    def credited(self, about: Recording, player: str) -> Recording:
-        """A recording as it was opened, with what was done to it since then by a player."""
-        old, author = about.replay, about.author or player
-        names = names_of_text(", ".join((*old.co_authors, player, *self.names)))
-        begun_by = _player_of(about) if about.author != player else ""
-        made = old.made.edited(self.edits).searched(*self.commands, begun_by=begun_by)
-        others = tuple(name for name in names if name != author)
-        return replace(about, replay=replace(old, author=author, made=made, co_authors=others))
-
-    def as_json(self) -> dict[str, Any]:
-        return {"edits": self.edits, "commands": list(self.commands), "names": list(self.names)}
-
-    @classmethod
-    def of_json(cls, kept: dict[str, Any]) -> Self:
-        """What ``as_json`` gave. Raises one of DAMAGED for anything else."""
-        return cls(int(kept["edits"]), tuple(map(str, kept["commands"])), tuple(map(str, kept["names"])))

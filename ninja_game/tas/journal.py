@@ -10,7 +10,7 @@ import json
 import os
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 from zlib import crc32
@@ -21,7 +21,8 @@ from ninja_game.files.reading import open_regular
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import parse_replays
 from ninja_game.sim.loader import record_table
-from ninja_game.tas.files import Contributions, OpenedRun, RunFile, run_file_of
+from ninja_game.tas.contributions import NONE, Contributions
+from ninja_game.tas.files import OpenedRun, RunFile, run_file_of
 from ninja_game.tas.tracks import (
     Branches,
     InputTrack,
@@ -39,12 +40,12 @@ FOLDER, SUFFIX = "tas", ".jsonl"  # in the player's folder
 def edit_as_json(old: InputTrack, new: InputTrack) -> dict[str, Any]:
     """What turns one input track into another: the ticks from ``at`` to ``to`` - 1 are replaced by ``keys``.
 
-    ``sum``: of the new track, so that a damaged edit is noticed.
+    ``sum``: of the new track, so that a damaged edit is noticed; ``made``: what was done to it in all.
     """
     at = old.first_difference(new)
     tail = first_difference(old.inputs[at:][::-1], new.inputs[at:][::-1])
     keys = new.inputs[at : len(new) - tail]
-    change: dict[str, Any] = {"at": at, "to": len(old) - tail, "keys": keys.hex()[1::2], "sum": _sum(new)}
+    change = {"at": at, "to": len(old) - tail, "keys": keys.hex()[1::2], "sum": _sum(new), "made": new.made.as_json()}
     return change if old.markers == new.markers else change | {"markers": [list(each) for each in new.markers]}
 
 
@@ -61,7 +62,7 @@ def edited(track: InputTrack, change: dict[str, Any]) -> InputTrack:
     new = checked_track(track.inputs[:at] + inputs_of_json(change["keys"]) + track.inputs[to:], markers)
     if _sum(new) != change["sum"]:
         raise ValueError("an edit of another input track")
-    return new
+    return replace(new, made=Contributions.of_json(change["made"]) if "made" in change else NONE)
 
 
 class Journal(RecoveryFile):
@@ -106,14 +107,12 @@ class Journal(RecoveryFile):
 class RecoveredRun:
     """What a session that has died was editing. ``opened``: as it began; ``tracks``: after each edit.
 
-    ``branches``: as they were last; ``taken``: of those whose keys were taken; ``said``: the first line of the journal
-    ``file``.
+    ``branches``: as they were last; ``said``: the first line of the journal ``file``.
     """
 
     opened: OpenedRun
     tracks: tuple[InputTrack, ...]
     branches: Branches
-    taken: Contributions
     said: dict[str, Any]
     file: Path
 
@@ -131,21 +130,20 @@ def read_journal(file: Path) -> RecoveredRun:
     with open_regular(file) as lines:
         said = json.loads(lines.readline())
         (recording,) = parse_replays(said["replay"])
+        recording = replace(recording, file=str(said.get("source", "")))
         record_table(recording.level)
         path, digest, branches_digest = (str(said[key]) for key in ("path", "digest", "branches_digest"))
         run_file = run_file_of(Path(path), digest, branches_digest) if path else RunFile()
         tracks = [track_of_json(said["track"])]
-        branches, taken = branches_of_json(said["branches"]), Contributions()
+        branches = branches_of_json(said["branches"])
         for line in lines:
             with suppress(*DAMAGED):
                 change = json.loads(line)
-                if "taken" in change:
-                    taken += Contributions.of_json(change["taken"])
-                elif "at" not in change:
+                if "at" not in change:
                     branches.do(change)
                 elif change.get("goes_on"):
                     tracks[-1] = edited(tracks[-1], change)
                 else:
                     tracks.append(edited(tracks[-1], change))
     opened = OpenedRun(recording, tracks[0], run_file, branches_of_json(said["branches"]))
-    return RecoveredRun(opened, tuple(tracks[1:]), branches, taken, said, file)
+    return RecoveredRun(opened, tuple(tracks[1:]), branches, said, file)

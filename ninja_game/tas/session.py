@@ -10,7 +10,8 @@ from typing import Any
 from ninja_game.document import History, digest_of_file
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import write_replay
-from ninja_game.tas.files import Contributions, OpenedRun, RunFile, has_tail, recording_of, save_run, unclaimed_replay
+from ninja_game.tas.contributions import NONE, Contributions
+from ninja_game.tas.files import OpenedRun, RunFile, has_tail, recording_of, save_run, unclaimed_replay
 from ninja_game.tas.journal import Journal, RecoveredRun, edit_as_json
 from ninja_game.tas.timeline import EMPTY_TRAJECTORY, Timeline, Trajectory
 from ninja_game.tas.tracks import Branch, Branches, InputTrack, branch_as_json, track_as_json
@@ -34,7 +35,7 @@ class Session:
             about = replace(about, replay=replace(about.replay, author="", level_author=about.level_author))
             opened = replace(opened, recording=about)
         self.about: Recording = about
-        self._first, self._player, self._done = opened, player, Contributions()
+        self._first, self._player = opened, player
         self.file: RunFile = opened.file
         self.branches: Branches = opened.branches
         self.moved = opened.moved
@@ -52,9 +53,16 @@ class Session:
         self.timeline.simulate(self.ticks_per_frame)
 
     def _opened(self) -> dict[str, object]:
-        text = write_replay(unclaimed_replay(self.about, self.track))
+        about = self._first.recording
+        text = write_replay(unclaimed_replay(about, self.track))
         path = str(self.file.path.absolute()) if self.file.path else ""
-        file = {"path": path, "digest": self.file.digest, "branches_digest": self.file.branches_digest}
+        source = str(Path(about.file).absolute()) if Path(about.file).is_file() else about.file
+        file = {
+            "path": path,
+            "digest": self.file.digest,
+            "branches_digest": self.file.branches_digest,
+            "source": source,
+        }
         return {**file, "replay": text, "track": track_as_json(self.track), "branches": self.branches.as_json()}
 
     @property
@@ -93,19 +101,21 @@ class Session:
         self.history.begin()
         self._look_back()
 
-    def change(self, track: InputTrack, *, ticks: int | None = None, taken: Contributions | None = None) -> None:
+    def change(
+        self, track: InputTrack, *, ticks: int | None = None, taken: Contributions | None = None, whole: bool = False
+    ) -> None:
         """Another track, as a part of the stroke or an edit of its own. So many ticks of it are simulated at once.
 
-        ``ticks``: None: as many as are quick; ``taken``: of those whose keys are taken.
+        ``ticks``: None: as many as are quick; ``taken``: of those whose keys are taken, ``whole``: and no others stay.
         """
         if track == self.track:
             return
-        if taken is not None:
-            self._done += taken
-            self.journal.note({"taken": taken.as_json()})
         if not self.history.in_stroke:
             self._look_back()
-        self.history.change(track)
+        began, opened = self.history.began, self._first.track
+        edits = began.made.edits + (track.inputs != began.inputs)
+        made = replace((NONE if whole else self.track.made) + (taken or NONE), edits=edits)
+        self.history.change(replace(track, made=opened.made if track.inputs == opened.inputs else made))
         self._follow(ticks)
 
     def end(self) -> None:
@@ -140,17 +150,14 @@ class Session:
 
     def _credit(self) -> None:
         """What is said of the run: once its keys are others, what was done to it since it was opened, and by whom."""
-        opened = self._first.recording
-        changed = self.track.inputs != self._first.track.inputs
-        self.about = self._done.credited(opened, self._player) if changed else opened
+        opened, made = self._first.recording, self.track.made
+        self.about = opened if made == NONE else made.credited(opened, self._player)
 
     def _note(self) -> None:
         """Put what has changed into the journal. What could not be written is a part of the next edit's line."""
         if self.track == self._noted:
             return
         change = edit_as_json(self._noted, self.track)
-        if self._noted.inputs != self.track.inputs and not self._stroke_noted:
-            self._done += Contributions(1)
         self._credit()
         if self.journal.note(change | {"goes_on": True} if self._stroke_noted else change):
             self._noted = self.track
@@ -171,7 +178,8 @@ class Session:
         """Go on from a branch; undo brings back what was there before. Raises ArgumentError without such a one."""
         self.end()
         self._change_branches({"checkout": number})
-        self.change(self.branches.all[number].track)
+        track = self.branches.all[number].track
+        self.change(track, taken=track.made, whole=True)
 
     def drop_branch(self, number: int) -> None:
         """Forget a branch. Raises ArgumentError without such a one."""
@@ -217,9 +225,7 @@ class Session:
         self.journal.close()
         self.journal = journal
         for track in found.tracks:
-            self._done += Contributions(int(track.inputs != self.track.inputs))
             self.history.change(track)
-        self._done += found.taken
         self._credit()
         self.branches = found.branches
         # The program may have died when the file was written, and the journal not yet started again.

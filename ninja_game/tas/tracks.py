@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,7 @@ from ninja_game.formats.replay.input_text import marker_name
 from ninja_game.formats.replay.notations import Marker, is_marker_name
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, MAX_TICKS, check_inputs, pressed
 from ninja_game.sim.states import OUTCOME_NAMES
+from ninja_game.tas.contributions import NONE, Contributions
 
 
 @dataclass(frozen=True)
@@ -20,11 +21,13 @@ class InputTrack:
     """``inputs``: one byte per tick, the sum of its ``Input`` flags; in ticks beyond them no key is down.
 
     The jump triggers where the key goes down. A recording that is odd there (``Input.JUMP_PRESSED`` without the key, or
-    a key that goes down without it) stays as it is in all ticks that are not edited.
+    a key that goes down without it) stays as it is in all ticks that are not edited. ``made``: what was done to the
+    keys since the run was opened; a session says it of each track that it holds.
     """
 
     inputs: bytes
     markers: tuple[Marker, ...] = ()
+    made: Contributions = field(default=NONE, compare=False)
 
     def __len__(self) -> int:
         return len(self.inputs)
@@ -227,12 +230,14 @@ def branch_of_json(kept: dict[str, Any]) -> Branch:
 
 def track_as_json(track: InputTrack) -> dict[str, Any]:
     """An input track as JSON can say it: its inputs a hexadecimal digit a tick."""
-    return {"inputs": track.inputs.hex()[1::2], "markers": [list(each) for each in track.markers]}
+    said = {"inputs": track.inputs.hex()[1::2], "markers": [list(each) for each in track.markers]}
+    return said | {"made": track.made.as_json()}
 
 
 def track_of_json(kept: dict[str, Any]) -> InputTrack:
     """What ``track_as_json`` gave. Raises one of DAMAGED for anything else."""
-    return checked_track(inputs_of_json(kept["inputs"]), markers_of_json(kept["markers"]))
+    made = Contributions.of_json(kept["made"]) if "made" in kept else NONE
+    return replace(checked_track(inputs_of_json(kept["inputs"]), markers_of_json(kept["markers"])), made=made)
 
 
 def inputs_of_json(digits: str) -> bytes:

@@ -100,7 +100,9 @@ class RunCommands(DocumentCommands):
             else:
                 self.app.notify(f"Not saved: there is no folder {path.parent}")
 
-        ask_text(self.app, f"Save in {folder.absolute()}", "Name or path of the file", name, "Save", on_accept, 300)
+        place = str(folder.absolute()).replace(str(Path.home()), "~")
+        title = f"Save in {'...' * (len(place) > 38)}{place[-38:]}"  # of a long path the end says more
+        ask_text(self.app, title, "Name or path of the file", name, "Save", on_accept, 300)
 
     def saved_text(self, path: Path) -> str:
         tail = ", with what is behind its end (Ctrl+E takes that out)" if self.session.has_tail else ""

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.play.app import App
 from ninja_game.play.workspace import Commands, Part
-from ninja_game.tas.files import Contributions
+from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.session import Session
 from ninja_game.tas.timeline import Trajectory
 from ninja_game.tas.tracks import InputTrack

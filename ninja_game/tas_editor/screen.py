@@ -12,7 +12,7 @@ from ninja_game.formats.recording import Recording
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
 from ninja_game.play.workspace import Commands, WorkspaceScreen
-from ninja_game.tas.files import OpenedRun
+from ninja_game.tas.files import OpenedRun, same_level
 from ninja_game.tas.journal import RecoveredRun
 from ninja_game.tas.session import Session
 from ninja_game.tas_editor.commands import TABLE, RunCommands
@@ -86,7 +86,10 @@ class TasScreen(WorkspaceScreen):
         self.editor.hint = text
 
     def _recover(self, found: RecoveredRun) -> None:
-        self.app.replace(TasScreen(self.app, found.opened, found=found))
+        screen = TasScreen(self.app, found.opened, found=found)
+        if same_level(found.opened.recording, self.session.about):
+            screen.editor.others, screen.editor.chosen = self.editor.others, self.editor.chosen
+        self.app.replace(screen)
 
     def enter(self) -> None:
         self.editor.theme = self.theme  # all parts are in their places before the first of them looks around
@@ -145,8 +148,10 @@ class Head(TasPart):
         unsaved = f"{opened}{where}, to be saved as a new file" if opened else "no file yet"
         file = session.file.path.name if session.file.path else unsaved
         about = session.about
-        name = " - ".join(filter(None, (about.name, about.replay.credit)))
-        title = theme.text(surface, name, 8, 6, size=13, bold=True, colour=palette.on_tile, width=right / 2 - 62)
+        how, room = f" {about.replay.how}".rstrip(), right / 2 - 62
+        name = " - ".join(filter(None, (about.name, about.replay.credit))).removesuffix(how)
+        name = theme.fit(name, room - theme.width(how, 13, bold=True), 13, bold=True) + how
+        title = theme.text(surface, name, 8, 6, size=13, bold=True, colour=palette.on_tile, width=room)
         x = title.right / theme.canvas.scale + 12
         saved = "" if not session.file.path and session.is_saved else ", saved" if session.is_saved else ", not saved"
         state = session.journal.problem or file + saved

@@ -16,6 +16,7 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.demo import write_demo
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.made import Made
 from ninja_game.formats.replay.text import Replay, parse_replay, write_episode
 from ninja_game.play.replay import film
 from ninja_game.play.replay.film import Film, section_of
@@ -150,17 +151,21 @@ def test_runs_stand_beside_each_other_with_their_splits(
 def test_splits_say_by_how_much_others_are_later(tmp_path: Path) -> None:
     late = write_demo(Demo(bytes(4) + bytes([2] * 24), 28.0))
     file = write_records(tmp_path / "two.txt", ("First", WALK, running(24)), ("Late", WALK, late))
-    first, second = (run_splits(replace(each, replay=replace(each.replay, author=""))) for each in load_replays(file))
+    first, second = (run_splits(replace(each, file="", record=0)) for each in load_replays(file))
     texts = [text for _, text in film.split_texts(first, [second])]
     assert texts[-1] == "exit, Late +4"
     assert [text for _, text in film.split_texts(second, [first])][-1] == "exit, First -4"
     first, second = map(run_splits, load_replays(file))
-    assert [text for _, text in film.split_texts(first, [second])][-1] == "exit, two.txt 1 +4", "both by one name"
+    assert [text for _, text in film.split_texts(first, [second])][-1] == "exit, two.txt 1 +4", "no player's name"
 
 
 def test_runs_with_one_title_have_their_files_above_them(tmp_path: Path) -> None:
+    """Those of nobody too: the name in a record of N is its level's maker's."""
     file = write_records(tmp_path / "two.txt", *[("Walk", WALK, running(24))] * 2, ("Other", WALK, running(24)))
     first, *others = load_replays(file)
+    assert [each.title for each in (first, *others)] == ["Walk - two.txt", "Walk - two.txt 1", "Other - two.txt 2"]
+    assert film._called([first, *others]) == ["two.txt", "two.txt 1", "two.txt 2"]
+    first, *others = (replace(each, replay=replace(each.replay, made=Made(played=True))) for each in (first, *others))
     shown = film.Film(first, beside=tuple(others))
     titles = [film._Panel(shown, each, []).title for each in (first, *others)]
     assert titles == ["Walk - me, two.txt", "Walk - me, two.txt 1", "Other - me"]

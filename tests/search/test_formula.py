@@ -6,7 +6,7 @@ import json
 import re
 import warnings
 from dataclasses import replace
-from itertools import product
+from itertools import combinations, product
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +23,7 @@ from ninja_game.search.formula.language import FormulaError, parse_number, parse
 from ninja_game.search.formula.leg import LegSearch
 from ninja_game.search.formula.methods import count_ways, search_span
 from ninja_game.search.formula.names import FACTS, NAMES, SPAN_NAMES, difference_from, view_of
-from ninja_game.search.formula.task import Found, SpanTask, SpanWorlds, score_in_words, target_of
+from ninja_game.search.formula.task import NEAR, Found, SpanTask, SpanWorlds, score_in_words, target_of, ways_of
 from ninja_game.sim.digest import state_digest
 from ninja_game.sim.inputs import with_press_bits
 from tests.support.samples import unclaimed_text
@@ -270,10 +270,28 @@ def test_what_has_no_value_is_no_result(measure: str) -> None:
         assert not searched(SpanTask(LEVEL, WAITING, 0, 10, measure=measure, least=least), rounds=2)
 
 
-def test_results_are_different_and_sorted() -> None:
-    found = searched(SpanTask(LEVEL, WAITING, 0, 30, goal="x > 110"))
+def test_results_are_different_ways_and_sorted() -> None:
+    found = searched(SpanTask(LEVEL, WAITING, 0, 30, measure="abs(vx) + abs(vy)"))
     assert list(found) == sorted(found)
-    assert len({each.keys[: each.ticks].tobytes() for each in found}) == len(found) > 1
+    assert len(found) > 1
+    for one, other in combinations(found, 2):
+        assert np.abs(one.path - other.path).max() > NEAR
+    assert len(searched(SpanTask(LEVEL, WAITING, 0, 30, goal="x > 110"))) == 1, "the way is straight"
+
+
+def test_of_one_way_and_of_what_is_beaten_the_best_stands() -> None:
+    def result(score: float, ticks: int, lift: float, gold: int = 0) -> Found:
+        path = np.column_stack([np.arange(ticks) * 4.0, np.full(ticks, lift)])
+        return Found(score, ticks, np.zeros(ticks, np.uint8), gold=gold, path=path)
+
+    best, alike, later, higher = result(30, 30, 0), result(31, 31, 9), result(36, 36, 0), result(37, 37, 30)
+    much_later, richer = result(45, 45, 0), result(40, 31, 0, gold=1)
+    assert ways_of([much_later, higher, alike, richer, later, best], measured=False) == [
+        best, higher, richer, much_later
+    ]  # fmt: skip
+    assert ways_of([much_later, higher, alike, best], measured=True) == [best]
+    sooner = result(50, 20, 60)
+    assert ways_of([sooner, best], measured=True) == [best, sooner], "it is there before"
 
 
 @pytest.mark.parametrize(

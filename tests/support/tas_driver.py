@@ -19,11 +19,11 @@ from tests.support.menu_driver import MenuDriver, ScriptedKeys
 class TasDriver(MenuDriver):
     """A run on the TAS editor, alone in its window."""
 
-    def __init__(self, folder: Path, run: Path, size: tuple[int, int] = (792, 600)) -> None:
+    def __init__(self, folder: Path, run: Path, size: tuple[int, int] = (792, 600), record: int | None = None) -> None:
         self.keys = ScriptedKeys()
         self.keys.script = []
         self.app = build_app(folder, size=size, controls=self.keys, audio_output=AudioOutput())
-        self.screen = TasScreen(self.app, open_run(run))
+        self.screen = TasScreen(self.app, open_run(run, record=record))
         self.editor = self.screen.editor
         self.session = self.screen.session
         self.app.push(self.screen)

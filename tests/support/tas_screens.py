@@ -128,7 +128,8 @@ class FixedSearch:
     def _found(task: SpanTask, ticks: int, speed: float) -> Found:
         keys = np.full(ticks, 2, np.uint8)
         inputs = task.inputs[: task.first] + keys.tobytes() + task.inputs[task.first + ticks :]
-        return Found(float(ticks), ticks, keys, inputs, 1, (310.0 + ticks, 400.0, speed, 0.0))
+        path = np.full((ticks, 2), 99 * speed)
+        return Found(float(ticks), ticks, keys, inputs, 1, (310.0 + ticks, 400.0, speed, 0.0), path=path)
 
     def start(self) -> None:
         """It has run already."""
@@ -298,9 +299,12 @@ def _tabs(at: TasDriver) -> Iterator[str]:
     search.results.search.problem = ""  # type: ignore[attr-defined]
     at.press("return")
     fixed = search.results.search  # type: ignore[attr-defined]
+    found, own = fixed.found, fixed.own
     fixed.found, fixed.own, fixed.miss = (), None, replace(fixed.own, score=np.inf, missed_by=14.25)
     at.frames(2)
     yield "tas-search-miss"
+    fixed.found, fixed.own = found, own
+    at.frames(2)
     at.press("escape")
     at.editor.edit(lambda track: track.replaced(10, 12, [4, 4]))
     at.frames(2)

@@ -21,7 +21,8 @@ from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.runs.archive import verify_all
 from ninja_game.runs.verify import Verdict
 from ninja_game.sim.inputs import fitted_inputs
-from ninja_game.tas.files import Contributions, OpenedRun, RunFile, branches_path, open_run, save_run, track_of
+from ninja_game.tas.contributions import Contributions
+from ninja_game.tas.files import OpenedRun, RunFile, branches_path, open_run, save_run, track_of
 from ninja_game.tas.journal import FOLDER, recovered
 from ninja_game.tas.session import Session
 from ninja_game.tas.tracks import Branches, InputTrack
@@ -333,6 +334,50 @@ def test_keys_that_are_taken_bring_their_authors_and_searches_along(tmp_path: Pa
     again.save(path)
     assert parse_replay(path.read_text("utf-8")).made == expected[0]
     again.close()
+
+
+def test_what_is_undone_is_credited_no_longer(tmp_path: Path) -> None:
+    """Nor is what another branch has; a recovered run says what the lost one said."""
+    path = tmp_path / "walk.replay.txt"
+    session = by_ann(path)
+    session.keep_branch("mine")
+    spliced = session.track.replaced(5, 6, [0])
+    session.change(spliced, taken=Contributions(commands=("improve",), names=("Cy",)))
+    theirs = session.about.replay.co_authors
+    assert theirs == ("Bob", "Cy")
+    session.save(path)
+    session.keep_branch("theirs")
+    session.undo()
+    session.change(session.track.replaced(9, 10, [0]))
+    own = Made(played=True, edits=1, begun_by="Ann"), ("Bob",)
+    assert (session.about.replay.made, session.about.replay.co_authors) == own
+    session.checkout_branch(1)
+    assert session.about.replay.co_authors == theirs
+    session.checkout_branch(0)
+    assert not session.about.replay.made.edits
+    session.change(session.track.replaced(9, 10, [0]))
+    session.close(keep=True)
+    (lost,) = recovered(tmp_path)
+    again = Session(lost.opened, tmp_path, player="Bob", memory="plain")
+    again.recover(lost)
+    assert (again.about.replay.made, again.about.replay.co_authors) == own
+    again.undo()
+    again.undo()
+    assert again.about.replay.co_authors == theirs
+    again.close()
+
+
+def test_what_commands_searched_from_nobodys_run_has_no_author() -> None:
+    def names(**about: object) -> tuple[str, ...]:
+        return Contributions.of(Recording(LEVEL, parse_replay(replay_of_walk(**about)), file="s1.replay.txt")).names
+
+    searched = Made(searches=("search",))
+    assert names(made=searched) == ()
+    assert names(made=searched, author="Ann") == ("Ann",)
+    assert names(made=searched._replace(begun_by="Ann")) == ("Ann",)
+    assert names(made=searched, co_authors=("Bob",)) == ("Bob",)
+    for made in (Made(), searched._replace(edits=1), searched._replace(played=True)):
+        assert names(made=made) == ("unknown (s1.replay.txt)",)
 
 
 def test_the_name_in_a_record_of_n_is_no_players(tmp_path: Path) -> None:

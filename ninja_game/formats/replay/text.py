@@ -92,10 +92,14 @@ class Replay:
     @property
     def credit(self) -> str:
         """Who made it, and whether not only by playing: ``Ann, Bob (edited, searched)``."""
+        return " ".join(filter(None, (", ".join(filter(None, (self.author, *self.co_authors))), self.how)))
+
+    @property
+    def how(self) -> str:
+        """How it was made if not only by playing: ``(edited, searched)``."""
         made = self.made
         how = ["assisted"] * bool(made.assists) + ["edited"] * bool(made.edits) + ["searched"] * bool(made.searches)
-        names = ", ".join(filter(None, (self.author, *self.co_authors)))
-        return f"{names} ({', '.join(how)})".strip() if how else names
+        return f"({', '.join(how)})" if how else ""
 
     @property
     def end_tick(self) -> int:

@@ -61,11 +61,12 @@ class ReplayRow(NamedTuple):
 
 
 class ReplaysScreen(MenuScreen):
-    """One list of all replays. Delete removes one of the records that no best needs. ``hint``: of the list."""
+    """All replays. Delete removes one of the records that no best needs. ``hint``, ``empty``: the list's."""
 
     title = "Replays"
     heads = "Level", "Player", "Result, time", "From"
     hint = HINT
+    empty = NONE_YET
 
     def __init__(self, app: App) -> None:
         super().__init__(app)
@@ -79,7 +80,6 @@ class ReplaysScreen(MenuScreen):
         self.filter = Choice((346, 62, 180, 28), "", WHOSE, lambda: self.whose, self._show)
         self.field = TextEntry((44, 62, 290, 28), "Search level or player", "", self._search)
         self.list = ListView((44, 120, 712, 12 * ROW), ROW, self._draw_row, self._choose, opens=True)
-        self.list.empty = NONE_YET
         self.list.hint = self.hint
         self.message = ""
 
@@ -105,7 +105,7 @@ class ReplaysScreen(MenuScreen):
         files = [row for row in self._files if has_words(self._words, row.text, row.who, row.what, row.when)]
         shown = {"yours": self._saved, "others": files}.get(self.whose, [*self._saved, *files])
         self.rows = self.arranged(shown)
-        self.list.empty = NO_MATCH if self._words or self.whose != "all" else NONE_YET
+        self.list.empty = NO_MATCH if self._words or self.whose != "all" else self.empty
         self.list.fill(self.rows)
 
     def _read_files(self, seconds: float) -> bool:
@@ -230,7 +230,7 @@ class ReplaysScreen(MenuScreen):
 
 
 def _row_of(saved: SavedReplay) -> ReplayRow:
-    what = _result(saved.outcome, saved.gold, saved.final_tick)
+    what = result_of(saved.outcome, saved.gold, saved.final_tick)
     when = saved.made_at[:16].replace("T", "  ")
     return ReplayRow(saved.name or "unnamed", saved.player or YOU, what, when, saved.outcome == "exit", saved)
 
@@ -240,12 +240,12 @@ def _row_of_recording(recording: Recording, when: str) -> ReplayRow:
     if replay.unclaimed:
         result = f"recording, {seconds_text(recording.ticks - 1)} s"
     else:
-        result = _result(replay.outcome, replay.gold, replay.final_tick, recording.level.gold)
+        result = result_of(replay.outcome, replay.gold, replay.final_tick, recording.level.gold)
     passed = replay.outcome == "exit"
-    return ReplayRow(recording.name or "unnamed", author_name(replay.credit), result, when, passed, recording)
+    return ReplayRow(recording.name or "unnamed", author_name(recording.credit), result, when, passed, recording)
 
 
-def _result(outcome: str, gold: int, final_tick: int, all_gold: int = 0) -> str:
+def result_of(outcome: str, gold: int, final_tick: int, all_gold: int = 0) -> str:
     """What a passed run took, of any other how it ended; and its time."""
     taken = "all gold" if gold == all_gold > 0 else f"{gold} gold" if gold else "exit"
     what = taken if outcome == "exit" else OUTCOMES[outcome]

@@ -165,7 +165,7 @@ class _Panel:
 
 def _called(runs: Sequence[Recording]) -> list[str]:
     """Whose run each is, in a word; of those by one name the file."""
-    names = [run.author or run.name for run in runs]
+    names = [run.whose for run in runs]
     return [(run.place or name if names.count(name) > 1 else name)[:20] for run, name in zip(runs, names, strict=True)]
 
 

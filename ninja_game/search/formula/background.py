@@ -193,10 +193,10 @@ class RunSearch(SpanSearch):
         self.ticks_run = sum(self._ticks.values())
 
     def _note_run(self, run: Replay, *, own_route: bool) -> None:
-        places = run_level(self.task.level, run.inputs, body=self.task.body).positions[-2:]
+        path = run_level(self.task.level, run.inputs, body=self.task.body).positions
         keys = np.frombuffer(run.inputs.ljust(self.task.length, b"\0"), np.uint8) & np.uint8(KEYS_DOWN)
-        end = tuple(np.concatenate([places[-1], places[-1] - places[0]]).tolist())
-        found = Found(float(run.ticks), run.ticks, keys, run.inputs, run.gold, end, own_route)
+        end = tuple(np.concatenate([path[-1], path[-1] - path[-2]]).tolist())
+        found = Found(float(run.ticks), run.ticks, keys, run.inputs, run.gold, end, own_route, path=path)
         with self._lock:
             self._began = self._began or monotonic()
             if self._reaches and self.own is None:

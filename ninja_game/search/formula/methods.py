@@ -12,7 +12,7 @@ from ninja_game.backend.memories import compiled
 from ninja_game.batch.batch import Batch
 from ninja_game.errors import ArgumentError
 from ninja_game.search.formula.leg import LegSearch
-from ninja_game.search.formula.task import Found, Keys, Missed, Report, SpanTask, SpanWorlds, Trials, target_of
+from ninja_game.search.formula.task import Found, Keys, Missed, Report, SpanTask, SpanWorlds, Trials, target_of, ways_of
 from ninja_game.search.local_search import mutate
 from ninja_game.search.nodes import RandomState, random_below, zeroed
 from ninja_game.sim.level import Level
@@ -51,11 +51,12 @@ def _kernel_rng(seed: int) -> list[RandomState]:
 
 
 class Results:
-    """The best keys so far, different ones, and whom to tell of them; while there are none, of the nearest miss."""
+    """The best keys so far, and whom to tell of the ``ways`` among them; while there are none, of the nearest miss."""
 
     def __init__(self, worlds: SpanWorlds, report: Report, missed: Missed) -> None:
         self.worlds = worlds
         self.best: tuple[Found, ...] = ()
+        self.ways: tuple[Found, ...] = ()
         self.going = True
         self._report, self._missed = report, missed
 
@@ -70,6 +71,7 @@ class Results:
             if any(np.array_equal(found.keys[: found.ticks], old.keys[: old.ticks]) for old in self.best):
                 continue
             self.best = tuple(sorted([*self.best, found])[:KEPT])
+            self.ways = tuple(ways_of([*self.ways, found], measured=self.worlds.measure is not None)[:KEPT])
         self.report()
         return trials
 
@@ -86,14 +88,14 @@ class Results:
     def report(self) -> None:
         if self.worlds.miss is not None and not self.best:
             self._missed(self.worlds.miss)
-        self.going = self._report(self.worlds.ticks_run, self.best)
+        self.going = self._report(self.worlds.ticks_run, self.ways)
 
 
 def search_span(
     task: SpanTask, report: Report, *, method: str = "auto", every: int = 1, seed: int = 1, memory: str = "auto",
     threads: int | None = None, missed: Missed = lambda _: None,
 ) -> tuple[Found, ...]:  # fmt: skip
-    """The best keys that were found, best first, at most KEPT; none where nothing reached the goal.
+    """The best keys of each way that was found, best first, at most KEPT; none where nothing reached the goal.
 
     ``method``: one of METHODS, or "auto": a beam, then small changes of what it found, again and again; between them,
     while nothing is found, the solver's way to what the goal is about (LegSearch), on the compiled memory. ``every``:
@@ -123,7 +125,7 @@ def search_span(
         if method != "beam" and results.going:
             change(task, mutated, results, rng, rounds=40)
         turn += 1
-    return results.best
+    return results.ways
 
 
 CUTS = 20, 60, 180, 540  # last ticks of a run that are left out, one after the other

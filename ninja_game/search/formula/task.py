@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -94,7 +94,8 @@ class Found:
     the span, up to the goal; ``inputs``: the whole run with them, up to the goal or to its end; ``gold``: pieces that
     it has in the end; ``end``: x, y (px), vx, vy (px/tick) at the goal; ``own_route``: other runs have no part
     in it; ``missed_by``: the margin that is left to the goal where it was not reached, 0 where only the exit behind it
-    was not; None: reached. Of a miss, the goal is the tick in which it was nearest.
+    was not; None: reached. Of a miss, the goal is the tick in which it was nearest. ``path``: the ninja after each tick
+    up to the goal, float (ticks, 2), px.
     """
 
     score: float
@@ -105,6 +106,29 @@ class Found:
     end: tuple[float, ...] = field(compare=False, default=(0.0,) * 4)
     own_route: bool = field(compare=False, default=True)
     missed_by: float | None = field(compare=False, default=None)
+    path: NDArray[np.floating] = field(compare=False, repr=False, default_factory=lambda: np.zeros((0, 2)))
+
+
+NEAR, NEARLY = 24.0, 6
+"""Runs go the same way where each is no farther from the other than this, px, within so many ticks."""
+
+
+def ways_of(found: Iterable[Found], *, measured: bool) -> list[Found]:
+    """The best result of each way, best first; with a measure none that another one beats in score and in tick."""
+    ways: list[Found] = []
+    for each in sorted(found):
+        beaten = measured and any(way.score < each.score and way.ticks < each.ticks for way in ways)
+        if not beaten and not any(_is_same_way(way, each) for way in ways):
+            ways.append(each)
+    return ways
+
+
+def _is_same_way(one: Found, other: Found) -> bool:
+    if (one.own_route, one.gold) != (other.own_route, other.gold) or abs(one.ticks - other.ticks) > NEARLY:
+        return False
+    ticks = np.arange(len(one.path))[:, np.newaxis] + np.arange(-NEARLY, NEARLY + 1)
+    there = other.path[np.clip(ticks, 0, len(other.path) - 1)] if len(other.path) else np.inf
+    return bool((np.abs(there - one.path[:, np.newaxis]).max(2).min(1) <= NEAR).all()) if len(one.path) else True
 
 
 def target_of(task: SpanTask) -> int | None:
@@ -167,6 +191,7 @@ class SpanWorlds:
         self.ticks_run = task.first
         self.miss: Found | None = None
         self._nearest = -np.inf
+        self._paths = np.zeros((task.length, count, 2), np.float32)
         self.rest: Keys = np.zeros(0, np.uint8)
         own = int(self._try(np.tile(task.base[:, np.newaxis], (1, count))).ticks[0]) if task.rest and task.goal else 0
         self.miss, self._nearest = None, -np.inf  # that of the run's own keys was without what follows
@@ -193,7 +218,8 @@ class SpanWorlds:
         """The keys of a world as a result, or as a miss."""
         rest = self.rest.tolist() if self.task.rest else []
         run = with_press_bits([*self.task.inputs[: self.task.first], *keys[:ticks].tolist(), *rest])
-        return Found(score, ticks, keys.copy(), run, int(self.batch.gold[index]), tuple(end), missed_by=missed_by)
+        path = self._paths[:ticks, index].copy()
+        return Found(score, ticks, keys.copy(), run, int(self.batch.gold[index]), tuple(end), True, missed_by, path)
 
     def note_miss(self, margins: Values, keys: Keys, ticks: int) -> None:
         """Keep the living world that is nearest to the goal after so many ticks of the span, if none was nearer."""
@@ -222,6 +248,7 @@ class SpanWorlds:
         for tick in range(self.task.length):
             self.ticks_run += batch.run(keys[np.newaxis, tick], stop=True, press=True)
             at_goal, margin, score = self.measured()
+            self._paths[tick] = batch.positions
             self.note_miss(margin, keys, tick + 1)
             np.maximum(trials.margins, margin, out=trials.margins)
             better = at_goal & (score < trials.scores)

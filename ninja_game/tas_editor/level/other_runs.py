@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -15,10 +15,12 @@ from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen, ask_text
-from ninja_game.play.menus.replays import FILES_SHOWN, ReplayRow, ReplaysScreen
+from ninja_game.play.menus.replays import FILES_SHOWN, ReplayRow, ReplaysScreen, result_of
 from ninja_game.play.workspace import Commands
 from ninja_game.player.records import SavedReplay
-from ninja_game.tas.files import Contributions, runs_of_level, same_level, track_of
+from ninja_game.runs.run import run_level
+from ninja_game.tas.contributions import Contributions
+from ninja_game.tas.files import runs_of_level, same_level, track_of
 from ninja_game.tas.timeline import Timeline
 from ninja_game.tas_editor.editor import OtherRun, TasEditor
 from ninja_game.ui.input.bindings import InputEvent
@@ -40,11 +42,12 @@ class OtherRuns:
         }  # fmt: skip
 
     def open(self, recordings: Sequence[Recording]) -> None:
-        """Show recordings beside the run. Raises ReplayError for one of another level, or with another body."""
+        """Show recordings beside the run, the first chosen. Raises ReplayError for another level or another body."""
         editor = self.editor
+        found = len(editor.others)
         for recording in recordings:
             editor.others.append(other_run(editor, recording))
-            editor.chosen = len(editor.others) - 1
+            editor.chosen = found
 
     @property
     def chosen(self) -> OtherRun | None:
@@ -103,8 +106,8 @@ def other_run(editor: TasEditor, recording: Recording) -> OtherRun:
 def _free_name(recording: Recording, about: Recording, taken: set[str]) -> str:
     """What tells a run from the others: its author, or its file and number, or its name."""
     # Records of N are often many by one author: their files and numbers tell them apart.
-    author = recording.player if recording.player != about.author else ""
-    name = author or recording.place or recording.name or "another run"
+    known = recording.whose if recording.player != about.author else recording.place or recording.name
+    name = known or "another run"
     return next(each for each in (name, *(f"{name} {n}" for n in range(2, len(taken) + 3))) if each not in taken)
 
 
@@ -113,20 +116,24 @@ class OtherRunScreen(ReplaysScreen):
 
     title = "Another run of this level"
     heads = "Run", "Player", "Result", "From"
+    empty = "No other run of this level is known. There may be one in a file"
     hint = "Enter shows it beside the run"
 
     def __init__(self, app: App, others: OtherRuns) -> None:
         self.others = others
         self._digest = level_digest(others.editor.session.about.level)
         super().__init__(app)
-        self.list.empty = "No other run of this level is known. There may be one in a file"
 
     def build(self) -> Sequence[Widget]:
         return [*super().build(), Button((538, 15, 134, 26), "From a file ...", self._ask, hint="Any file with runs")]
 
     def arranged(self, rows: list[ReplayRow]) -> list[ReplayRow]:
-        """Those of the same level, the fastest first; those in files by the names of their files."""
-        return sorted(map(_named, filter(self._is_of_the_level, rows)), key=_ticks)
+        """Those of the same level, the fastest first, those without an exit last."""
+        return sorted(filter(self._is_of_the_level, rows), key=lambda row: (not row.good, _ticks(row)))
+
+    def _file_rows(self) -> Iterator[list[ReplayRow]]:
+        for rows in super()._file_rows():
+            yield [_named(row) for row in rows if self._is_of_the_level(row)]
 
     def places(self) -> list[tuple[str, Iterable[Path | LeftOut]]]:
         """Beside the file of the run, too."""
@@ -174,10 +181,15 @@ class OtherRunScreen(ReplaysScreen):
 
 
 def _named(row: ReplayRow) -> ReplayRow:
-    if not isinstance(row.source, Recording):
+    """A run in a file by the name of that; one that claims nothing is run, to say how it ends."""
+    source = row.source
+    if not isinstance(source, Recording):
         return row
-    text = f"{row.source.place}   {row.source.comment}".rstrip()
-    return row._replace(text=text, who="" if row.source.form == "file" else row.who)
+    if source.replay.unclaimed:
+        run = run_level(source.level, source.inputs, body=source.body)
+        what = result_of(run.outcome, run.gold, run.ticks - 1, source.level.gold)
+        row = row._replace(what=what, good=run.outcome == "exit")
+    return row._replace(text=f"{source.place}   {source.comment}".rstrip())
 
 
 def _ticks(row: ReplayRow) -> int:

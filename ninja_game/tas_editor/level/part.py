@@ -326,7 +326,7 @@ class LevelPointer:
         tick = nearest_tick(positions, *place, editor.cursor, dragged=dragged)
         part.point_at(tick, None if dragged else object_at(part.picture.run, *place))
         found = part.pointed
-        words = f"{found.kind} {found.id}; right button: watch it   " if found else ""
+        words = f"{found.kind} {found.id}; right button: watch it; " if found else ""
         zoomed = part.picture.camera.zoom > 1
         editor.hint = f"{words}Click: to tick {tick}; wheel: zoom{', right button: move, 0: all' if zoomed else ''}"
         self._goes = dragged or pressed

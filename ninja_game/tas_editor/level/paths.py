@@ -163,8 +163,12 @@ class LevelPaths:
         y = min(max(1.0, px[1] / scale + beside[1]), height / scale - 13)
         plate = theme.canvas.rect(x - 1.5, y - 0.5, w + 3, LETTERS + 2.5)
         while (hidden := plate.collidelist(self._labels)) >= 0 and self._labels[hidden].bottom < surface.get_height():
-            y += (self._labels[hidden].bottom + 1 - plate.top) / scale
-            plate.top = self._labels[hidden].bottom + 1
+            other = self._labels[hidden]
+            # What stands above a place goes up, where the ninja is not, as long as there is room.
+            up = beside[1] < 0 and plate.top <= other.top and other.top > plate.height
+            top = other.top - plate.height - 1 if up else other.bottom + 1
+            y += (top - plate.top) / scale
+            plate.top = top
         self._labels.append(plate)
         ground = shaded(theme.palette.background, 200)
         theme.canvas.fill_rect(surface, ground, x - 1.5, y - 0.5, w + 3, LETTERS + 2.5, 1)

@@ -7,7 +7,6 @@ from functools import partial
 from math import hypot
 from time import monotonic
 
-import numpy as np
 import pygame
 
 from ninja_game.batch.thread_pool import cores
@@ -18,10 +17,10 @@ from ninja_game.play.workspace import Commands
 from ninja_game.search.certificate import moved_markers
 from ninja_game.search.formula.background import RunSearch, SpanSearch
 from ninja_game.search.formula.methods import KEPT, fewest_ticks
-from ninja_game.search.formula.task import Found, SpanTask, score_in_words
+from ninja_game.search.formula.task import Found, SpanTask, score_in_words, ways_of
 from ninja_game.sim.inputs import fitted_inputs, with_press_bits
 from ninja_game.sim.rules import TICKS_PER_SECOND
-from ninja_game.tas.files import Contributions
+from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.goals import IMPROVE, IMPROVE_GOLD, IMPROVES, PRESETS, SearchedSpan, SpanGoal, whole_run
 from ninja_game.tas.timeline import Timeline
 from ninja_game.tas.tracks import InputTrack, first_difference
@@ -65,7 +64,7 @@ _EXPLAINED = (
 class SpanResults:
     """Runs a task in the background, and puts results into the run, while nothing that they rely on has changed.
 
-    ``better``: the results that bring more than the run's own keys, best first; of those that end alike the best one.
+    ``better``: the results that bring more than the run's own keys, best first; of those that go one way the best one.
     While nothing has reached the goal, what comes nearest.
     Raises what SpanSearch does.
     """
@@ -175,13 +174,15 @@ class SpanResults:
         self._seen, own = found, self.search.own
         if own is not None:
             self._fitting[0] = self._fitting[0][0], self.task.first + own.ticks
-        different: dict[object, Found] = {}
         # Of a whole run, what was found is what nothing beats.
         before = () if isinstance(self.search, RunSearch) else self.better
-        for each in sorted([*(each for each in before if each.missed_by is None), *found]):
-            if own is None or each.score < own.score or (each.score == own.score and each.gold > own.gold):
-                different.setdefault((each.own_route, each.gold, *np.round(each.end, 2)), each)
-        self.better = tuple(different.values())[:KEPT]
+        better = [
+            each
+            for each in (*before, *found)
+            if each.missed_by is None
+            and (own is None or each.score < own.score or (each.score == own.score and each.gold > own.gold))
+        ]
+        self.better = tuple(ways_of(better, measured=bool(self.task.measure))[:KEPT])
 
     def words(self, found: Found) -> tuple[str, ...]:
         """What a better result brings; from where on it has other keys; place and speed at the goal; what it gains."""
@@ -232,6 +233,7 @@ class SearchTab(Tab):
         self._behind = 0
         self._why = ""
         self._taken: Span = (0, 0)
+        self._filled = False
         self.order = EARLIEST
         self.rest = False
         self.method = "auto"
@@ -319,6 +321,7 @@ class SearchTab(Tab):
         self.measure.show(wanted.measure)
         self.order = EARLIEST if not wanted.measure else SMALLEST if wanted.least else GREATEST
         self.rest = wanted.rest
+        self._filled = True
         self.method = wanted.method or ("auto" if self.method in IMPROVES else self.method)
         first, self._behind = self.span
         self.span, self._why = (0 if wanted.method else first, wanted.last or self._behind), wanted.why
@@ -367,6 +370,7 @@ class SearchTab(Tab):
     def start(self) -> None:
         """Search; a search that is going on ends. What is wrong is reported."""
         self.close()
+        self._filled = False
         self.list.over = -1
         try:
             whole = self.method in IMPROVES
@@ -420,7 +424,8 @@ class SearchTab(Tab):
         results, state = self.results, tuple[object, ...]()
         if results:
             state = (results.status, results.running, results.behind, self.editor.track, *map(id, self.found))
-        return self.span, self._why, self.editor.selection, self.order, self.rest, self.goal.text, self.list.over, state
+        wanted = self.order, self.rest, self.goal.text, self._filled
+        return self.span, self._why, self.editor.selection, *wanted, self.list.over, state
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)
@@ -437,6 +442,8 @@ class SearchTab(Tab):
             status, colour = results.status, palette.bad if results.search.problem else palette.text
             if results.behind is None:
                 status, colour = "the run was changed: search again", palette.bad
+        if self._filled:
+            status, colour = "Filled in: Enter starts", palette.text
         theme.text(surface, status, x + 222, y + 72, size=SMALL, colour=colour, width=w - 226)
         if self.found:
             for at, head in zip(self._cells(self.list.row_area(0)), _HEADS, strict=True):

@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
+from unittest.mock import patch
 
 import pygame
 
 from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.load import load_replays
+from ninja_game.formats.replay.made import Made
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.sim.inputs import KEY_LEFT
 from ninja_game.tas.journal import FOLDER, recovered
 from ninja_game.tas_editor.commands import TABLE
+from ninja_game.tas_editor.level.other_runs import OtherRunScreen
 from ninja_game.tas_editor.opening import open_tas_editor
 from ninja_game.tas_editor.screen import TasScreen
+from ninja_game.ui.theme import Theme
 from tests.play.tas.conftest import RUN
 from tests.support.own_pack import PACK
 from tests.support.samples import WALK, running, write_records
@@ -64,7 +69,7 @@ def test_a_run_of_n_is_saved_beside_its_file_under_a_name_that_is_asked_for(tmp_
     file = write_records(tmp_path / "demos.txt", ("a run", WALK, running(30)))
     at = TasDriver(tmp_path / "player", file)
     at.chord("s", CTRL)
-    assert at.top().title == f"Save in {tmp_path}"  # type: ignore[attr-defined]
+    assert at.top().title == f"Save in ...{str(tmp_path)[-38:]}"  # type: ignore[attr-defined]
     at.choose("Save")
     first = tmp_path / "a-run.replay.txt"
     assert load_replays(first)[0].author == ""
@@ -184,6 +189,40 @@ def test_what_was_not_saved_of_another_run_is_told_and_opens_from_the_menu(at: T
     screen = again.shown(TasScreen)
     assert screen.editor.track == wanted
     again.close()
+
+
+def test_a_recovered_run_knows_its_file_and_the_runs_beside_it(tmp_path: Path) -> None:
+    file = write_records(tmp_path / "demos.txt", ("a run", WALK, running(30)))
+    other = load_replays(write_records(tmp_path / "other.txt", ("other", WALK, running(20))))
+    change(at := TasDriver(tmp_path / "player", file))
+    at.app.stack.clear()
+    again = TasDriver(tmp_path / "player", file)
+    again.screen.level.others.open(other)
+    again.choose("Recover")
+    again.adopt()
+    assert again.session.about.file == str(file)
+    assert [each.name for each in again.editor.others] == ["other.txt"]
+    again.chord("o", CTRL)
+    for _ in range(300):
+        if again.shown(OtherRunScreen).rows:
+            break
+        again.frames()
+    assert "other.txt" in [row.text.split()[0] for row in again.shown(OtherRunScreen).rows]
+    again.press("escape")
+    again.chord("s", CTRL)
+    assert again.top().title == f"Save in ...{str(tmp_path)[-38:]}"  # type: ignore[attr-defined]
+    again.close()
+
+
+def test_the_title_is_cut_at_the_names(at: TasDriver) -> None:
+    about = at.session.about
+    replay = replace(about.replay, co_authors=("somebody with a long name", "another one"), made=Made(edits=3))
+    at.session.about = replace(about, replay=replay)
+    with patch.object(Theme, "text", autospec=True, side_effect=Theme.text) as text:
+        at.screen.head.paint(pygame.Surface((792, 600)), at.screen.theme)
+    title = text.call_args_list[0].args[2]
+    assert title.startswith(about.name)
+    assert title.endswith("... (edited)")
 
 
 def test_a_closed_window_of_a_saved_run_leaves_nothing(at: TasDriver) -> None:

@@ -16,6 +16,7 @@ from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import ReplayError
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
+from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.menus.menu_screen import FormPanel
 from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT
@@ -27,6 +28,7 @@ from ninja_game.tas_editor.level.paths import shown_span
 from ninja_game.tas_editor.screen import TasScreen
 from ninja_game.tas_editor.tabs.values_tab import ValuesTab
 from tests.support.own_pack import PACK
+from tests.support.samples import WALK, WALK_END, running, write_records
 from tests.support.tas_driver import TasDriver
 
 RUN = PACK / "certificates" / "01-2-the-works.exit.replay.txt"
@@ -152,9 +154,10 @@ def test_other_runs_are_opened_chosen_and_taken_in(at: TasDriver) -> None:
     assert [editor.track.keys_at(k) for k in range(120, 200)] == [before.keys_at(k) for k in range(120, 200)]
     assert screen.session.undo()
     assert editor.track == before
+    assert editor.chosen == 0, "the first of them"
     at.press("o")
     at.frames()
-    assert editor.chosen == 0
+    assert editor.chosen == 1
 
 
 def test_the_rest_of_another_run_from_the_nearest_place(at: TasDriver) -> None:
@@ -229,6 +232,22 @@ def test_the_list_of_other_runs_has_those_of_the_level(at: TasDriver) -> None:
     at.frames()
     assert at.top() is screen
     assert len(screen.editor.others) == 1
+
+
+def test_runs_that_reach_the_exit_are_listed_first_also_those_that_claim_nothing(tmp_path: Path) -> None:
+    records = ("short", WALK, running(9)), ("long", WALK, running(40)), ("exit", WALK, running(WALK_END))
+    file = write_records(tmp_path / "demos.txt", *records)
+    at = TasDriver(tmp_path / "player", Path(copy(file, tmp_path / "one.txt")), record=0)
+    at.chord("o", pygame.KMOD_LCTRL)
+    listed = at.shown(OtherRunScreen)
+    assert listed.list.empty.startswith("No other run of this level is known")
+    for _ in range(300):
+        if len(listed.rows) == 3:
+            break
+        at.frames()
+    assert [row.what.partition(",")[0] for row in listed.rows] == ["all gold", "all gold", "unfinished"]
+    assert listed.rows[0].what == f"all gold, {seconds_text(WALK_END)} s"
+    at.close()
 
 
 def test_an_object_under_the_mouse_is_named_and_can_be_watched(at: TasDriver) -> None:
@@ -311,6 +330,8 @@ def test_names_do_not_lie_on_each_other(at: TasDriver) -> None:
     labels = paths._labels
     assert len(labels) == 5, "a flag, its name, three runs"
     assert all(label.collidelist([each for each in labels if each is not label]) < 0 for label in labels)
+    _, y = screen.level.picture.canvas.point(*at.session.timeline.positions[100])
+    assert all(label.bottom < y for label in labels[2:]), "above the ninja"
 
 
 @pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")

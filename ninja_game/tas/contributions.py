@@ -1,0 +1,61 @@
+"""Who and what took part in the keys of a run under edit."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, Self
+
+from ninja_game.files.shown_text import file_stem
+from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.made import names_of_text
+
+
+def _player_of(recording: Recording) -> str:
+    """Who made a run; of one that only commands have searched whose it was before, "" for nobody's."""
+    made, file = recording.replay.made, Path(recording.file).name or recording.name
+    searched = made.searches and not (made.played or made.edits)
+    return recording.player or (made.begun_by if searched else f"unknown ({file_stem(file, 'no file')})")
+
+
+@dataclass(frozen=True)
+class Contributions:
+    """``edits``: of keys; ``commands``: those that searched keys which were taken; ``names``: who else took part."""
+
+    edits: int = 0
+    commands: tuple[str, ...] = ()
+    names: tuple[str, ...] = ()
+
+    @classmethod
+    def of(cls, recording: Recording) -> Self:
+        """Those of a run whose keys are taken; an author who is not known is called by the file."""
+        replay = recording.replay
+        return cls(0, replay.made.searches, names_of_text(", ".join((_player_of(recording), *replay.co_authors))))
+
+    def __add__(self, other: Contributions) -> Contributions:
+        """Those of both; each command and name once."""
+        commands, names = (
+            tuple(dict.fromkeys((*ours, *theirs)))
+            for ours, theirs in ((self.commands, other.commands), (self.names, other.names))
+        )
+        return Contributions(self.edits + other.edits, commands, names)
+
+    def credited(self, about: Recording, player: str) -> Recording:
+        """A recording as it was opened, with what was done to it since then by a player."""
+        old, author = about.replay, about.author or player
+        names = names_of_text(", ".join((*old.co_authors, player, *self.names)))
+        begun_by = _player_of(about) if about.author != player else ""
+        made = old.made.edited(self.edits).searched(*self.commands, begun_by=begun_by)
+        others = tuple(name for name in names if name != author)
+        return replace(about, replay=replace(old, author=author, made=made, co_authors=others))
+
+    def as_json(self) -> dict[str, Any]:
+        return {"edits": self.edits, "commands": list(self.commands), "names": list(self.names)}
+
+    @classmethod
+    def of_json(cls, kept: dict[str, Any]) -> Self:
+        """What ``as_json`` gave. Raises one of DAMAGED for anything else."""
+        return cls(int(kept["edits"]), tuple(map(str, kept["commands"])), tuple(map(str, kept["names"])))
+
+
+NONE = Contributions()
