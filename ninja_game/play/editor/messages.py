@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
-from typing import NamedTuple
 
 import pygame
 
@@ -92,24 +92,17 @@ def messages_of(says: str) -> list[Message]:
     return [Message(each.when, details.get(each.when, "").format(each), each.text) for each in read_sayings(says)]
 
 
-class _Stage(NamedTuple):
-    """The level's picture, painted for ``key``, and what is written over it and around what."""
+class _Stage:
+    """The level's picture, and what is written over it and around what."""
 
-    key: tuple[str, tuple[int, int], int]
-    picture: pygame.Surface
-    hud: Hud
-    things: Things
-    named: Sequence[tuple[str, float, float]]
-
-
-def _stage_of(level: Level, palette: Palette, key: tuple[str, tuple[int, int], int]) -> _Stage:
-    picture = thumbnail(level, palette, key[1][0])
-    hud = Hud(Theme(palette, Canvas(picture.get_size()), key[2]))
-    try:
-        world = Simulation(level).world
-    except LevelError:
-        return _Stage(key, picture, hud, (), ())
-    return _Stage(key, picture, hud, things_in(world, tagged=True), named_in(world))
+    def __init__(self, level: Level, palette: Palette, width: int, text_size: int) -> None:
+        self.picture = thumbnail(level, palette, width)
+        self.hud = Hud(Theme(palette, Canvas(self.picture.get_size()), text_size))
+        self.things: Things = ()
+        self.named: Sequence[tuple[str, float, float]] = ()
+        with suppress(LevelError):
+            world = Simulation(level).world
+            self.things, self.named = things_in(world, tagged=True), named_in(world)
 
 
 class MessagesScreen(MenuScreen):
@@ -129,7 +122,7 @@ class MessagesScreen(MenuScreen):
         self.messages = messages_of(draft.says)
         self._draft = draft
         self._selected = 0
-        self._stage: _Stage | None = None
+        self._stage: dict[tuple[str, int, int], _Stage] = {}
         self._before = self.source
         self._wanted = "{},{}".format(*at) if at else ""
         self._here, self._pick, self._put = here, pick, put
@@ -250,18 +243,19 @@ class MessagesScreen(MenuScreen):
     def _draw_level(self, surface: pygame.Surface, message: Message | None) -> None:
         """The level with a message as in play. The level is drawn once, the message each time."""
         theme, draft, place = self.theme, self._draft, self.theme.canvas.rect(*PICTURE)
-        key = theme.palette.name, place.size, self.app.settings.text_size
-        if self._stage is None or self._stage.key != key:
-            self._stage = _stage_of(draft.level, theme.palette, key)
-        stage, picture, said = self._stage, self._stage.picture.copy(), None
+        key = theme.palette.name, place.width, self.app.settings.text_size
+        if key not in self._stage:
+            self._stage = {key: _Stage(draft.level, theme.palette, *key[1:])}
+        stage, said = self._stage[key], None
+        picture = stage.picture.copy()
         if message:
-            controls, eye = self.app.controls, self._eye(message)
+            controls, when = self.app.controls, message.when
             text = named_keys(message.text.strip(), lambda name: controls.name(name) if name in KEYS else f"{{{name}}}")
-            when = message.when
-            said = Said(text, draft.level.tiles, stage.things, eye, when == "start", when == "at") if text else None
+            where = draft.level.tiles, stage.things, self._eye(message), when == "start", when == "at"
+            said = Said(text, *where) if text else None
         foot = draft.name, f"gold 0 / {draft.level.gold}"
-        view = HudView(LIFETIME, "", foot, name=draft.name, said=said, named=stage.named if said else ())
-        stage.hud.draw(picture, view)
+        named = stage.named if said else ()
+        stage.hud.draw(picture, HudView(LIFETIME, "", foot, name=draft.name, said=said, named=named))
         surface.blit(picture, place)
 
     def _eye(self, message: Message) -> Point | None:
