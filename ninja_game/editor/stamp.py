@@ -220,7 +220,7 @@ _OTHER_HALF = {
     for (dx, dy), quarter in _AIR.items()
 }
 """Where the other half of a slope of two tiles is, cells from it."""
-_ROUND = (EMPTY, FULL, *(family.tiles[3] for family in FAMILIES if family.key in "12367"))
+_ROUND = (EMPTY, FULL, *(tiles[3] for tiles in _SLOPES.values()))
 """What the left upper quarter of an ellipse is made of: full at its lower right."""
 _INSIDE = [(x + 0.5, y + 0.5) for x in range(0, 24, 2) for y in range(0, 24, 2)]
 _STEP, _SWEEPS = 4, 6
@@ -307,9 +307,12 @@ def rounded(columns: int, rows: int) -> Mapping[Cell, int]:
     """
     wide, high = (columns + 1) // 2, (rows + 1) // 2
     goal = {
-        (i, j): {(x, y) for x, y in _INSIDE if hypot((i + x / 24) / columns - 0.5, (j + y / 24) / rows - 0.5) <= 0.5}
-        for i in range(wide)
-        for j in range(high)
+        (i, j): {
+            n
+            for n, (x, y) in enumerate(_INSIDE)
+            if hypot((i + x / 24) / columns - 0.5, (j + y / 24) / rows - 0.5) <= 0.5
+        }
+        for i, j in cells_of((0, 0, wide, high))
     }
     tiles = {cell: FULL if 2 * len(inside) > len(_INSIDE) else EMPTY for cell, inside in goal.items()}
 
@@ -330,7 +333,7 @@ def rounded(columns: int, rows: int) -> Mapping[Cell, int]:
         # A slope of two tiles has both of them.
         if halves.get((i + dx, j + dy)) != (-dx, -dy):
             tiles[i, j] = FULL if dx + dy < 0 else EMPTY
-    for i, j in [(i, j) for i in range(columns) for j in range(rows) if (i, j) not in tiles]:
+    for i, j in set(cells_of((0, 0, columns, rows))) - set(tiles):
         tile = tiles[min(i, columns - 1 - i), min(j, rows - 1 - j)]
         tile = MIRROR.tile(tile) if i >= wide else tile
         tiles[i, j] = FLIP.tile(tile) if j >= high else tile
@@ -338,15 +341,12 @@ def rounded(columns: int, rows: int) -> Mapping[Cell, int]:
 
 
 @cache
-def _solid(tile: int, dx: int = 0, dy: int = 0) -> frozenset[Point]:
-    """Which points of a tile are solid, px from its corner; ``dx``, ``dy``: those along that side, px along it."""
+def _solid(tile: int, dx: int = 0, dy: int = 0) -> frozenset[int]:
+    """The numbers of those points of _INSIDE that are solid; ``dx``, ``dy``: of a point for each px of that side."""
     level = TileMap()
     level.tiles[STRIDE + 1] = tile
-    along = [(k + 0.5, 0.0) for k in range(24)]
-    sides = {(0, 0): {each: each for each in _INSIDE}}
-    sides |= {(x, 0): {(12 + 11.95 * x, at): (at, zero) for at, zero in along} for x in (-1, 1)}
-    sides |= {(0, y): {(at, 12 + 11.95 * y): (at, zero) for at, zero in along} for y in (-1, 1)}
-    return frozenset(name for at, name in sides[dx, dy].items() if solid_at(level, *at))
+    along = [(12 + 11.95 * dx if dx else k + 0.5, 12 + 11.95 * dy if dy else k + 0.5) for k in range(24)]
+    return frozenset(k for k, at in enumerate(along if dx or dy else _INSIDE) if solid_at(level, *at))
 
 
 def _corner(draft: Draft, cell: Cell, near: set[Cell]) -> Tiles:

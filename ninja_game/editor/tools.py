@@ -121,10 +121,9 @@ class EditorTools:
                 self.finish()
             return
         if self.ghost is not None:
-            if erase:
-                self.ghost = None
-            else:
+            if not erase:
                 self._put_ghost()
+            self.ghost = None
             return
         self._pressed_at, self._bend = self.pointer, 0.0
         if pick or (self.tool == "pick" and not erase):
@@ -149,7 +148,7 @@ class EditorTools:
         self.move(*self.pointer)
 
     def release(self) -> None:
-        if self._doing == "drop" and has_switch(self._dropped()):
+        if self._doing == "drop" and has_switch(self.placed(*self.pointer)):
             self._switchless = self.placed(*self._pressed_at)
             self._doing = ""
             far = max(abs(a - b) for a, b in zip(self.pointer, self._pressed_at, strict=True)) > DRAGGED
@@ -232,9 +231,10 @@ class EditorTools:
             tiles = dict.fromkeys(cells, self.tile)
             if self.slopes and self._doing == "ellipse" and self.tile == brush.FULL:
                 column, row, *size = stamps.area_between(cell_of(*self._pressed_at), self.cell)
-                round_ = {(column + i, row + j): tile for (i, j), tile in stamps.rounded(*size).items()}
-                before = self.history.began
-                tiles = {cell: tile for cell, tile in round_.items() if tile == brush.FULL or not before.tile(cell)}
+                tiles = {(column + i, row + j): tile for (i, j), tile in stamps.rounded(*size).items()}
+                # Its slopes take nothing away.
+                rock = {cell for cell in tiles if self.history.began.tile(cell)}
+                tiles = {cell: tile for cell, tile in tiles.items() if tile == brush.FULL or cell not in rock}
             self._change(stamps.Stamp(tiles), self.history.began)
             return
         ends = brush.snapped(*self._pressed_at, self.snap), brush.snapped(*self.pointer, self.snap)
@@ -254,11 +254,8 @@ class EditorTools:
             self._draw_shape()
         return bool(self._doing)
 
-    def _dropped(self) -> ObjectSpec:
-        return self.placed(*self.pointer)
-
     def _drop(self) -> None:
-        spec = self._dropped()
+        spec = self.placed(*self.pointer)
         if has_switch(spec):
             spec = brush.with_switch(self.placed(*self._pressed_at), *self.pointer, self.snap)
         self._change(stamps.Stamp({}, (spec,)), self.history.began)
@@ -351,6 +348,7 @@ class EditorTools:
             self.history.change(draft)
         elif self.objects:
             self.spec = stamps.Stamp({}, (self.spec,)).carried(motion.about(36.0, 36.0)).objects[0]
+            self.nearest = self.nearest and self.spec.kind != DOOR
         else:
             self.tile = motion.tile(self.tile)
         return True
@@ -389,9 +387,10 @@ class EditorTools:
         # Only pads and doors may lie on the border's edge.
         rims = [(spec, 0.0 if spec.kind in (DOOR, LAUNCH_PAD) else 0.5) for spec in self.ghost.objects]
         ends = [(x + d, y + d) for spec, rim in rims for x, y in points(spec).values() for d in (-rim, rim)]
-        places = [*cells, *ends]
-        moves = []
-        for along, at, end in zip(zip(*places, strict=True), self.pointer, (WORLD_WIDTH, WORLD_HEIGHT), strict=True):
+        if not (cells or ends):
+            return self.ghost
+        moves, sides = [], zip(*cells, *ends, strict=True)
+        for along, at, end in zip(sides, self.pointer, (WORLD_WIDTH, WORLD_HEIGHT), strict=True):
             low, high, step = min(along), max(along), CELL if cells else brush.SNAPS[self.snap]
             by = step * round((at - (low + high) / 2) / step)
             # The border stays free, by whole steps.
@@ -400,8 +399,8 @@ class EditorTools:
         return self.ghost.carried(Motion(dx=moves[0], dy=moves[1]))
 
     def _put_ghost(self) -> None:
-        stamp, self.ghost, self.tool = self.pasted, None, "select"
-        if stamp:
+        if stamp := self.pasted:
+            self.tool = "select"
             draft, self.selection = stamps.pasted(self.draft, stamp)
             self.history.change(draft)
 

@@ -35,17 +35,14 @@ def pasted_text() -> str:
     return text
 
 
-def copy_link(app: App, make: Callable[[], str], *, title: str, notice: str = "Link copied") -> None:
-    """Put the link that ``make`` gives behind the address of the player's page, and into the clipboard.
-
-    ``notice``: what is said then.
-    """
+def copy_link(app: App, make: Callable[[], str], *, title: str) -> None:
+    """Put the link that ``make`` gives behind the address of the player's page, and into the clipboard."""
     try:
         link = make()
     except (NinjaGameError, OSError) as error:
         app.notify(f"No link: {reason(error)}")
         return
-    copy_text(app, app.settings.site + link, title=title, suffix=".link.txt", notice=notice)
+    copy_text(app, app.settings.site + link, title=title, suffix=".link.txt", notice="Link copied")
 
 
 def copy_level_link(app: App, named: NamedLevel | Draft, title: str) -> None:

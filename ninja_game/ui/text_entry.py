@@ -1,10 +1,10 @@
-"""A line of text that the player types."""
+"""Text that the player types, in a line or several."""
 
 from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from contextlib import suppress
 
 import pygame
@@ -43,6 +43,8 @@ class TextEntry(Widget):
             self.edited.select_all()
         self._first = 0
         self._stops: list[float] = [0.0]
+        self._rows = [(0, self._stops)]
+        self._top, self._upper, self._high = 0, 0.0, 1.0
         self._clicks, self._clicked = 0, (-DOUBLE_MS, 0.0)
 
     @property
@@ -99,6 +101,7 @@ class TextEntry(Widget):
 
     def click(self, x: float, y: float) -> bool:
         """Put the cursor there; twice: select the word, three times: everything. With Shift select up to there."""
+        self._to_row(y)
         now, place = pygame.time.get_ticks(), self._place_at(x)
         last, where = self._clicked
         self._clicks = self._clicks % 3 + 1 if now - last < DOUBLE_MS and abs(where - x) < PAD else 1
@@ -112,9 +115,14 @@ class TextEntry(Widget):
         return True
 
     def drag(self, x: float, y: float) -> bool:
+        self._to_row(y)
         if self._clicks == 1:
             self.edited.go(self._place_at(x), select=True)
         return True
+
+    def _to_row(self, y: float) -> None:
+        row = self._top + int((y - self._upper) // self._high)
+        self._first, self._stops = self._rows[min(max(0, row), len(self._rows) - 1)]
 
     def _place_at(self, x: float) -> int:
         """The place between two characters that is nearest to a point; beyond the edges the next one out of sight."""
@@ -128,20 +136,33 @@ class TextEntry(Widget):
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         self.draw_base(surface, theme, focused=focused)
         x, y, w, h = self.area
-        left, top, room = x + PAD, y + (h - TEXT) / 2, w - 2 * PAD - 4
+        left, text, palette, fill = x + PAD, self.text, theme.palette, theme.canvas.fill_rect
+        self._high, room = self._lay_out(theme, left, w - 2 * PAD - 4)
+        high, at = self._high, self._cursor_row
+        self._top = max(0, min(max(self._top, at - room + 1), at, len(self._rows) - room))
+        self._upper = y + (h - room * high) / 2
+        for row, (first, stops) in enumerate(self._rows[self._top : self._top + room], self._top):
+            top, last = self._upper + (row - self._top) * high, first + len(stops) - 1
+            begin, end, place = (
+                stops[min(max(first, k), last) - first] for k in (*self.edited.span, self.edited.cursor)
+            )
+            if begin < end and focused:
+                fill(surface, palette.bar_full, begin - 1, top, end - begin + 2, high)
+            line, colour = (text[first:last], palette.text) if text else (self.prompt, palette.faint)
+            theme.text(surface, line, left, top + (high - TEXT) / 2, size=TEXT, colour=colour)
+            if focused and row == at:
+                fill(surface, palette.accent, place - 1, top + 1, 1.5, high - 2)
+
+    def _lay_out(self, theme: Theme, left: float, room: float) -> tuple[float, int]:
+        """Measure the lines; how high each is, px, and how many have room."""
         self._scroll(theme, room)
-        shown = self._measure(theme, left, room)
-        fill, palette = theme.canvas.fill_rect, theme.palette
-        begin, end = (self._stops[min(max(0, k - self._first), len(shown))] for k in self.edited.span)
-        if begin < end and focused:
-            fill(surface, palette.bar_full, begin - 1, top - 3, end - begin + 2, TEXT + 6)
-        if shown:
-            theme.text(surface, shown, left, top, size=TEXT)
-        else:
-            theme.text(surface, self.prompt, left, top, size=TEXT, colour=palette.faint)
-        if focused:
-            place = self._stops[min(self.edited.cursor - self._first, len(shown))]
-            fill(surface, palette.accent, place - 1, top - 2, 1.5, TEXT + 4)
+        self._measure(theme, left, room)
+        self._rows = [(self._first, self._stops)]
+        return TEXT + 6.0, 1
+
+    @property
+    def _cursor_row(self) -> int:
+        return bisect_right([first for first, _ in self._rows], self.edited.cursor) - 1
 
     def _scroll(self, theme: Theme, room: float) -> None:
         text, cursor = self.text, self.edited.cursor
@@ -165,59 +186,34 @@ class TextEntry(Widget):
 class TextArea(TextEntry):
     """A text in as many lines as have room, wrapped at words; up and down lead from line to line, and then on."""
 
-    _rows: Sequence[tuple[int, list[float]]] = ((0, [0.0]),)
-    _top, _upper, _high = 0, 0.0, TEXT_LINE
-
     def nudge(self, action: str) -> bool:
-        firsts = [first for first, _ in self._rows]
-        row = bisect_right(firsts, self.edited.cursor) - 1
+        row = self._cursor_row
         to = row + {"up": -1, "down": 1}.get(action, 0)
-        if to == row or not 0 <= to < len(firsts):
+        if to == row or not 0 <= to < len(self._rows):
             return False
-        self.edited.go(min(firsts[to] + self.edited.cursor - firsts[row], [*firsts, len(self.text) + 1][to + 1] - 1))
+        (here, _), (first, stops) = self._rows[row], self._rows[to]
+        self.edited.go(first + min(self.edited.cursor - here, self._last(first, stops)))
         return True
 
-    def click(self, x: float, y: float) -> bool:
-        self._to_row(y)
-        return super().click(x, y)
+    def _last(self, first: int, stops: list[float]) -> int:
+        """The last place of a line: what is behind its space is the beginning of the next one."""
+        return max(0, len(stops) - 1 - (first + len(stops) <= len(self.text)))
 
-    def drag(self, x: float, y: float) -> bool:
-        self._to_row(y)
-        return super().drag(x, y)
+    def _place_at(self, x: float) -> int:
+        places = range(self._last(self._first, self._stops) + 1)
+        return self._first + min(places, key=lambda k: abs(self._stops[k] - x))
 
-    def _to_row(self, y: float) -> None:
-        row = self._top + int((y - self._upper) // self._high)
-        self._first, self._stops = self._rows[min(max(0, row), len(self._rows) - 1)]
-
-    def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
-        self.draw_base(surface, theme, focused=focused)
-        x, y, w, h = self.area
-        left, text, fill = x + PAD, self.text, theme.canvas.fill_rect
-        rows: list[tuple[int, list[float]]] = []
-        self._rows, self._first, measured = rows, 0, -1
-        while measured < len(text):
-            shown = self._measure(theme, left, w - 2 * PAD - 4)
+    def _lay_out(self, theme: Theme, left: float, room: float) -> tuple[float, int]:
+        self._rows, self._first, measured = [], 0, -1
+        while measured < len(self.text):
+            shown = self._measure(theme, left, room)
             measured = self._first + len(shown)
-            if measured < len(text) and " " in shown:
+            if measured < len(self.text) and " " in shown:
                 self._stops = self._stops[: shown.rindex(" ") + 2]
-            rows.append((self._first, self._stops))
+            self._rows.append((self._first, self._stops))
             self._first += max(1, len(self._stops) - 1)
-        self._high = TEXT_LINE * theme.scales[0]
-        room = max(1, int((h - 4) // self._high))
-        at = bisect_right([first for first, _ in self._rows], self.edited.cursor) - 1
-        self._top = max(0, min(max(self._top, at - room + 1), at, len(self._rows) - room))
-        self._upper = y + (h - room * self._high) / 2
-        begin, end = self.edited.span
-        for row, (first, stops) in enumerate(self._rows[self._top : self._top + room], self._top):
-            top, last = self._upper + (row - self._top) * self._high, first + len(stops) - 1
-            a, b = (stops[min(max(0, k - first), len(stops) - 1)] for k in (begin, end))
-            if focused and a < b:
-                fill(surface, theme.palette.bar_full, a - 1, top, b - a + 2, self._high)
-            line, colour = (text[first:last], theme.palette.text) if text else (self.prompt, theme.palette.faint)
-            theme.text(surface, line, left, top + (self._high - TEXT) / 2, size=TEXT, colour=colour)
-            if focused and row == at:
-                cursor = stops[min(self.edited.cursor - first, len(stops) - 1)]
-                fill(surface, theme.palette.accent, cursor - 1, top + 1, 1.5, self._high - 2)
+        high = TEXT_LINE * theme.scales[0]
+        return high, max(1, int((self.area[3] - 4) // high))
 
 
 class EditedText:

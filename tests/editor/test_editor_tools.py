@@ -451,3 +451,23 @@ def test_chosen_objects_move_in_the_order_with_their_selection(tools: EditorTool
     assert [spec.values[0] for spec in tools.draft.objects] == [60, 108, 36, 84]
     tools.reorder(9999)
     assert [spec.values[0] for spec in tools.draft.objects] == [36, 84, 60, 108]
+
+
+def test_a_copied_piece_of_the_border_pastes_nothing(tools: EditorTools) -> None:
+    tools.selection = Selection((0, 0, 1, 3))
+    before = tools.draft
+    assert tools.copy()
+    assert tools.paste()
+    tools.press()
+    assert tools.draft == before
+    assert tools.ghost is None
+
+
+def test_a_door_that_is_turned_in_hand_keeps_that_side(tools: EditorTools) -> None:
+    tools.pick_up(object_of_type("automatic door"))
+    tools.move(30.0, 60.0)
+    sides = []
+    for _ in range(2):
+        tools.turn(CLOCKWISE)
+        sides.append(word(tools.placed(*tools.pointer), "side"))
+    assert len(set(sides)) == 2

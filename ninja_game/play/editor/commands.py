@@ -139,6 +139,7 @@ class EditorCommands(DocumentCommands):
     def switch_slopes(self) -> None:
         tools = self.session.tools
         tools.slopes = not tools.slopes
+        self.app.change_settings(slopes=tools.slopes)
         how = "set themselves where full tiles are drawn or erased" if tools.slopes else "stay as drawn"
         self.view.hint = f"Slopes {how}"
 
@@ -195,21 +196,19 @@ class EditorCommands(DocumentCommands):
     def certify(self) -> None:
         certifier = self.session.certifier
         self.session.tools.finish()
-        if certifier.busy and not certifier.is_stale(self.session.draft.level):
+        level = self.session.draft.level
+        if certifier.busy and not certifier.is_stale(level):
             certifier.stop()
-        elif any(finding.code in ("no-ninja", "no-exit") for finding in self.session.findings):
+            return
+        start, findings = partial(certifier.start, level), self.session.examine()
+        odd = [number for finding in findings if finding.code in UNREACHABLE for number in finding.records]
+        if any(finding.code in ("no-ninja", "no-exit") for finding in findings):
             self.app.notify("Place a ninja and an exit with its switch first")
+        elif any(level.objects[number].kind == EXIT for number in odd):
+            anyway: Row = "Look for a run anyway", start, "It may be reached in a way nobody expects"
+            self.app.push(Menu(self.app, "The ninja cannot reach the exit or its switch", [anyway, CANCEL]))
         else:
-            level, start = self.session.draft.level, partial(certifier.start, self.session.draft.level)
-            odd = [f for f in self.session.examine() if f.code in UNREACHABLE]
-            if any(level.objects[number].kind == EXIT for finding in odd for number in finding.records):
-                rows: list[Row] = [
-                    ("Look for a run anyway", start, "It may be reached in a way nobody expects"),
-                    CANCEL,
-                ]
-                self.app.push(Menu(self.app, "The ninja cannot reach the exit or its switch", rows))
-            else:
-                start()
+            start()
 
     # --- files ---
 
@@ -350,14 +349,9 @@ class EditorCommands(DocumentCommands):
             self.open_file(path)
         else:
             self.session.begin(Source(draft_of(entry.named)))
-            self.session.recognise()
 
     def open_file(self, path: Path) -> None:
-        def begin() -> None:
-            self.session.begin(open_source(path))
-            self.session.recognise()
-
-        self._load(begin)
+        self._load(lambda: self.session.begin(open_source(path)))
 
     def _load(self, action: Action) -> None:
         """Do something with a file that perhaps cannot be read."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 
@@ -15,14 +16,15 @@ from ninja_game.formats.sayings import BAR, KEYS, MOST_LETTERS, MOST_SAYINGS, TH
 from ninja_game.play.app import App
 from ninja_game.play.level.hud import Hud, HudView, Said
 from ninja_game.play.level.hud_view import named_in
-from ninja_game.play.level.play import things_in
+from ninja_game.play.level.play import Things, things_in
 from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuScreen, Row
 from ninja_game.sim.kinds import EXIT, GOLD
+from ninja_game.sim.level import Level
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas, Point
 from ninja_game.ui.text_entry import TextArea, TextEntry
-from ninja_game.ui.theme import Area, Theme
+from ninja_game.ui.theme import Area, Palette, Theme
 from ninja_game.ui.widgets import Button, Choice, Widget
 from ninja_game.view.sprites.thumbnail import thumbnail
 
@@ -90,6 +92,19 @@ def messages_of(says: str) -> list[Message]:
     return [Message(each.when, details.get(each.when, "").format(each), each.text) for each in read_sayings(says)]
 
 
+class _Stage:
+    """The level's picture, and what is written over it and around what."""
+
+    def __init__(self, level: Level, palette: Palette, width: int, text_size: int) -> None:
+        self.picture = thumbnail(level, palette, width)
+        self.hud = Hud(Theme(palette, Canvas(self.picture.get_size()), text_size))
+        self.things: Things = ()
+        self.named: Sequence[tuple[str, float, float]] = ()
+        with suppress(LevelError):
+            world = Simulation(level).world
+            self.things, self.named = things_in(world, tagged=True), named_in(world)
+
+
 class MessagesScreen(MenuScreen):
     """``here``: the cell that a message near a place begins with. ``pick`` has the player point at a cell.
 
@@ -107,7 +122,7 @@ class MessagesScreen(MenuScreen):
         self.messages = messages_of(draft.says)
         self._draft = draft
         self._selected = 0
-        self._stage: tuple[tuple[object, ...], pygame.Surface, Hud] | None = None
+        self._stage: dict[tuple[str, int, int], _Stage] = {}
         self._before = self.source
         self._wanted = "{},{}".format(*at) if at else ""
         self._here, self._pick, self._put = here, pick, put
@@ -228,23 +243,19 @@ class MessagesScreen(MenuScreen):
     def _draw_level(self, surface: pygame.Surface, message: Message | None) -> None:
         """The level with a message as in play. The level is drawn once, the message each time."""
         theme, draft, place = self.theme, self._draft, self.theme.canvas.rect(*PICTURE)
-        key = theme.palette.name, place.size, self.app.settings.text_size
-        if self._stage is None or self._stage[0] != key:
-            picture = thumbnail(draft.level, theme.palette, place.width)
-            self._stage = key, picture, Hud(Theme(theme.palette, Canvas(picture.get_size()), key[2]))
-        picture, hud = self._stage[1].copy(), self._stage[2]
-        said = message and named_keys(
-            message.text.strip(), lambda name: self.app.controls.name(name) if name in KEYS else f"{{{name}}}"
-        )
-        try:
-            world = Simulation(draft.level).world
-            things, named = things_in(world, tagged=True), named_in(world)
-        except LevelError:
-            things, named = (), []
-        where = (draft.level.tiles, things, self._eye(message), message.when == "start") if message else None
-        text = Said(said, *where, message.when == "at") if message and said and where else None
+        key = theme.palette.name, place.width, self.app.settings.text_size
+        if key not in self._stage:
+            self._stage = {key: _Stage(draft.level, theme.palette, *key[1:])}
+        stage, said = self._stage[key], None
+        picture = stage.picture.copy()
+        if message:
+            controls, when = self.app.controls, message.when
+            text = named_keys(message.text.strip(), lambda name: controls.name(name) if name in KEYS else f"{{{name}}}")
+            where = draft.level.tiles, stage.things, self._eye(message), when == "start", when == "at"
+            said = Said(text, *where) if text else None
         foot = draft.name, f"gold 0 / {draft.level.gold}"
-        hud.draw(picture, HudView(LIFETIME, "", foot, name=draft.name, said=text, named=named if text else ()))
+        named = stage.named if said else ()
+        stage.hud.draw(picture, HudView(LIFETIME, "", foot, name=draft.name, said=said, named=named))
         surface.blit(picture, place)
 
     def _eye(self, message: Message) -> Point | None:

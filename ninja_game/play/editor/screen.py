@@ -73,8 +73,6 @@ class EditorScreen(WorkspaceScreen):
 
     def leave(self) -> None:
         super().leave()
-        if self.session.tools.slopes != self.app.settings.slopes:
-            self.app.change_settings(slopes=self.session.tools.slopes)
         self.session.certify_file()
         self.session.autosave.flush(self.session.draft, self.session.source)
 

@@ -85,7 +85,7 @@ class EditorSession:
         self.tools.slopes = app.settings.slopes
         self._begin(source or new_source(app.settings.name, room=True))
         if source:
-            self.recognise()
+            self._recognise()
 
     def _begin(self, source: Source, found: RecoveredDraft | None = None) -> None:
         self.autosave = Autosave(self.app.player.folder, found.file if found else None)
@@ -114,8 +114,9 @@ class EditorSession:
         self._leave_search()
         self._begin(source, found)
         before.close()
+        self._recognise()
 
-    def recognise(self) -> None:
+    def _recognise(self) -> None:
         """Take up the certificate of this level: beside its file, or wherever the same level has one."""
         catalogue, level, path = self.app.player.catalogue, self.draft.level, self.source.path
         same = [Entry(NamedLevel(self.name, "", "", level, str(path)), "yours")] if path else []

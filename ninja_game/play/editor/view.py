@@ -143,8 +143,8 @@ class Overlay:
         """What a press would do here, and in the images of the symmetry."""
         if tools.placing_switch:
             return
-        if tools.pasted:
-            self._ghost(tools.pasted)
+        if ghost := tools.pasted:
+            self._ghost(ghost)
             return
         draws = tools.effective_tool not in ("select", "pick")
         motions = (Motion(), *(SYMMETRIES[tools.symmetry] if draws else ()))

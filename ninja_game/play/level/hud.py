@@ -97,7 +97,7 @@ class Said(NamedTuple):
     """A text of a level, the tiles and things of which it covers as little as can be, and near which place it lies.
 
     ``covers``: it may cover open space too; else it may lie in the border below. ``near``: it is about that place,
-    so it lies beside it, whatever it covers, and points to it.
+    so it lies beside it, if that is known, whatever it covers, and points to it.
     """
 
     text: str
@@ -292,12 +292,12 @@ class Hud:
         x, y, w, h = box.area
         near = min(max(at[0], x + _TAIL), x + w - _TAIL), min(max(at[1], y + _TAIL), y + h - _TAIL)
         upright = not y < at[1] < y + h
-        rects = []
-        for colour, wide in ((self.theme.palette.panel_edge, _TAIL), (self.theme.palette.panel, _TAIL - 2)):
+        palette, canvas, rects = self.theme.palette, self.theme.canvas, []
+        for colour, wide in ((palette.panel_edge, _TAIL), (palette.panel, _TAIL - 2)):
             dx, dy = (wide, 0) if upright else (0, wide)
             ends = (near[0] - dx, near[1] - dy), (near[0] + dx, near[1] + dy)
-            rects.append(self.theme.canvas.polygon(surface, colour, [*ends, at]))
-        return rects[0].union(self.theme.canvas.circle(surface, self.theme.palette.accent, at, 3)).inflate(2, 2)
+            rects.append(canvas.polygon(surface, colour, [*ends, at]))
+        return rects[0].union(canvas.circle(surface, palette.accent, at, 3)).inflate(2, 2)
 
     def box(self, said: Said, *, keys: float = 0.0) -> Box:
         """Where a text of the level lies: along the upper border, else the lower one, over what is solid.
@@ -313,13 +313,13 @@ class Hud:
     ) -> pygame.Rect:
         """A text of the level in its panel, its lines behind the keys that they are about."""
         lines, left, y, w, high, margin, size = box
-        rect = self.theme.panel(surface, *box.area, 4)
+        rect, room = self.theme.panel(surface, *box.area, 4), _SAID_WIDEST - (_KEYS_WIDE if moves else 0)
         for k, line in enumerate(lines):
             top = y + margin + high * k
             if moves:
                 self.keys(surface, moves[k], left + 14, top + 2, letters)
             x, align = (left + 14 + _KEYS_WIDE, "left") if moves else (left + w / 2, "centre")
-            self.theme.text(surface, line, x, top + (high - size) / 2, size=size, align=align)
+            self.theme.text(surface, line, x, top + (high - size) / 2, size=size, align=align, width=room)
         return rect
 
     def keys(
@@ -384,21 +384,21 @@ def _hidden(things: Things, x: float, y: float, w: float, h: float) -> Iterator[
 def _box(theme: Theme, said: Said, keys: float) -> Box:
     """As ``Hud.box``. Kept, since a text is drawn in each picture and its place takes longer than all the rest."""
     text, tiles, things, eye, covers, near = said
-    high = _SAID_LINE * theme.scales[0]
+    high, beside = _SAID_LINE * theme.scales[0], eye if near else None
     if eye:
         things = (*things, (*eye, MUST))
-    beside: list[tuple[int, Box]] = []
-    for rows, width in ((0, 1), (0, 0.6), (0, 0.4)) if near else ((1, 1), (2, 1), (2, 0.6), (0, 1), (0, 0.6)):
+    boxes: list[tuple[int, Box]] = []
+    for rows, width in ((0, 1), (0, 0.6), (0, 0.4)) if beside else ((1, 1), (2, 1), (2, 0.6), (0, 1), (0, 0.6)):
         lines = text.split("\n") if keys else wrapped(theme, text, width * _SAID_WIDE, _SAID_SIZE)
         lines = [theme.fit(line, _SAID_WIDEST - keys, _SAID_SIZE) for line in lines]
-        w = max(theme.width(line, _SAID_SIZE) for line in lines) + 28 + keys
-        left, y, covered, hidden = solid_place(tiles, w, high * len(lines) + 19, things, eye, rows=rows, near=near)
+        w = min(max(theme.width(line, _SAID_SIZE) for line in lines), _SAID_WIDEST - keys) + 28 + keys
+        left, y, covered, hidden = solid_place(tiles, w, high * len(lines) + 19, things, eye, rows=rows, beside=beside)
         box = Box(lines, left, y, w, high, 10.0, _SAID_SIZE)
         if hidden < (MUST if keys else 1) and (covers or not rows or not covered):
             return box
-        beside.append((hidden, box))
-    if near:
-        return min(beside)[1]
+        boxes.append((hidden, box))
+    if beside:
+        return min(boxes)[1]
     text = text.replace("\n", "    ")
     size = min(_SAID_SIZE, _SAID_SIZE * _BESIDE_GOLD / theme.width(text, _SAID_SIZE))
     w = theme.width(text, size) + 28
@@ -407,21 +407,15 @@ def _box(theme: Theme, said: Said, keys: float) -> Box:
 
 @lru_cache(maxsize=4)
 def solid_place(
-    tiles: tuple[int, ...],
-    w: float,
-    h: float,
-    things: Things = (),
-    eye: Point | None = None,
-    *,
-    rows: int = 0,
-    near: bool = False,
-) -> tuple[float, float, int, int]:
+    tiles: tuple[int, ...], w: float, h: float, things: Things = (), eye: Point | None = None, *,
+    rows: int = 0, beside: Point | None = None,
+) -> tuple[float, float, int, int]:  # fmt: skip
     """Upper left corner of a panel of that size, px, where it covers no thing, little gold and the least of any way.
 
     The third is how much it covers, the last how much of that are things, gold and the author's way. What is full is no
     way, open space far from all that is full hardly one. Of equal places it is the one nearest to ``eye``, or to the
     middle of the upper border. ``rows``: at the left, in the middle and at the right of so many heights only, from the
-    upper border to the lower one; ``near``: around ``eye`` only, _BESIDE px from it.
+    upper border to the lower one; ``beside``: around that place only, _BESIDE px from it.
     """
     open_cells, ways = _ways(tiles)
 
@@ -439,14 +433,15 @@ def solid_place(
     lefts = [edge + k * (WIDTH - 2 * edge - w) / 8 for k in range(0, 9, 4 if rows else 1)]
     apart = (_LOWEST - h - edge) / max(1, rows - 1) if rows else 6
     tops = [edge + k * apart for k in range(rows or int((_LOWEST - h - edge) / 6))]
-    if near and eye:
-        ends = (eye[0], w, WIDTH - edge), (eye[1], h, _LOWEST)
+    if beside:
+        ends = (beside[0], w, WIDTH - edge), (beside[1], h, _LOWEST)
         lefts, tops = (
             [min(max(edge, at + k * (_BESIDE + size / 2) / 4 - size / 2), end - size) for k in range(-4, 5)]
             for at, size, end in ends
         )
-    places = [(x, y) for x in lefts for y in tops if not near or eye is None or _away(eye, x, y, w, h) >= _BESIDE - 1]
-    x, y = min(places, key=cost)
+    places = [(x, y) for x in lefts for y in tops]
+    clear = [place for place in places if beside and _away(beside, *place, w, h) >= _BESIDE - 1]
+    x, y = min(clear or places, key=cost)
     covered, _, hidden = cost((x, y))
     return x, y, covered, hidden
 

@@ -238,8 +238,7 @@ class PackScreen(ThumbnailScreen):
             self.app.notify(f"Nothing here opens folders: it is {short_path(self._saved.parent)}")
 
     def _copy_link(self) -> None:
-        pack = Pack(self.path)
-        copy_link(self.app, pack.files.link, title=pack.index.name, notice="Link copied")
+        copy_link(self.app, Pack(self.path).files.link, title=self.pack.name if self.pack else "")
 
     def _choose_pack(self, key: str) -> None:
         self._show(next(each for each in self.mine if each.key == key))
@@ -487,10 +486,11 @@ class PackScreen(ThumbnailScreen):
     # --- problems, and what takes time ---
 
     def _check(self, pack: Pack) -> _Checked:
-        found, to_do = list[PackFinding](), list[PackFinding]()
-        for each in problems_of(pack, self.packer.obstacles):
-            made_ready = "`ninja-game" in each.hint and not obstacle_of(pack, each, self.packer.obstacles)
-            (to_do if made_ready else found).append(each)
+        known = self.packer.obstacles
+        every = problems_of(pack, known)
+        # What a command mends that has not tried it yet, Make ready does.
+        to_do = [each for each in every if "`ninja-game" in each.hint and not obstacle_of(pack, each, known)]
+        found = [each for each in every if each not in to_do]
         return _Checked(pack, found, to_do, frozenset(pack.files.place(file_of(pack, each)) for each in found))
 
     @property
@@ -608,9 +608,10 @@ class PackScreen(ThumbnailScreen):
             theme.paragraph(surface, _NO_LEVELS if self.pack else _NO_PACK, (36, 360, 560, 90), 13, 20, align="centre")
         packer = self.packer
         whose = f"{shown_text(packer.path.name)}: " * bool(packer.text and packer.path != self.path)
-        texts = [packer.text, self._counts()] if packer.text and not whose else [whose + packer.text or self._counts()]
+        texts = [whose + packer.text or self._counts()]
+        texts += [self._counts()] * bool(packer.text and not (whose or packer.busy))
         place = (36, 524, 720 if packer.busy else 516, 41)
-        theme.paragraph(surface, texts[:1] if packer.busy else texts, place, 10, 13.5, colour=faint)
+        theme.paragraph(surface, texts, place, 10, 13.5, colour=faint)
         if packer.busy:
             theme.panel(surface, 36, 546, 720, 7)
             theme.canvas.fill_rect(surface, theme.palette.accent, 36, 546, max(1.0, 720 * packer.share), 7, 3)

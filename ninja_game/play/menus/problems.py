@@ -99,9 +99,9 @@ class ProblemsScreen(MenuScreen):
         x, y, w, h = area
         theme.row(surface, (x, y + 1, w, h - 2), chosen=index == self.list.index, focused=focused)
         problem = self.problems[index]
-        text, colour = shown_text(problem.text, LONGEST), theme.palette.text
+        text, palette = shown_text(problem.text, LONGEST), theme.palette
         top = y + (h - 13 * min(2, len(wrapped(theme, text, w - 20, 10)))) / 2
-        colour = theme.palette.faint if problem.accepted or problem.to_do else colour
+        colour = palette.faint if problem.accepted or problem.to_do else palette.text
         theme.paragraph(surface, [text], (x + 10, top, w - 20, y + h - top), 10, 13, colour=colour)
 
 

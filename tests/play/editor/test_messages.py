@@ -277,6 +277,10 @@ def test_a_long_text_is_seen_whole_and_up_and_down_go_through_its_lines(room: Ma
     assert 2 <= len(lines) <= 3
     assert all(f"text '{line}'" in drawn(room.app) for line in lines)
     assert all(line.endswith(" ") for line in lines[:-1]), "broken between words"
+    left, top, *_ = field.area
+    room.mouse(left + field.area[2] - 4, top + 6)
+    assert field.edited.cursor == len(lines[0]) - 1, "a click behind a line leads to its end"
+    room.mouse(*field.centre)
     row_of_cursor = len(lines[0]) <= field.edited.cursor < len(lines[0] + lines[1])
     assert row_of_cursor, "a click leads to the line that it hits"
     room.press("home")

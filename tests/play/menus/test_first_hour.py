@@ -6,6 +6,7 @@ from dataclasses import replace
 from math import hypot
 from unittest.mock import patch
 
+import pygame
 import pytest
 
 from ninja_game.formats.n14.level_string import parse_level_string
@@ -26,6 +27,8 @@ from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.level import ROWS
 from ninja_game.sim.rules import CELL
 from ninja_game.simulation import Simulation
+from ninja_game.ui.canvas import Canvas
+from ninja_game.ui.theme import CLASSIC, Theme
 from ninja_game.ui.widgets import Button
 from tests.support.draw_log import DrawLog
 from tests.support.menu_driver import MenuDriver
@@ -630,3 +633,15 @@ def test_climbing_as_the_hint_says_works_and_away_from_the_wall_first_does_not()
     assert climb("40 r12 rj20 r18 " + "rj20 r8 " * 6)[1] > once + 100, "towards the wall, jump held at each touch"
     assert climb("40 r12 rj20 r18 " + "l3 lj20 l30 ")[1] <= once, "away first: no jump at all"
     assert climb("40 r12 rj20 r18 j20 l20")[1] > once + 10, "jump alone"
+
+
+@pytest.mark.parametrize("near", [False, True])
+def test_a_word_without_end_stays_in_the_window_in_the_largest_letters(*, near: bool) -> None:
+    surface = pygame.Surface((792, 600))
+    hud = Hud(Theme(CLASSIC, Canvas(surface.get_size()), 150))
+    box = hud.box(Said("W" * 120, (0,) * 713, (), (396.0, 300.0), covers=True, near=near))
+    left, top, w, h = box.area
+    assert left >= 24
+    assert left + w <= 768
+    assert top + h <= 600
+    assert surface.get_rect().contains(hud.said(surface, box))
