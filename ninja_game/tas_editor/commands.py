@@ -11,7 +11,7 @@ from time import localtime, strftime
 
 from ninja_game.files.locking import forget
 from ninja_game.files.shown_text import counted, file_stem
-from ninja_game.files.user_folder import REPLAYS, free_path, is_bundled
+from ninja_game.files.user_folder import REPLAYS, free_path, is_bundled, short_path
 from ninja_game.formats.links import replay_link
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
@@ -100,7 +100,7 @@ class RunCommands(DocumentCommands):
             else:
                 self.app.notify(f"Not saved: there is no folder {path.parent}")
 
-        place = str(folder.absolute()).replace(str(Path.home()), "~")
+        place = short_path(folder.absolute())
         title = f"Save in {'...' * (len(place) > 38)}{place[-38:]}"  # of a long path the end says more
         ask_text(self.app, title, "Name or path of the file", name, "Save", on_accept, 300)
 

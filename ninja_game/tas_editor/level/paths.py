@@ -162,10 +162,11 @@ class LevelPaths:
         x = min(max(1.0, px[0] / scale + beside[0]), width / scale - w - 4)
         y = min(max(1.0, px[1] / scale + beside[1]), height / scale - 13)
         plate = theme.canvas.rect(x - 1.5, y - 0.5, w + 3, LETTERS + 2.5)
+        up = beside[1] < 0
         while (hidden := plate.collidelist(self._labels)) >= 0 and self._labels[hidden].bottom < surface.get_height():
             other = self._labels[hidden]
-            # What stands above a place goes up, where the ninja is not, as long as there is room.
-            up = beside[1] < 0 and plate.top <= other.top and other.top > plate.height
+            # What stands above a place goes up, where the ninja is not, as long as there is room; then only down.
+            up = up and plate.top <= other.top and other.top > plate.height
             top = other.top - plate.height - 1 if up else other.bottom + 1
             y += (top - plate.top) / scale
             plate.top = top
