@@ -183,8 +183,9 @@ class Executed:
         # Of an expression on several lines that is a constant, only the first one may have been seen.
         first = max((line for line in seen if line <= first), default=first)
         found = {test for line in range(first, last + 1) for test in seen.get(line, ())}
-        if named := re.match(r"\s*(\w+(?:, \w+)*)(?:: .+?)? = ", text.decode().splitlines()[first - 1]):
-            found |= {test for name in named[1].split(", ") for test in self._naming(name)}
+        # A constant is executed by whoever imports its module first: the tests of those who name it see it.
+        if named := re.match(r"(\w+(?:, \w+)*)(?:: .+?)? = ", text.decode().splitlines()[first - 1]):
+            found |= {test for name in named[1].split(", ") for test in self._naming(name, broken.file)}
         tests: list[str] = []
         total = 0.0
         executing = (test for test in self.seconds if test in found or test.partition("::")[0] in found)
@@ -196,13 +197,13 @@ class Executed:
         return tests or tests_near(broken.file)
 
     @cache  # noqa: B019 - one object lives as long as the program
-    def _naming(self, name: str) -> set[str]:
-        """The tests that execute a line with this name in it."""
+    def _naming(self, name: str, module: str) -> set[str]:
+        """The tests that execute a line with this name in it, of its module or one that imports it."""
         word = re.compile(rf"\b{name}\b")
         return {
             test
-            for file in imports()
-            if file.startswith("ninja_game/")
+            for file, imported in imports().items()
+            if file.startswith("ninja_game/") and (file == module or module in imported)
             for number, line in enumerate((ROOT / file).read_text("utf-8").splitlines(), 1)
             if word.search(line)
             for test in self.lines(file).get(number, ())

@@ -186,3 +186,11 @@ def test_visible_parts_are_in_the_picture() -> None:
     record = ObjectSpec(GOLD, (36.0, 36.0))
     assert [tuple(part) for part in visible_parts(record)] == [("o", 1, 1)]
     assert visible_parts(ObjectSpec(GOLD, (37.0, 36.0))) == []
+
+
+def test_a_record_is_the_same_to_the_last_bit_and_any_nan_is_one() -> None:
+    values = (1.0, math.nan), (1.0, math.nan), (1.0, 2.0), (1.0, -0.0), (1.0, 0.0)
+    gold = [ObjectSpec(GOLD, each) for each in values]
+    assert same_record(gold[0], gold[1])
+    assert not any(same_record(gold[0], each) for each in gold[2:])
+    assert not same_record(gold[3], gold[4])

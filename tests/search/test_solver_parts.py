@@ -6,14 +6,15 @@ import numpy as np
 import pytest
 
 from ninja_game.backend.memories import compiled, compiled_available
+from ninja_game.batch.batch import Batch
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.sim.kinds import EXIT
+from ninja_game.sim.kinds import DOOR, EXIT
 from ninja_game.sim.level import Level
 
 if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
-from ninja_game.search.heuristics import POINTS, UNREACHED, Heuristics, open_mask, point_at
+from ninja_game.search.heuristics import POINTS, UNREACHED, Heuristics, open_mask, open_masks, point_at
 from ninja_game.search.legs import short_tour
 from ninja_game.search.local_search import (
     LocalCounters,
@@ -295,3 +296,15 @@ def test_states_that_differ_in_a_tenth_switch_are_told_apart() -> None:
         states_of.setdefault(key, set()).add(state)
     assert len(set.union(*states_of.values())) == 14
     assert all(len(states) == 1 for states in states_of.values())
+
+
+def test_the_switch_states_of_many_worlds_are_those_of_each() -> None:
+    level = parse_level_string(
+        OPEN + "5^100,566!11^400,566,124,566!9^300,564,0,0,12,22,1,0,0!9^500,564,1,1,20,22,0,0,0"
+    )
+    batch = Batch(level, 3)
+    slots = [slot for slot in range(1, len(batch.objects[0])) if batch.objects[0, slot]["kind"] in (EXIT, DOOR)]
+    batch.run([[0, KEY_RIGHT, KEY_RIGHT * (tick < 20)] for tick in range(120)])
+    states = open_masks(batch.objects, np.array(slots)).tolist()
+    assert states == [open_mask(batch.world(index), np.array(slots)) for index in range(3)]
+    assert len({*states}) > 1

@@ -104,6 +104,10 @@ def test_best_run_of_a_level_runs_along_the_next_time(driver: MenuDriver, tmp_pa
     # The next start of the program.
     again = MenuDriver(tmp_path)
     again.open("Levels")
+    again.choose("Watch best")
+    assert again.shown(ReplayScreen).run.inputs.startswith(bytes(level.attempt.inputs))
+    again.press("escape", "escape")
+    again.open("Levels")
     again.press("return")
     level = again.shown(LevelScreen)
     assert [ghost.inputs for ghost in level.play.ghosts]
