@@ -310,7 +310,11 @@ class EditorTools:
         self.selection = stamps.Selection(parts=parts)
 
     def undo(self) -> bool:
+        """Give up what hangs at the pointer, else the newest change; whether there was any."""
+        hung = self.ghost is not None
         self.finish()
+        if hung:
+            return True
         self.selection = stamps.Selection()
         return self.history.undo()
 

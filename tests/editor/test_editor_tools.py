@@ -166,6 +166,9 @@ def test_what_is_selected_moves_turns_copies_and_goes(tools: EditorTools) -> Non
     assert tools.cancel()
     assert tools.ghost is None
     assert tools.paste()
+    assert tools.undo()
+    assert (tools.ghost, tools.draft) == (None, before), "only what hangs at the pointer is given up"
+    assert tools.paste()
     drag(tools, (300, 300))
     assert tools.draft.tile((11, 12)) == 2
     assert tools.draft.objects[1].values[:2] == (300.0, 300.0)

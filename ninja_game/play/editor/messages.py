@@ -23,6 +23,7 @@ from ninja_game.sim.level import Level
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas, Point
+from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.text_entry import TextArea, TextEntry
 from ninja_game.ui.theme import Area, Palette, Theme
 from ninja_game.ui.widgets import Button, Choice, Widget
@@ -92,6 +93,13 @@ def messages_of(says: str) -> list[Message]:
     return [Message(each.when, details.get(each.when, "").format(each), each.text) for each in read_sayings(says)]
 
 
+class _Moment(Choice[str]):
+    """Only left, right and clicks change it: whoever types may have missed that the text has not the focus."""
+
+    def confirm(self) -> bool:
+        return False
+
+
 class _Stage:
     """The level's picture, and what is written over it and around what."""
 
@@ -142,8 +150,9 @@ class MessagesScreen(MenuScreen):
         self._row_widgets = [self._row(number) for number in range(len(self.messages))]
         rows = [widget for row in self._row_widgets for widget in row]
         y = TOP + ROW * MOST_SAYINGS + 14
-        add = Button((36, y, 160, 28), "Add a message", self._add if len(self.messages) < MOST_SAYINGS else None)
-        add.hint = f"A level has at most {MOST_SAYINGS}"
+        full = len(self.messages) >= MOST_SAYINGS
+        words = f"{MOST_SAYINGS} of {MOST_SAYINGS}: remove one first" if full else "Add a message"
+        add = Button((36, y, 160, 28), words, None if full else self._add)
         end = [Button((488, y, 132, 28), "OK", self._accept), Button((632, y, 132, 28), "Cancel", self.app.pop)]
         return [*rows, add, *end]
 
@@ -158,7 +167,7 @@ class MessagesScreen(MenuScreen):
         put(message.text)
         text.put = put
         words = [(name, when) for when, (name, _) in _WHEN.items()]
-        moment = Choice((36, y, 116, 28), "", words, lambda: message.when, partial(self._choose, message))
+        moment = _Moment((36, y, 116, 28), "", words, lambda: message.when, partial(self._choose, message))
         moment.hint = "When it is said: left and right, or a click, change it"
         about: list[Widget] = []
         if message.when in ("death", "at"):
@@ -214,6 +223,15 @@ class MessagesScreen(MenuScreen):
             super().close()
         else:
             self.app.push(Menu(self.app, "The messages are changed", rows))
+
+    def capture(self, event: InputEvent) -> bool:
+        """What is typed goes to the text of the row that has the focus."""
+        raw = event.raw
+        names = {pygame.TEXTINPUT: "text", pygame.KEYDOWN: "unicode"}
+        typed = getattr(raw, names.get(raw.type, ""), "")
+        if typed.strip() and typed.isprintable() and not isinstance(self.focus, TextEntry):
+            self.focus = next((row[-1] for row in self._row_widgets if self.focus in row), self.focus)
+        return super().capture(event)
 
     def act(self, action: str, *, held: bool = False) -> None:
         """Enter in a field means OK."""
