@@ -383,8 +383,8 @@ def object_text(spec: ObjectSpec) -> str:
 
 
 _MOVES = (
-    ("Move up", -1, "What is selected goes up in the list, and moves earlier in play; with Shift to its top"),
-    ("Move down", 1, "What is selected goes down in the list, and moves later in play; with Shift to its end"),
+    ("Up", -1, "What is selected goes up in the list, and moves earlier in play; with Shift to its top"),
+    ("Down", 1, "What is selected goes down in the list, and moves later in play; with Shift to its end"),
 )
 """Texts and hints of the buttons that move what is selected so many places."""
 

@@ -237,10 +237,10 @@ def test_the_selected_message_lies_in_the_level_where_it_does_in_play(
 @pytest.mark.parametrize("count", range(MOST_SAYINGS + 1))
 def test_buttons_stay_in_their_place_and_nothing_lies_over_anything_else(room: Maker, count: int) -> None:
     screen = opened(room)
-    fixed = [widget.area for widget in room.top().widgets[-3:]]
+    fixed = [widget.area for widget in screen.widgets[-3:]]
     screen.messages = [Message("at", "8,21", "x") for _ in range(count)]
     screen.enter()
-    assert [widget.area for widget in room.top().widgets[-3:]] == fixed
+    assert [widget.area for widget in screen.widgets[-3:]] == fixed
     areas = [pygame.Rect(*map(round, area)) for area in (PICTURE, *(widget.area for widget in screen.widgets))]
     assert all(area.collidelistall(areas) == [place] for place, area in enumerate(areas))
     assert not screen.offers_back, "OK and Cancel are the ways out"
