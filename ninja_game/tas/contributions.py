@@ -12,7 +12,7 @@ from ninja_game.formats.replay.made import names_of_text
 
 
 def _player_of(recording: Recording) -> str:
-    """Who made a run; of one that only commands have searched whose it was before, "" for nobody's."""
+    """Who made a run; of one that only commands have searched, whose run that began from, "" if from none."""
     made, file = recording.replay.made, Path(recording.file).name or recording.name
     searched = made.searches and not (made.played or made.edits)
     return recording.player or (made.begun_by if searched else f"unknown ({file_stem(file, 'no file')})")

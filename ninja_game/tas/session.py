@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -56,7 +57,9 @@ class Session:
         about = self._first.recording
         text = write_replay(unclaimed_replay(about, self.track))
         path = str(self.file.path.absolute()) if self.file.path else ""
-        source = str(Path(about.file).absolute()) if Path(about.file).is_file() else about.file
+        source = about.file
+        with suppress(OSError):  # a name that no system takes
+            source = str(Path(source).absolute()) if Path(source).is_file() else source
         file = {
             "path": path,
             "digest": self.file.digest,

@@ -35,7 +35,7 @@ PICTURE: Area = (342, TOP, 422, 422 * HEIGHT / WIDTH)
 
 _WHEN = {
     "start": ("At the start", "At each start, until the exit is open"),
-    "switch": ("The exit opens", "Once, when the ninja opens the exit"),
+    "switch": ("Exit opens", "Once, when the ninja opens the exit"),
     "gold": ("The first gold", "Once, when the ninja takes the first gold"),
     "death": ("After deaths", "At the start, after so many deaths"),
     "lock": ("A door unlocks", "Once, when a locked door opens"),
