@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
 
-from ninja_game.errors import ReplayError
+from ninja_game.budget import RUN_BUDGET
+from ninja_game.errors import NinjaGameError, ReplayError
 from ninja_game.files.reading import LeftOut
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.links import is_link
@@ -28,6 +30,8 @@ from ninja_game.ui.widgets import Button, Widget
 
 AHEAD = 10
 """Ticks for which two ninjas that are joined are thought to go on at their speeds. Not tuned."""
+QUICK = RUN_BUDGET // 100
+"""Work that a run may cost only to be listed: 30 ms compiled, some ten times what a run of a minute costs."""
 NONE_YET = "No other run is open: Ctrl+O opens one"
 
 
@@ -181,14 +185,15 @@ class OtherRunScreen(ReplaysScreen):
 
 
 def _named(row: ReplayRow) -> ReplayRow:
-    """A run in a file by the name of that; one that claims nothing is run, to say how it ends."""
+    """A run in a file by the name of that; one that claims nothing is run, to say how it ends, if that is quick."""
     source = row.source
     if not isinstance(source, Recording):
         return row
     if source.replay.unclaimed:
-        run = run_level(source.level, source.inputs, body=source.body)
-        what = result_of(run.outcome, run.gold, run.ticks - 1, source.level.gold)
-        row = row._replace(what=what, good=run.outcome == "exit")
+        with suppress(NinjaGameError):
+            run = run_level(source.level, source.inputs, body=source.body, budget=QUICK)
+            what = result_of(run.outcome, run.gold, run.ticks - 1, source.level.gold)
+            row = row._replace(what=what, good=run.outcome == "exit")
     return row._replace(text=f"{source.place}   {source.comment}".rstrip())
 
 

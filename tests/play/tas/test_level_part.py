@@ -250,6 +250,20 @@ def test_runs_that_reach_the_exit_are_listed_first_also_those_that_claim_nothing
     at.close()
 
 
+def test_a_run_that_costs_much_is_listed_as_it_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("ninja_game.tas_editor.level.other_runs.QUICK", 1)
+    file = write_records(tmp_path / "demos.txt", ("exit", WALK, running(WALK_END)))
+    at = TasDriver(tmp_path / "player", Path(copy(file, tmp_path / "one.txt")), record=0)
+    at.chord("o", pygame.KMOD_LCTRL)
+    listed = at.shown(OtherRunScreen)
+    for _ in range(300):
+        if listed.rows:
+            break
+        at.frames()
+    assert {row.what.partition(",")[0] for row in listed.rows} == {"recording"}
+    at.close()
+
+
 def test_an_object_under_the_mouse_is_named_and_can_be_watched(at: TasDriver) -> None:
     level = at.screen.level
     gold = next(each for each in level.picture.run.objects if each.kind == "gold")
