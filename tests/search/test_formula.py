@@ -431,6 +431,7 @@ def test_the_nearest_miss_is_told_ever_nearer_and_ends_where_it_says() -> None:
         run.step_keys(key)
     assert run.outcome == "running"
     assert misses[-1].end[:2] == (run.ninja.x, run.ninja.y)
+    assert not any(len(each.path) for each in misses), "a beam does not know it"
     px = 400 - run.ninja.x
     assert score_in_words(task, misses[-1]) == f"closest: {misses[-1].missed_by - 1:.0f} px after tick {run.tick - 1}"  # type: ignore[operator]
     assert px / 2 < misses[-1].missed_by < 2 * px  # type: ignore[operator]

@@ -95,7 +95,7 @@ class Found:
     it has in the end; ``end``: x, y (px), vx, vy (px/tick) at the goal; ``own_route``: other runs have no part
     in it; ``missed_by``: the margin that is left to the goal where it was not reached, 0 where only the exit behind it
     was not; None: reached. Of a miss, the goal is the tick in which it was nearest. ``path``: the ninja after each tick
-    up to the goal, float (ticks, 2), px.
+    up to the goal, float (ticks, 2), px; none for a miss.
     """
 
     score: float
@@ -218,7 +218,8 @@ class SpanWorlds:
         """The keys of a world as a result, or as a miss."""
         rest = self.rest.tolist() if self.task.rest else []
         run = with_press_bits([*self.task.inputs[: self.task.first], *keys[:ticks].tolist(), *rest])
-        path = self._paths[:ticks, index].copy()
+        # Of a miss it is not known: a beam goes on from copies of other worlds.
+        path = self._paths[: ticks if missed_by is None else 0, index].copy()
         return Found(score, ticks, keys.copy(), run, int(self.batch.gold[index]), tuple(end), True, missed_by, path)
 
     def note_miss(self, margins: Values, keys: Keys, ticks: int) -> None:
