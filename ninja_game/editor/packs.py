@@ -259,6 +259,9 @@ Obstacles = dict[tuple[Level, str], Finding]
 _MISSING = {"no-certificate": "exit", "no-gold-run": "gold"}
 """Findings that a run is not there, by code: of which kind."""
 
+MADE_READY = (*_MISSING, "certificate", "no-pars", "old-pars")
+"""Codes of what ``make_ready`` mends, unless it has tried in vain."""
+
 
 @dataclass(frozen=True)
 class ReadyPack:

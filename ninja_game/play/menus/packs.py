@@ -488,8 +488,7 @@ class PackScreen(ThumbnailScreen):
     def _check(self, pack: Pack) -> _Checked:
         known = self.packer.obstacles
         every = problems_of(pack, known)
-        # What a command mends that has not tried it yet, Make ready does.
-        to_do = [each for each in every if "`ninja-game" in each.hint and not obstacle_of(pack, each, known)]
+        to_do = [each for each in every if each.code in packs.MADE_READY and not obstacle_of(pack, each, known)]
         found = [each for each in every if each not in to_do]
         return _Checked(pack, found, to_do, frozenset(pack.files.place(file_of(pack, each)) for each in found))
 
