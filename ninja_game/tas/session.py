@@ -60,13 +60,10 @@ class Session:
         source = about.file
         with suppress(OSError):  # a name that no system takes
             source = str(Path(source).absolute()) if Path(source).is_file() else source
-        file = {
-            "path": path,
-            "digest": self.file.digest,
-            "branches_digest": self.file.branches_digest,
-            "source": source,
-        }
-        return {**file, "replay": text, "track": track_as_json(self.track), "branches": self.branches.as_json()}
+        return {
+            "path": path, "digest": self.file.digest, "branches_digest": self.file.branches_digest, "source": source,
+            "replay": text, "track": track_as_json(self.track), "branches": self.branches.as_json(),
+        }  # fmt: skip
 
     @property
     def track(self) -> InputTrack:

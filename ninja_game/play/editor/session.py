@@ -67,8 +67,8 @@ def _examine(question: Question) -> Examined:
     level, found = question
     odd = level_findings(level)
     # What the ninja cannot reach at all need not be told of the solver too.
-    told = {number for each in odd if each.code in UNREACHABLE for number in each.records}
-    return level, [*(each for each in found if not told.intersection(each.records)), *odd]
+    out_of_reach = {number for each in odd if each.code in UNREACHABLE for number in each.records}
+    return level, [*(each for each in found if not out_of_reach.intersection(each.records)), *odd]
 
 
 class EditorSession:
