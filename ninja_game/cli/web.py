@@ -218,10 +218,11 @@ def _ranking(
     jobs: int | None, again: bool = False,
 ) -> tuple[Ranking, Ledger]:  # fmt: skip
     """What the runs of a folder come to by the board's rules, and what its ledger said before."""
+    from ninja_game.web.board.judge import judge
     from ninja_game.web.board.ranking import Ranking
     from ninja_game.web.board.report import dates_of, read_board
     from ninja_game.web.board.rules import USUAL, read_categories
-    from ninja_game.web.board.runs import NO_LEDGER, judge
+    from ninja_game.web.board.runs import NO_LEDGER
 
     # Of many runs, all of which stay, a third of the time went into looking for garbage.
     gc.set_threshold(20_000)

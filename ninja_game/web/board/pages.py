@@ -26,8 +26,10 @@ from ninja_game.web.board.runs import KINDS, PLAYED, Key, Run
 from ninja_game.web.pages.frame import REPLAYS, Content, page, section, table, tag
 from ninja_game.web.pages.gallery import BOARD, UP, medal_mark, page_name, shared_text
 
-NEWEST, LEADING, CONTESTED = 30, 20, 10
-"""Rows on the first page of records, players and levels."""
+# Rows on the first page.
+NEWEST = 30
+LEADING = 20
+CONTESTED = 10
 
 FEED = "feed.xml"
 ONE_MOMENT = "Those of one moment go by their files, the last name first."

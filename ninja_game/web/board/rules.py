@@ -24,8 +24,10 @@ NAMES: dict[str, Callable[[Run], float]] = {
 }  # fmt: skip
 """What formulas may say of a run: ticks to the exit, gold, score (ticks), gold of the level, jumps, keys pressed."""
 
-MOST_BYTES, MOST_CATEGORIES, MOST_RANKS, LONGEST_NAME = 2**20, 12, 4, 40
-"""Bytes of a ``board.toml``, and its categories; formulas that rank a category, and characters of its name."""
+MOST_BYTES = 2**20  # of a ``board.toml``
+MOST_CATEGORIES = 12
+MOST_RANKS = 4  # formulas that rank a category
+LONGEST_NAME = 40
 
 _KEYS: Mapping[str, type] = {"name": str, "rank": list, "when": str, "episodes": bool}
 _ARGUMENTS = dict.fromkeys(NAMES, 0)

@@ -142,8 +142,8 @@ def watch_address(game: str, *stems: str) -> str:
 
 UP = "../"
 PICTURE_HEIGHT = PICTURE_WIDTH * 600 // 792
-FOLDER, BOARD = "gallery", "board"
-"""Folders of a site: the gallery's pages, and those of a board."""
+FOLDER = "gallery"
+BOARD = "board"
 
 Links = Sequence[tuple[str, str]]
 KINDS = {"exit": "To the exit", "gold": "With all gold"}
@@ -207,8 +207,8 @@ def run_page(
     return page(title, shown, up=place, links=links, picture=picture, about=about)
 
 
-MOST_POINTS, NEAREST = 400, 4.0
-"""Points of a path that is drawn, and how far apart they are at least, px."""
+MOST_POINTS = 400  # of a path that is drawn
+NEAREST = 4.0  # px between two of them, at least
 
 
 def path_data(positions: NDArray[np.float64]) -> str:

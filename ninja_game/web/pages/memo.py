@@ -12,8 +12,8 @@ from ninja_game.errors import DAMAGED
 from ninja_game.files.reading import read_bytes
 from ninja_game.files.writing import write_atomically
 
-MOST_BYTES, MOST_MEMOS = 2**30, 100
-"""Size of a file: that of a million runs has half of it. So many files stay in their folder: the newest."""
+MOST_BYTES = 2**30  # that of a million runs has half of it
+MOST_MEMOS = 100  # the newest stay
 
 
 def digest_of(data: object) -> str:
