@@ -138,7 +138,7 @@ def verify_in_slices(
     if counting is not None and verdict.level_digest not in counting:
         return verdict
     work = min(recording.ticks, affordable_ticks(recording.level, budget)) * tick_cost(recording.level)
-    one_memory = proven_memory("plain" if memory == "both" else memory, work)
+    plan = proven_memory("plain" if memory == "both" else memory, work)
     with named_errors(recording):
         inputs = recording.inputs
         try:
@@ -146,7 +146,7 @@ def verify_in_slices(
                 recording.level,
                 inputs,
                 body=recording.body,
-                memory=one_memory,
+                memory=plan,
                 digest=bool(recording.replay.digest),
                 budget=budget,
                 slice_work=slice_work,
