@@ -192,7 +192,7 @@ def decoded(data: bytes, file: str) -> str:
 
 
 def what_it_is(mode: int) -> str:
-    """The kind of a file by its mode, in words.
+    """What a file is, by its mode, as error messages call it.
 
     >>> what_it_is(stat.S_IFIFO)
     'a pipe'

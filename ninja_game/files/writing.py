@@ -101,7 +101,7 @@ def replaced(
 
 
 def named(path: Path, at: int | None) -> str:
-    """What the system is to be told of a path: its name where ``at`` is a handle of its folder, else all of it."""
+    """A path for system calls: its name where ``at`` is a handle of its folder, else all of it."""
     return str(path) if at is None else path.name
 
 

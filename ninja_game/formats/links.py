@@ -63,7 +63,7 @@ class Link:
 
 
 def link_kind(text: str | Path) -> Kind | None:
-    """What a text, or a path made of it, is meant to be a link of, sound or not; None for no link of ours.
+    """The kind of link that a text, or a path made of it, looks like, sound or broken; None for any other text.
 
     A link begins with its # or holds an address before it: a file may have any other name.
 
@@ -78,7 +78,7 @@ def link_kind(text: str | Path) -> Kind | None:
 
 
 def is_link(text: str | Path) -> bool:
-    """Whether a text, or a path made of it, is meant as a link of ours."""
+    """Whether a text, or a path made of it, looks like one of our links."""
     return link_kind(text) is not None
 
 

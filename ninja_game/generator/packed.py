@@ -25,8 +25,7 @@ PACKED = "generated.tsv.xz"
 """Among the game's assets: a level a line, as ``PackedLevel.line`` writes it."""
 FROZEN = "bench.tsv.xz"
 """Likewise, of an earlier generator: what the levels of the benchmark are made of. They never change."""
-MOST_BYTES = 8 * 2**20
-"""The largest size of the file, and of its text when unpacked."""
+MOST_BYTES = 8 * 2**20  # the largest size of the file, and of its text when unpacked
 MOST_MEMORY = 64 * 2**20  # bytes that unpacking may take
 
 

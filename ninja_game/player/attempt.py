@@ -154,7 +154,7 @@ def spared_tick(simulation: Simulation, keys: int) -> bool:
     """One tick of a run on the plain memory that goes on; whether a death was refused.
 
     An object that kills stands still for the tick and is not met; a landing that kills is met at half the speed.
-    The rules of the world do not change: it is put back to the tick before, and told otherwise.
+    The rules of the world do not change: it is put back to the tick before, changed, and run again.
     """
     world, before = simulation.world, simulation.save()
     left_out: dict[int, int] = {}

@@ -1,4 +1,4 @@
-"""The levels there are: the game's own pack, packs and files that the player has put into a folder.
+"""All levels: the game's own pack, packs and files that the player has put into a folder.
 
 Levels of a pack that no episode has are single levels.
 """
@@ -25,8 +25,7 @@ from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.replay.text import Replay, episode_key, parse_replay
 from ninja_game.sim.level import Level
 
-OURS = "ninja-game"
-"""In the name of every author that is part of the project."""
+OURS = "ninja-game"  # in the name of every author that is part of the project
 
 
 class Mood(NamedTuple):
@@ -106,7 +105,7 @@ class Episode:
 class EpisodeSet(NamedTuple):
     """A pack as it is played. ``key``: "" for the game's own, else its name; ``singles``: levels in no episode.
 
-    ``pack``: what it was read from; None where there is none.
+    ``pack``: what it was read from, or None.
     """
 
     key: str
@@ -227,7 +226,7 @@ class Catalogue:
         return list(found.values())
 
     def author_run(self, entry: Entry) -> Replay | None:
-        """The certificate to the exit that lies beside a level; None where there is none for just this level."""
+        """The certificate to the exit beside a level; None without one for exactly this level."""
         pack, file = self.ours if entry.source == "game" else self._known.get(entry.source), Path(entry.named.file)
         name = certificate_name(file.name, "exit")
         try:
@@ -247,7 +246,7 @@ class Catalogue:
         return next((entry.mood for entry in self.ours.levels if entry.episode and entry.named.level == level), None)
 
     def following(self, episode: Episode) -> Episode | None:
-        """The next episode that there is in an episode's column, if any."""
+        """The next existing episode of its column, or None."""
         later = [each for each in self._column(episode) if each.number > episode.number]
         return min(later, key=lambda each: each.number, default=None)
 

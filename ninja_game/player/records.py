@@ -21,8 +21,7 @@ from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.sim.states import NO_CAUSE
 
-NEWEST_SHOWN = 500
-"""Replays listed at most, the newest first."""
+NEWEST_SHOWN = 500  # replays listed at most, the newest first
 
 
 class SavedReplay(NamedTuple):
@@ -66,7 +65,7 @@ class EpisodeBest(NamedTuple):
 
 
 def has_words(words: Iterable[str], *texts: str) -> bool:
-    """Whether each word (casefolded) stands in one of some texts.
+    """Whether each word (casefolded) is in one of the texts.
 
     >>> has_words(["first", "ann"], "First Steps", "Anna"), has_words(["first", "bob"], "First Steps", "Anna")
     (True, False)
@@ -208,7 +207,7 @@ class Records:
 _BEST = "JOIN level_best ON level_best.replay = replay.id AND level_best.level = replay.level WHERE level_best.body = ?"
 
 _UNNEEDED = "id NOT IN (SELECT replay FROM level_best) AND id NOT IN (SELECT replay FROM episode_replay) AND NOT kept"
-"""Replays that were bests once and that nobody asked for."""
+"""Replays that are no longer bests, and that the player did not keep."""
 
 _DROP_UNNEEDED = f"DELETE FROM replay WHERE {_UNNEEDED}"
 
@@ -227,8 +226,7 @@ def level_score(gold: int, exit_tick: int) -> int:
     return LIFETIME + GOLD_BONUS * gold - exit_tick
 
 
-SELF = "player"
-"""Falls, being crushed, suicide, time."""
+SELF = "player"  # falls, being crushed, suicide, time
 
 _DRONES = {int(weapon): name for name, weapon in WEAPONS.items()}
 KILLERS = (*_DRONES.values(), *(kind.killer for kind in KINDS if kind.killer and kind.number != DRONE), SELF)

@@ -53,7 +53,7 @@ class Certificate:
 
 
 def certificate(pack: Pack, file: str, kind: str) -> Certificate | None:
-    """The certificate of a level file, None where there is none.
+    """The certificate of a level file, or None.
 
     Raises ReplayError, or another NinjaGameError, where it cannot be read.
     """

@@ -110,14 +110,14 @@ def run_level(
     ``budget``: of work (``ninja_game.budget``).
 
     Raises LevelError for a level that cannot be played, DemoError for more than a million inputs or an invalid one,
-    ArgumentError for another body or memory and for what are no inputs, BudgetError for a run that is not over
+    ArgumentError for another body or memory and for invalid inputs, BudgetError for a run that is not over
     when its budget is.
     """
     return drained(run_in_slices(level, inputs_of(inputs), body=body, memory=memory, digest=digest, budget=budget))
 
 
 def inputs_of(given: Iterable[SupportsIndex]) -> bytes:
-    """Inputs as bytes, one a tick. Raises ArgumentError for what are none."""
+    """Inputs as bytes, one a tick. Raises ArgumentError for anything else."""
     try:
         return given if isinstance(given, bytes) else bytes(list(given))
     except (TypeError, ValueError):

@@ -34,8 +34,7 @@ STRICT = {
 }
 """What a strict verdict demands of its fields, besides a level that counts."""
 
-NOT_RUN = "not run"
-"""The outcome of a run that was not simulated, since its level does not count."""
+NOT_RUN = "not run"  # the outcome of a run that was not simulated, since its level does not count
 
 
 class OutOfRangeError(NinjaGameError):

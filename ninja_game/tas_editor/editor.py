@@ -24,8 +24,7 @@ from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas, Point
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Widget
 
-Span = tuple[int, int]
-"""The first tick, and the first one behind the last."""
+Span = tuple[int, int]  # the first tick, and the first one behind the last
 
 
 @dataclass(frozen=True)
@@ -264,9 +263,10 @@ class Splitters(TasPart):
 
     def commands(self) -> Commands:
         return {
-            "zoom_in": lambda: self.change_text_scale(1), "zoom_out": lambda: self.change_text_scale(-1),
+            "zoom_in": lambda: self.change_text_scale(1),
+            "zoom_out": lambda: self.change_text_scale(-1),
             "reset_layout": lambda: self.editor.app.change_settings(text_scale=0, level_width=0, tabs_height=0),
-        }  # fmt: skip
+        }
 
     def change_text_scale(self, by: int) -> None:
         app = self.editor.app

@@ -20,8 +20,7 @@ from ninja_game.ui.input.bindings import InputEvent
 if TYPE_CHECKING:
     from ninja_game.tas_editor.screen import TasScreen
 
-PATIENCE_MS = 1000
-"""What takes longer is explained."""
+PATIENCE_MS = 1000  # what takes longer is explained
 
 
 def open_tas_editor(app: App, recording: Recording, others: Sequence[Recording], tick: int) -> None:

@@ -23,7 +23,10 @@ from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, HALF, RADIUS, WORLD_HE
 from ninja_game.sim.states import DRONE_FIRING, WEAPON_LASER
 
 FAR = 2.0 * WORLD_WIDTH  # px; nothing farther from a picture is drawn
-DOOR_HALF, BEAM_RADIUS, CROSS_RADIUS = 4.0, 2.0, 4.0  # px
+# px
+DOOR_HALF = 4.0
+BEAM_RADIUS = 2.0
+CROSS_RADIUS = 4.0
 EVERYWHERE = (-FAR, FAR, -FAR, FAR)
 ROUNDING = 1.0e-6
 """px; what rounding may move the rim of an object."""
@@ -129,8 +132,7 @@ SHADES = {
 """0 is empty, 255 the ninja; 205 to 230 kill. A closed exit has half its shade."""
 STILL = {kinds.GOLD, kinds.MINE, kinds.EXIT, kinds.SWITCH, kinds.LAUNCH_PAD, kinds.ONE_WAY}
 """Kinds that stay where they are, and look another way only after an event (``Setting.changed``)."""
-PLAIN_SIZE = 6.0
-"""Radius, px, at which what cannot be touched is drawn."""
+PLAIN_SIZE = 6.0  # radius, px, at which what cannot be touched is drawn
 
 
 @dataclass(frozen=True)

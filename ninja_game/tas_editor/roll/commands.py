@@ -18,8 +18,7 @@ from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.editor import Span, TasEditor
 from ninja_game.tas_editor.roll.facts import changes, compared
 
-BEHIND = "Nothing here: the run ends earlier"
-"""Where nothing can be copied or taken out."""
+BEHIND = "Nothing here: the run ends earlier"  # where nothing can be copied or taken out
 
 
 class RollCommands:

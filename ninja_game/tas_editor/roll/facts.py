@@ -79,8 +79,7 @@ def _keys(*runs: bytes) -> list[NDArray[np.uint8]]:
     return [np.frombuffer(fitted_inputs(inputs, ticks), np.uint8) & np.uint8(KEYS_DOWN) for inputs in runs]
 
 
-FLOOR, WALL_LEFT, WALL_RIGHT = 1, 2, 4
-"""Contacts, as a sum."""
+FLOOR, WALL_LEFT, WALL_RIGHT = 1, 2, 4  # contacts, as a sum
 
 
 class Values(NamedTuple):
@@ -176,13 +175,13 @@ def changed_ticks(track: InputTrack, saved: InputTrack) -> range | bytes:
     return range(first, len(ours) - min(same, shared - first))
 
 
-def keys_in_words(row: RowFacts, other: str) -> str:
+def key_difference_text(row: RowFacts, other: str) -> str:
     """The keys of a row, and those of the run that is compared, which is called ``other``."""
     ours, theirs = (KEY_NAMES[keys & KEYS_DOWN] for keys in (row.keys, row.keys ^ row.differs))
     return f"{row.tick}: {ours}; {other}: {theirs}"
 
 
-def in_words(row: RowFacts, *, numbers: bool) -> str:
+def row_text(row: RowFacts, *, numbers: bool) -> str:
     """A row in full: places and speeds to the last digit, or the rest."""
     name = f"#{row.name}  " if row.name else ""
     if row.values is None:

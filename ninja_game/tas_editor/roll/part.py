@@ -11,7 +11,7 @@ from ninja_game.play.workspace import Commands
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.editor import TasEditor, TasPart
 from ninja_game.tas_editor.roll.commands import RollCommands
-from ninja_game.tas_editor.roll.facts import compared, different_rows, in_words, keys_in_words, row_facts
+from ninja_game.tas_editor.roll.facts import compared, different_rows, key_difference_text, row_facts, row_text
 from ninja_game.tas_editor.roll.rows import COLUMNS, Column, RollLayout, RowSheet, layout_of
 from ninja_game.ui.text_entry import DOUBLE_MS
 from ninja_game.ui.theme import Theme, mixed
@@ -246,7 +246,7 @@ class RollMouse:
             other = compared(self._editor) if column.key else None
             rest = column.name in ("state", "jump_timer", "contacts", "gold", "exit")
             row = row_facts(self._editor, tick, tick + 1)[0]
-            self._editor.hint = keys_in_words(row, other.name) if other else in_words(row, numbers=not rest)
+            self._editor.hint = key_difference_text(row, other.name) if other else row_text(row, numbers=not rest)
         self._row_hint = self._editor.hint
 
 

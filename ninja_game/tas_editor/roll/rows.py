@@ -16,8 +16,10 @@ from ninja_game.tas_editor.roll.facts import FLOOR, WALL_LEFT, WALL_RIGHT, RowFa
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.theme import Area, Palette, Theme, mixed
 
-HEAD, ROW, BAR = 16.0, 11.0, 12.0
-"""Height of the heads and of a row, width of the scroll bar, logical px."""
+# Logical px.
+HEAD = 16.0  # height of the heads
+ROW = 11.0  # height of a row
+BAR = 12.0  # width of the scroll bar
 
 
 class Column(NamedTuple):
@@ -171,10 +173,8 @@ class Digits:
         return made
 
 
-SIZE = 8.0
-"""Size of the letters, logical px."""
-SHORTEST = 20.0
-"""Room in which a name is worth beginning, logical px."""
+SIZE = 8.0  # size of the letters, logical px
+SHORTEST = 20.0  # room in which a name is worth beginning, logical px
 LONGEST = 6
 _KEY_LETTERS = {KEY_LEFT: "L", KEY_RIGHT: "R", JUMP_HELD: "J"}
 

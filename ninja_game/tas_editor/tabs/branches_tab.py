@@ -12,8 +12,7 @@ from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, Rows, Tab, put_in_a_
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button
 
-LONGEST = 60
-"""Characters of a name."""
+LONGEST = 60  # characters of a name
 
 _INDENT, _DEEPEST = 9, 12
 _COLUMNS = (174, 112, 64)

@@ -17,14 +17,10 @@ from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, following
 
-SMALL = 9.0
-"""Size of the text in lists and buttons, px."""
-ROW = 16
-"""Height of a row of a list, px."""
-UNPLACED: Area = (0, 0, 0, 0)
-"""The area of widgets that their tab has not arranged yet."""
-_SHORT = 60
-"""Longer lists of what is expected are left out of a line."""
+SMALL = 9.0  # size of the text in lists and buttons, px
+ROW = 16  # height of a row of a list, px
+UNPLACED: Area = (0, 0, 0, 0)  # the area of widgets that their tab has not arranged yet
+_SHORT = 60  # longer lists of what is expected are left out of a line
 
 
 class Tab(TasPart):

@@ -21,8 +21,7 @@ from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, EntryField, Rows, Ta
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button
 
-LONGEST = 300
-"""Characters of a line that is typed."""
+LONGEST = 300  # characters of a line that is typed
 
 
 @lru_cache(maxsize=1)

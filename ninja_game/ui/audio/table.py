@@ -19,8 +19,7 @@ def several(name: str, count: int) -> Names:
     return tuple(f"{name}-{number}" for number in range(1, count + 1))
 
 
-GOLD = several("gold", 12)
-"""A ladder of pitches."""
+GOLD = several("gold", 12)  # a ladder of pitches
 
 STEPS = several("step", 5)
 

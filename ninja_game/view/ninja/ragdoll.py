@@ -74,7 +74,7 @@ Hit = Callable[[float, float, float, float], None]
 
 
 class Ragdoll:
-    """A corpse. ``hit``: told of every touch, for sound, dust and blood."""
+    """A corpse. ``hit``: called at every touch, for sound, dust and blood."""
 
     def __init__(self, pose: Pose, before: Pose, velocity: Point, facing: int, rng: Random, hit: Hit) -> None:
         self.facing = facing

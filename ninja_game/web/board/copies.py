@@ -26,8 +26,7 @@ CHANGED = 0.65
 """Ticks changed, added or left out for each stroke, up to which the inputs of two runs are the same: people who do the
 same move most strokes by several ticks (the table in docs/board.md)."""
 
-ON_PATH = 0.75
-"""Share of a run's places on another's path, from which the paths are the same."""
+ON_PATH = 0.75  # share of a run's places on another's path, from which the paths are the same
 
 FEWEST_STROKES = 8  # with fewer all runs take the same path
 
@@ -44,7 +43,7 @@ ALIGNED = 4
 
 @dataclass(frozen=True)
 class Course:
-    """What is compared of a run.
+    """The features by which runs are compared.
 
     ``keys``: those down in each tick; ``strokes``: spans of the same keys, each as its number among equal ones, 2^20
     times its keys and 2^24 times its ticks; ``presses``: keys pressed and keys released, each as a bit of eight, plus
@@ -78,14 +77,14 @@ def course_of(inputs: bytes, run: RunResult) -> Course:
 
 
 class Common:
-    """Which courses have a thing, such as a place: a bit for each of the columns that courses are in."""
+    """Which courses have a feature, such as a place: a bit for each of the columns that courses are in."""
 
     def __init__(self) -> None:
         self._rows: dict[float, int] = {}
         self._bits = np.zeros((64, 1), np.uint8)
 
     def mark(self, things: Iterable[float], column: int, *, has: bool) -> None:
-        """The course in a column has these things, or has not any more."""
+        """Note that the course in a column has these features, or no longer has them."""
         rows = [self._rows.setdefault(each, len(self._rows)) for each in things]
         high, wide = self._bits.shape
         if len(self._rows) > high or column // 8 >= wide:
@@ -98,7 +97,7 @@ class Common:
             self._bits[rows, column // 8] &= 255 - bit
 
     def counts(self, things: Iterable[float], columns: int) -> NDArray[np.int64]:
-        """How many of the things each of the first columns has."""
+        """How many of the features each of the first columns has."""
         rows = np.array([self._rows[each] for each in things if each in self._rows], np.intp)
         bits = np.unpackbits(self._bits[rows, : (columns + 7) // 8], axis=1, count=columns, bitorder="little")
         # The narrow sum takes a third of the time.
@@ -141,10 +140,7 @@ class Courses:
         self._places.mark(course.places, column, has=has)
 
     def near(self, course: Course) -> Callable[[NDArray[np.bool_]], tuple[list[int], str]]:
-        """What tells, of columns, the numbers of those that share enough of a course, and what the first one shares.
-
-        The nearest is the first.
-        """
+        """A function of columns: the numbers of the runs near a course, nearest first; what the first shares."""
         columns = len(self.numbers)
         places, presses = self._places.counts(course.places, columns), np.zeros(columns, np.int64)
         of = self._press_counts
@@ -272,7 +268,7 @@ class _Compared:
         self._runs.append(run)
 
     def near(self, run: Run) -> str:
-        """Whose a run nearly is, of those before, in words; "" for that of no other player."""
+        """Which earlier run of another player a run is nearly, as a sentence; "" for none."""
         said = self._memo.recall(key := self._key_of(run))
         if not isinstance(said, str):
             before = range(self._known, len(self._runs))

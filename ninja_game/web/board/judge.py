@@ -162,7 +162,7 @@ class _Judging:
         return JudgedFile(name, file.digest, stamp, self._folder.recordings(file), [])
 
     def _row(self, file: JudgedFile, sent: Sent, result: Result) -> Judged:
-        """What is kept of a recording; one that cannot be written as pages have it is unreadable."""
+        """The row of a recording; one that cannot be written as pages have it is unreadable."""
         row = _row(sent, result, self._folder)
         entry = self._shown.entries.get(row.level)
         if entry and not row.kind:
@@ -203,7 +203,7 @@ def _with_row(run: Run, row: Mapping[str, Any]) -> Run:
 
 
 def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
-    """What is kept of a recording."""
+    """The row of a recording."""
     if not isinstance(result, Unreadable) and not sent.replay and not result.made:
         # A record of N names who made the level, and nobody who played; one of ours says how it was made, too.
         place = result.file + f", record {result.record}" * (result.record > 0)
@@ -230,7 +230,7 @@ def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
 
 
 def _worded(problem: RunProblem, result: Verdict, sent: Sent) -> str:
-    """A problem in the words of people who send runs."""
+    """A problem as the sender of a run reads it."""
     if problem.code == "not-strict" and result.practice and str(problem).startswith("practice"):
         return f"it was {result.made}: runs with such help do not count"
     if problem.code == "other-level" and sent.replay and sent.replay.level_name:

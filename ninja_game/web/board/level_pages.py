@@ -41,8 +41,7 @@ from ninja_game.web.pages.gallery import (
 )
 from ninja_game.web.pages.memo import Memo, digest_of
 
-PER_PAGE = 100
-"""Rows of a table that goes on on another page: a page has at most 100 KB."""
+PER_PAGE = 100  # rows of a table that goes on on another page: a page has at most 100 KB
 
 LONGEST_NAME = 40  # characters of a name in a table
 
@@ -149,7 +148,7 @@ class LevelPages:
         return (joined(self.player_link(run.player, UP), others), *results, *self.leads(run, UP), *about)
 
     def value(self, category: Category, run: Run) -> str:
-        """The number that a run is ranked by."""
+        """The number that a run is ranked by, as text; "" where it is not of the category."""
         values = self.ranking.values(category, run)
         return category.text(values[0]) if values else ""
 
@@ -247,7 +246,7 @@ class LevelPages:
         return section(title, chart, table("Newest first", heads, rows[: -FIRST - 1 : -1]), anchor=anchor or None)
 
     def _side_by_side(self, runs: Sequence[Run], name: str) -> tuple[Markup, Markup]:
-        """The first runs of what is called so: their paths; any two of them, and their splits."""
+        """The first runs of a table, its ``name``: their paths; races of any two of them, and their splits."""
         names = [self.name(run.player) for run in runs]
         found = [run_splits(Recording(run.entry.named.level, run.replay), memory="auto") for run in runs]
         known = [

@@ -103,8 +103,9 @@ class BoardPages(LevelPages):
         newest = section("Newest records", *shown) if rows else None
         leaders = [
             section(self._players_of(ladder), table(BY_LEVELS, self._heads(), map(self._standing, standings[:LEADING])))
-            for ladder, standings in self.ranking.standings.items() if standings
-        ]  # fmt: skip
+            for ladder, standings in self.ranking.standings.items()
+            if standings
+        ]
         lead = tag("p", f"{self.ranking.shown.name}: {summary(self.ranking.judged)}.", class_="lead")
         said = tag("p", "Every run was simulated again: times, gold and scores are the result of its inputs.")
         contents = self._week(), newest, *leaders, self._contested()

@@ -81,7 +81,7 @@ class Category:
         return self.difference(-value if self.rising else value)
 
     def measured(self, value: float) -> str:
-        """The same with what it counts.
+        """Its first number with a unit.
 
         >>> HIGHEST.measured(-3657), Category("Fewest keys", ("presses",)).measured(1)
         ('91.425 points', '1 press')

@@ -14,8 +14,7 @@ from ninja_game.runs.run import run_level
 from ninja_game.web.board.collect import RunFolder
 from ninja_game.web.pages.gallery import path_data
 
-Key = tuple[str, int]
-"""A run's file, as a path in the folder, and its record there."""
+Key = tuple[str, int]  # a run's file, as a path in the folder, and its record there
 
 Dates = Callable[[Key, str], str]
 """When the board first took in a run, by its key and way: UTC as in 2026-01-31T12:00:00Z, "" where nobody knows."""
@@ -34,8 +33,7 @@ KINDS = {
 }
 """Why a run does not count: in a line of a report, and on a page."""
 
-OWN = "own"
-"""What a level of an episode is that its player has sent before."""
+OWN = "own"  # what a level of an episode is that its player has sent before
 
 
 @dataclass(frozen=True)
@@ -87,7 +85,7 @@ class Run(Judged):
     """A run that counts, as the simulation says: ``tick`` of the exit contact, ``gold``, ``score`` (ticks).
 
     ``file``: path in the folder, ``record`` in it; ``added``: as Dates say; ``remark``: what a reader should know;
-    ``near``: whose it nearly is, in words, where nobody has ``confirmed`` it: it leads no table; ``again``: it was
+    ``near``: which run it nearly copies, a sentence, until it is ``confirmed``: it leads no table; ``again``: it was
     withdrawn, and is the first of its moment; ``digest``: of its file.
     """
 

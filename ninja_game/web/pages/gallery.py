@@ -68,7 +68,7 @@ class PublishedLevels:
 
     @cached_property
     def runs(self) -> Mapping[str, Mapping[str, Recording]]:
-        """By level digest the certificates there are, "exit" or "gold"."""
+        """Certificates by level digest, then by kind: "exit" or "gold"."""
         return {entry.digest: _certificates(self.pack, entry) for entry in self.levels.levels} if self.pack else {}
 
 
@@ -196,10 +196,11 @@ def run_page(
     place = f"../{folder}/"
     facts = [*((name, text) for name, text in facts if text), ("Author of the level", entry.named.author or "unknown")]
     leads = (
-        tag("p", tag("a", "Watch this run", href=watch_address(game, stem), class_="button")), definitions(facts),
+        tag("p", tag("a", "Watch this run", href=watch_address(game, stem), class_="button")),
+        definitions(facts),
         tag("p", tag("a", "The level", href=place + page_name(entry.digest))),
         tag("p", tag("a", "The replay as a file", href=f"{stem}.txt", download=True)),
-    )  # fmt: skip
+    )
     drawn = tag("div", drawn) if drawn else level_image(entry, place)
     shown = tag("div", drawn, tag("div", *leads, class_="about"), class_="level")
     about, picture = ". ".join(f"{name}: {text}" for name, text in facts), (site or place) + picture_name(entry.digest)
@@ -261,7 +262,7 @@ def _pars(pars: Pars) -> Markup:
 
 
 def medal_mark(medal: str) -> Content:
-    """A small mark for a medal, "" for none; its letter tells it rejected, not only its colour."""
+    """A small mark for a medal, "" for none; known by its letter, not only by its colour."""
     return tag("span", medal[0].upper(), class_=f"medal {medal}", title=medal) if medal in MEDALS else joined()
 
 
