@@ -6,7 +6,7 @@ import sqlite3
 from collections.abc import Iterable, Sequence
 from datetime import UTC, datetime
 from functools import lru_cache
-from typing import NamedTuple
+from typing import NamedTuple, get_type_hints
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.ascii.object_lines import WEAPONS
@@ -44,16 +44,14 @@ class SavedReplay(NamedTuple):
 
 
 _SAVED = ", ".join(f"replay.{name}" for name in SavedReplay._fields)
-_SAVED_KINDS = (int, str, str, str, str, str, int, int, int, str, int)
+_SAVED_KINDS = tuple(get_type_hints(SavedReplay).values())
 
 _level = lru_cache(16)(parse_level_string)
 """A level by its text: replays of one level often stand near each other."""
 
-_WHOLE = (
-    "level, level_text, name, player, body, outcome, final_tick, gold, score, digest, inputs, made_at, kept, made, "
-    "co_authors"
-)
-_WHOLE_KINDS = (str, str, str, str, str, str, int, int, int, str, bytes, str, int, str, str)
+_TEXTS = ("level", "level_text", "name", "player", "body", "outcome", "digest", "made", "co_authors")
+_WHOLE = {**dict.fromkeys(_TEXTS, str), "final_tick": int, "gold": int, "inputs": bytes}
+"""What is read of a whole replay, by column."""
 
 
 class EpisodeBest(NamedTuple):
@@ -106,8 +104,9 @@ class Records:
 
     def replay(self, number: int) -> Replay | None:
         """A whole replay by its id, with its level inside; None if it has gone or is damaged."""
-        for row in self.store.rows(f"SELECT {_WHOLE} FROM replay WHERE id = ?", (number,), _WHOLE_KINDS):
-            level, text, name, player, body, outcome, final_tick, gold, _, digest, inputs, *_, made, co_authors = row
+        query = f"SELECT {', '.join(_WHOLE)} FROM replay WHERE id = ?"
+        for row in self.store.rows(query, (number,), tuple(_WHOLE.values())):
+            level, text, name, player, body, outcome, digest, made, co_authors, final_tick, gold, inputs = row
             try:
                 return Replay(
                     inputs=inputs, final_tick=final_tick, outcome=outcome, gold=gold, digest=digest, name=name,
