@@ -21,7 +21,7 @@ from ninja_game.files.shown_text import shown_text
 
 if TYPE_CHECKING:
     from ninja_game.formats.recording import Recording
-    from ninja_game.player.catalogue import Entry
+    from ninja_game.levels.episodes import Entry
     from ninja_game.web.board.ranking import Ranked, Ranking
     from ninja_game.web.board.rules import Category
     from ninja_game.web.board.runs import Ledger

@@ -15,8 +15,8 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import data_folder, export_path, short_path
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
+from ninja_game.levels.episodes import Mood
 from ninja_game.play.window import TITLE, Window, Wipe, save_picture
-from ninja_game.player.catalogue import Mood
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import FASTEST_TICK_GAIN
 from ninja_game.player.settings import BY_COLUMN, Settings

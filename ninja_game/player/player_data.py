@@ -9,8 +9,9 @@ from ninja_game.errors import FileError, reason
 from ninja_game.files.user_folder import LEVELS, RECORDS, REPLAYS, SETTINGS, make_user_folder, user_folder
 from ninja_game.files.writing import remove_leftovers
 from ninja_game.formats.replay.text import Replay
+from ninja_game.levels.episodes import Entry, Episode
 from ninja_game.player.attempt import Attempt
-from ninja_game.player.catalogue import Catalogue, Entry, Episode
+from ninja_game.player.catalogue import Catalogue
 from ninja_game.player.progress import (
     HELPED,
     LOCKED,

@@ -21,8 +21,8 @@ from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.replay.text import Replay, lifetimes, parse_replay, write_replay
 from ninja_game.formats.sayings import Saying, read_sayings
+from ninja_game.levels.episodes import Entry, Episode
 from ninja_game.player.attempt import Attempt
-from ninja_game.player.catalogue import Entry, Episode
 from ninja_game.player.player_data import EPISODE_BEST, PlayerData, count_of, replay_of, save_best, save_work
 from ninja_game.player.progress import LOCKED, UNLOCKED, new_unlocks, next_par
 from ninja_game.player.store import Store, Work

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE
 from ninja_game.formats.pack.pars import MEDALS, Pars
 from ninja_game.formats.run_time import seconds_text
-from ninja_game.player.catalogue import Entry
+from ninja_game.levels.episodes import Entry
 from ninja_game.player.store import Store
 
 COLUMNS = 10

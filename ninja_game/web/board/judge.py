@@ -16,8 +16,8 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.formats.lines import MOST_NAME
 from ninja_game.formats.replay.made import parse_made
 from ninja_game.formats.replay.text import INPUTS_AFTER
+from ninja_game.levels.episodes import Entry
 from ninja_game.levels.findings import RunProblem, in_run
-from ninja_game.player.catalogue import Entry
 from ninja_game.runs.archive import Lost, verify_all
 from ninja_game.runs.chunks import Chunk, Result
 from ninja_game.runs.recording_reader import Unreadable

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.run_time import seconds_text
-from ninja_game.player.catalogue import Entry
+from ninja_game.levels.episodes import Entry
 from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, SplitRow, run_splits, split_name, split_table, sum_of_best
 from ninja_game.ui.theme import RUN_COLOURS
 from ninja_game.web.board.ranking import Part, Ranked, Ranking

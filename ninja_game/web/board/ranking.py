@@ -10,7 +10,7 @@ from functools import cached_property
 from operator import itemgetter
 
 from ninja_game.formats.pack.pars import MEDALS
-from ninja_game.player.catalogue import Episode
+from ninja_game.levels.episodes import Episode
 from ninja_game.web.board.rules import USUAL, Category
 from ninja_game.web.board.runs import PLAYED, Run, ValidatedRuns
 from ninja_game.web.pages.gallery import PublishedLevels

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from ninja_game.formats.replay.made import names_of_text, parse_made
 from ninja_game.formats.replay.text import Replay
-from ninja_game.player.catalogue import Entry
+from ninja_game.levels.episodes import Entry
 from ninja_game.runs.run import run_level
 from ninja_game.web.board.collect import RunFolder
 from ninja_game.web.pages.gallery import path_data

@@ -26,7 +26,7 @@ from ninja_game.formats.pack.pars import MARGINS, MEDALS, Pars
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.formats.run_time import seconds_text
-from ninja_game.player.catalogue import Entry, EpisodeSet, episode_set
+from ninja_game.levels.episodes import Entry, EpisodeSet, episode_set
 from ninja_game.sim.kinds import KIND_NAMES
 from ninja_game.sim.level import Level, makes_object
 from ninja_game.ui.theme import CLASSIC
