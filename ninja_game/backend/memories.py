@@ -62,8 +62,7 @@ class Plan:
 
 PLAIN, CHECKED, CHECKED_LATER = Plan("plain", "plain"), Plan("compiled", "compiled"), Plan("plain", "compiled")
 
-_WORK = [0]
-"""Work of all runs of this process that were short enough for the plain memory: PLAIN_WORK at most."""
+_WORK = [0]  # work of all runs of this process that were short enough for the plain memory: PLAIN_WORK at most
 
 _OF_ONE_RUN = {
     False: (load_world, run_world, step_world, observe_object, trace_world, kill_ninja),

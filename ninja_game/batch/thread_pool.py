@@ -16,8 +16,7 @@ from typing import SupportsIndex, TypeAlias
 
 from ninja_game.errors import ArgumentError
 
-Work: TypeAlias = Callable[[int, int], int]
-"""Does items ``first`` … ``last`` - 1 and says how much that was."""
+Work: TypeAlias = Callable[[int, int], int]  # does items first … last - 1 and says how much that was
 
 CHUNKS_PER_THREAD = 8
 SMALL_CHUNK = 2048

@@ -23,8 +23,7 @@ PART_PREFIX, PART_SUFFIX = ".ninja-game-", ".part"
 
 _unfinished: set[Path] = set()  # the temporary files that this process is writing
 
-_tidied: set[Path] = set()
-"""Folders in which this process has looked for what killed writers left behind."""
+_tidied: set[Path] = set()  # folders in which this process has looked for what killed writers left behind
 
 
 def write_atomically(

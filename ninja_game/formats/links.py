@@ -44,8 +44,7 @@ MOST_CHARACTERS = 2 * 2**20  # length of a link: what browsers take
 
 MOST_BYTES = 4 * 2**20  # size of its text when unpacked
 
-MOST_TEXTS = 9
-"""In a link of replays: the one that is watched, and as many ghosts as the viewer shows."""
+MOST_TEXTS = 9  # in a link of replays: the one that is watched, and as many ghosts as the viewer shows
 
 _PART = re.compile(r"(level|pack|replay)=([0-9]{1,4})\.([A-Za-z0-9_-]*)")
 _STEM = re.compile(r"[0-9a-f]{16}")

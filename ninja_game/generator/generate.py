@@ -31,8 +31,7 @@ HARDEST = 10
 
 FIND_TICKS = 1_500_000  # work of the solver on one attempt
 SHORTEN_TICKS = 1_000_000  # on its changed hazards
-ATTEMPTS = 3
-"""Attempts that the solver looks at; of those it passes the nearest to what is wanted is taken."""
+ATTEMPTS = 3  # attempts that the solver looks at; of those it passes the nearest to what is wanted is taken
 PATIENCE = 4
 """So many times as many, with other plans, as long as none is about as hard as wanted; its square if none is passed."""
 ROUNDS = 22  # changes of the hazards of one attempt

@@ -146,8 +146,7 @@ class Attempt:
         return replace(replay, made=self.made)
 
 
-_MOST_TRIES = 20
-"""More than any place has killers: a ninja that is still crushed after so many tries is dead."""
+_MOST_TRIES = 20  # more than any place has killers: a ninja that is still crushed after so many tries is dead
 
 
 def spared_tick(simulation: Simulation, keys: int) -> bool:

@@ -14,8 +14,7 @@ from ninja_game.player.store import Store
 
 COLUMNS = 10
 
-COLOURS = 9
-"""Colours of the ninja beyond the first one; each complete column unlocks one (presentation.md §3)."""
+COLOURS = 9  # colours of the ninja beyond the first one; each complete column unlocks one (presentation.md §3)
 
 OVERCLOCK_COLUMNS = 6
 FASTEST_TICK_GAIN = 10

@@ -37,8 +37,7 @@ GHOSTS = ("best", "next", "silver", "gold", "author")
 
 MOST_INPUTS = 16  # keys or buttons of one action at most
 
-InputNames = Mapping[str, tuple[str, ...]]
-"""Action to the names of its inputs (``ui/input/bindings.py``)."""
+InputNames = Mapping[str, tuple[str, ...]]  # action to the names of its inputs (ui/input/bindings.py)
 
 
 class SettingRule(NamedTuple):

@@ -31,8 +31,7 @@ RADII = {"mine": MINE_RADIUS, "floor guard": GUARD_RADIUS, "drone": DRONE_RADIUS
 """Radius of hazards that kill by touch, px."""
 GUNS = {"gauss turret": 2, "homing launcher": 2}
 """Hazards that aim or fly, and their status number while that kills."""
-DIRECTIONS = (1, 0), (0, 1), (-1, 0), (0, -1)
-"""Right, down, left, up, as a thwump's direction numbers them."""
+DIRECTIONS = (1, 0), (0, 1), (-1, 0), (0, -1)  # right, down, left, up, as a thwump's direction numbers them
 LANES = {kinds.THWUMP, kinds.FLOOR_GUARD}
 HAZARDS = kinds.MINE, *kinds.ENEMIES
 

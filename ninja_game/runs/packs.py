@@ -105,8 +105,7 @@ def make_pars(pack: Pack, *, tries: int = TRIES) -> Iterator[tuple[str, Pars]]:
 
 KINDS = ("exit", "gold")
 
-NEVER_ACCEPTED = ("unreadable", "no-ninja", "too-many-objects")
-"""Findings of what cannot be played, by code."""
+NEVER_ACCEPTED = ("unreadable", "no-ninja", "too-many-objects")  # findings of what cannot be played, by code
 
 
 def file_of(pack: Pack, finding: PackFinding) -> str:

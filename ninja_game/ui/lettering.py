@@ -79,8 +79,7 @@ _COMMANDS = re.compile(r"([MLQOAD])([^MLQOAD]*)")
 
 
 CAP = 7.0  # height of capitals on the glyphs' grid
-ASCENDERS = frozenset("bdfhklt")
-"""Small letters as tall as capitals: with an accent they are drawn lower."""
+ASCENDERS = frozenset("bdfhklt")  # small letters as tall as capitals: with an accent they are drawn lower
 
 
 def _read_glyphs() -> dict[str, tuple[float, str]]:

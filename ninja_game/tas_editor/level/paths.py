@@ -24,8 +24,7 @@ _DOT_EVERY = 10  # ticks between two dots on the bright path
 _CLOSE = 0.5  # px of the level in a px of the window, below which each tick has a dot
 FAINT, CLEAR = 110, 190  # of 255, how solid paths are
 _BLOCK = 1000  # ticks by which the part of a long run moves whose path is shown
-LETTERS = 9
-"""Size of what is written over the level, logical px of the TAS editor, as all sizes here."""
+LETTERS = 9  # size of what is written over the level, logical px of the TAS editor, as all sizes here
 _LONGEST_NAME = 100
 _THIN = 0.8  # width of paths
 _THICK = 2.7  # of their selected part

@@ -16,8 +16,7 @@ from ninja_game.tas_editor.roll.rows import COLUMNS, Column, RollLayout, RowShee
 from ninja_game.ui.text_entry import DOUBLE_MS
 from ninja_game.ui.theme import Theme, mixed
 
-MARGIN = 4
-"""The rows scroll with a cursor that moves in the first or the last of so many parts of the roll."""
+MARGIN = 4  # the rows scroll with a cursor that moves in the first or the last of so many parts of the roll
 
 WHEEL_ROWS = 4
 SCROLL_MS = 25

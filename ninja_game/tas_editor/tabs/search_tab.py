@@ -29,8 +29,7 @@ from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, EntryField, Rows, Ta
 from ninja_game.ui.theme import Area, Theme, wrapped
 from ninja_game.ui.widgets import Button, Choice
 
-CLOSING_SECONDS = 0.5
-"""How long a search that is cancelled is waited for when the TAS editor is left."""
+CLOSING_SECONDS = 0.5  # how long a search that is cancelled is waited for when the TAS editor is left
 
 COMPILING = "The rules are made ready. On a machine that has never searched this takes a minute or two."
 NOT_BEGUN = "Stopped before it began. The rules are still made ready, for the next search."

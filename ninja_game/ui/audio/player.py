@@ -210,8 +210,7 @@ def _open_mixer() -> bool:
 
 CHAIN_TICKS = 60  # gold within so many ticks after the piece before it climbs
 
-STRIDE = 32.4
-"""From one footstep to the next, px: half a cycle of the drawn legs (view/ninja/figure.py)."""
+STRIDE = 32.4  # from one footstep to the next, px: half a cycle of the drawn legs (view/ninja/figure.py)
 
 
 class Variants:

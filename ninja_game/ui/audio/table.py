@@ -11,8 +11,7 @@ from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER, TURRET
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import Event, Ninja, World
 
-Names = tuple[str, ...]
-"""Variants of a sound, of which one is chosen by chance, never the last one again."""
+Names = tuple[str, ...]  # variants of a sound, of which one is chosen by chance, never the last one again
 
 
 def several(name: str, count: int) -> Names:

@@ -264,8 +264,7 @@ KICKS = {
 """How hard (px/tick) each kind that the corpse can touch kicks it."""
 
 
-Push = tuple[float, float, float, float]
-"""By how much a box is pushed (px), and the surface's normal."""
+Push = tuple[float, float, float, float]  # by how much a box is pushed (px), and the surface's normal
 
 
 def tile_pushes(level: TileMap, world: World, box: Box) -> Iterator[Push]:

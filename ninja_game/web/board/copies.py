@@ -37,8 +37,7 @@ honest pairs none has so many."""
 FEWEST_PRESSES = 16  # with fewer they do not tell
 SHIFTED = 10  # ticks that all of them may be earlier or later
 
-ALIGNED = 4
-"""Earlier runs whose inputs are aligned with those of a new one: those with the most of its strokes."""
+ALIGNED = 4  # earlier runs whose inputs are aligned with those of a new one: those with the most of its strokes
 
 
 @dataclass(frozen=True)

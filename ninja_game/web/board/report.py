@@ -29,8 +29,7 @@ _FIELDS: dict[str, dict[str, type]] = {
     "withdrawn": {"level": str, "way": str, "player": str, "added": str},
 }  # fmt: skip
 
-_KEPT = {"near": str, "confirmed": bool}
-"""What a row may have, and keeps after the run is withdrawn."""
+_KEPT = {"near": str, "confirmed": bool}  # what a row may have, and keeps after the run is withdrawn
 
 
 def _run_data(run: Run) -> dict[str, Any]:

@@ -36,8 +36,7 @@ FIGURES_SCRIPT = "app-folder/figures.js"  # where the build puts what makes figu
 
 LAB = "lab-"  # how the name of a figure's picture begins
 
-LEFT_OUT = (".", "build/", "dist/")
-"""Folders whose Markdown is not the project's, or not meant for readers."""
+LEFT_OUT = (".", "build/", "dist/")  # folders whose Markdown is not the project's, or not meant for readers
 
 
 def slug(heading: str) -> str:
