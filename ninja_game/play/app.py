@@ -1,4 +1,4 @@
-"""The program with a window: its loop, its screens, its look, and what all screens share."""
+"""The program with a window: its loop, its stack of screens, settings, notices and exports."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class Screen:
 
     @property
     def music(self) -> str:
-        """What is heard while it is on top (ui/audio/music.py); "" what plays already."""
+        """The music while it is on top (ui/audio/music.py); "": whatever plays already."""
         return ""
 
     def enter(self) -> None:
@@ -287,7 +287,7 @@ class App:
         return palette_named(self.settings.palette, *mood)
 
     def follow_mood(self, mood: Mood) -> None:
-        """Look like that."""
+        """Take the palette of this mood."""
         self.mood = mood
         if self.palette_in(mood) is not self.theme.palette:
             self._lay_out()

@@ -108,13 +108,13 @@ class TasEditor:
         self.app.notify(why)
 
     def accept(self) -> None:
-        """Something was done: the refusal before is not shown any longer."""
+        """Forget the last refusal: something was done since."""
         if self._refusal and self.app.notice == self._refusal:
             self.app.notify("")
         self._refusal = ""
 
     def attempt(self, edit: Callable[[], object]) -> bool:
-        """Do something that may be refused; a notice says why. Whether it was done."""
+        """Run an action that may be refused; a notice says why. Whether it was done."""
         try:
             edit()
         except (NinjaGameError, OSError) as error:
@@ -197,7 +197,7 @@ def tas_canvas(window: tuple[int, int], text_scale: int = 0) -> Canvas:
 def tas_layout(size: Point, preferences: LayoutPreferences) -> TasLayout:
     """The areas in a window of this logical size, at least that of the stage.
 
-    Level and tabs are at the left, the roll at the right. Where nothing is wished, the level is as large as the usual
+    Level and tabs are at the left, the roll at the right. By default the level is as large as the usual
     height of the tabs lets it be, and the roll has what that leaves of the width.
     """
     w, h = size

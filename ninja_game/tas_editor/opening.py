@@ -67,7 +67,7 @@ def prepare(run: Recording) -> None:
 class OpeningScreen(Screen):
     """Says what is being done until the rules are there; then the TAS editor, which ``make`` gives, takes its place.
 
-    What is wrong then is reported on the screen below, or raised where there is none: NinjaGameError, OSError.
+    What is wrong then is reported on the screen below, or raised without one: NinjaGameError, OSError.
     """
 
     def __init__(self, app: App, run: Recording, make: Callable[[], TasScreen]) -> None:

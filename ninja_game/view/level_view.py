@@ -342,7 +342,7 @@ class RenderContext(Protocol):
 
     @property
     def settings(self) -> Settings:
-        """What the player has chosen."""
+        """The player's settings."""
 
 
 class OffscreenContext:

@@ -72,7 +72,7 @@ def bar_length(lifetime: float) -> float:
 
 
 def trough(palette: Palette) -> pygame.Color:
-    """What is behind the time bar."""
+    """The background of the time bar."""
     return mixed(palette.tile, palette.outline, 0.8)
 
 
@@ -376,7 +376,7 @@ def _fade(surface: pygame.Surface, place: pygame.Rect, behind: pygame.Surface | 
 
 
 def _hidden(things: Things, x: float, y: float, w: float, h: float) -> Iterator[int]:
-    """What each thing is worth that a panel would hide."""
+    """The cost of each thing that a panel would hide."""
     return (worth for a, b, worth in things if -_NEAR < a - x < w + _NEAR and -_NEAR < b - y < h + _NEAR)
 
 

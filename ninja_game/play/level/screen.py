@@ -1,4 +1,4 @@
-"""A level on the screen: what keys do in each phase, where they lead, and the picture."""
+"""The screen of a level: what keys do in each phase, where they lead, and the picture."""
 
 from __future__ import annotations
 

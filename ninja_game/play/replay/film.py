@@ -42,7 +42,7 @@ MOST_PICTURES = 20_000
 
 
 class _StoppedError(Exception):
-    """The film is not wanted any more."""
+    """The film was given up."""
 
 
 @dataclass(frozen=True)
@@ -164,7 +164,7 @@ class _Panel:
 
 
 def _called(runs: Sequence[Recording]) -> list[str]:
-    """Whose run each is, in a word; of those by one name the file."""
+    """The label of each run: its player; of several by one player the file."""
     names = [run.whose for run in runs]
     return [(run.place or name if names.count(name) > 1 else name)[:20] for run, name in zip(runs, names, strict=True)]
 

@@ -300,7 +300,7 @@ class ReplayScreen(Screen):
 
 
 def _with_claims(run: Recording) -> Replay:
-    """A run as others are sent it: one that was only played, or is of N, with the result of it."""
+    """A run to be shared: with its result, where it was only played or is of N."""
     if not run.replay.unclaimed:
         return replace(run.replay, level=run.level)
     # It imports modules that playing does without.

@@ -104,7 +104,7 @@ class LevelPart(TasPart):
 
     @property
     def ghosts(self) -> list[RunGhost]:
-        """Those that were drawn last."""
+        """The ghosts that were drawn last."""
         return list(self._ghosts.values())
 
     def update(self, real_ms: int) -> None:
@@ -312,7 +312,7 @@ class LevelPointer:
             part.ask_to_watch(proposal(part.pointed.id, KIND_NAMES.index(part.pointed.kind)))
 
     def _point(self, event: pygame.Event, at: Px) -> None:
-        """Tell what is there; a click, or a drag, goes to the tick in which the ninja was nearest."""
+        """Name what is there; a click, or a drag, goes to the tick in which the ninja was nearest."""
         part, editor = self._part, self._editor
         positions = editor.session.timeline.positions
         if not len(positions):

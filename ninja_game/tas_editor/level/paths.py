@@ -73,7 +73,7 @@ class PathLayer:
 
 
 class LevelPaths:
-    """What lies over a picture of the level. ``canvas``: of that picture; ``theme``: the TAS editor's."""
+    """Draws paths of runs over a picture of the level. ``canvas``: of that picture; ``theme``: the TAS editor's."""
 
     def __init__(self, theme: Theme, canvas: Canvas) -> None:
         self.theme = theme
@@ -173,7 +173,7 @@ class LevelPaths:
 
 
 def union_of(rects: Sequence[pygame.Rect]) -> pygame.Rect:
-    """What holds all rectangles that are not empty."""
+    """The smallest rectangle around all that are not empty."""
     known = [rect for rect in rects if rect]
     return known[0].unionall(known) if known else pygame.Rect(0, 0, 0, 0)
 

@@ -1,4 +1,4 @@
-"""What the rows of the roll show: keys and values of each tick, and where another run has other keys."""
+"""The content of the roll's rows: keys and values of each tick, and where another run has other keys."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ FLOOR, WALL_LEFT, WALL_RIGHT = 1, 2, 4  # contacts, as a sum
 
 
 class Values(NamedTuple):
-    """What the world says after a tick: px, px/tick, numbers; ``contacts``: a sum of FLOOR, WALL_LEFT, WALL_RIGHT."""
+    """Values of the world after a tick: px, px/tick, numbers; ``contacts``: a sum of FLOOR, WALL_LEFT, WALL_RIGHT."""
 
     x: float
     y: float
@@ -97,7 +97,7 @@ class Values(NamedTuple):
 
 
 class RowFacts(NamedTuple):
-    """All that the picture of a row depends on.
+    """The data that a row is drawn from.
 
     ``keys``, ``before``: inputs of the tick and of the one before it; ``differs``: the keys that are down either here
     or in the run that this one is compared to. ``values``: None where nothing is simulated.
@@ -165,7 +165,7 @@ def _values(editor: TasEditor, first: int, last: int) -> list[Values]:
 
 @lru_cache(maxsize=2)
 def changed_ticks(track: InputTrack, saved: InputTrack) -> range | bytes:
-    """Where a track is not the saved one: a truth a tick, or, where it is longer or shorter, the span between."""
+    """Ticks in which a track differs from the saved one: a bool per tick, or, for another length, a range."""
     ours, theirs = np.frombuffer(track.inputs, np.uint8), np.frombuffer(saved.inputs, np.uint8)
     if len(ours) == len(theirs):
         return bytes(ours != theirs)

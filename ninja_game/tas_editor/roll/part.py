@@ -43,7 +43,7 @@ class Roll(TasPart):
         return layout_of(self.editor.theme.canvas, self.area, self.hidden)
 
     def scroll(self, top: int) -> None:
-        """Have this tick at the upper edge, as far as there are ticks."""
+        """Scroll so that this tick is at the upper edge, up to the last ticks."""
         self.top = max(0, min(top, self.editor.last_tick + 1 - self.layout.rows))
 
     def follow(self) -> None:
@@ -114,7 +114,7 @@ class Roll(TasPart):
 
 
 class RollMouse:
-    """What the mouse is doing in the roll: "paint", "select", "scroll" or nothing."""
+    """The mouse in the roll: it does "paint", "select", "scroll" or nothing."""
 
     def __init__(self, roll: Roll) -> None:
         self._roll = roll

@@ -161,7 +161,7 @@ class Digits:
         return {each: (render(each, self._size, colour), wide) for each, wide in self._advance.items()}
 
     def blits(self, text: str, right: int, y: int, colour: pygame.Color) -> list[Blit]:
-        """What draws a number whose last px is left of ``right``, px."""
+        """Blits (picture, place) of a number that ends left of ``right``, px."""
         key = int(colour)
         if key not in self._pictures:
             self._pictures[key] = self._of(colour)
@@ -244,7 +244,7 @@ class RowSheet:
             pygame.draw.rect(self._picture, palette.accent, frame, max(1, layout.row // 11))
 
     def _ground(self, row: RowFacts) -> tuple[pygame.Surface, pygame.Color, pygame.Color]:
-        """What a row lies on, with the lines between the columns; the colours of its letters and of the lines."""
+        """The background of a row with its lines between columns; the colours of its letters and lines."""
         kind = row.values is None, row.over or row.beyond, row.selected, row.tick % 10 == 0
         if kind not in self._grounds:
             palette, layout = self.theme.palette, self.layout

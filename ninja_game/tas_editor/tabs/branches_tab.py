@@ -129,7 +129,7 @@ class BranchesTab(Tab):
         theme.text(surface, words, right - _COLUMNS[2], y + 3, size=SMALL, bold=bool(ahead), colour=colour)
 
     def _difference(self, branch: Branch) -> tuple[str, int]:
-        """How much a branch is shorter than the run, in words and ticks."""
+        """How many ticks a branch is shorter or longer than the run, as text."""
         end, outcome = self.editor.session.timeline.end
         if branch.track.inputs == self.editor.track.inputs:
             return "the same", 0

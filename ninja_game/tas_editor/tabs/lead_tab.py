@@ -25,7 +25,7 @@ Job = tuple[Pair, Recording, Recording, tuple[Marker, ...]]
 
 
 def compared(job: Job) -> tuple[Pair, LeadTable | str]:
-    """The table, or why there is none."""
+    """The table, or a sentence why there is none."""
     pair, ours, theirs, markers = job
     try:
         return pair, lead_table(ours, theirs, markers)
@@ -157,7 +157,7 @@ class LeadTab(Tab):
 
 
 def lead_text(ahead: int) -> str:
-    """A lead in words.
+    """A lead as text.
 
     >>> lead_text(1), lead_text(-12), lead_text(0)
     ('1 tick ahead', '12 ticks behind', 'as early')

@@ -183,7 +183,7 @@ class SpanResults:
         self.better = tuple(ways_of(better, measured=bool(self.task.measure))[:KEPT])
 
     def words(self, found: Found) -> tuple[str, ...]:
-        """What a better result brings; from where on it has other keys; place and speed at the goal; what it gains."""
+        """Cells of a result: score, first tick with other keys, place and speed at the goal, gain."""
         own, words = self.search.own, score_text(self.task, found)
         if own is not None and (self.task.rest or self.task.goal == "won") and found.gold != own.gold:
             words += f", {abs(own.gold - found.gold)} gold {'fewer' if found.gold < own.gold else 'more'}"
@@ -302,7 +302,7 @@ class SearchTab(Tab):
             self._fill(self._preset[0] if self.goal.text != "won" else lambda _: SpanGoal())
 
     def propose(self) -> None:
-        """A menu of what people want of the selected ticks, which it names; it fills the fields."""
+        """Open a menu of common goals for the selected ticks; a choice fills the fields."""
         self._follow_selection()
         first, last = self.span
         rows = [(name, partial(self._fill, make), hint.format(first, last - 1)) for name, hint, make in PRESETS]
@@ -326,7 +326,7 @@ class SearchTab(Tab):
         self.wants = self.goal
 
     def _typed(self, _: str) -> None:
-        """A goal that is typed is none of the whole run."""
+        """Leave the methods for the whole run: a goal was typed."""
         if self.method in IMPROVES:
             self.use_selection()
 
@@ -346,7 +346,7 @@ class SearchTab(Tab):
 
     @property
     def task(self) -> SpanTask:
-        """What is wanted as a task. Raises FormulaError, ArgumentError."""
+        """The fields as a task. Raises FormulaError, ArgumentError."""
         session, (first, last) = self.editor.session, self.span
         measure = "" if self.order == EARLIEST else self.measure.text.strip() or "speed"
         return SpanTask(

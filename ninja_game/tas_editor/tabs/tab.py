@@ -40,7 +40,7 @@ class Tab(TasPart):
         theme.panel(surface, *self.area)
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
-        """What the mouse is over is reported in the line below; all else is up to the widgets."""
+        """Show the hint of the widget under the mouse; widgets handle the rest."""
         if event.type == pygame.MOUSEMOTION:
             self._leave_lists(x, y)
             self.editor.hint = next((each.hint for each in self.widgets if each.contains(x, y)), "")
@@ -55,11 +55,11 @@ class Tab(TasPart):
                 widget.over = -1
 
     def stop(self) -> bool:
-        """End what goes on; whether anything did."""
+        """Stop running work; whether there was any."""
         return False
 
     def close(self) -> None:
-        """The TAS editor is left: what goes on ends."""
+        """Stop running work: the TAS editor is left."""
 
 
 class TabName(Button):
@@ -161,7 +161,7 @@ def put_in_a_row(x: float, y: float, buttons: Sequence[Button], widths: Sequence
 
 
 def what_is_wrong(error: NinjaGameError) -> str:
-    """What to tell of an error in a line; of a formula's in which column it is."""
+    """An error as a line; of one in a formula with the column."""
     if isinstance(error, FormulaError) and error.column:
         told = f"Column {error.column}: {error.what}, {error.found}"
         return f"{told}; expected {error.expected}" if len(error.expected) < _SHORT else told

@@ -112,7 +112,7 @@ class TextTab(Tab):
         return text_of(self._track, first, last, celeste=self.celeste)
 
     def put(self) -> None:
-        """What is in the field instead of its line; the markers there are those that it names."""
+        """Replace the line by the text of the field, with the markers that it names."""
         words, (first, last) = self.field.text.split(), self.span(self.list.index)
         try:
             typed = inputs_of_text("\n".join(words), "") if words else Inputs(b"")

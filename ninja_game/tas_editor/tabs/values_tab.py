@@ -174,7 +174,7 @@ class ObjectList(MenuScreen):
 
 
 def proposal(id_: int, kind: int) -> str:
-    """What one would watch of an object of a kind.
+    """The formula proposed for an object of a kind.
 
     >>> proposal(3, GOLD), proposal(4, EXIT)
     ('taken(3)', 'opened(4)')
@@ -271,7 +271,7 @@ class ValuesTab(Tab):
         ask_text(self.editor.app, "Watch a value", prompt, text, "Watch", self.add, LONGEST)
 
     def add(self, text: str) -> None:
-        """Watch a formula; what is wrong with it is reported, and the question is put again."""
+        """Watch a formula; an invalid one is reported and asked for again."""
         try:
             watch = parse_watch(text)
             watch.values(self.editor.session.timeline)

@@ -60,7 +60,7 @@ class TileSheet:
             self._put(self.surface, key, rect, self.colour)
 
     def in_colour(self, colour: pygame.Color) -> pygame.Surface:
-        """What it shows, in another colour."""
+        """The sheet in another colour."""
         other = pygame.Surface(self.surface.size, pygame.SRCALPHA)
         for key, rect in self._shown.values():
             self._put(other, key, rect, colour)

@@ -203,7 +203,6 @@ def _with_row(run: Run, row: Mapping[str, Any]) -> Run:
 
 
 def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
-    """The row of a recording."""
     if not isinstance(result, Unreadable) and not sent.replay and not result.made:
         # A record of N names who made the level, and nobody who played; one of ours says how it was made, too.
         place = result.file + f", record {result.record}" * (result.record > 0)
