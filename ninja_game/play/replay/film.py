@@ -97,9 +97,9 @@ class Film:
 
 
 def section_of(films: Sequence[Film], first: int, last: int | None) -> list[Film]:
-    """What of films that follow each other is between two pictures, counted from 0 over all. ``last``: None: the end.
+    """The part of consecutive films between two pictures, counted from 0 over all. ``last``: None: the end.
 
-    Raises ArgumentError where nothing is.
+    Raises ArgumentError for an empty part.
     """
     found, before = [], 0
     for film in films:
