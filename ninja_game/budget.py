@@ -42,7 +42,7 @@ OBJECT_COSTS = {TURRET: 10, LAUNCHER: 10, DRONE: 2, FLOOR_GUARD: 2, THWUMP: 2}
 
 def tick_cost(level: Level) -> int:
     """The most work that a tick of a level can be."""
-    return TICK_COST + sum(OBJECT_COSTS.get(record.kind, 1) for record in level.objects if makes_object(record))
+    return TICK_COST + sum(OBJECT_COSTS.get(spec.kind, 1) for spec in level.objects if makes_object(spec))
 
 
 def affordable_ticks(level: Level, budget: int = RUN_BUDGET) -> int:

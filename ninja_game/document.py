@@ -29,7 +29,7 @@ def digest_of(data: bytes) -> str:
 
 
 def digest_of_file(path: Path) -> str:
-    """The digest of a file's bytes; '' where there is none."""
+    """The digest of a file's bytes; '' without a file."""
     return digest_of(read_bytes(path)) if path.exists() else ""
 
 

@@ -39,7 +39,7 @@ def require_desktop() -> None:
 
 
 def run_in_background(work: Callable[[], object], failed: Callable[[str], object]) -> Thread:
-    """Do some work in a thread of its own. Where there are none, it is done when this comes back.
+    """Do some work in a thread of its own. Without threads it is done when this returns.
 
     ``failed``: called there with a sentence for the user if the work raises anything at all; nobody waits for what has
     ended. The traceback of a fault of ours is on stderr.

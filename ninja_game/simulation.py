@@ -133,7 +133,7 @@ class Simulation:
 
     @property
     def memory(self) -> MemoryName:
-        """Which memory it is."""
+        """The memory in use, "plain" or "compiled"."""
         return self._worlds.name
 
     @property
@@ -196,7 +196,7 @@ class Simulation:
 
     @property
     def ninja(self) -> NinjaView:
-        """The ninja."""
+        """The ninja after the last tick."""
         n = self._worlds.ninja()
         return NinjaView(n.x, n.y, n.prev_x, n.prev_y, STATE_NAMES[n.state], bool(n.in_air), bool(n.near_wall))
 

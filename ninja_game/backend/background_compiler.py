@@ -18,8 +18,7 @@ from ninja_game.files.locking import hold
 VARIABLE = "NINJA_GAME_BACKGROUND_COMPILER"
 """Environment variable: where it is 0 there is no such process, and who needs a kernel waits for it."""
 
-BEHIND = 15
-"""How far its priority is lowered (``os.nice``)."""
+BEHIND = 15  # how far its priority is lowered (os.nice)
 
 _STARTED: list[subprocess.Popen[bytes]] = []  # the process that this one has started
 

@@ -31,17 +31,14 @@ from ninja_game.files.reading import open_regular
 from ninja_game.files.user_folder import PACKAGE, chosen_folder
 from ninja_game.sim.memory.code_digest import OPTIONS, code_digest
 
-SHIPPED = PACKAGE / "data" / "kernels"
-"""Machine code that came with the installation; a checkout has none."""
+SHIPPED = PACKAGE / "data" / "kernels"  # machine code that came with the installation; a checkout has none
 
 GENERIC = ("generic", "")
 """The processor that it is made for, as Numba names one: any of the family, with no features beyond."""
 
-KEPT_FILES = 200
-"""How many compiled kernels stay in the cache folder: the newest, some ten versions of all."""
+KEPT_FILES = 200  # how many compiled kernels stay in the cache folder: the newest, some ten versions of all
 
-PATIENCE = 120
-"""Seconds to wait for a process that compiles the same kernel; then this one compiles it too."""
+PATIENCE = 120  # seconds to wait for a process that compiles the same kernel; then this one compiles it too
 
 _KERNEL = re.compile(r"[a-z_]+-[0-9a-f]{32}-[0-9a-f]{16}\.code")
 

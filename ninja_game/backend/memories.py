@@ -1,11 +1,10 @@
 """Which memory to use, and compiled kernels, each made once per process.
 
-There are two: "plain" (Python objects) and "compiled" (arrays, by Numba). "checked" is the compiled one with each
-index checked, "auto" chooses between both, and JUDGED is "auto" with "checked" in place of "compiled".
-
-"auto" is the compiled memory. One run of little work, for which loading Numba would take longer, stays on the plain
-memory. Where its kernels are not in the cache yet, any run begins there, and goes on (``go_on``) on the compiled one
-once a process in the background has compiled them: the bits are the same.
+There are two: "plain" (Python objects) and "compiled" (arrays, by Numba). Who asks for "auto" gets the compiled one, as
+far as that is faster: one run of little work, for which loading Numba would take longer, stays on the plain memory.
+Where its kernels are not in the cache yet, any run begins there, and goes on (``go_on``) on the compiled one once a
+process in the background has compiled them: the bits are the same. A run that is judged follows a ``Plan``, by which
+compiled code checks each index.
 
 Before the first compiled world of a process is loaded, a known run must come out on it as it must: what computes
 another one must not judge runs. The arithmetic of a process can be spoiled from outside: by how a compiler is set up,
@@ -18,6 +17,7 @@ from __future__ import annotations
 import os
 import struct
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import cache, partial
 from hashlib import sha256
 from importlib.util import find_spec
@@ -47,11 +47,22 @@ _FAILURES: list[str] = []
 _MOST_TICK_COST = in_page_or_not(PAGE_TICK_COST, NO_LIMIT)
 _ALL_CHECKED = os.environ.get("NINJA_GAME_CHECKED") == "1"
 
-JUDGED = "auto-checked"
-"""As "auto", but "checked" when it is compiled: the memory of a run that is judged and begins on the plain one."""
 
-_WORK = [0]
-"""Work of all runs of this process that were short enough for the plain memory: PLAIN_WORK at most."""
+@dataclass(frozen=True)
+class Plan:
+    """On which memory a run begins (``first``) and, once that is worth it, goes on (``then``).
+
+    ``checked``: compiled code checks each index: one out of range is an IndexError.
+    """
+
+    first: MemoryName
+    then: MemoryName
+    checked: bool = True
+
+
+PLAIN, CHECKED, CHECKED_LATER = Plan("plain", "plain"), Plan("compiled", "compiled"), Plan("plain", "compiled")
+
+_WORK = [0]  # work of all runs of this process that were short enough for the plain memory: PLAIN_WORK at most
 
 _OF_ONE_RUN = {
     False: (load_world, run_world, step_world, observe_object, trace_world, kill_ninja),
@@ -70,13 +81,13 @@ def compiled_available() -> bool:
 
 
 def choose_memory(memory: str) -> MemoryName:
-    """Turn "plain", "compiled", "checked", "auto" or JUDGED (compiled where available) into one of the first two.
+    """Turn "plain", "compiled" or "auto" (compiled where available) into one of the first two.
 
     Raises MemoryUnavailableError for "compiled" without Numba, ArgumentError for another word.
     """
-    if memory in ("auto", JUDGED):
+    if memory == "auto":
         return "compiled" if compiled_available() else "plain"
-    if memory in ("compiled", "checked"):
+    if memory == "compiled":
         if not compiled_available():
             needs = f"the compiled memory needs Numba; {how_to_install('fast')}, unset NUMBA_DISABLE_JIT"
             raise MemoryUnavailableError(f"{_FAILURES[0] if _FAILURES else needs}, or use the plain memory")
@@ -87,7 +98,7 @@ def choose_memory(memory: str) -> MemoryName:
 
 
 def open_worlds(
-    memory: str,
+    memory: str | Plan,
     levels: Level | Sequence[Level],
     count: int = 1,
     *,
@@ -95,10 +106,9 @@ def open_worlds(
     at_once: bool = False,
     ticks: int = MAX_TICKS,
 ) -> Worlds:
-    """``count`` new worlds in one level or several, in the memory of that name (as ``choose_memory`` takes it).
+    """``count`` new worlds in one level or several, in a memory as ``choose_memory`` takes it, or by a plan.
 
     ``at_once``: wait for no compiler; where "auto" would, they are plain, and where so many ``ticks`` are little work.
-    "checked" is the compiled memory where each index is checked: one out of range is an IndexError.
     Raises LevelError for a level that cannot be played or is too large for a page, what ``choose_memory`` and
     ``compiled`` raise.
     """
@@ -107,16 +117,15 @@ def open_worlds(
         found, expected = f"work of {cost:,} a tick", f"at most {_MOST_TICK_COST:,}"
         raise LevelError("too many objects for a page", found=found, expected=expected, hint="play it on a desktop")
     # The first time this imports Numba, which must come before NumPy.
-    begins = at_once and memory == "auto" and begins_plain(memory, ticks * max(map(tick_cost, several), default=0))
-    if begins or memory == JUDGED or _usable_memory(memory) == "plain":
+    if not isinstance(memory, Plan):
+        begins = at_once and memory == "auto"
+        begins = begins and begins_plain(memory, ticks * max(map(tick_cost, several), default=0))
+        memory = Plan("plain" if begins else _usable_memory(memory), "compiled", checked=False)
+    if memory.first == "plain":
         return PlainWorlds(several, count, box=box)
     from ninja_game.sim.memory.compiled import CompiledWorlds
 
-    return CompiledWorlds(_twins_for(memory), several, count, box=box)
-
-
-def _twins_for(memory: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    return partial(compiled, checked=True) if memory in ("checked", JUDGED) else compiled
+    return CompiledWorlds(partial(compiled, checked=memory.checked), several, count, box=box)
 
 
 def begins_plain(memory: str = "auto", work: int = NO_LIMIT, *, checked: bool = False) -> bool:
@@ -148,24 +157,24 @@ def _are_there(*, checked: bool) -> bool:
     return not missing or are_kept(missing, checked)
 
 
-def go_on(worlds: Worlds, memory: str, ticks: int) -> Worlds:
+def go_on(worlds: Worlds, memory: str | Plan, ticks: int) -> Worlds:
     """Worlds that were opened ``at_once``, or, for so many ticks that it is worth it, copies in the compiled memory.
 
     To be asked between two ticks. While its kernels are being compiled they are the same worlds; where nobody compiles
     any more, this does. Raises SelfTestError as ``compiled``.
     """
+    plan = memory if isinstance(memory, Plan) else Plan("plain", choose_memory(memory), checked=False)
     small = ticks * max(map(tick_cost, worlds.levels)) <= PLAIN_WORK
-    if small or worlds.name == "compiled" or choose_memory(memory) == "plain":
+    if small or worlds.name == "compiled" or plan.then == "plain":
         return worlds
     from ninja_game.backend import background_compiler
 
-    if (not _are_there(checked=memory == JUDGED) and background_compiler.is_at_work()) or _usable_memory(
-        memory
-    ) == "plain":
+    compiling = not _are_there(checked=plan.checked) and background_compiler.is_at_work()
+    if compiling or _usable_memory("auto", checked=plan.checked) == "plain":
         return worlds
     from ninja_game.sim.memory.compiled import compiled_copy
 
-    return compiled_copy(_twins_for(memory), worlds)
+    return compiled_copy(partial(compiled, checked=plan.checked), worlds)
 
 
 def _usable_memory(memory: str, *, checked: bool = False) -> MemoryName:
@@ -173,9 +182,9 @@ def _usable_memory(memory: str, *, checked: bool = False) -> MemoryName:
     if choose_memory(memory) == "plain":
         return "plain"
     try:
-        compiled(load_world, checked=checked or memory in ("checked", JUDGED))
+        compiled(load_world, checked=checked)
     except MemoryUnavailableError as error:
-        if memory not in ("auto", JUDGED):
+        if memory != "auto":
             raise
         from ninja_game.backend.numba_import import say_once
 
@@ -184,20 +193,16 @@ def _usable_memory(memory: str, *, checked: bool = False) -> MemoryName:
     return "compiled"
 
 
-def proven_memory(memory: str, work: int = NO_LIMIT) -> str:
-    """The memory in which a run of so much work is judged, once the known run has come out on it.
-
-    "plain", "checked", or JUDGED for one that begins on the plain memory.
+def proven_memory(memory: str, work: int = NO_LIMIT) -> Plan:
+    """The plan by which a run of so much work is judged, once the known run has come out on its first memory.
 
     Raises SelfTestError where it does not, and what ``choose_memory`` raises.
     """
-    if begins_plain(memory, work, checked=True):
-        _prove_plain()
-        return JUDGED
-    if _usable_memory(memory, checked=True) == "plain":
-        _prove_plain()
-        return "plain"
-    return "checked"
+    begins = begins_plain(memory, work, checked=True)
+    if not begins and _usable_memory(memory, checked=True) == "compiled":
+        return CHECKED
+    _prove_plain()
+    return CHECKED_LATER if begins else PLAIN
 
 
 @cache

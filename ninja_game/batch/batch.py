@@ -234,7 +234,7 @@ class Batch:
 
 
 def numbers_of(which: WorldChoice, count: int, what: str) -> Indices:
-    """The numbers, of ``count``, that are chosen. Raises ArgumentError for what chooses none of them."""
+    """Chosen indices below ``count``, intp. Raises ArgumentError for an invalid choice."""
     everyone = np.arange(count, dtype=np.intp)
     if which is None:
         return everyone

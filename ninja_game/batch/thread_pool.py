@@ -16,8 +16,7 @@ from typing import SupportsIndex, TypeAlias
 
 from ninja_game.errors import ArgumentError
 
-Work: TypeAlias = Callable[[int, int], int]
-"""Does items ``first`` … ``last`` - 1 and says how much that was."""
+Work: TypeAlias = Callable[[int, int], int]  # does items first … last - 1 and says how much that was
 
 CHUNKS_PER_THREAD = 8
 SMALL_CHUNK = 2048
@@ -25,8 +24,7 @@ SMALL_CHUNK = 2048
 
 HEAD_START = 128  # ticks that the caller does while the others wake up
 
-TOO_SMALL = 800
-"""Ticks that are not worth waking another thread for: about 80 us."""
+TOO_SMALL = 800  # ticks that are not worth waking another thread for: about 80 us
 
 
 def chunks(count: int, ticks: int, threads: int) -> list[tuple[int, int]]:
@@ -53,7 +51,7 @@ def whole_number(name: str, number: object, least: int = 1, most: int = 2**63 - 
 
 
 def thread_count(threads: int | None) -> int:
-    """How many threads are meant, None: as many as there are cores."""
+    """The number of threads; None: as many as cores."""
     return cores() if threads is None else whole_number("threads", threads)
 
 
@@ -72,7 +70,7 @@ class _ParallelCall:
         self.done: SimpleQueue[tuple[int, int] | BaseException] = SimpleQueue()
 
     def run(self) -> None:
-        """Take ranges until there are none left; report how many they were and the sum of what the work says."""
+        """Take ranges until there are none left; report how many they were and the sum of what the work returns."""
         ranges = total = 0
         try:
             for first, last in self.ranges:
@@ -104,7 +102,7 @@ class ThreadPool:
             Thread(target=_serve, args=(queue,), name="ninja-game worker", daemon=True).start()
 
     def share(self, work: Work, count: int, ticks: int = SMALL_CHUNK) -> int:
-        """Do items 0 … ``count`` - 1, of ``ticks`` each, on all threads; the sum of what ``work`` says.
+        """Do items 0 … ``count`` - 1, of ``ticks`` each, on all threads; the sum of what ``work`` returns.
 
         The first exception of ``work`` is raised.
         """

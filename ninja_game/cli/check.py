@@ -54,9 +54,11 @@ class GoldGoals(options.GoldCount):
 @click.option("--jobs", type=options.JOBS, help="Levels at the same time. [default: one per core]")
 @options.body_option
 @click.option(
-    "--replays", metavar="FOLDER", type=NEW_FOLDER,
+    "--replays",
+    metavar="FOLDER",
+    type=NEW_FOLDER,
     help="Keep the runs in this folder. One that is there and still right is not searched again.",
-)  # fmt: skip
+)
 @click.option("--improve", is_flag=True, help="Shorten the runs that are kept, too.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per level, for programs.")
 def check(

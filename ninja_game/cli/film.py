@@ -22,18 +22,22 @@ MOST_BESIDE = 3
 @click.command()
 @click.argument("replay", type=InputPath(dir_okay=False))
 @click.option(
-    "-o", "--output", type=click.Path(path_type=Path),
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path),
     help="The film: NAME.gif, NAME.webm, NAME.mp4, or a folder for one PNG picture per tick. [default: a new file with "
     "the replay's name and .gif]",
-)  # fmt: skip
+)
 @click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")
 @click.option("--size", type=Pixels(), default="528x400", show_default=True, help="Size of the pictures in px.")
 @click.option("--speed", type=click.FloatRange(0.05, 16), default=1.0, show_default=True, help="1 is the game's speed.")
 @click.option("--from", "first", type=click.IntRange(min=0), default=0, help="First picture: after this many ticks.")
 @click.option(
-    "--to", "last", type=click.IntRange(min=0),
+    "--to",
+    "last",
+    type=click.IntRange(min=0),
     help="Last picture. [default: a second after the end; at most 20,000 pictures]",
-)  # fmt: skip
+)
 @click.option(
     "--ghost", "ghosts", multiple=True, metavar="FILE", type=InputPath(dir_okay=False),
     help="Show the runs of this file on the same level as ghosts; may be given several times.",

@@ -37,7 +37,8 @@ MimeType={kinds};
 NoDisplay={hidden}
 """
 
-LEVEL_TYPE, REPLAY_TYPE = "text/x-ninja-game-level", "text/x-ninja-game-replay"
+LEVEL_TYPE = "text/x-ninja-game-level"
+REPLAY_TYPE = "text/x-ninja-game-replay"
 
 ENTRIES = {
     "ninja-game.desktop": ("ninja-game", "play", LEVEL_TYPE, "false"),
@@ -66,8 +67,7 @@ TYPES = f"""<?xml version="1.0" encoding="UTF-8"?>
 </mime-info>
 """
 
-ICON = 256
-"""Width and height of the icon, px."""
+ICON = 256  # width and height of the icon, px
 
 UPDATES = (("update-mime-database", "mime"), ("update-desktop-database", "applications"))
 """Programs that tell desktops of new files, where they are installed, and the folder that each is given."""
@@ -141,8 +141,7 @@ LEVEL = "0" * 713 + "|5^100,566!11^160,564,130,564!0^115,566"
 MOST_PROCESSES = 2
 """Each compiles the rules again for what it makes of them; more would only wait for each other."""
 
-EVERY = 0.5
-"""Seconds between two looks whether another process is done."""
+EVERY = 0.5  # seconds between two looks whether another process is done
 
 
 @click.command(name="compile")

@@ -79,14 +79,12 @@ COMPILING = (
 IN_PLACE = {"play", "edit", "tas", "lab", "player", "check", "levels", "board", "site"}
 """Those that may replace a file that they have read."""
 
-INTERNAL_ERROR = 3
-"""Exit code for a fault of this program; its traceback is on stderr."""
+INTERNAL_ERROR = 3  # exit code for a fault of this program; its traceback is on stderr
 
-INTERRUPTED, TERMINATED = 130, 143
-"""Exit codes after Ctrl-C and after SIGTERM, as shells have them."""
-
-BROKEN_PIPE = 141
-"""Exit code when whoever read our output has gone, as shells have it."""
+# Exit codes as shells have them.
+INTERRUPTED = 130  # after Ctrl-C
+TERMINATED = 143  # after SIGTERM
+BROKEN_PIPE = 141  # whoever read our output has gone
 
 
 class Commands(click.Group):

@@ -29,11 +29,11 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 N = TypeVar("N", "NamedLevel", "Recording")
 
-PATIENCE, REFRESHES = 1.0, 8
-"""Seconds after which a terminal shows how work stands, and how often a second."""
-
-LONG, EVERY = 5.0, 15.0
-"""Seconds until the first line of progress, and between two of them, where that is written to a file."""
+# When progress is shown.
+PATIENCE = 1.0  # seconds until a terminal shows it
+REFRESHES = 8  # times a second there
+LONG = 5.0  # seconds until its first line in a file
+EVERY = 15.0  # seconds between two lines
 
 JOBS = click.IntRange(1, 1024)
 SEED = click.IntRange(0, 10**9)
@@ -173,7 +173,7 @@ def with_progress(items: Iterable[T], label: str) -> Iterator[T]:
 
 @contextmanager
 def heartbeat(text: Callable[[], str]) -> Iterator[None]:
-    """Say on stderr what is done meanwhile: the present state in a terminal, in a file a line now and then."""
+    """Report progress on stderr meanwhile: the present state in a terminal, in a file a line now and then."""
     over, start = Event(), time.monotonic()
 
     def tell_file() -> None:
@@ -249,9 +249,11 @@ work_option = click.option(
     help="Stop after about N simulated ticks per job instead: with one job, always the same result.",
 )  # fmt: skip
 smooth_option = click.option(
-    "--smooth", type=click.IntRange(0, 10**6), metavar="N",
+    "--smooth",
+    type=click.IntRange(0, 10**6),
+    metavar="N",
     help="In the end make the run look played: few key changes, at most N ticks longer.",
-)  # fmt: skip
+)
 seed_option = click.option(
     "--seed", type=SEED, default=1, show_default=True,
     help="With one job, the same seed does the same work in the same order.",
@@ -307,7 +309,7 @@ class SearchLog:
 
 
 class ShownProgress:
-    """What a search is told to report to: ``text`` says how it stands, ``last`` knows that afterwards."""
+    """Receives the reports of a search: ``text``: the current line of progress; ``last``: the last report."""
 
     def __init__(self) -> None:
         self.text = "starting; the first time it compiles, which takes about a minute"
@@ -333,7 +335,7 @@ def progress_line() -> Iterator[ShownProgress]:
 
 
 def not_found_text(task: Task, progress: Progress | None) -> str:
-    """What a search that found no run says: what it never came to."""
+    """The line for a search that found no run, with what it never reached."""
     from ninja_game.search.task import obstacle
 
     gold = f"with {task.gold_wanted} gold " if task.gold_wanted else ""

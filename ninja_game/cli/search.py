@@ -78,9 +78,11 @@ def solve(
 @options.search_jobs_option
 @options.smooth_option
 @click.option(
-    "--resume", metavar="LOG", type=options.NEW_FILE,
+    "--resume",
+    metavar="LOG",
+    type=options.NEW_FILE,
     help="Log better runs in this file; where it is there, go on from the best one, for what is left of the time.",
-)  # fmt: skip
+)
 @click.option(
     "-o", "--output", metavar="REPLAY", required=True, type=options.NEW_FILE, help="Where to keep the best run so far."
 )
@@ -212,7 +214,7 @@ def search(
     from ninja_game.formats.load import load_replays
     from ninja_game.runs.run import record_replay
     from ninja_game.search.formula.methods import search_span
-    from ninja_game.search.formula.task import SpanTask, score_in_words
+    from ninja_game.search.formula.task import SpanTask, score_text
 
     if maximise and minimise:
         raise click.UsageError("--maximise and --minimise cannot be used together")
@@ -238,7 +240,7 @@ def search(
                 saved.append(best[0])
                 save(record_replay(task.level, best[0].inputs, body=task.body))
             known = best or misses[-1:]
-            standing = "best " * bool(best) + score_in_words(task, known[0]) if known else "nothing yet"
+            standing = "best " * bool(best) + score_text(task, known[0]) if known else "nothing yet"
             nonlocal start
             start = start or time.monotonic()
             spent = time.monotonic() - start
@@ -250,7 +252,7 @@ def search(
             missed=misses.append,
         )  # fmt: skip
     for each in found or misses[-1:]:
-        click.echo(f"{score_in_words(task, each)}: {_keys(each)}")
+        click.echo(f"{score_text(task, each)}: {_keys(each)}")
     if not found:
         click.echo("the goal was not reached; more time, a longer span or another --method may reach it")
     elif output:

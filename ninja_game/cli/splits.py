@@ -21,8 +21,7 @@ if TYPE_CHECKING:
     from ninja_game.runs.compare import Comparison, Lead, RunSplits, SplitRow
     from ninja_game.sim.level import Level
 
-WIDTH = 160
-"""Width of a table in a pipe, characters."""
+WIDTH = 160  # width of a table in a pipe, characters
 
 COLUMNS = (
     "level_digest", "file", "record", "name", "event", "object", "number", "x", "y", "tick", "behind", "best_segment",
@@ -44,9 +43,11 @@ picture_option = click.option(
 @click.command()
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=options.OLD_PATH)
 @click.option(
-    "--against", metavar="BEST", type=options.OLD_FILE,
+    "--against",
+    metavar="BEST",
+    type=options.OLD_FILE,
     help="The run that the others are measured against. [default: the fastest to the exit]",
-)  # fmt: skip
+)
 @click.option("--gold/--no-gold", default=True, help="A split for each piece of gold, or for none.")
 @options.level_option
 @format_option

@@ -22,11 +22,9 @@ _OURS = {
 
 _DATA = re.compile(r"(\n|\t)")
 
-BAD_INPUT = 2
-"""Exit code for input that cannot be read and for wrong usage."""
+BAD_INPUT = 2  # exit code for input that cannot be read and for wrong usage
 
-_LONGEST_MESSAGE = 2000
-"""Characters of a line about what is wrong."""
+_LONGEST_MESSAGE = 2000  # characters of a line about what is wrong
 
 
 class Terminal(io.TextIOWrapper):

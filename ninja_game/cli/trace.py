@@ -21,8 +21,7 @@ if TYPE_CHECKING:
     from ninja_game.runs.trace import RunTrace
     from ninja_game.runs.trace_files import FiledTrace
 
-MOST_TICKS = 1_000_000
-"""Longest trace that can be asked for: almost seven hours."""
+MOST_TICKS = 1_000_000  # longest trace that can be asked for: almost seven hours
 
 SECTION = re.compile(r"(world|objects|ninja|game) [0-9.]+")
 """A comment like this names the section of the specification that a recording is about."""

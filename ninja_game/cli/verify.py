@@ -31,27 +31,34 @@ FAILED = 1
     help="Plain Python, or compiled by Numba; both: compare them in every tick.",
 )  # fmt: skip
 @click.option(
-    "--level", metavar="LEVELS", type=InputPath(),
+    "--level",
+    metavar="LEVELS",
+    type=InputPath(),
     help="The level that counts, or a file of them: a run on any other fails. One level is also that of recordings "
     "without.",
-)  # fmt: skip
+)
 @click.option("--record", type=click.IntRange(min=0), help="Only this one of a file's recordings, counted from 0.")
 @budget_option
 @click.option("--strict", is_flag=True, help="Accept only what a board can rely on: see docs/verification.md.")
 @jobs_option
 @click.option(
-    "--workers", type=click.Choice(["threads", "processes"]),
+    "--workers",
+    type=click.Choice(["threads", "processes"]),
     help="Kind of workers. [default: threads for compiled runs, else processes]",
-)  # fmt: skip
+)
 @click.option("--cluster", metavar="ADDRESS", default="", help="Run on the Dask cluster with this scheduler.")
 @click.option(
-    "--resume", metavar="LOG", type=NEW_FILE,
+    "--resume",
+    metavar="LOG",
+    type=NEW_FILE,
     help="Log finished work in this file; what it already has is not run again.",
-)  # fmt: skip
+)
 @click.option(
-    "--report", metavar="OUT", type=NEW_FILE,
+    "--report",
+    metavar="OUT",
+    type=NEW_FILE,
     help="Write all results and their sums to this file: JSON if it ends in .json, else a table.",
-)  # fmt: skip
+)
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per recording, for programs.")
 @click.option("-q", "--quiet", is_flag=True, help="Only recordings that fail, and the summary.")
 def verify(

@@ -21,7 +21,7 @@ from ninja_game.files.shown_text import shown_text
 
 if TYPE_CHECKING:
     from ninja_game.formats.recording import Recording
-    from ninja_game.player.catalogue import Entry
+    from ninja_game.levels.episodes import Entry
     from ninja_game.web.board.ranking import Ranked, Ranking
     from ninja_game.web.board.rules import Category
     from ninja_game.web.board.runs import Ledger
@@ -29,9 +29,11 @@ if TYPE_CHECKING:
     from ninja_game.web.pages.memo import Memo
 
 rules_option = click.option(
-    "--rules", metavar="BOARD.TOML", type=OLD_FILE,
+    "--rules",
+    metavar="BOARD.TOML",
+    type=OLD_FILE,
     help="The categories in which runs are ranked. [default: the fastest, and the highest score]",
-)  # fmt: skip
+)
 
 
 def cache_folder() -> Path:
@@ -72,9 +74,11 @@ address_option = click.option(
 )  # fmt: skip
 
 levels_option = click.option(
-    "--levels", metavar="PACK", type=InputPath(),
+    "--levels",
+    metavar="PACK",
+    type=InputPath(),
     help="The levels that count: a pack, a file, a folder or a link of levels. [default: the game's own]",
-)  # fmt: skip
+)
 
 
 @click.command()
@@ -129,7 +133,7 @@ class _Board(click.Command):
     def make_context(
         self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
     ) -> click.Context:
-        """The context of the command that is meant: ``board`` or ``board ask``."""
+        """The context of ``board``, or of ``board ask``."""
         if args[:1] == ["ask"]:
             return ask.make_context(f"{info_name} ask", args[1:], parent, **extra)
         return super().make_context(info_name, args, parent, **extra)
@@ -151,9 +155,11 @@ class _Board(click.Command):
     help="Write the board as data, for --check. It is the board's ledger: runs that FILE has already keep their dates.",
 )  # fmt: skip
 @click.option(
-    "--check", metavar="FILE", type=OLD_FILE,
+    "--check",
+    metavar="FILE",
+    type=OLD_FILE,
     help="Report what differs from this file written by --json; exit code 1 if anything is refused, changed or gone.",
-)  # fmt: skip
+)
 @rules_option
 @click.option("--again", is_flag=True, help="Simulate every run, and write every page, also those known from before.")
 @jobs_option
@@ -217,11 +223,12 @@ def _ranking(
     folder: Path, shown: PublishedLevels, rules: Path | None, ledger: Path | None, *,
     jobs: int | None, again: bool = False,
 ) -> tuple[Ranking, Ledger]:  # fmt: skip
-    """What the runs of a folder come to by the board's rules, and what its ledger said before."""
+    """The ranking of a folder's runs by the board's rules, and the ledger before."""
+    from ninja_game.web.board.judge import judge
     from ninja_game.web.board.ranking import Ranking
     from ninja_game.web.board.report import dates_of, read_board
     from ninja_game.web.board.rules import USUAL, read_categories
-    from ninja_game.web.board.runs import NO_LEDGER, judge
+    from ninja_game.web.board.runs import NO_LEDGER
 
     # Of many runs, all of which stay, a third of the time went into looking for garbage.
     gc.set_threshold(20_000)
@@ -236,8 +243,8 @@ def _ranking(
 
 
 QUESTIONS = ("rank", "best", "inputs", "splits", "trace", "film")
-MOST_RUNS, LONGEST = 5, 400
-"""Runs side by side, where no players are named; characters of a line."""
+MOST_RUNS = 5  # side by side, where no players are named
+LONGEST = 400  # characters of a line
 
 RANKED = "{place}. {player}: {result} ({ticks} ticks, {gold} gold, {made}) {date}"
 TYPED = (
@@ -254,9 +261,11 @@ TYPED = (
 @levels_option
 @rules_option
 @click.option(
-    "--ledger", metavar="FILE", type=OLD_FILE,
+    "--ledger",
+    metavar="FILE",
+    type=OLD_FILE,
     help="The file that `ninja-game board --json` wrote, for the dates, and for whose a run is.",
-)  # fmt: skip
+)
 @click.option("--category", metavar="NAME", help="One of the board's categories. [default: the first]")
 @click.option("--assisted", is_flag=True, help="The ladder of runs that were edited or searched.")
 @click.option("-o", "--output", type=NEW_FILE, help="The picture, or the film.")
@@ -342,7 +351,7 @@ def _film(runs: Sequence[Recording], output: Path) -> None:
 
 
 def _level(text: str, entries: Sequence[Entry]) -> Entry:
-    """The level that is meant. Raises ArgumentError for none, and for several."""
+    """The level of a title, number or digest. Raises ArgumentError for an unknown one, and for several."""
     words = text.casefold()
     exact = [each for each in entries if words in (each.title.casefold(), each.episode, each.digest)]
     found = exact or [each for each in entries if words in each.title.casefold() or each.digest.startswith(words)]

@@ -14,7 +14,7 @@ from ninja_game.sim import kinds
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import CELL, HALF
 
-SNAPS: dict[str, float] = {"cell": 24.0, "half": 12.0, "quarter": 6.0, "px": 1.0}
+SNAPS: dict[str, float] = {"cell": CELL, "half": HALF, "quarter": HALF / 2, "px": 1.0}
 """px between the places where objects can be put, by name; "cell": in the middle, or where the kind sits in a cell."""
 
 QUARTERS = "qwas"

@@ -47,7 +47,7 @@ class EditorTools:
         self.spec: ObjectSpec = brush.object_of_type("gold")
         self.snap = "cell"
         self.symmetry = "off"
-        self.spacing, self.slopes, self.nearest = 24.0, False, True
+        self.spacing, self.slopes, self.nearest = CELL, False, True
         self._bend = 0.0
         self.pointer = (396.0, 300.0)
         self._pressed_at = self.pointer

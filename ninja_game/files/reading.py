@@ -19,11 +19,9 @@ from typing import IO, NamedTuple
 
 from ninja_game.errors import FileError, NinjaGameError, reason
 
-SUFFIXES = (".txt", ".nlevel", ".level", ".replay", ".demo", ".tas")
-"""Which files of a folder are looked at."""
+SUFFIXES = (".txt", ".nlevel", ".level", ".replay", ".demo", ".tas")  # which files of a folder are looked at
 
-MAX_BYTES = 64 * 2**20
-"""No file of levels or replays comes near this size; a larger one is something else."""
+MAX_BYTES = 64 * 2**20  # no file of levels or replays comes near this size; a larger one is something else
 
 _inputs: set[tuple[int, int]] | None = None
 """Device and number of each file that was read, while inputs are kept."""
@@ -192,7 +190,7 @@ def decoded(data: bytes, file: str) -> str:
 
 
 def what_it_is(mode: int) -> str:
-    """The kind of a file by its mode, in words.
+    """What a file is, by its mode, as error messages call it.
 
     >>> what_it_is(stat.S_IFIFO)
     'a pipe'
@@ -228,8 +226,7 @@ def known_files(known: dict[str, Beside], *, no_more: bool) -> Iterator[None]:
         _KNOWN.reset(token)
 
 
-PLACE = "link"
-"""What the text of a link is called; a file of that name in the current folder is another one."""
+PLACE = "link"  # what the text of a link is called; a file of that name in the current folder is another one
 
 
 def has_folder(file: str) -> bool:

@@ -6,8 +6,7 @@ import re
 from collections.abc import Sequence
 from unicodedata import category, normalize
 
-MAX_SHOWN = 200
-"""How many characters of a text are shown; no name of a level or player comes near."""
+MAX_SHOWN = 200  # how many characters of a text are shown; no name of a level or player comes near
 
 MOST_NAME_BYTES = 200
 """Bytes of a file's name in UTF-8: systems take 255, and a number, a suffix or ``.lock`` may follow."""
@@ -34,7 +33,7 @@ def counted(number: int, one: str, more: str = "") -> str:
 
 
 def unreadable(names: Sequence[str]) -> str:
-    """What to say of files that cannot be read; '' if there are none.
+    """A sentence about files that cannot be read; '' without any.
 
     >>> unreadable(["a.txt"]), unreadable(["a.txt", "b.txt", "c.txt"])
     ('Cannot be read: a.txt', 'Cannot be read: a.txt and 2 more files')

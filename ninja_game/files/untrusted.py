@@ -18,17 +18,16 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-MOST_PARTS = 50
-"""Parts of a key with dots; the library takes time with the square of their number."""
+MOST_PARTS = 50  # parts of a key with dots; the library takes time with the square of their number
 
 _PART = r"""(?:(?<![\w-])[\w-]++|(?<!\\)"(?:[^"\\\n]|\\.)*+"|'[^'\n]*+')"""
 _LONG_KEY = re.compile(rf"(?:{_PART}[ \t]*+\.[ \t]*+){{{MOST_PARTS}}}")
 
 
 def parse_toml(text: str, *, any_number: bool = False) -> dict[str, Any]:
-    """The table in a TOML text. Raises ValueError, with line and column in its words where it can.
+    """The table in a TOML text. Raises ValueError, with line and column in its message if known.
 
-    ``any_number``: also with numbers that TOML does not have, of which Python may refuse to tell the digits.
+    ``any_number``: also with numbers that TOML does not have, whose digits Python may refuse to write.
     """
     long_key = _LONG_KEY.search(text)
     if long_key:
@@ -54,8 +53,9 @@ def _check_numbers(value: object) -> None:
 
 _ENTRY = b"PK\1\2"
 _BLOCK = 2**20
-_MOST_OF_ENTRY, _MOST_OF_INDEX = 512, 2**23
-"""Bytes of the index: for each file, and in all. The library takes time by the square of what stands beside a name."""
+# Bytes of the index: the library takes time by the square of what stands beside a name.
+_MOST_OF_ENTRY = 512  # for each file
+_MOST_OF_INDEX = 2**23
 
 
 class _Index(io.RawIOBase):
@@ -80,13 +80,13 @@ class _Index(io.RawIOBase):
 def open_zip(file: IO[bytes], *, most_files: int, most_bytes: int) -> ZipFile:
     """The zip in a file: at most so many files in it, and so many bytes when all of them are unpacked.
 
-    Raises ValueError, in words, for what is more, and for what is not a zip.
+    Raises ValueError for more, and for what is not a zip.
     """
     # The library makes an object of each entry before it can be asked how many there are.
     if sum(block.count(_ENTRY) for block in iter(partial(file.read, _BLOCK), b"")) > most_files:
         raise ValueError(f"more than {most_files} files in a zip")
     file.seek(0)
-    with _in_words():
+    with _value_errors():
         archive = ZipFile(_Index(file, min(most_files * _MOST_OF_ENTRY, _MOST_OF_INDEX)))
         archive.fp = file
     if sum(entry.file_size for entry in archive.infolist()) > most_bytes:
@@ -95,16 +95,17 @@ def open_zip(file: IO[bytes], *, most_files: int, most_bytes: int) -> ZipFile:
 
 
 def unpacked(archive: ZipFile, entry: ZipInfo) -> bytes:
-    """A file's content, of no more bytes than its entry says. Raises ValueError, in words."""
+    """A file's content, of no more bytes than its entry says. Raises ValueError."""
     # The other ways of packing take memory as the file says.
     if entry.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
         raise ValueError("packed in an unusual way")
-    with _in_words():
+    with _value_errors():
         return archive.read(entry)
 
 
 @contextmanager
-def _in_words() -> Iterator[None]:
+def _value_errors() -> Iterator[None]:
+    """What the library raises for an odd zip becomes a ValueError."""
     try:
         yield
     except (BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError, OverflowError, OSError) as error:

@@ -16,10 +16,15 @@ from ninja_game.runtime import IN_PAGE, ONLY_ON_A_DESKTOP
 
 HOME_VARIABLE = "NINJA_GAME_HOME"  # environment variable that moves the folder
 
-LEVELS, REPLAYS, EXPORTS, EDITING = "levels", "replays", "exports", "editing"
-"""Folders in it: levels and replays that the game offers, what it writes on request, levels that are being edited."""
+# Folders in it.
+LEVELS = "levels"
+REPLAYS = "replays"
+EXPORTS = "exports"  # what the game writes on request
+EDITING = "editing"  # levels that are being edited
 
-SETTINGS, RECORDS = "settings.toml", "records.sqlite"  # files in it
+# Files in it.
+SETTINGS = "settings.toml"
+RECORDS = "records.sqlite"
 
 
 def user_folder() -> Path:
@@ -149,7 +154,7 @@ def bundled_replays() -> list[Path]:
 def how_to_install(extra: str) -> str:
     """What gets an optional part of the program: in a checkout its own tool, else pip of the Python that runs this.
 
-    The packages of the part are named, not this one: nobody knows whether it can be had where the user is.
+    It names the packages of the part, not this one, which the user's index may not have.
     """
     if IN_PAGE:
         return ONLY_ON_A_DESKTOP

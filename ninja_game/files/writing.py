@@ -23,8 +23,7 @@ PART_PREFIX, PART_SUFFIX = ".ninja-game-", ".part"
 
 _unfinished: set[Path] = set()  # the temporary files that this process is writing
 
-_tidied: set[Path] = set()
-"""Folders in which this process has looked for what killed writers left behind."""
+_tidied: set[Path] = set()  # folders in which this process has looked for what killed writers left behind
 
 
 def write_atomically(
@@ -101,7 +100,7 @@ def replaced(
 
 
 def named(path: Path, at: int | None) -> str:
-    """What the system is to be told of a path: its name where ``at`` is a handle of its folder, else all of it."""
+    """A path for system calls: its name where ``at`` is a handle of its folder, else all of it."""
     return str(path) if at is None else path.name
 
 

@@ -44,8 +44,7 @@ MOST_CHARACTERS = 2 * 2**20  # length of a link: what browsers take
 
 MOST_BYTES = 4 * 2**20  # size of its text when unpacked
 
-MOST_TEXTS = 9
-"""In a link of replays: the one that is watched, and as many ghosts as the viewer shows."""
+MOST_TEXTS = 9  # in a link of replays: the one that is watched, and as many ghosts as the viewer shows
 
 _PART = re.compile(r"(level|pack|replay)=([0-9]{1,4})\.([A-Za-z0-9_-]*)")
 _STEM = re.compile(r"[0-9a-f]{16}")
@@ -63,7 +62,7 @@ class Link:
 
 
 def link_kind(text: str | Path) -> Kind | None:
-    """What a text, or a path made of it, is meant to be a link of, sound or not; None for no link of ours.
+    """The kind of link that a text, or a path made of it, looks like, sound or broken; None for any other text.
 
     A link begins with its # or holds an address before it: a file may have any other name.
 
@@ -78,7 +77,7 @@ def link_kind(text: str | Path) -> Kind | None:
 
 
 def is_link(text: str | Path) -> bool:
-    """Whether a text, or a path made of it, is meant as a link of ours."""
+    """Whether a text, or a path made of it, looks like one of our links."""
     return link_kind(text) is not None
 
 

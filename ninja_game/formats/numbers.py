@@ -12,8 +12,7 @@ import sys
 from decimal import Decimal
 from functools import cache, lru_cache
 
-NAN = math.nan
-"""The one NaN that reading gives; being one object, it makes equal texts equal tuples."""
+NAN = math.nan  # the one NaN that reading gives; being one object, it makes equal texts equal tuples
 
 _PLAIN = re.compile(r"0|[1-9][0-9]{0,14}")
 _DECIMAL = re.compile(r"[ \t\r\n]*([+-]?)([0-9]*)(?:\.([0-9]*))?(?:[eE]([+-]?[0-9]+))?")

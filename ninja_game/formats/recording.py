@@ -74,7 +74,7 @@ class Recording:
 
     @property
     def whose(self) -> str:
-        """What it is called beside other runs: its player, or where that is unknown its file."""
+        """Its name in a list of runs: its player, or where that is unknown its file."""
         return self.player or self.place or self.name
 
     @property

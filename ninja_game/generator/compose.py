@@ -10,7 +10,7 @@ from random import Random
 from ninja_game.generator.gold import lay_gold
 from ninja_game.generator.layouts import LAYOUTS
 from ninja_game.generator.obstacles import MOST_OBJECTS, fill_voids, place_enemies, place_fixtures, place_mines
-from ninja_game.generator.scene import Cell, RockBoard, Scene, flood, mirrored, spec, steps_from
+from ninja_game.generator.scene import Cell, RockBoard, Scene, flood, mirrored, object_of, steps_from
 from ninja_game.generator.shaping import shaped
 from ninja_game.levels.warnings import level_findings
 from ninja_game.runs.run import run_level
@@ -19,10 +19,8 @@ from ninja_game.sim.level import TILES, Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 CHOICES = 96  # routes of which the best is taken
-CLOSE = 4.0
-"""Cells that are at least between any two of ninja, switches and exit."""
-BESIDE = 5.0, 11.0
-"""Cells between start and exit that are best: near, but not beside each other."""
+CLOSE = 4.0  # cells that are at least between any two of ninja, switches and exit
+BESIDE = 5.0, 11.0  # cells between start and exit that are best: near, but not beside each other
 
 
 def place_route(board: RockBoard, tiles: dict[Cell, str], rng: Random, *, far: float) -> Scene | None:
@@ -56,10 +54,10 @@ def place_route(board: RockBoard, tiles: dict[Cell, str], rng: Random, *, far: f
     scene = Scene(board, tiles, start)
     # Now and then one has to jump for a switch.
     places = [f"{c},{r - 1 if rng.random() < 0.3 else r}" for c, r in (switch, *keys)]
-    scene.key = [spec(f"ninja {start[0]},{start[1]}"), spec(f"exit {exit_[0]},{exit_[1]} switch {places[0]}")]
+    scene.key = [object_of(f"ninja {start[0]},{start[1]}"), object_of(f"exit {exit_[0]},{exit_[1]} switch {places[0]}")]
     for number, place in enumerate(places[1:]):
         for c, r in board.gate[number * board.doors : (number + 1) * board.doors]:
-            scene.key.append(spec(f"locked door {c},{r} {board.side} switch {place}"))
+            scene.key.append(object_of(f"locked door {c},{r} {board.side} switch {place}"))
     return scene
 
 

@@ -30,8 +30,8 @@ FIRST = date(2026, 11, 23)
 
 _INDEX = f'name = "Daily levels"\nauthor = "{AUTHOR}"\ncomment = "A level a day, from the date"\n'
 _MONDAY = 2
-_OTHER_SEEDS, _NEXT_SEED = 9, 10**8
-"""How many more seeds are tried for a day, and how far apart they are: no date has such a number."""
+_OTHER_SEEDS = 9  # more seeds that are tried for a day
+_NEXT_SEED = 10**8  # how far apart they are: no date is as high a number
 
 
 def daily_file(levels: Path, day: date) -> Path:
@@ -65,7 +65,7 @@ def take_packed(levels: Path, day: date) -> bool:
 
     packed = levels_of_day[week]
     run = verified_run(packed.level, packed.inputs)
-    _keep_made(daily_file(levels, day), packed.named, run, packed.difficulty)
+    _keep(daily_file(levels, day), packed.named, run, packed.difficulty)
     return True
 
 
@@ -79,17 +79,17 @@ def make_daily(levels: Path, day: date, *, report: Callable[[str], None], stop: 
 
     for again in range(_OTHER_SEEDS + 1):
         seed = daily_seed(day) + again * _NEXT_SEED
-        made = generate(seed, daily_difficulty(day), report=report, stop=stop)
+        generated = generate(seed, daily_difficulty(day), report=report, stop=stop)
         if stop.is_set():
             return False
-        if made:
-            named = NamedLevel(made.name, AUTHOR, made.comment, made.level, "")
-            _keep_made(daily_file(levels, day), named, made.run, made.difficulty)
+        if generated:
+            named = NamedLevel(generated.name, AUTHOR, generated.comment, generated.level, "")
+            _keep(daily_file(levels, day), named, generated.run, generated.difficulty)
             return True
     return False
 
 
-def _keep_made(file: Path, named: NamedLevel, run: Replay, difficulty: float) -> None:
+def _keep(file: Path, named: NamedLevel, run: Replay, difficulty: float) -> None:
     """Write a level into the pack, whose table of pars grows by a line."""
     from ninja_game.runs.verify import verify_recording
     from ninja_game.search.certificate import named_run

@@ -25,13 +25,13 @@ from ninja_game.search.certificate import UnverifiedRunError, verified_run
 from ninja_game.search.solve import Task, solve
 from ninja_game.sim.level import Level
 
-EASIEST, HARDEST = 1, 10
-"""What may be asked for: the number that the difficulty of the level is to have, about."""
+# Difficulties that can be asked for.
+EASIEST = 1
+HARDEST = 10
 
-FIND_TICKS, SHORTEN_TICKS = 1_500_000, 1_000_000
-"""Work of the solver on one attempt, and on its changed hazards."""
-ATTEMPTS = 3
-"""Attempts that the solver looks at; of those it passes the nearest to what is wanted is taken."""
+FIND_TICKS = 1_500_000  # work of the solver on one attempt
+SHORTEN_TICKS = 1_000_000  # on its changed hazards
+ATTEMPTS = 3  # attempts that the solver looks at; of those it passes the nearest to what is wanted is taken
 PATIENCE = 4
 """So many times as many, with other plans, as long as none is about as hard as wanted; its square if none is passed."""
 ROUNDS = 22  # changes of the hazards of one attempt
@@ -106,10 +106,10 @@ def generate(
         lacking = len(list(design_findings(design(scene.level, run.inputs))))
         name = name_for(plan, rng)
         comment = f"seed {seed}, difficulty {wanted}: measured {measured:.1f}"
-        made = Generated(name, comment, scene.level, run, measured)
+        generated = Generated(name, comment, scene.level, run, measured)
         worth = not _near(measured, wanted, 2), lacking > 0, abs(measured - wanted)
         if best is None or worth < best[0]:
-            best = worth, made
+            best = worth, generated
         if _near(measured, wanted) and not lacking:
             break
     return best and best[1]

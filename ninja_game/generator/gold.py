@@ -7,12 +7,13 @@ from itertools import pairwise
 from math import cos, dist, sin, tau
 from random import Random
 
-from ninja_game.generator.scene import Point, Scene, cell_of, middle, spec
+from ninja_game.generator.scene import Point, Scene, cell_of, middle, object_of
 from ninja_game.sim.rules import CELL
 
-LEAST, MOST = 26, 38  # pieces in a level; a last group may bring more
-APART, FROM_KEY = 12.0, 26.0
-"""px between pieces, and from ninja, exit and switches."""
+LEAST = 26  # pieces in a level
+MOST = 38  # a last group may bring more
+APART = 12.0  # px between pieces
+FROM_KEY = 26.0  # px from ninja, exit and switches
 BETWEEN = 3.5 * CELL  # px between the middles of two groups
 OFF = 14.0  # px from the rock
 
@@ -170,7 +171,7 @@ def _lay(scene: Scene, points: list[Point], wanted: int) -> bool:
     if any(dist(centre, other) < BETWEEN for other in scene.baits):
         return False
     scene.baits.append(centre)
-    scene.gold += [spec(f"gold {round(px)},{round(py)}px") for px, py in points]
+    scene.gold += [object_of(f"gold {round(px)},{round(py)}px") for px, py in points]
     return True
 
 

@@ -11,29 +11,27 @@ import numpy as np
 
 from ninja_game.formats.ascii.object_lines import WEAPONS
 from ninja_game.generator.gold import along, lay_about
-from ninja_game.generator.scene import MIDDLE, Cell, Point, Scene, middle, mirrored, places, spec
+from ninja_game.generator.scene import MIDDLE, Cell, Point, Scene, middle, mirrored, object_of, places
 from ninja_game.sim import kinds
 from ninja_game.sim.kinds import ENEMIES
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import CELL, PAD_RADIUS
 
-MOST_MINES, MOST_OBJECTS = 34, 110
-MORE = 28
-"""Mines and objects that may come to them when a level turns out too easy."""
+MOST_MINES = 34
+MOST_OBJECTS = 110
+MORE = 28  # mines and objects that are allowed besides when a level turns out too easy
 SAFE = 150.0  # px from the ninja's start in which nothing waits
-BESIDE = 110.0
-"""px from gold, exit and switches in which enemies are put first."""
-AT_BAIT = 120.0
-"""px from the middle of a group of gold in which mines guard it."""
-FROM_RUN = 17.0
-"""px from a certified run at which a mine leaves it alone: their radii, and a little."""
-CLOSE = 48.0
-"""px from a certified run within which hazards are put when a level turns out too easy."""
-IN_SIGHT = 200.0
-"""As ``CLOSE``, of what shoots."""
-MOST_ENEMIES, MOST_ADDED = 11, 15
-MOST_VOIDS, VOID = 4, 4.2 * CELL
-"""Places that are furnished because nothing is so many px around them."""
+BESIDE = 110.0  # px from gold, exit and switches in which enemies are put first
+AT_BAIT = 120.0  # px from the middle of a group of gold in which mines guard it
+FROM_RUN = 17.0  # px from a certified run at which a mine leaves it alone: their radii, and a little
+CLOSE = 48.0  # px from a certified run within which hazards are put when a level turns out too easy
+IN_SIGHT = 200.0  # as CLOSE, of what shoots
+MOST_ENEMIES = 11
+MOST_ADDED = 15  # of them, and lines of mines, when a level turns out too easy
+MOST_VOIDS = 4  # empty places that are furnished
+VOID = 4.2 * CELL  # px around such a place in which nothing is
+STEP = 28.0  # px between the mines of a line
+ON_ROCK = 6.0  # px from the rock to the middle of a mine
 GATE = 20.0  # px from the run to either mine of a gate
 
 Source = Callable[[Scene, Random], Iterator[str]]
@@ -98,8 +96,8 @@ SOURCES: dict[Source, tuple[int, float]] = {
 def place_enemies(scene: Scene, rng: Random, wanted: int, difficulty: int) -> bool:
     """Put about so many enemies of two or three sources into a scene; whether there are at least three."""
     for x, y in scene.rings:
-        turret = difficulty >= SOURCES[turrets][0] and _enemy(scene, spec(f"gauss turret {x:g},{y:g}px"), 4 * CELL)
-        scene.hazards.append([turret or spec(f"mine {x:g},{y:g}px")])
+        turret = difficulty >= SOURCES[turrets][0] and _enemy(scene, object_of(f"gauss turret {x:g},{y:g}px"), 4 * CELL)
+        scene.hazards.append([turret or object_of(f"mine {x:g},{y:g}px")])
     able = [source for source, (least, _) in SOURCES.items() if difficulty >= least]
     weights = [SOURCES[source][1] for source in able]
     chosen = [rng.choices(able, weights)[0] for _ in range(3)]
@@ -115,36 +113,36 @@ def place_enemies(scene: Scene, rng: Random, wanted: int, difficulty: int) -> bo
         together = len(scene.hazards) < 3
         lines.sort(key=partial(_from_hoard, scene) if together else lambda line: not _guards_something(scene, line))
         apart = (2 if together else 4) * CELL
-        enemy = next((record for line in lines if (record := _enemy(scene, spec(line), apart))), None)
+        enemy = next((spec for line in lines if (spec := _enemy(scene, object_of(line), apart))), None)
         if enemy:
             scene.hazards.append([enemy])
             x, y, *_ = enemy.values
-            twins = [record for line in lines if [(record := spec(line)).values[:2]] == scene.twin([(x, y)])]
+            twins = [spec for line in lines if [(spec := object_of(line)).values[:2]] == scene.twin([(x, y)])]
             if twins and rng.random() < 0.75 and scene.count(*ENEMIES) < wanted and _enemy(scene, twins[0], apart):
                 scene.hazards.append([twins[0]])
     return scene.count(*ENEMIES) >= 3
 
 
 def _guards_something(scene: Scene, line: str) -> bool:
-    """Whether an enemy is near to something that one wants or has to touch."""
-    x, y, *_ = spec(line).values
+    """Whether an enemy is near gold, exit or a switch."""
+    x, y, *_ = object_of(line).values
     return any(dist((x, y), point) <= BESIDE for point in scene.wanted())
 
 
 def _from_hoard(scene: Scene, line: str) -> float:
-    return dist(spec(line).values[:2], middle(scene.board.heart[len(scene.board.heart) // 2]))
+    return dist(object_of(line).values[:2], middle(scene.board.heart[len(scene.board.heart) // 2]))
 
 
-def _enemy(scene: Scene, record: ObjectSpec, apart: float) -> ObjectSpec | None:
+def _enemy(scene: Scene, spec: ObjectSpec, apart: float) -> ObjectSpec | None:
     """An enemy, if it has room, ``apart`` px to others, and does not close on the start."""
     start = middle(scene.start)
-    point = (record.values[0], record.values[1])
+    point = (spec.values[0], spec.values[1])
     enemies = [other for other in scene.objects if other.kind in ENEMIES]
     clear = scene.clear_of(point, key=60.0, other=14.0) and dist(point, start) >= SAFE
     alone = all(dist(point, other.values[:2]) >= apart for other in enemies)
-    seen = record.kind in _SHOOTERS and scene.sees(point, start)
-    same_floor = record.kind == kinds.FLOOR_GUARD and int(point[1] // CELL) == scene.start[1]
-    return record if clear and alone and not seen and not same_floor else None
+    seen = spec.kind in _SHOOTERS and scene.sees(point, start)
+    same_floor = spec.kind == kinds.FLOOR_GUARD and int(point[1] // CELL) == scene.start[1]
+    return spec if clear and alone and not seen and not same_floor else None
 
 
 _SHOOTERS = (kinds.TURRET, kinds.LAUNCHER)
@@ -160,7 +158,7 @@ def fill_voids(scene: Scene, rng: Random, difficulty: int) -> None:
     """Where nothing is far around: a few pieces of gold about a drone that goes to and fro, a turret or a mine."""
     air = [middle(cell) for cell in sorted(scene.steps)]
     for _ in range(MOST_VOIDS):
-        taken = np.array([point for record in scene.objects for point in places(record)])
+        taken = np.array([point for spec in scene.objects for point in places(spec)])
         away = np.hypot(*(np.array(air)[:, None] - taken[None]).transpose(2, 0, 1)).min(1)
         x, y = air[int(away.argmax())]
         if away.max() < VOID or not lay_about(scene, (x, y), rng):
@@ -168,11 +166,11 @@ def fill_voids(scene: Scene, rng: Random, difficulty: int) -> None:
         kind = rng.choice(("zap drone", "zap drone", "gauss turret" if difficulty >= SOURCES[turrets][0] else "mine"))
         line = f"{kind} {x:g},{y:g}px"
         enemy = _enemy(
-            scene, spec(f"{line} alternating {rng.choice(('left', 'right'))}" if "zap" in line else line), 60
+            scene, object_of(f"{line} alternating {rng.choice(('left', 'right'))}" if "zap" in line else line), 60
         )
         if scene.count(*ENEMIES) >= MOST_ENEMIES or enemy is None:
             scene.rings.append((x, y))
-            enemy = spec(f"mine {x:g},{y:g}px")
+            enemy = object_of(f"mine {x:g},{y:g}px")
         scene.hazards.append([enemy])
 
 
@@ -191,9 +189,9 @@ def place_mines(scene: Scene, rng: Random, wanted: int) -> None:
         for points in [line, scene.twin(line)] if rng.random() < 0.8 else [line]:
             group = [mine for mine in _mines(scene, points) if any(dist(mine.values[:2], at) < STEP for at in rock)]
             near = any(
-                dist(points[len(points) // 2], record.values[:2]) < 4 * CELL
-                for record in scene.objects
-                if record.kind == kinds.MINE
+                dist(points[len(points) // 2], spec.values[:2]) < 4 * CELL
+                for spec in scene.objects
+                if spec.kind == kinds.MINE
             )
             if len(group) >= 3 and not near and scene.count(kinds.MINE) + len(group) <= min(wanted, MOST_MINES):
                 scene.hazards.append(group)
@@ -213,15 +211,11 @@ def _surface_lines(scene: Scene, rng: Random, *, floors: bool = False) -> list[l
     return lines
 
 
-STEP, ON_ROCK = 28.0, 6.0
-"""px between the mines of a line, and from the rock to their middles."""
-
-
 def _mines(scene: Scene, points: Sequence[Point]) -> list[ObjectSpec]:
     """Mines at those of the points that have room."""
     start = middle(scene.start)
     fit = [p for p in points if scene.clear_of(p, key=44.0, other=14.0) and dist(p, start) >= SAFE / 2]
-    return [spec(f"mine {round(x)},{round(y)}px") for x, y in dict.fromkeys(fit)]
+    return [object_of(f"mine {round(x)},{round(y)}px") for x, y in dict.fromkeys(fit)]
 
 
 def more_beside(scene: Scene, run: Sequence[Point], difficulty: int, rng: Random) -> list[ObjectSpec]:
@@ -233,18 +227,18 @@ def more_beside(scene: Scene, run: Sequence[Point], difficulty: int, rng: Random
         source = rng.choices(list(SOURCES), [often * (difficulty >= least) for least, often in SOURCES.values()])[0]
         lines = list(source(scene, rng))
         rng.shuffle(lines)
-        for record in map(spec, lines[:60]):
-            near = IN_SIGHT if record.kind in _SHOOTERS else CLOSE
-            if min(dist(record.values[:2], at) for at in run) < near and _enemy(scene, record, 3 * CELL):
-                return [record]
+        for spec in map(object_of, lines[:60]):
+            near = IN_SIGHT if spec.kind in _SHOOTERS else CLOSE
+            if min(dist(spec.values[:2], at) for at in run) < near and _enemy(scene, spec, 3 * CELL):
+                return [spec]
     if scene.count(kinds.MINE) > MOST_MINES + MORE - 3 or len(scene.objects) > MOST_OBJECTS + MORE - 3:
         return []
     if rng.random() < 0.5 and (gate := _gate(scene, run, rng)):
         return gate
     groups = list[tuple[float, list[ObjectSpec]]]()
     for line in _surface_lines(scene, rng, floors=True):
-        far = [(min(dist(record.values[:2], at) for at in run), record) for record in _mines(scene, line)]
-        group = [record for away, record in far if away >= FROM_RUN][:8]
+        far = [(min(dist(spec.values[:2], at) for at in run), spec) for spec in _mines(scene, line)]
+        group = [spec for away, spec in far if away >= FROM_RUN][:8]
         if len(group) >= 2 and min(away for away, _ in far) < CLOSE:
             groups.append((sum(away < CLOSE for away, _ in far), group))
     # Of those with the most mines close to the run, one.
@@ -270,7 +264,7 @@ def nearest_hazard(scene: Scene, run: Sequence[Point]) -> int | None:
     """Number of the group of hazards that is nearest to a run and that can be spared; None if none can."""
     enemies = scene.count(*ENEMIES)
     spare = [
-        (min(dist(record.values[:2], at) for record in group for at in run), number)
+        (min(dist(spec.values[:2], at) for spec in group for at in run), number)
         for number, group in enumerate(scene.hazards)
         if group[0].kind == kinds.MINE or enemies - len(group) >= 3
     ]
@@ -322,8 +316,8 @@ def place_fixtures(scene: Scene, rng: Random) -> None:
     """Put one or two sorts of fixtures into a scene."""
     sorts = rng.sample((blocks, pads, one_ways), rng.choice((1, 2, 2)))
     for line in (line for sort in sorts for line in sort(scene, rng)):
-        record = spec(line)
+        spec = object_of(line)
         # A pad lies on the edge of its cell.
-        point = (record.values[0], record.values[1] - (PAD_RADIUS if record.kind == kinds.LAUNCH_PAD else 0.0))
+        point = (spec.values[0], spec.values[1] - (PAD_RADIUS if spec.kind == kinds.LAUNCH_PAD else 0.0))
         if len(scene.fixtures) < MOST_FIXTURES and scene.clear_of(point, key=40.0, other=12.0):
-            scene.fixtures.append(record)
+            scene.fixtures.append(spec)

@@ -21,12 +21,10 @@ from ninja_game.formats.replay.notations import write_inputs
 from ninja_game.sim.level import Level
 
 AUTHOR = "ninja-game generate"  # who made the levels
-PACKED = "generated.tsv.xz"
-"""Among the game's assets: a level a line, as ``PackedLevel.line`` writes it."""
+PACKED = "generated.tsv.xz"  # among the game's assets: a level a line, as PackedLevel.line writes it
 FROZEN = "bench.tsv.xz"
 """Likewise, of an earlier generator: what the levels of the benchmark are made of. They never change."""
-MOST_BYTES = 8 * 2**20
-"""The largest size of the file, and of its text when unpacked."""
+MOST_BYTES = 8 * 2**20  # the largest size of the file, and of its text when unpacked
 MOST_MEMORY = 64 * 2**20  # bytes that unpacking may take
 
 

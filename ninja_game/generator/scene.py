@@ -222,8 +222,8 @@ _LEANS = {
 """Where the open side of a tile with a shape is."""
 
 
-def spec(line: str) -> ObjectSpec:
-    """The record of a line of the list of an ASCII level."""
+def object_of(line: str) -> ObjectSpec:
+    """The object of a line, as in the list of an ASCII level."""
     (listed,) = read_object_line(line)
     assert isinstance(listed, Listed)  # noqa: S101 - lines of this package place objects
     return listed.record
@@ -260,7 +260,7 @@ class Scene:
 
     @property
     def objects(self) -> list[ObjectSpec]:
-        return [*self.key, *self.fixtures, *self.gold, *(record for group in self.hazards for record in group)]
+        return [*self.key, *self.fixtures, *self.gold, *(spec for group in self.hazards for spec in group)]
 
     @property
     def level(self) -> Level:
@@ -269,7 +269,7 @@ class Scene:
 
     def count(self, *which: int) -> int:
         """How many objects of these kinds there are."""
-        return sum(record.kind in which for record in self.objects)
+        return sum(spec.kind in which for spec in self.objects)
 
     def stones(self) -> list[set[Cell]]:
         """The connected groups of cells with a tile that do not touch the border."""
@@ -329,7 +329,7 @@ class Scene:
 
     def wanted(self) -> list[Point]:
         """What one wants or has to touch, px: the middles of groups of gold, exit, doors and switches."""
-        return [*self.baits, *(point for record in self.key[1:] for point in places(record))]
+        return [*self.baits, *(point for spec in self.key[1:] for point in places(spec))]
 
     def twin(self, points: list[Point]) -> list[Point]:
         """The same points on the other side of the middle column."""
@@ -339,9 +339,9 @@ class Scene:
         """Whether a point is in a cell that can be reached, and this many px from all that is there."""
         ok = cell_of(point) in self.steps
         return ok and all(
-            dist(point, place) >= (key if record.kind in _KEY else max(other, _ROOM.get(record.kind, 0.0)))
-            for record in self.objects
-            for place in places(record)
+            dist(point, place) >= (key if spec.kind in _KEY else max(other, _ROOM.get(spec.kind, 0.0)))
+            for spec in self.objects
+            for place in places(spec)
         )
 
     def sees(self, a: Point, b: Point) -> bool:
@@ -356,9 +356,9 @@ _ROOM = {kinds.LAUNCH_PAD: 20.0, kinds.ONE_WAY: 16.0, kinds.BOUNCE_BLOCK: 22.0}
 """px that stay free around fixtures."""
 
 
-def places(record: ObjectSpec) -> Iterator[Point]:
+def places(spec: ObjectSpec) -> Iterator[Point]:
     """Where an object and its switch are."""
-    x, y, *more = record.values
+    x, y, *more = spec.values
     yield x, y
-    if record.kind == kinds.EXIT:
+    if spec.kind == kinds.EXIT:
         yield more[0], more[1]

@@ -17,11 +17,10 @@ FINE = 8  # samples of a cell in a row and in a column
 FULL = TILE_CHARS.index("#")
 COSTS = np.array([2 * (tile in '_]"[') + 3 * (tile in "jkiuJKIU") + 1 * (tile not in ".#") for tile in TILE_CHARS])
 """What each tile costs, in samples of a cell that it covers wrongly."""
-AGREE, ROUNDS = 1, 12
-"""What a sample of a side that differs from the tile beside it costs; how often all are looked at."""
+AGREE = 1  # cost of a sample of a side that differs from the tile beside it
+ROUNDS = 12  # passes over all cells
 
-Ink = NDArray[np.bool_]
-"""Painted rock: a sample each, (rows * FINE, columns * FINE)."""
+Ink = NDArray[np.bool_]  # painted rock: a sample each, (rows * FINE, columns * FINE)
 
 
 @cache

@@ -19,8 +19,7 @@ ACTION_NAMES = ("left", "none", "right", "left+jump", "jump", "right+jump")
 
 DISCRETE_KEYS = np.array([jump + side for jump in (0, JUMP_HELD) for side in (KEY_LEFT, 0, KEY_RIGHT)], np.uint8)
 """The keys of each."""
-BUTTON_KEYS = np.array([KEY_LEFT, KEY_RIGHT, JUMP_HELD], np.uint8)
-"""The key of each button: left, right, jump."""
+BUTTON_KEYS = np.array([KEY_LEFT, KEY_RIGHT, JUMP_HELD], np.uint8)  # the key of each button: left, right, jump
 
 
 class Actions:

@@ -19,8 +19,7 @@ from ninja_game.sim.level import Level
 from ninja_game.sim.memory.declare import entry_point, fast
 from ninja_game.sim.rules import WORLD_HEIGHT, WORLD_WIDTH
 
-SPARE_FIELDS = 1024
-"""Fields that are kept although no world is in their state; 53 KB each, once made."""
+SPARE_FIELDS = 1024  # fields that are kept although no world is in their state; 53 KB each, once made
 
 NO_STATE = NO_ROW = -1
 

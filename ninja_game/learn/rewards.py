@@ -73,7 +73,7 @@ REWARD_TERMS: dict[str, type[RewardTerm]] = {
 
 
 def reward_terms(reward: RewardLike | Sequence[RewardLike] | None) -> list[RewardTerm]:
-    """The terms that are meant: one, several, or None for the sparse reward; by name with their default weights.
+    """Resolve terms: one, several, or None for the sparse reward; names get their default weights.
 
     Raises ArgumentError for anything else.
     """
@@ -95,8 +95,7 @@ def weights_of(terms: Sequence[RewardTerm]) -> list[float]:
     return [worth[ExitReward], -worth[DeathPenalty], worth[GoldReward], -worth[TimePenalty]]
 
 
-LOWEST = -1.0
-"""The lowest Φ: twice as far as at the start, or farther."""
+LOWEST = -1.0  # the lowest Φ: twice as far as at the start, or farther
 
 
 class Shaping:

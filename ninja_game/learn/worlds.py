@@ -322,7 +322,7 @@ class EnvWorlds:
         return numbers
 
     def ended(self) -> Indices:
-        """The worlds whose episode is over."""
+        """Indices of the worlds whose episode is over, (k,) intp."""
         return self._ended.nonzero()[0]
 
     # --- single worlds ---

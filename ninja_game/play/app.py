@@ -1,4 +1,4 @@
-"""The program with a window: its loop, its screens, its look, and what all screens share."""
+"""The program with a window: its loop, its stack of screens, settings, notices and exports."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import data_folder, export_path, short_path
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
+from ninja_game.levels.episodes import Mood
 from ninja_game.play.window import TITLE, Window, Wipe, save_picture
-from ninja_game.player.catalogue import Mood
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import FASTEST_TICK_GAIN
 from ninja_game.player.settings import BY_COLUMN, Settings
@@ -59,7 +59,7 @@ class Screen:
 
     @property
     def music(self) -> str:
-        """What is heard while it is on top (ui/audio/music.py); "" what plays already."""
+        """The music while it is on top (ui/audio/music.py); "": whatever plays already."""
         return ""
 
     def enter(self) -> None:
@@ -287,7 +287,7 @@ class App:
         return palette_named(self.settings.palette, *mood)
 
     def follow_mood(self, mood: Mood) -> None:
-        """Look like that."""
+        """Take the palette of this mood."""
         self.mood = mood
         if self.palette_in(mood) is not self.theme.palette:
             self._lay_out()

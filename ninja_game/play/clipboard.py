@@ -1,4 +1,4 @@
-"""The clipboard: texts and links into it; into a file among the exports where there is none."""
+"""The clipboard: texts and links into it, or into a file among the exports."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def copy_text(app: App, text: str, *, title: str, suffix: str, notice: str = "")
 
 
 def pasted_text() -> str:
-    """The text in the clipboard. Raises NinjaGameError where there is none."""
+    """The text in the clipboard. Raises NinjaGameError for an empty one."""
     try:
         text: str = pygame.scrap.get_text()
     except pygame.error:

@@ -428,7 +428,8 @@ class DocumentCommands:
                 self.app.notify(reason(error))
 
         rows: list[Row] = [
-            ("Recover", try_to_recover, about), ("Keep for later", nothing, "It is offered again"),
+            ("Recover", try_to_recover, about),
+            ("Keep for later", nothing, "It is offered again"),
             ("Discard...", ask, ""),
-        ]  # fmt: skip
+        ]
         self.app.push(Menu(self.app, f"Not saved last time: {name}", rows))

@@ -146,15 +146,14 @@ class Attempt:
         return replace(replay, made=self.made)
 
 
-_MOST_TRIES = 20
-"""More than any place has killers: a ninja that is still crushed after so many tries is dead."""
+_MOST_TRIES = 20  # more than any place has killers: a ninja that is still crushed after so many tries is dead
 
 
 def spared_tick(simulation: Simulation, keys: int) -> bool:
     """One tick of a run on the plain memory that goes on; whether a death was refused.
 
     An object that kills stands still for the tick and is not met; a landing that kills is met at half the speed.
-    The rules of the world do not change: it is put back to the tick before, and told otherwise.
+    The rules of the world do not change: it is put back to the tick before, changed, and run again.
     """
     world, before = simulation.world, simulation.save()
     left_out: dict[int, int] = {}

@@ -46,8 +46,7 @@ MOST_BYTES = 256 * 2**20  # of all files, unpacked
 MOST_REPLAYS = 5_000  # in its records
 MOST_ROWS = 100_000  # of any other table
 
-BRANCHES = ".branches.json"
-"""Suffix of a file beside a run: its branches in the TAS editor."""
+BRANCHES = ".branches.json"  # suffix of a file beside a run: its branches in the TAS editor
 
 FOLDERS = {
     LEVELS: (*SUFFIXES, ".zip"),
@@ -58,14 +57,11 @@ FOLDERS = {
 """What a backup holds of the player's folder besides the settings and the records: files with these suffixes. A system
 does something by itself with others, such as a ``desktop.ini``."""
 
-MOST_OF_LEVELS = 16 * 2**20
-"""Bytes of all levels of the replays: each is read, and its replay run again."""
-
-MOST_OF_DRAFT, MOST_OF_LEVEL = 2**20, 2**20
-"""Bytes of a level under edit, and of the level of a replay."""
-
-MOST_TICKS, FEW_TICKS = 10_000_000, 200_000
-"""Ticks of all its replays, which are run again; so many are run before kernels would be ready."""
+MOST_OF_LEVELS = 16 * 2**20  # bytes of all levels of the replays: each is read, and its replay run again
+MOST_OF_DRAFT = 2**20  # bytes of a level under edit
+MOST_OF_LEVEL = 2**20  # bytes of the level of a replay
+MOST_TICKS = 10_000_000  # of all replays, which are run again
+FEW_TICKS = 200_000  # so many are run before kernels would be ready
 
 _SCHEMA = "SELECT type, name, tbl_name, sql FROM sqlite_master WHERE sql IS NOT NULL"
 

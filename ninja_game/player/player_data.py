@@ -9,8 +9,9 @@ from ninja_game.errors import FileError, reason
 from ninja_game.files.user_folder import LEVELS, RECORDS, REPLAYS, SETTINGS, make_user_folder, user_folder
 from ninja_game.files.writing import remove_leftovers
 from ninja_game.formats.replay.text import Replay
+from ninja_game.levels.episodes import Entry, Episode
 from ninja_game.player.attempt import Attempt
-from ninja_game.player.catalogue import Catalogue, Entry, Episode
+from ninja_game.player.catalogue import Catalogue
 from ninja_game.player.progress import (
     HELPED,
     LOCKED,
@@ -32,7 +33,7 @@ from ninja_game.player.store import Store, Work
 class PlayerData:
     """The player's data in one folder. Nothing that is wrong with the folder or its files keeps the game from starting.
 
-    ``messages``: what the player should be told about settings and, once they are open, records.
+    ``messages``: problems of settings and, once they are open, records, for the player.
     """
 
     def __init__(self, folder: Path | None = None) -> None:
@@ -91,12 +92,12 @@ class PlayerData:
         return state if self.catalogue.preceding(episode) else UNLOCKED
 
     def lock_of(self, entry: Entry) -> str:
-        """Why a level may not be played by itself yet, in words; "" where it may: one rule for every screen."""
+        """A sentence: why a level may not be played by itself yet; "" where it may. One rule for every screen."""
         episode = self.catalogue.episode_of(entry)
         return self.lock_of_episode(episode) if episode else ""
 
     def lock_of_episode(self, episode: Episode) -> str:
-        """Why an episode may not be played yet, in words; "" where it may."""
+        """A sentence: why an episode may not be played yet; "" where it may."""
         before = self.catalogue.preceding(episode)
         if before is None or self.episode_state(episode) != LOCKED:
             return ""
@@ -107,7 +108,7 @@ class PlayerData:
         return f"Finish {left} more level{'s' * (left != 1)} of episode {before.code} first"
 
     def reached(self, entry: Entry, mark: Mark | None) -> str:
-        """What the player has reached in a level, whose mark this is, in words: the same on every screen."""
+        """A sentence: what the player has reached in a level, whose mark this is; the same on every screen."""
         if mark is None and self.marks.is_passed(entry.digest):
             return HELPED
         episode = None if mark else self.catalogue.episode_of(entry)

@@ -21,8 +21,8 @@ from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.replay.text import Replay, lifetimes, parse_replay, write_replay
 from ninja_game.formats.sayings import Saying, read_sayings
+from ninja_game.levels.episodes import Entry, Episode
 from ninja_game.player.attempt import Attempt
-from ninja_game.player.catalogue import Entry, Episode
 from ninja_game.player.player_data import EPISODE_BEST, PlayerData, count_of, replay_of, save_best, save_work
 from ninja_game.player.progress import LOCKED, UNLOCKED, new_unlocks, next_par
 from ninja_game.player.store import Store, Work
@@ -51,7 +51,7 @@ class LevelContext:
     """A level by itself, of a file, of an episode. Subclasses, below, say what follows.
 
     ``entry``: the level to play now. ``lifetime``: ticks at its start. ``notices``: of what was saved.
-    ``onward``: where it goes from a level that is passed, in words.
+    ``onward``: the label for where it goes from a passed level.
     """
 
     onward = "next level"
@@ -89,7 +89,7 @@ class LevelContext:
         return self.entry.pars if self.body == "circle" else None
 
     def aim(self) -> str:
-        """What the level's next medal needs, in words; "" before the first pass, after the last, in practice."""
+        """A sentence: what the next medal needs; "" before the first pass, after the last, in practice."""
         mark = self.data.marks.of(self.entry.digest)
         return "" if self.pars is None or self.practice_mode or mark is None else next_par(self.pars, mark)
 
@@ -284,7 +284,7 @@ class EpisodeRun(LevelContext):
         self._passed: Attempt | None = None
 
     def go_on(self, replays: Sequence[Replay]) -> None:
-        """Stand behind the first levels of the episode, which these runs have passed."""
+        """Go on after the first levels of the episode, which these runs have passed."""
         self.replays = list(replays)
         self.position = len(replays)
         self.entry = self.episode.levels[self.position]
@@ -292,7 +292,7 @@ class EpisodeRun(LevelContext):
         self.score = self.lifetime
 
     def go_behind(self) -> None:
-        """Stand where a run in which levels were left out came to, if that is in this episode."""
+        """Go to where a run that skipped levels had come, if that is in this episode."""
         beaten = self.data.progress_in(self.episode.pack).columns[self.episode.column].beaten
         if beaten[0] == self.episode.number and 0 < beaten[1] < len(self.episode.levels) and not self.practice_mode:
             self.whole, self.position = False, beaten[1]
@@ -446,7 +446,7 @@ def keep_place(store: Store, key: str, replays: Sequence[Replay] = ()) -> None:
 
 
 def kept_place(store: Store) -> tuple[str, list[Replay]]:
-    """The key of the episode that play goes on with, and its runs; ("", []) where there is none, or it is damaged."""
+    """The key of the episode that play goes on with, and its runs; ("", []) without one, or for a damaged one."""
     for (value,) in store.rows("SELECT value FROM fact WHERE name = ?", (_PLACE,), [str]):
         try:
             key, *texts = json.loads(value)

@@ -9,13 +9,12 @@ from typing import NamedTuple
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE
 from ninja_game.formats.pack.pars import MEDALS, Pars
 from ninja_game.formats.run_time import seconds_text
-from ninja_game.player.catalogue import Entry
+from ninja_game.levels.episodes import Entry
 from ninja_game.player.store import Store
 
 COLUMNS = 10
 
-COLOURS = 9
-"""Colours of the ninja beyond the first one; each complete column unlocks one (presentation.md §3)."""
+COLOURS = 9  # colours of the ninja beyond the first one; each complete column unlocks one (presentation.md §3)
 
 OVERCLOCK_COLUMNS = 6
 FASTEST_TICK_GAIN = 10
@@ -25,8 +24,7 @@ _ANNOUNCED = "columns announced"
 
 UNLOCKED, CHEATED, LOCKED = "unlocked", "cheated", "locked"
 
-Place = tuple[int, int]
-"""Episode number (0 to 99) and level in it (0 to 4)."""
+Place = tuple[int, int]  # episode number (0 to 99) and level in it (0 to 4)
 
 
 class ColumnProgress(NamedTuple):
@@ -81,7 +79,7 @@ class Progress:
     ) -> None:
         """A level of an episode has been passed: move "reached", and "beaten" too if it was legitimate.
 
-        ``levels``: how many the episode has; ``following``: the next episode that there is in its column, where that is
+        ``levels``: how many the episode has; ``following``: the next existing episode of its column, where that is
         not the next number. Raises sqlite3.Error.
         """
         episode, level = place
@@ -231,7 +229,7 @@ def next_par(pars: Pars, mark: Mark) -> str:
 
 
 def reached(entry: Entry, mark: Mark | None) -> str:
-    """The player's fastest time in a level and the most gold of a pass, in words; "" without a mark."""
+    """The player's fastest time in a level and the most gold of a pass, as a sentence; "" without a mark."""
     if mark is None:
         return ""
     return f"Time {seconds_text(mark.fastest)} s, gold {mark.most_gold} of {entry.all_gold}"

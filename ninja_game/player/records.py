@@ -6,7 +6,7 @@ import sqlite3
 from collections.abc import Iterable, Sequence
 from datetime import UTC, datetime
 from functools import lru_cache
-from typing import NamedTuple
+from typing import NamedTuple, get_type_hints
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.ascii.object_lines import WEAPONS
@@ -21,8 +21,7 @@ from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.sim.states import NO_CAUSE
 
-NEWEST_SHOWN = 500
-"""Replays listed at most, the newest first."""
+NEWEST_SHOWN = 500  # replays listed at most, the newest first
 
 
 class SavedReplay(NamedTuple):
@@ -45,16 +44,14 @@ class SavedReplay(NamedTuple):
 
 
 _SAVED = ", ".join(f"replay.{name}" for name in SavedReplay._fields)
-_SAVED_KINDS = (int, str, str, str, str, str, int, int, int, str, int)
+_SAVED_KINDS = tuple(get_type_hints(SavedReplay).values())
 
 _level = lru_cache(16)(parse_level_string)
 """A level by its text: replays of one level often stand near each other."""
 
-_WHOLE = (
-    "level, level_text, name, player, body, outcome, final_tick, gold, score, digest, inputs, made_at, kept, made, "
-    "co_authors"
-)
-_WHOLE_KINDS = (str, str, str, str, str, str, int, int, int, str, bytes, str, int, str, str)
+_TEXTS = ("level", "level_text", "name", "player", "body", "outcome", "digest", "made", "co_authors")
+_WHOLE = {**dict.fromkeys(_TEXTS, str), "final_tick": int, "gold": int, "inputs": bytes}
+"""What is read of a whole replay, by column."""
 
 
 class EpisodeBest(NamedTuple):
@@ -66,7 +63,7 @@ class EpisodeBest(NamedTuple):
 
 
 def has_words(words: Iterable[str], *texts: str) -> bool:
-    """Whether each word (casefolded) stands in one of some texts.
+    """Whether each word (casefolded) is in one of the texts.
 
     >>> has_words(["first", "ann"], "First Steps", "Anna"), has_words(["first", "bob"], "First Steps", "Anna")
     (True, False)
@@ -107,8 +104,9 @@ class Records:
 
     def replay(self, number: int) -> Replay | None:
         """A whole replay by its id, with its level inside; None if it has gone or is damaged."""
-        for row in self.store.rows(f"SELECT {_WHOLE} FROM replay WHERE id = ?", (number,), _WHOLE_KINDS):
-            level, text, name, player, body, outcome, final_tick, gold, _, digest, inputs, *_, made, co_authors = row
+        query = f"SELECT {', '.join(_WHOLE)} FROM replay WHERE id = ?"
+        for row in self.store.rows(query, (number,), tuple(_WHOLE.values())):
+            level, text, name, player, body, outcome, digest, made, co_authors, final_tick, gold, inputs = row
             try:
                 return Replay(
                     inputs=inputs, final_tick=final_tick, outcome=outcome, gold=gold, digest=digest, name=name,
@@ -208,7 +206,7 @@ class Records:
 _BEST = "JOIN level_best ON level_best.replay = replay.id AND level_best.level = replay.level WHERE level_best.body = ?"
 
 _UNNEEDED = "id NOT IN (SELECT replay FROM level_best) AND id NOT IN (SELECT replay FROM episode_replay) AND NOT kept"
-"""Replays that were bests once and that nobody asked for."""
+"""Replays that are no longer bests, and that the player did not keep."""
 
 _DROP_UNNEEDED = f"DELETE FROM replay WHERE {_UNNEEDED}"
 
@@ -227,8 +225,7 @@ def level_score(gold: int, exit_tick: int) -> int:
     return LIFETIME + GOLD_BONUS * gold - exit_tick
 
 
-SELF = "player"
-"""Falls, being crushed, suicide, time."""
+SELF = "player"  # falls, being crushed, suicide, time
 
 _DRONES = {int(weapon): name for name, weapon in WEAPONS.items()}
 KILLERS = (*_DRONES.values(), *(kind.killer for kind in KINDS if kind.killer and kind.number != DRONE), SELF)

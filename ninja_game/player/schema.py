@@ -9,11 +9,9 @@ from itertools import count
 from pathlib import Path
 from urllib.parse import quote
 
-APPLICATION_ID = 0x6E696E6A
-"""Tells our files from other people's SQLite files."""
+APPLICATION_ID = 0x6E696E6A  # tells our files from other people's SQLite files
 
-OPENING_SECONDS = 1.0
-"""How long a start waits for another program that has locked the file."""
+OPENING_SECONDS = 1.0  # how long a start waits for another program that has locked the file
 
 MOST_CELL_BYTES = 2**26
 """The largest value, and row; SQLite itself makes values of a gigabyte where a file asks for it."""
@@ -21,12 +19,10 @@ MOST_CELL_BYTES = 2**26
 MOST_STEPS = 30
 """Millions of instructions of SQLite to look through a file: some four seconds; the records of years take one."""
 
-_WRITE_VERSION = 18
-"""Place of the byte in a file's header that is 1 or 2 where SQLite may write it."""
+_WRITE_VERSION = 18  # place of the byte in a file's header that is 1 or 2 where SQLite may write it
 
 
-VERSION = 7
-"""The version of the tables, in a file's header; raise it with every change of them."""
+VERSION = 7  # the version of the tables, in a file's header; raise it with every change of them
 
 SCHEMA = (
     """CREATE TABLE replay (
@@ -103,7 +99,7 @@ class OtherVersionError(Exception):
 
 
 def open_database(name: str, source: Path | None = None, seconds: float = OPENING_SECONDS) -> sqlite3.Connection:
-    """A connection to a sound, up-to-date database; a new one where there is none.
+    """A connection to a sound, up-to-date database, which is made where it is missing.
 
     ``source``: copied into it first. ``seconds``: how long to wait for another program that has locked the file.
 

@@ -30,17 +30,14 @@ MAX_BYTES = 2**16
 
 LOCK_SECONDS = 1.0
 
-BY_COLUMN = "by-column"
-"""The palette that is another one in each column of episodes."""
+BY_COLUMN = "by-column"  # the palette that is another one in each column of episodes
 
 GHOSTS = ("best", "next", "silver", "gold", "author")
 """What may play along: the player's best run, or the pace of the next medal or of one."""
 
-MOST_INPUTS = 16
-"""Keys or buttons of one action at most."""
+MOST_INPUTS = 16  # keys or buttons of one action at most
 
-InputNames = Mapping[str, tuple[str, ...]]
-"""Action to the names of its inputs (``ui/input/bindings.py``)."""
+InputNames = Mapping[str, tuple[str, ...]]  # action to the names of its inputs (ui/input/bindings.py)
 
 
 class SettingRule(NamedTuple):
@@ -275,7 +272,7 @@ def write_changes(before: Settings, after: Settings, path: Path) -> None:
 
 
 def _changed_text(path: Path, before: Settings, after: Settings) -> str:
-    """The file's text with the changes; '' where there is none, or no longer."""
+    """The file's text with the changes; '' without a usable file."""
     import tomlkit
     from tomlkit.exceptions import TOMLKitError
 

@@ -20,8 +20,7 @@ from ninja_game.player.schema import OPENING_SECONDS, OtherVersionError, copy_in
 GAME_WAIT_MS = 200  # a save during play waits so long for another program that writes: it holds up the picture
 LAST_WAIT_MS = 3000  # the last one of a game
 
-STARTS_WAIT = 20.0
-"""Seconds that a start waits for other games that are opening the same file."""
+STARTS_WAIT = 20.0  # seconds that a start waits for other games that are opening the same file
 
 Work = Callable[[], Sequence[str]]
 """Changes to be made within one transaction; gives notices for the player. It may be done more than once."""
@@ -95,9 +94,9 @@ class Store:
     # --- reading ---
 
     def rows(self, query: str, values: Sequence[object], kinds: Sequence[type]) -> list[tuple[Any, ...]]:
-        """The rows that a query finds, if their values are of these ``kinds``; damaged rows are left out with a word.
+        """The rows that a query finds, if their values are of these ``kinds``; damaged rows are left out and reported.
 
-        Outside of a transaction a file that cannot be read has no rows, with a word too. Raises sqlite3.Error within.
+        A file that cannot be read has no rows, and is reported; within a transaction this raises sqlite3.Error.
         """
         try:
             found = self.connection.execute(query, values).fetchall()

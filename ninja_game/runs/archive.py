@@ -254,8 +254,7 @@ def write_report(results: Iterable[Result], out: IO[bytes]) -> Iterator[Result]:
     out.write(b'\n], "summary": ' + json.dumps(totals.as_json()).encode() + b"}\n")
 
 
-TRACES = 32
-"""Recordings that a job traces: sending one costs more than a short run."""
+TRACES = 32  # recordings that a job traces: sending one costs more than a short run
 
 
 def trace_all(

@@ -36,8 +36,7 @@ from ninja_game.runs.workers import ClusterError
 from ninja_game.sim.level import Level
 from ninja_game.sim.states import OUTCOME_NAMES
 
-RECORDS = 64
-"""Records a chunk at most: enough that sending it is cheap beside running it."""
+RECORDS = 64  # records a chunk at most: enough that sending it is cheap beside running it
 
 Result = Verdict | Unreadable
 
@@ -194,8 +193,7 @@ def _is_problem(data: object) -> bool:
 
 HEADER = {"checkpoint-log": "ninja-game verify", "version": __version__, "rules": RULES_VERSION}
 
-LONGEST_LINE = 2**26
-"""Bytes; the results of a chunk are a thousandth of it."""
+LONGEST_LINE = 2**26  # bytes; the results of a chunk are a thousandth of it
 
 
 class CheckpointLog:

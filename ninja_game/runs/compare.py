@@ -25,12 +25,11 @@ _NAMES = {
     "gold-taken": "gold", "exit-opened": "switch of exit", "lock-opened": "locked door", "trap-closed": "trap door",
     "door-opened": "door", "won": "exit", "died": "death",
 }  # fmt: skip
-SPLIT_EVENTS = tuple(_NAMES)
-"""The events that are splits (`ninja_game/sim/events.py`)."""
+SPLIT_EVENTS = tuple(_NAMES)  # the events that are splits (`ninja_game/sim/events.py`)
 
 
 def split_name(split: str) -> str:
-    """A split in plain words.
+    """The name of a split for tables.
 
     >>> split_name("gold-taken 12"), split_name("door-opened 3, time 2"), split_name("won")
     ('gold 12', 'door 3, time 2', 'exit')
@@ -181,11 +180,9 @@ def _shortest_segments(runs: Sequence[RunSplits]) -> dict[tuple[Key | None, Key]
     return shortest
 
 
-NEAR = CELL
-"""How far apart two runs may be at the same place, px: a cell."""
+NEAR = CELL  # how far apart two runs may be at the same place, px: a cell
 
-MAX_PAIRS = 100_000_000
-"""Most pairs of ticks that are looked at: two runs of four minutes."""
+MAX_PAIRS = 100_000_000  # most pairs of ticks that are looked at: two runs of four minutes
 
 MAX_TOGETHER = 60_000  # most ticks of both: each costs some work by itself
 
@@ -204,7 +201,7 @@ class Lead(NamedTuple):
 
     @property
     def ahead(self) -> int:
-        """Ticks by which the first run is there earlier; negative where it is later."""
+        """Ticks by which the first run is earlier; negative: later."""
         return self.other - self.tick
 
     @property

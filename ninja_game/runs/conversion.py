@@ -57,7 +57,7 @@ def recorded_again(recording: Recording, budget: int = RUN_BUDGET) -> Replay:
 def episode_text(recordings: Sequence[Recording], budget: int = RUN_BUDGET) -> str:
     """Recordings, in the order of their levels, as the text of an episode: run again, with the time carried on.
 
-    Raises ReplayError for runs that are none together, and as ``replay_texts`` does.
+    Raises ReplayError for runs that are not an episode, and what ``replay_texts`` raises.
     """
     text = write_episode([recorded_again(each, budget) for each in recordings])
     for each, found in zip(recordings, parse_replays(text), strict=True):
@@ -128,7 +128,7 @@ def _records(text: str, file: str, level: Level | None) -> Iterator[LevelRecord]
 
 
 def left_out(form: str, found: Sequence[NamedLevel | Recording], texts: Sequence[str]) -> list[str]:
-    """What a form, as ``convert --to`` names them, does not hold of what was found in texts, in words."""
+    """Sentences about what a form, as ``convert --to`` names them, cannot hold of what was found in texts."""
     lost = []
     if form in ("ascii", "string") and any(map(holds_recordings, texts)):
         lost.append("the recordings (--to replay or --to file keeps them)")

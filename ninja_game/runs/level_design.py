@@ -21,12 +21,9 @@ from ninja_game.sim.rules import CELL, DRONE_RADIUS, GUARD_RADIUS, MINE_RADIUS, 
 Points = NDArray[np.float64]  # places, px: (n, 2)
 
 STANDING_TICKS = 400  # how long one stands still at the start: ten seconds
-NEAR = 20.0
-"""A near miss: so few px between the ninja and what kills."""
-BAIT = 40.0
-"""Gold so near (px) to where a hazard can be is in danger."""
-EMPTY = 4 * CELL
-"""Space so far (px) from every object and from the run is not used."""
+NEAR = 20.0  # a near miss: so few px between the ninja and what kills
+BAIT = 40.0  # gold so near (px) to where a hazard can be is in danger
+EMPTY = 4 * CELL  # space so far (px) from every object and from the run is not used
 FEW = 6  # fewer pieces are neither even nor in groups
 BAY = 6, 5  # columns and rows of a bay that may repeat
 
@@ -34,8 +31,7 @@ RADII = {"mine": MINE_RADIUS, "floor guard": GUARD_RADIUS, "drone": DRONE_RADIUS
 """Radius of hazards that kill by touch, px."""
 GUNS = {"gauss turret": 2, "homing launcher": 2}
 """Hazards that aim or fly, and their status number while that kills."""
-DIRECTIONS = (1, 0), (0, 1), (-1, 0), (0, -1)
-"""Right, down, left, up, as a thwump's direction numbers them."""
+DIRECTIONS = (1, 0), (0, 1), (-1, 0), (0, -1)  # right, down, left, up, as a thwump's direction numbers them
 LANES = {kinds.THWUMP, kinds.FLOOR_GUARD}
 HAZARDS = kinds.MINE, *kinds.ENEMIES
 
@@ -110,7 +106,7 @@ def places(level: Level, kind: int) -> Points:
 
 
 def distances(points: Points, others: Points) -> NDArray[np.float64]:
-    """From each point to the nearest of the others, px; infinite where there is none: (n,)."""
+    """Distance from each point to the nearest of the others, px, (n,); infinite without others."""
     if not len(others):
         return np.full(len(points), np.inf)
     apart = np.hypot(*(points[:, None] - others[None]).transpose(2, 0, 1))

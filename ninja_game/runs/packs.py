@@ -53,7 +53,7 @@ class Certificate:
 
 
 def certificate(pack: Pack, file: str, kind: str) -> Certificate | None:
-    """The certificate of a level file, None where there is none.
+    """The certificate of a level file, or None.
 
     Raises ReplayError, or another NinjaGameError, where it cannot be read.
     """
@@ -105,8 +105,7 @@ def make_pars(pack: Pack, *, tries: int = TRIES) -> Iterator[tuple[str, Pars]]:
 
 KINDS = ("exit", "gold")
 
-NEVER_ACCEPTED = ("unreadable", "no-ninja", "too-many-objects")
-"""Findings of what cannot be played, by code."""
+NEVER_ACCEPTED = ("unreadable", "no-ninja", "too-many-objects")  # findings of what cannot be played, by code
 
 
 def file_of(pack: Pack, finding: PackFinding) -> str:

@@ -16,7 +16,7 @@ from collections.abc import Generator, Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, SupportsIndex, TypeVar, cast
 
-from ninja_game.backend.memories import go_on, open_worlds
+from ninja_game.backend.memories import PLAIN, Plan, go_on, open_worlds
 from ninja_game.budget import PLAIN_WORK, RUN_BUDGET, affordable_ticks, over_budget
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
@@ -106,19 +106,18 @@ def run_level(
     """Run a level with one input a tick until the first exit contact or death, or to the end of ``inputs``.
 
     ``inputs``: bytes, a list or an array, for each tick the sum of its ``Input`` flags (``Recording.playback`` gives
-    them). ``memory``: as of
-    ``Simulation``. ``digest``: tell the digest at the end too, as replays have it. ``budget``: of work
-    (``ninja_game.budget``).
+    them). ``memory``: as of ``Simulation``. ``digest``: also compute the digest at the end, as replays have it.
+    ``budget``: of work (``ninja_game.budget``).
 
-    Raises LevelError for a level that cannot be played, DemoError for more than a million inputs or for one that there
-    is not, ArgumentError for another body or memory and for what are no inputs, BudgetError for a run that is not over
+    Raises LevelError for a level that cannot be played, DemoError for more than a million inputs or an invalid one,
+    ArgumentError for another body or memory and for invalid inputs, BudgetError for a run that is not over
     when its budget is.
     """
     return drained(run_in_slices(level, inputs_of(inputs), body=body, memory=memory, digest=digest, budget=budget))
 
 
 def inputs_of(given: Iterable[SupportsIndex]) -> bytes:
-    """Inputs as bytes, one a tick. Raises ArgumentError for what are none."""
+    """Inputs as bytes, one a tick. Raises ArgumentError for anything else."""
     try:
         return given if isinstance(given, bytes) else bytes(list(given))
     except (TypeError, ValueError):
@@ -131,7 +130,7 @@ def run_in_slices(
     inputs: bytes,
     *,
     body: Body = "circle",
-    memory: str = "auto",
+    memory: str | Plan = "auto",
     digest: bool = False,
     budget: int = RUN_BUDGET,
     slice_work: int = RUN_BUDGET,
@@ -144,7 +143,8 @@ def run_in_slices(
     check_inputs(inputs)
     most = min(len(inputs), affordable_ticks(level, budget))
     world = open_worlds(memory, level, box=is_box(body), at_once=True, ticks=most)
-    slice_ticks = affordable_ticks(level, slice_work if world.name == memory else min(slice_work, PLAIN_WORK))
+    stays = world.name == "compiled" or memory in ("plain", PLAIN)
+    slice_ticks = affordable_ticks(level, slice_work if stays else min(slice_work, PLAIN_WORK))
     records: list[RunRecord] = []
     in_time = True
     while world.tick() < most and not world.outcome():

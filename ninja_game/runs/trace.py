@@ -31,8 +31,7 @@ from ninja_game.simulation import Body, is_box
 
 Records: TypeAlias = NDArray[np.void]  # an array of NINJA_RECORD or OBJECT_RECORD
 
-NINJA_NAME = "ninja"
-"""Kind of the ninja's rows, beside the kinds of objects."""
+NINJA_NAME = "ninja"  # kind of the ninja's rows, beside the kinds of objects
 
 NINJA_RECORD = np.dtype(
     [("x", "<f8"), ("y", "<f8"), ("prev_x", "<f8"), ("prev_y", "<f8"), ("s", "<i4"), ("gold", "<i4")]
@@ -42,11 +41,9 @@ NINJA_RECORD = np.dtype(
 OBJECT_RECORD = np.dtype([("x", "<f8"), ("y", "<f8"), ("s", "<i4")])
 """An object after a tick: position (px) and status number, both by kind."""
 
-MAX_CELLS = 8_000_000
-"""Most objects times ticks in a trace: some 330 MB while it is made."""
+MAX_CELLS = 8_000_000  # most objects times ticks in a trace: some 330 MB while it is made
 
-BLOCK = 256
-"""Ticks that are traced at a time where the end of the run is not known."""
+BLOCK = 256  # ticks that are traced at a time where the end of the run is not known
 
 
 @dataclass(frozen=True)

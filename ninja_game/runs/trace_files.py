@@ -30,8 +30,7 @@ COLUMNS = (
 )  # fmt: skip
 """Columns of the CSV. The ninja has no id; objects have neither keys, previous position, velocity, gold nor events."""
 
-MOST_BYTES = 2**28
-"""The largest CSV, or all arrays of a .npz: a million ticks of the ninja are a seventh of it."""
+MOST_BYTES = 2**28  # the largest CSV, or all arrays of a .npz: a million ticks of the ninja are a seventh of it
 
 _KEYS = (("L", Input.LEFT), ("R", Input.RIGHT), ("J", Input.JUMP_HELD), ("!", Input.JUMP_PRESSED))
 

@@ -34,8 +34,7 @@ STRICT = {
 }
 """What a strict verdict demands of its fields, besides a level that counts."""
 
-NOT_RUN = "not run"
-"""The outcome of a run that was not simulated, since its level does not count."""
+NOT_RUN = "not run"  # the outcome of a run that was not simulated, since its level does not count
 
 
 class OutOfRangeError(NinjaGameError):
@@ -138,7 +137,7 @@ def verify_in_slices(
     if counting is not None and verdict.level_digest not in counting:
         return verdict
     work = min(recording.ticks, affordable_ticks(recording.level, budget)) * tick_cost(recording.level)
-    one_memory = proven_memory("plain" if memory == "both" else memory, work)
+    plan = proven_memory("plain" if memory == "both" else memory, work)
     with named_errors(recording):
         inputs = recording.inputs
         try:
@@ -146,7 +145,7 @@ def verify_in_slices(
                 recording.level,
                 inputs,
                 body=recording.body,
-                memory=one_memory,
+                memory=plan,
                 digest=bool(recording.replay.digest),
                 budget=budget,
                 slice_work=slice_work,

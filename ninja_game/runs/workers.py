@@ -29,8 +29,7 @@ from ninja_game.signals import signals_deferred
 J = TypeVar("J")
 R = TypeVar("R")
 
-AHEAD = 4
-"""Jobs in flight for each worker: enough that none waits."""
+AHEAD = 4  # jobs in flight for each worker: enough that none waits
 
 TRIES = 3
 """How often a job may take a process with it before it is given up; a cluster's scheduler counts by itself."""

@@ -126,7 +126,7 @@ class RunCommands(DocumentCommands):
         self.app.push(ReplayScreen(self.app, [self.session.recording()], editable=False))
 
     def offer_recovered(self) -> None:
-        """Ask what to do with this run, if it was being edited when the program died; tell of others.
+        """Ask what to do with this run, if it was being edited when the program died; name others.
 
         Of a run that was recorded on another level ask whether it is to be edited on this one.
         """

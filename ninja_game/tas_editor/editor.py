@@ -24,8 +24,7 @@ from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas, Point
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Widget
 
-Span = tuple[int, int]
-"""The first tick, and the first one behind the last."""
+Span = tuple[int, int]  # the first tick, and the first one behind the last
 
 
 @dataclass(frozen=True)
@@ -109,13 +108,13 @@ class TasEditor:
         self.app.notify(why)
 
     def accept(self) -> None:
-        """Something was done: the refusal before is not shown any longer."""
+        """Forget the last refusal: something was done since."""
         if self._refusal and self.app.notice == self._refusal:
             self.app.notify("")
         self._refusal = ""
 
     def attempt(self, edit: Callable[[], object]) -> bool:
-        """Do something that may be refused; a notice says why. Whether it was done."""
+        """Run an action that may be refused; a notice says why. Whether it was done."""
         try:
             edit()
         except (NinjaGameError, OSError) as error:
@@ -198,7 +197,7 @@ def tas_canvas(window: tuple[int, int], text_scale: int = 0) -> Canvas:
 def tas_layout(size: Point, preferences: LayoutPreferences) -> TasLayout:
     """The areas in a window of this logical size, at least that of the stage.
 
-    Level and tabs are at the left, the roll at the right. Where nothing is wished, the level is as large as the usual
+    Level and tabs are at the left, the roll at the right. By default the level is as large as the usual
     height of the tabs lets it be, and the roll has what that leaves of the width.
     """
     w, h = size
@@ -264,9 +263,10 @@ class Splitters(TasPart):
 
     def commands(self) -> Commands:
         return {
-            "zoom_in": lambda: self.change_text_scale(1), "zoom_out": lambda: self.change_text_scale(-1),
+            "zoom_in": lambda: self.change_text_scale(1),
+            "zoom_out": lambda: self.change_text_scale(-1),
             "reset_layout": lambda: self.editor.app.change_settings(text_scale=0, level_width=0, tabs_height=0),
-        }  # fmt: skip
+        }
 
     def change_text_scale(self, by: int) -> None:
         app = self.editor.app

@@ -20,8 +20,7 @@ from ninja_game.ui.input.bindings import InputEvent
 if TYPE_CHECKING:
     from ninja_game.tas_editor.screen import TasScreen
 
-PATIENCE_MS = 1000
-"""What takes longer is explained."""
+PATIENCE_MS = 1000  # what takes longer is explained
 
 
 def open_tas_editor(app: App, recording: Recording, others: Sequence[Recording], tick: int) -> None:
@@ -68,7 +67,7 @@ def prepare(run: Recording) -> None:
 class OpeningScreen(Screen):
     """Says what is being done until the rules are there; then the TAS editor, which ``make`` gives, takes its place.
 
-    What is wrong then is reported on the screen below, or raised where there is none: NinjaGameError, OSError.
+    What is wrong then is reported on the screen below, or raised without one: NinjaGameError, OSError.
     """
 
     def __init__(self, app: App, run: Recording, make: Callable[[], TasScreen]) -> None:

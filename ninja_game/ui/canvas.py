@@ -32,7 +32,7 @@ class Canvas:
 
     @property
     def stage(self) -> pygame.Rect:
-        """What is seen of the stage in the window, px."""
+        """The visible part of the stage in the window, px."""
         return pygame.Rect(self.origin, self.size)
 
     def px(self, length: float) -> int:
@@ -137,5 +137,5 @@ class Lens(Canvas):
 
     @property
     def stage(self) -> pygame.Rect:
-        """What is seen of the stage in the window, px."""
+        """The visible part of the stage in the window, px."""
         return self._seen.copy()

@@ -17,8 +17,7 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import asset_lines
 from ninja_game.ui.canvas import Canvas, Colour, Point, draw_limb
 
-_KEPT = 400
-"""Texts kept; a changing time adds one a picture."""
+_KEPT = 400  # texts kept; a changing time adds one a picture
 
 _SHARE_LEFT = {"left": 0.0, "centre": 0.5, "right": 1.0}
 
@@ -67,24 +66,20 @@ def _safe(text: str) -> str:
     return "\u2003".join(map(shown_text, text.split("    ")))
 
 
-HEIGHT = 1.08
-"""Height of a line of text for letters of size 1; capitals are 0.675 of the size."""
+HEIGHT = 1.08  # height of a line of text for letters of size 1; capitals are 0.675 of the size
 _CAP_SHARE = 0.675
 _TOP = 0.1
 WEIGHTS = (0.95, 1.42)
 """Width of the strokes of plain and bold letters, on the glyphs' grid."""
-SPACING = 1.18
-"""Free space between two letters, on the grid, stroke ends not counted."""
+SPACING = 1.18  # free space between two letters, on the grid, stroke ends not counted
 _FINE = 4
 _LOWERED = 0.8
 """Height of a tall letter under an accent, as a share of its own."""
 _COMMANDS = re.compile(r"([MLQOAD])([^MLQOAD]*)")
 
 
-CAP = 7.0
-"""Height of capitals on the glyphs' grid."""
-ASCENDERS = frozenset("bdfhklt")
-"""Small letters as tall as capitals: with an accent they are drawn lower."""
+CAP = 7.0  # height of capitals on the glyphs' grid
+ASCENDERS = frozenset("bdfhklt")  # small letters as tall as capitals: with an accent they are drawn lower
 
 
 def _read_glyphs() -> dict[str, tuple[float, str]]:

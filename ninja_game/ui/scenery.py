@@ -11,23 +11,20 @@ import pygame
 from ninja_game.ui.canvas import Colour, Point
 from ninja_game.ui.theme import GROUND_ROLES, Palette, mixed
 
-_WIDE, _HIGH = 396, 300
-"""Px of the sheet on which the layers are painted."""
+# The sheet on which the layers are painted, px.
+_WIDE = 396
+_HIGH = 300
 
 _LAYERS = ((0.0, 5.0), (0.35, 4.0), (0.7, 3.0), (1.0, 2.0))
 """How near each layer is, 0…1, and how wide its haze, px of the sheet: what is farther off is softer."""
 
-_COPIES, _FAINT = 6, (255, 255, 255, 60)
-"""Around a shape lies haze: so many copies about a circle, each so faint."""
-
-_BAND, _HORIZON = 3, 140
-"""The sky's colour changes in bands so high, down to the horizon, px of the sheet."""
-
-_KEPT, _SHEETS = 4, 24
-"""Grounds of so many sizes and moods stay in memory: one as large as a 4K screen takes 33 MB; and small sheets."""
-
-_LIFT = 40
-"""How much higher or lower the layers lie from one level to another, px of the sheet."""
+_COPIES = 6  # of a shape, about a circle around it: its haze
+_FAINT = (255, 255, 255, 60)  # each of them
+_BAND = 3  # height of the bands of the sky's colours, px of the sheet
+_HORIZON = 140  # down to here, px of the sheet
+_KEPT = 4  # grounds in memory: one as large as a 4K screen takes 33 MB
+_SHEETS = 24  # small sheets in memory
+_LIFT = 40  # how much higher or lower the layers lie from one level to another, px of the sheet
 
 Numbers = Iterator[float]
 
@@ -209,9 +206,10 @@ def _crystals(sheet: pygame.Surface, colour: pygame.Color, base: float, numbers:
         tip = x + lean, top
         shoulder = wide * 0.5
         pygame.draw.polygon(
-            sheet, colour,
+            sheet,
+            colour,
             [(x - wide, _HIGH), (tip[0] - shoulder, top + 24), tip, (tip[0] + shoulder, top + 34), (x + wide, _HIGH)],
-        )  # fmt: skip
+        )
         x += 16 + 30 * next(numbers)
 
 

@@ -17,8 +17,7 @@ from ninja_game.files.user_folder import asset_lines
 from ninja_game.ui.canvas import Canvas, Colour
 from ninja_game.ui.lettering import HEIGHT, Lettering
 
-Area = tuple[float, float, float, float]
-"""x, y, width, height, logical px."""
+Area = tuple[float, float, float, float]  # x, y, width, height, logical px
 
 
 def inside(area: Area, x: float, y: float) -> bool:
@@ -26,15 +25,13 @@ def inside(area: Area, x: float, y: float) -> bool:
     return left <= x < left + w and top <= y < top + h
 
 
-EDGE = 2
-"""px that stay free between a text and the window's edge."""
+EDGE = 2  # px that stay free between a text and the window's edge
 
 NARROWEST = 0.2
 """Width of the narrowest letter with its space, as a share of the size: longer texts need not be measured."""
 
 
-TEXT_SIZES = {"normal": 100, "large": 125, "largest": 150}
-"""Sizes of text, percent."""
+TEXT_SIZES = {"normal": 100, "large": 125, "largest": 150}  # sizes of text, percent
 
 
 class Theme:

@@ -42,8 +42,7 @@ DANCE_TICKS = 36  # for which the ninja dances before its exit
 ENTER_TICKS = 10  # in which it steps to it and through it
 DOOR_STEP = 2.0  # px that it stands below the exit's middle
 
-CUE_ABOVE = 24.0
-"""How far over its source a mark stands, px."""
+CUE_ABOVE = 24.0  # how far over its source a mark stands, px
 _CUE_BORDER = 14.0
 
 _CUE_SHAPES: dict[str, list[Point]] = {
@@ -343,7 +342,7 @@ class RenderContext(Protocol):
 
     @property
     def settings(self) -> Settings:
-        """What the player has chosen."""
+        """The player's settings."""
 
 
 class OffscreenContext:

@@ -29,7 +29,7 @@ HIT_BOXES, GRID, EDGES, RAYS, CELLS, THINKERS = OVERLAY_ACTIONS
 
 
 class Overlays:
-    """Those that are on."""
+    """The overlays that are switched on."""
 
     def __init__(self) -> None:
         self.on: set[str] = set()
@@ -213,11 +213,9 @@ class HitShape:
     vy: float = 0.0
 
 
-_THINKER = 9.0
-"""Radius of the ring round an object that thinks, px."""
+_THINKER = 9.0  # radius of the ring round an object that thinks, px
 
-_SMALLEST = 1.0
-"""Half size, px, at which a point is drawn: the tip of a rocket."""
+_SMALLEST = 1.0  # half size, px, at which a point is drawn: the tip of a rocket
 
 
 def hit_shapes(world: World) -> Iterator[HitShape]:

@@ -24,8 +24,8 @@ class PageFigure:
         self.area = tuple(self._picture.area)
         self._clock = RunClock()
         self._tick = -1
-        made = [make((0, 0, 1, 1)) for make in self.figure.controls()]
-        self.controls = [each for each in made if isinstance(each, (Choice, Slider))]
+        widgets = [make((0, 0, 1, 1)) for make in self.figure.controls()]
+        self.controls = [each for each in widgets if isinstance(each, (Choice, Slider))]
 
     @property
     def sheet(self) -> int:

@@ -10,8 +10,8 @@ from types import FrameType
 from typing import Any
 
 NAME = "<your program>"
-MOST_LINES, MOST_SHOWN = 300_000, 5_000
-"""Lines that a program may run, and characters of its output that are shown."""
+MOST_LINES = 300_000  # that a program may run
+MOST_SHOWN = 5_000  # characters of its output
 
 
 def run_program(text: str) -> str:

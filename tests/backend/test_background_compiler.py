@@ -14,7 +14,8 @@ from ninja_game.backend import background_compiler, memories
 from ninja_game.backend.kernel_cache import are_kept, cache_folder
 from ninja_game.backend.memories import (
     _OBJECTS,
-    JUDGED,
+    CHECKED,
+    CHECKED_LATER,
     RUNS,
     _keys,
     compiled_available,
@@ -99,14 +100,14 @@ def test_a_run_that_goes_over_between_any_two_ticks_ends_alike(name: str, compil
 def test_a_verdict_is_the_same_wherever_the_run_goes_over(compiler: Compiler) -> None:
     run = load_replays(PACK / "certificates" / "01-2-the-works.exit.replay.txt")[0]
     expected = verify_recording(run, "plain")
-    assert proven_memory("auto") == JUDGED
+    assert proven_memory("auto") == CHECKED_LATER
     for ticks in (0, 1, 50, expected.ticks):
         compiler.asked, compiler.ready_after = 0, ticks
         assert verify_recording(run) == expected
     compiler.ready_after = 10**9
-    assert go_on(open_worlds("plain", run.level, box=False), JUDGED, 10**6).name == "plain"
+    assert go_on(open_worlds("plain", run.level, box=False), CHECKED_LATER, 10**6).name == "plain"
     compiler.ready_after = 0
-    judged = go_on(open_worlds("plain", run.level, box=False), JUDGED, 10**6)
+    judged = go_on(open_worlds("plain", run.level, box=False), CHECKED_LATER, 10**6)
     assert judged.kernel(run_world) is memories.compiled(run_world, checked=True)
     assert go_on(open_worlds("plain", run.level, box=False), "plain", 10**6).name == "plain"
 
@@ -118,11 +119,11 @@ def test_a_few_short_runs_are_not_worth_loading_numba(monkeypatch: pytest.Monkey
     monkeypatch.setattr(memories, "_WORK", [PLAIN_WORK - 3 * work])
     monkeypatch.setattr(memories, "_are_there", lambda *, checked: True)
     monkeypatch.setenv(background_compiler.VARIABLE, "1")
-    assert proven_memory("auto", work) == JUDGED
+    assert proven_memory("auto", work) == CHECKED_LATER
     short, long = (open_worlds("auto", run.level, box=False, at_once=True, ticks=n * run.ticks) for n in (2, 4))
     assert (short.name, long.name) == ("plain", "compiled")
     assert open_worlds("auto", run.level, box=False).name == "compiled"
-    assert proven_memory("auto", work) == "checked"
+    assert proven_memory("auto", work) == CHECKED
 
 
 def test_little_work_stays_on_the_plain_memory(compiler: Compiler) -> None:

@@ -171,7 +171,7 @@ def test_where_numba_compiles_nothing_auto_is_plain_and_says_why(
         "from ninja_game.sim.memory.kernels import step_world\n"
         "level = Level(objects=(ObjectSpec(5, (100.0, 100.0)),))\n"
         "print(Simulation(level, memory='auto').memory, Batch(level, 2).memory, choose_memory('auto'),\n"
-        "      proven_memory('auto'), compiled_if_possible(step_world) is step_world)\n"
+        "      proven_memory('auto').first, compiled_if_possible(step_world) is step_world)\n"
         "Simulation(level, memory='compiled')"
     )
     done = warm_start.run(program, environment={"NUMBA_CACHE_DIR": str(tmp_path)})

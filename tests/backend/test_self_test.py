@@ -9,7 +9,9 @@ from click.testing import CliRunner
 
 from ninja_game.backend import memories
 from ninja_game.backend.memories import (
+    CHECKED,
     DIGEST,
+    Plan,
     SelfTestError,
     compiled_available,
     open_worlds,
@@ -33,8 +35,8 @@ def as_at_the_start(monkeypatch: pytest.MonkeyPatch) -> None:
     memories._prove_plain.cache_clear()
 
 
-@pytest.mark.parametrize("memory", [*BOTH, pytest.param("checked", marks=BOTH[1].marks)])
-def test_the_known_run_has_its_digest_on_every_memory(memory: str) -> None:
+@pytest.mark.parametrize("memory", [*BOTH, pytest.param(CHECKED, marks=BOTH[1].marks)])
+def test_the_known_run_has_its_digest_on_every_memory(memory: str | Plan) -> None:
     """After a change of a rule that is meant, `python3 tools/dev.py golden` writes the digest again."""
     assert self_test_digest(lambda level, box: open_worlds(memory, level, box=box)) == DIGEST
 
@@ -86,7 +88,7 @@ def test_what_is_wrong_here_is_no_result_of_a_run(tmp_path: Path, monkeypatch: p
 @pytest.mark.usefixtures("as_at_the_start")
 def test_the_checked_and_the_quick_kernels_live_side_by_side() -> None:
     level = Level(objects=(ObjectSpec(5, (100.0, 100.0)),))
-    quick, checked, plain = (open_worlds(memory, level, box=False) for memory in ("compiled", "checked", "plain"))
+    quick, checked, plain = (open_worlds(memory, level, box=False) for memory in ("compiled", CHECKED, "plain"))
     keys = bytes([2] * 50)
     runs = [[bytes(memoryview(part)) for part in memory.run(keys)] for memory in (quick, checked, plain)]
     assert runs[0] == runs[1] == runs[2]

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from inspect import signature
 from typing import Any
 
 import numpy as np
 import pytest
 
 from ninja_game.learn.actions import DISCRETE_KEYS
-from ninja_game.learn.observations.pixels import EVERYWHERE, Pixels, draw_objects, observe_pixels, paint
+from ninja_game.learn.observations.pixels import EVERYWHERE, Pixels, draw_objects, paint
 from ninja_game.learn.worlds import EnvWorlds
 from ninja_game.sim.rules import RADIUS
 from tests.support.crowded import crowded_level
@@ -22,18 +21,15 @@ SHAPES = [(66, 50), (100, 6), (6, 90)]
 
 def whole_picture(worlds: EnvWorlds, index: int) -> Any:
     """A world's picture, all of it drawn in the order of the slots."""
-    names = list(signature(observe_pixels).parameters)[8:]
-    t = dict(zip(names, worlds._writers[0][1][2:], strict=True))
-    level, w = int(worlds.levels_now[index]), worlds.world(index)
-    width, height = t["width"], t["height"]
-    size = width * height
-    out = np.array(t["pictures"][level * size : (level + 1) * size], t["layers"].dtype)[np.newaxis].copy()
-    frame = width, 0.0, 0.0, t["pixel_x"], t["pixel_y"], 0, width - 1, 0, height - 1
-    look = tuple(t[name] for name in ("slots", "sizes", "boxes", "shades", "moves", "xs", "ys"))
-    first, last = t["bounds"][2 * level : 2 * level + 2]
-    draw_objects(w, out, 0, 0, frame, int(first), int(last), look, EVERYWHERE, True, t["whole"])
-    paint(out, 0, 0, frame, w.ninja.x, w.ninja.y, RADIUS, RADIUS, True, t["ninja_shade"], t["whole"])
-    return out.reshape(height, width)
+    tiles, view, layers, things = worlds._writers[0][1][2:]
+    level, w, frame = int(worlds.levels_now[index]), worlds.world(index), view.frame
+    height = frame.high + 1
+    size = frame.width * height
+    picture = np.array(tiles[level * size : (level + 1) * size], layers.pictures.dtype)
+    first, last = things.bounds[2 * level : 2 * level + 2]
+    draw_objects(w, picture, frame, things, int(first), int(last), EVERYWHERE, True)
+    paint(picture, frame, w.ninja.x, w.ninja.y, RADIUS, RADIUS, True, view.ninja_shade)
+    return picture.reshape(height, frame.width)
 
 
 @pytest.mark.parametrize("normalised", [False, True])

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
+from ninja_game.levels.episodes import Entry
 from ninja_game.play.app import App
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.help import HelpScreen
@@ -19,7 +20,6 @@ from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.menu_screen import Panel
 from ninja_game.play.menus.thumbnails import Thumbnails
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import LevelRun
 from ninja_game.player.settings import BY_COLUMN
 from ninja_game.sim import kinds

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from ninja_game.player.catalogue import Episode
+from ninja_game.levels.episodes import Episode
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.playthrough import EpisodeRun, LevelRun, Navigation, next_run
 from ninja_game.player.progress import HELPED

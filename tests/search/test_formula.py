@@ -23,7 +23,7 @@ from ninja_game.search.formula.language import FormulaError, parse_number, parse
 from ninja_game.search.formula.leg import LegSearch
 from ninja_game.search.formula.methods import count_ways, search_span
 from ninja_game.search.formula.names import FACTS, NAMES, SPAN_NAMES, difference_from, view_of
-from ninja_game.search.formula.task import NEAR, Found, SpanTask, SpanWorlds, score_in_words, target_of, ways_of
+from ninja_game.search.formula.task import NEAR, Found, SpanTask, SpanWorlds, score_text, target_of, ways_of
 from ninja_game.sim.digest import state_digest
 from ninja_game.sim.inputs import with_press_bits
 from tests.support.samples import unclaimed_text
@@ -433,7 +433,7 @@ def test_the_nearest_miss_is_told_ever_nearer_and_ends_where_it_says() -> None:
     assert misses[-1].end[:2] == (run.ninja.x, run.ninja.y)
     assert not any(len(each.path) for each in misses), "a beam does not know it"
     px = 400 - run.ninja.x
-    assert score_in_words(task, misses[-1]) == f"closest: {misses[-1].missed_by - 1:.0f} px after tick {run.tick - 1}"  # type: ignore[operator]
+    assert score_text(task, misses[-1]) == f"closest: {misses[-1].missed_by - 1:.0f} px after tick {run.tick - 1}"  # type: ignore[operator]
     assert px / 2 < misses[-1].missed_by < 2 * px  # type: ignore[operator]
 
 
@@ -441,7 +441,7 @@ def test_where_only_the_exit_is_missed_it_says_so() -> None:
     task = SpanTask(LEVEL, bytes(60), 0, 30, goal="x > 110", rest=True)
     misses: list[Found] = []
     assert not searched(task, rounds=2, method="local", missed=misses.append)
-    assert score_in_words(task, misses[-1]).endswith("but not the exit")
+    assert score_text(task, misses[-1]).endswith("but not the exit")
 
 
 def test_nothing_is_near_to_a_fact_that_is_not_so() -> None:

@@ -12,6 +12,7 @@ from ninja_game.editor.files import draft_of, new_source
 from ninja_game.files.user_folder import bundled_levels, bundled_replays
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.named_level import NamedLevel
+from ninja_game.levels.episodes import Entry
 from ninja_game.play.app import App, BossScreen, Screen
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.lab.screen import LabScreen
@@ -23,7 +24,6 @@ from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.replays import RecordsScreen
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.player.catalogue import Entry
 from ninja_game.view.overlays import OVERLAY_ACTIONS
 
 Scene = tuple[str, str, Callable[[App], object]]

@@ -6,8 +6,9 @@ from pathlib import Path
 
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.named_level import NamedLevel
+from ninja_game.levels.episodes import Entry, Episode, EpisodeSet
 from ninja_game.player.attempt import Attempt
-from ninja_game.player.catalogue import Catalogue, Entry, Episode, EpisodeSet
+from ninja_game.player.catalogue import Catalogue
 from ninja_game.player.player_data import PlayerData
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import LIFETIME

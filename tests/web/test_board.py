@@ -28,11 +28,12 @@ from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.runs.run import record_replay
 from ninja_game.web.board import collect
 from ninja_game.web.board.collect import MOST_RECORDS
+from ninja_game.web.board.judge import judge
 from ninja_game.web.board.pages import BoardPages
 from ninja_game.web.board.ranking import Ranking
 from ninja_game.web.board.report import DATE, read_board
 from ninja_game.web.board.rules import FASTEST, HIGHEST, Category
-from ninja_game.web.board.runs import ASSISTED, PLAYED, Key, ValidatedRuns, judge
+from ninja_game.web.board.runs import ASSISTED, PLAYED, Key, ValidatedRuns
 from ninja_game.web.pages.frame import POLICY, tag
 from ninja_game.web.pages.gallery import page_name, published_levels
 from tests.support.forgeries import FORGERIES, GOLD_LATER, PRACTISED, WALKING, record, replay
@@ -406,7 +407,7 @@ def test_a_time_that_the_run_does_not_have_is_refused_under_its_players_name(
 def test_medals_stand_where_the_time_ranks_and_every_record_that_fell_is_told(
     runs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("ninja_game.web.board.runs._near_to_another", lambda *_: None)
+    monkeypatch.setattr("ninja_game.web.board.copies._near_to_another", lambda *_: None)
     (recording,) = load_replays(PACK / "certificates" / "00-2-the-chimney.exit.replay.txt")
     for number, inputs in enumerate((b"\0" + recording.inputs, recording.inputs)):
         put(runs, f"{number}.txt", write_replay(record_replay(recording.level, inputs, author=f"Ann {number}")))

@@ -26,10 +26,10 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.made import Made
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.runs.run import record_replay, run_level
-from ninja_game.web.board.copies import ALIGNED, SHIFTED, Course, Courses, course_of, edit_distance
+from ninja_game.web.board.copies import ALIGNED, SHIFTED, Course, Courses, _near_to_another, course_of, edit_distance
+from ninja_game.web.board.judge import judge
 from ninja_game.web.board.pages import check_site
 from ninja_game.web.board.players import Players, folded
-from ninja_game.web.board.runs import _near_to_another, judge
 from ninja_game.web.pages.gallery import published_levels
 from tests.support import near_copies
 from tests.support.forgeries import WALKING, record, replay

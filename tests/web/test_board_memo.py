@@ -18,7 +18,7 @@ from ninja_game.runs import archive
 from ninja_game.runs.archive import verify_all
 from ninja_game.runs.chunks import Chunk
 from ninja_game.runs.workers import WorkerLostError
-from ninja_game.web.board import collect, runs as board_runs
+from ninja_game.web.board import collect, copies, judge
 from ninja_game.web.board.collect import RunFolder, SentFile
 from ninja_game.web.pages import memo
 from ninja_game.web.pages.memo import Memo
@@ -46,7 +46,7 @@ def simulated(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     def noting(paths: Any, *, chunks: Any, **about: Any) -> Any:
         return verify_all(paths, chunks=map(noted, chunks), **about)
 
-    monkeypatch.setattr(board_runs, "verify_all", noting)
+    monkeypatch.setattr(judge, "verify_all", noting)
     return found
 
 
@@ -155,9 +155,9 @@ def test_the_command_after_the_first_compares_nothing(
     tmp_path: Path, levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch  # noqa: F811
 ) -> None:  # fmt: skip
     """All runs have one moment, and near copies lie between others; one more run is compared alone."""
-    compared, simulated = (Mock(side_effect=getattr(board_runs, name)) for name in ("_near_to_another", "run_level"))
-    monkeypatch.setattr(board_runs, "_near_to_another", compared)
-    monkeypatch.setattr(board_runs, "run_level", simulated)
+    compared, simulated = (Mock(side_effect=getattr(copies, name)) for name in ("_near_to_another", "run_level"))
+    monkeypatch.setattr(copies, "_near_to_another", compared)
+    monkeypatch.setattr(copies, "run_level", simulated)
     data, site = tmp_path / "board.json", tmp_path / "site"
     put(runs, "a.txt", slow_walk(40, author="Ann"))
     put(runs, "b.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Bob"))
@@ -283,6 +283,6 @@ def test_other_rules_of_the_world_are_other_runs(
 ) -> None:  # fmt: skip
     put(runs, "ann.txt", replay(author="Ann"))
     board(runs, levels)
-    monkeypatch.setattr(board_runs, "program", lambda: "another")
+    monkeypatch.setattr(judge, "program", lambda: "another")
     board(runs, levels)
     assert simulated == ["ann.txt", "ann.txt"]

@@ -10,9 +10,9 @@ import pytest
 
 from ninja_game.formats.recording import parse_replays
 from ninja_game.runs.conversion import replay_texts
+from ninja_game.web.board.judge import judge
 from ninja_game.web.board.pages import BoardPages
 from ninja_game.web.board.ranking import Ranking
-from ninja_game.web.board.runs import judge
 from ninja_game.web.pages.gallery import published_levels
 from tests.support.reference import recordings, require_reference, write_pack
 

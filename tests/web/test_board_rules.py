@@ -12,9 +12,10 @@ from click.testing import CliRunner
 from ninja_game.cli.main import cli
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.replay.made import Made
+from ninja_game.web.board.judge import judge
 from ninja_game.web.board.ranking import Ranking
 from ninja_game.web.board.rules import FASTEST, MOST_CATEGORIES, NAMES, USUAL, Category, read_categories
-from ninja_game.web.board.runs import ASSISTED, PLAYED, judge
+from ninja_game.web.board.runs import ASSISTED, PLAYED
 from ninja_game.web.pages.gallery import path_data, published_levels
 from tests.support.forgeries import GOLD_LATER, WALKING, replay
 from tests.support.samples import WALK_END

@@ -9,9 +9,9 @@ import re
 import shutil
 from pathlib import Path
 
+from ninja_game.web.board.judge import judge
 from ninja_game.web.board.pages import BoardPages
 from ninja_game.web.board.ranking import Ranking
-from ninja_game.web.board.runs import judge
 from ninja_game.web.pages.gallery import published_levels, write_gallery
 from tests.support.own_pack import PACK
 from tests.support.recorded import hold_against

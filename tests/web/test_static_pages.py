@@ -21,9 +21,9 @@ from ninja_game.files.user_folder import data_folder
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.web.board.judge import judge
 from ninja_game.web.board.pages import BoardPages
 from ninja_game.web.board.ranking import Ranking
-from ninja_game.web.board.runs import judge
 from ninja_game.web.pages.documents import Documents
 from ninja_game.web.pages.gallery import SORT_ORDERS, published_levels, write_gallery
 from tests.support.forgeries import WALKING, replay

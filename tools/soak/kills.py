@@ -34,8 +34,8 @@ from ninja_game.files.locking import hold
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.named_level import NamedLevel
+from ninja_game.levels.episodes import Entry
 from ninja_game.player.attempt import Attempt
-from ninja_game.player.catalogue import Entry
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.playthrough import LevelRun
 from ninja_game.sim.level import Level

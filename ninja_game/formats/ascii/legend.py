@@ -19,8 +19,7 @@ A slope or curve is a key of a 2 x 2 block of the keyboard, and the key's place 
 The order within a family is that of the ids: bottom left, bottom right, top right, top left.
 """
 
-ODD_TILE = "?"
-"""Stands for a tile id outside 0…33, which a ``tile`` line gives."""
+ODD_TILE = "?"  # stands for a tile id outside 0…33, which a tile line gives
 
 TILE_OF_CHAR = {char: number for number, char in enumerate(TILE_CHARS)} | {" ": 0}
 """Tile id of a picture character; a blank is as empty as a dot."""
@@ -40,8 +39,7 @@ RIGHT, DOWN, LEFT, UP = 0.0, 1.0, 2.0, 3.0
 DIRECTION_WORDS = {"right": RIGHT, "down": DOWN, "left": LEFT, "up": UP}
 """Direction numbers of the N records (objects.md §1)."""
 
-DIAGONAL = 0.7071067811865468
-"""What a diagonal pad's ``0.707106781186547`` loads as (game.md §5.2)."""
+DIAGONAL = 0.7071067811865468  # what a diagonal pad's 0.707106781186547 loads as (game.md §5.2)
 
 PAD_NORMALS = {
     "up": (0.0, -1.0),

@@ -179,7 +179,7 @@ def _read_row(line: int, text: str, number: int, problems: Problems) -> tuple[st
 
 
 def _similar(char: str) -> str:
-    """What an unknown character in the picture was perhaps meant to be, in words."""
+    """A hint which character an unknown one in the picture may stand for."""
     if char in _LOOKS_LIKE:
         return _LOOKS_LIKE[char]
     other = char.swapcase()

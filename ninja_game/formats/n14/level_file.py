@@ -40,8 +40,8 @@ _OBJECTS_PIECE = re.compile(r"[0-9.,^!\-Na]+")
 class LevelRecord:
     """One record of a level file or replay text.
 
-    ``level``: the in-game string, wrapped lines joined, '' if the record leaves it out; ``demo``: the demo text, '' if
-    there is none; ``note``: what stands where a demo would and is none; ``number`` counts the records from 0; ``line``
+    ``level``: the in-game string, wrapped lines joined, '' if the record leaves it out; ``demo``: the demo text, or
+    ''; ``note``: a text in the place of the demo that is not one; ``number`` counts the records from 0; ``line``
     (from 1): where the record starts.
     """
 

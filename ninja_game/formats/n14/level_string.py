@@ -11,8 +11,7 @@ from ninja_game.formats.numbers import format_exact, format_number, parse_number
 from ninja_game.sim.kinds import KIND_NAMES
 from ninja_game.sim.level import TILES, Level, ObjectSpec, makes_object
 
-MISSING_TILE = -1
-"""Id of a cell that the tile string does not reach: never solid, yet not empty."""
+MISSING_TILE = -1  # id of a cell that the tile string does not reach: never solid, yet not empty
 
 _NO_TILE = frozenset([ord("|"), *range(0xD800, 0xE000)])  # the separator; halves of surrogate pairs
 

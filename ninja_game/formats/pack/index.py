@@ -173,7 +173,7 @@ class _Table:
         return value
 
     def texts(self, key: str) -> tuple[str, ...] | None:
-        """A list of texts; None where there is none."""
+        """A list of texts; None for a missing entry."""
         value = self.table.get(key)
         if value is None:
             return None

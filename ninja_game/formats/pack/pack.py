@@ -23,8 +23,9 @@ from ninja_game.formats.pack.index import LEVELS_PER_EPISODE, EpisodeIndex, pars
 from ninja_game.formats.pack.pars import Pars, parse_pars
 from ninja_game.formats.replay.text import episode_key
 
-INDEX, PARS, CERTIFICATES = "pack.toml", "pars.toml", "certificates"
-"""The index, the table of par times, the folder of replays."""
+INDEX = "pack.toml"
+PARS = "pars.toml"  # the table of par times
+CERTIFICATES = "certificates"  # the folder of replays
 
 MOST_FILES = 4096  # in a zip; all of them together may hold MAX_BYTES
 
@@ -117,7 +118,7 @@ class PackFiles:
         return str(self.path / name)
 
     def text(self, name: str) -> str:
-        """A file's text with plain line ends. Raises FileError; OSError as it comes."""
+        """A file's text with plain line ends. Raises FileError, OSError."""
         if name in self._texts:
             return self._texts[name]
         return decoded(self._bytes(name), self.place(name))
@@ -194,7 +195,7 @@ class Pack:
         return found
 
     def read_pars(self) -> dict[str, Pars]:
-        """The table of pars as it stands, by level file. Raises PackError, FileError; OSError as it comes."""
+        """The table of pars as it stands, by level file. Raises PackError, FileError, OSError."""
         if PARS not in self.files.names:
             return {}
         return parse_pars(self.files.text(PARS), file=self.files.place(PARS))
@@ -211,7 +212,7 @@ class Pack:
         return {file: pars for file, pars in found.items() if digests.get(file, "").startswith(pars.level or "?")}
 
     def certificate(self, file: str, kind: str) -> str | None:
-        """The name of a level file's certificate, "exit" or "gold"; None where there is none."""
+        """The name of a level file's certificate, "exit" or "gold"; None where it has none."""
         name = certificate_name(file, kind)
         return name if name in self.files.names else None
 

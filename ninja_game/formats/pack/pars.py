@@ -25,8 +25,7 @@ CARE = 0.25
 GRADES = {1.5: "easy", 4.0: "medium", 8.0: "hard", 15.0: "very hard", inf: "extreme"}
 """Words for a difficulty below a number: what a player reads."""
 
-STEP = 4
-"""Ticks to whose multiples pars are rounded up: a tenth of a second."""
+STEP = 4  # ticks to whose multiples pars are rounded up: a tenth of a second
 
 DIGITS = 16  # how much of a digest the table keeps
 
@@ -38,7 +37,7 @@ class Pars:
     """What the certificates of a level say.
 
     ``level``, ``run``: digests of the level and of its run to the exit, from which the rest was made. ``exit``: the
-    tick of the exit contact in that run; ``gold``: the same in the run with all gold, None where there is none.
+    tick of the exit contact in that run; ``gold``: the same in the run with all gold, None without one.
     ``difficulty``: see ``ninja_game.batch.difficulty``.
     """
 

@@ -29,8 +29,9 @@ KEYS = (
 
 COUNT_LIMIT = 10**9
 
-LEVELS_KEPT, LONGEST_KEPT = 512, 2**15
-"""Levels that are kept read, some 10 MB, and characters of their texts: recordings of one level stand together."""
+# Recordings of one level stand together.
+LEVELS_KEPT = 512  # levels in memory, some 10 MB
+LONGEST_KEPT = 2**15  # characters of their texts
 
 _HEADER_LINE = re.compile(r"([a-z-]+):(.*)", re.DOTALL)
 _DIGEST = re.compile(r"[0-9a-f]{64}")

@@ -13,13 +13,11 @@ from ninja_game.formats.lines import Line, numbered_lines
 from ninja_game.formats.replay.notations import KEY_NAMES, Marker, in_our_notation, is_marker_name, is_tas_text
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, MAX_TICKS, pressed
 
-MOST_INCLUDES = 100
-"""Files that a text may take in, the same one every time."""
+MOST_INCLUDES = 100  # files that a text may take in, the same one every time
 
 MOST_MARKERS = 100_000  # in a text with all that it takes in
 
-DEEPEST = 8
-"""How deep files may take in others, and blocks may lie in blocks."""
+DEEPEST = 8  # how deep files may take in others, and blocks may lie in blocks
 
 _WORD = re.compile(r";.*|\(|\)[^ \t();]*|[^ \t();]+")
 _RUN = re.compile(r"(\.|L?R?J?)([!-]?)(?:\*([1-9][0-9]{0,6}))?")
@@ -39,12 +37,11 @@ class Inputs(NamedTuple):
 Include = Callable[[str], tuple[str, str]]
 """From a name in a text to a file's path and text. Raises ReplayError."""
 
-Run = tuple[int, str, int]
-"""Keys that are down, "!", "-" or "" as mark, number of ticks."""
+Run = tuple[int, str, int]  # keys that are down, "!", "-" or "" as mark, number of ticks
 
 
 def read_inputs(lines: Iterable[Line], *, file: str = "", include: Include | None = None) -> Inputs:
-    """The inputs that numbered lines describe. ``include``: reads the files that they name; None: there are none.
+    """The inputs that numbered lines describe. ``include``: reads the files that they name; None: they may name none.
 
     Raises ReplayError with file, line and column for anything else, and for more than a million ticks.
     """

@@ -19,7 +19,7 @@ _MOST_EDITS, _LONGEST = 10**9 - 1, 200
 
 
 class Made(NamedTuple):
-    """How a run was made; all of it empty: nobody knows.
+    """How a run was made; all empty: unknown.
 
     ``played``: in the game, with the help of ``assists``, such as "practice"; ``edits``: in a TAS editor;
     ``searches``: the commands that found keys of it, such as "improve"; ``begun_by``: whose run it was before these.
@@ -50,11 +50,11 @@ class Made(NamedTuple):
         return ", ".join(filter(None, parts)) + (_BEGUN + self.begun_by if self.begun_by else "")
 
     def edited(self, edits: int) -> Self:
-        """The same with so many edits more."""
+        """With so many more edits."""
         return self._replace(edits=min(self.edits + edits, _MOST_EDITS))
 
     def searched(self, *commands: str, begun_by: str = "") -> Self:
-        """The same with commands that searched. ``begun_by``: the author so far, unless it says one already."""
+        """With further commands that searched. ``begun_by``: the author so far, unless it says one already."""
         searches = tuple(dict.fromkeys((*self.searches, *commands)))
         return self._replace(searches=searches, begun_by=self.begun_by or " ".join(begun_by.split())[:_LONGEST])
 
@@ -64,7 +64,7 @@ UNKNOWN = Made()
 
 @lru_cache(4096)
 def parse_made(text: str) -> Made:
-    """What ``str`` of one gives. Raises ValueError for any other text.
+    """Parse what ``str`` of a Made gives. Raises ValueError for any other text.
 
     >>> parse_made("played (practice)"), parse_made("edited 3 from a run by Ann").begun_by
     (Made(played=True, assists=('practice',), edits=0, searches=(), begun_by=''), 'Ann')

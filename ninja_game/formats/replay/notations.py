@@ -13,8 +13,7 @@ from ninja_game.sim.inputs import ALL_KEYS, JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, 
 
 _WIDTH = 100
 
-KEY_NAMES = (".", "L", "R", "LR", "J", "LJ", "RJ", "LRJ")
-"""The word of each sum of keys that are down."""
+KEY_NAMES = (".", "L", "R", "LR", "J", "LJ", "RJ", "LRJ")  # the word of each sum of keys that are down
 
 _WORDS = {
     (keys, usual): KEY_NAMES[keys & KEYS_DOWN] + ("" if keys == usual else "!" if keys & JUMP_PRESSED else "-")

@@ -353,7 +353,7 @@ def parse_episode(text: str, *, file: str = "") -> list[Replay]:
 
 
 def write_episode(replays: Sequence[Replay]) -> str:
-    """The text of an episode's replays. Raises ReplayError for what is none, as ``parse_episode`` does."""
+    """The text of an episode's replays. Raises ReplayError for anything else, as ``parse_episode``."""
     text = "\n".join([FIRST_LINE, *map(write_replay, replays)])
     try:
         parse_episode(text)

@@ -42,10 +42,9 @@ GRADES = {"easy": (30, 88), "medium": (89, 208), "hard": None}
 DELAY = 16
 """Who starts elsewhere starts from rest: up to so many ticks of the known run are held longer, and its last one."""
 AWAY = 36.0  # px, at least, between a new start and the old one
-KEPT = {"easy": 0.0, "medium": 0.3, "hard": 0.6}
-"""Share of what kills that stays at least, by grade."""
-BASES, LARGEST = 1000, 306
-"""How many levels are varied; one with as many objects as any of them."""
+KEPT = {"easy": 0.0, "medium": 0.3, "hard": 0.6}  # share of what kills that stays at least, by grade
+BASES = 1000  # levels that are varied
+LARGEST = 306  # number of one with as many objects as any of them
 TRIES = 32
 """The last one takes away only gold, is not mirrored, and begins where the run does: that run passes it."""
 TABLE = "bench.bin"

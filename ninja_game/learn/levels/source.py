@@ -83,7 +83,7 @@ class LevelSource:
 
 
 def nearest(word: str, words: Sequence[str]) -> str:
-    """Words like one that is not known, or the first of all, to be told."""
+    """The known names most like an unknown one, else the first, for error messages."""
     return ", ".join(get_close_matches(word, words, 3, 0.5) or words[:3])
 
 

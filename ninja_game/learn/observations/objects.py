@@ -23,8 +23,7 @@ from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CHASE_PACE, GRID_COLUMNS, GRID_ROWS, GUARD_SPEED, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.states import DRONE_MOVE, GUARD_CHASE, LAUNCHER_FLIGHT, LAUNCHER_IDLE, THWUMP_MOVE, TRAP
 
-HIGHEST_ROUTINE = 3.0
-"""The highest number of a drone's or a turret's routine."""
+HIGHEST_ROUTINE = 3.0  # the highest number of a drone's or a turret's routine
 
 
 @fast

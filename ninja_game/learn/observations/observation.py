@@ -33,7 +33,7 @@ Observed: TypeAlias = Array | dict[str, Array]
 
 
 def parts_of(observation: PartLike | Sequence[PartLike]) -> list[Part]:
-    """The parts that are meant: a part, the name of one, or several of those.
+    """Resolve parts: a part, the name of one, or several of those.
 
     Raises ArgumentError for anything else, and for two of the same name.
     """

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from math import ceil, sqrt
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from gymnasium.spaces import Box
@@ -23,40 +23,100 @@ from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, HALF, RADIUS, WORLD_HE
 from ninja_game.sim.states import DRONE_FIRING, WEAPON_LASER
 
 FAR = 2.0 * WORLD_WIDTH  # px; nothing farther from a picture is drawn
-DOOR_HALF, BEAM_RADIUS, CROSS_RADIUS = 4.0, 2.0, 4.0  # px
+# px
+DOOR_HALF = 4.0
+BEAM_RADIUS = 2.0
+CROSS_RADIUS = 4.0
 EVERYWHERE = (-FAR, FAR, -FAR, FAR)
 ROUNDING = 1.0e-6
 """px; what rounding may move the rim of an object."""
 
 
+class Frame(NamedTuple):
+    """The part of a picture to be drawn: columns ``first`` to ``last``, rows ``low`` to ``high``.
+
+    ``width``: pixels in a row; ``left``, ``top``: the picture's corner, px of the level; ``pixel_x``, ``pixel_y``: size
+    of a pixel, px of the level; ``rounded``: whether shades are.
+    """
+
+    width: int
+    left: float
+    top: float
+    pixel_x: float
+    pixel_y: float
+    first: int
+    last: int
+    low: int
+    high: int
+    rounded: int
+
+
+class View(NamedTuple):
+    """What pictures show. ``frame``: all of one; ``across``, ``down``: pixels of a level's tiles, with their margin."""
+
+    frame: Frame
+    across: int
+    down: int
+    follows: int  # whether the picture moves with the ninja
+    ninja_shade: float
+
+
+class Things(NamedTuple):
+    """The objects of all levels, a table each: those of level i are from ``bounds[2 i]`` to ``bounds[2 i + 1]``.
+
+    ``sizes``: radius or half side, px; ``boxes``: whether a box; ``moves``: whether it moves; ``xs``, ``ys``: at first.
+    """
+
+    bounds: Any
+    slots: Any
+    sizes: Any
+    boxes: Any
+    shades: Any
+    moves: Any
+    xs: Any
+    ys: Any
+
+
+class Layers(NamedTuple):
+    """Pictures without what moves. ``changed`` (worlds): whether to draw again; ``pictures``: one for each world.
+
+    ``later``: by cell of each level the last object drawn there; ``movers``: numbers of what moves, in ``bounds``.
+    """
+
+    changed: Any
+    pictures: Any
+    later: Any
+    bounds: Any
+    movers: Any
+
+
 @fast
-def pixels_of(area: Any, frame: Any) -> tuple[int, int, int, int]:
+def pixels_of(area: Any, frame: Frame) -> tuple[int, int, int, int]:
     """The first and the last column and row of a frame in which what lies in an area, px from its corner, may be seen.
 
     That is where the middle of a pixel is less than half a pixel away, of its longer side: else it is not covered.
     """
     left, right, top, bottom = area
-    _, _, _, pixel_x, pixel_y, first, last, low, high = frame
-    room = 0.5 * max(pixel_x, pixel_y) + ROUNDING
-    room_x = min(room, pixel_x)
-    room_y = min(room, pixel_y)
+    room = 0.5 * max(frame.pixel_x, frame.pixel_y) + ROUNDING
+    room_x = min(room, frame.pixel_x)
+    room_y = min(room, frame.pixel_y)
     return (
-        int(clamp((left - room_x) / pixel_x + 0.5, float(first), last + 1.0)),
-        int(clamp((right + room_x) / pixel_x + 0.5, float(first), last + 1.0)) - 1,
-        int(clamp((top - room_y) / pixel_y + 0.5, float(low), high + 1.0)),
-        int(clamp((bottom + room_y) / pixel_y + 0.5, float(low), high + 1.0)) - 1,
+        int(clamp((left - room_x) / frame.pixel_x + 0.5, float(frame.first), frame.last + 1.0)),
+        int(clamp((right + room_x) / frame.pixel_x + 0.5, float(frame.first), frame.last + 1.0)) - 1,
+        int(clamp((top - room_y) / frame.pixel_y + 0.5, float(frame.low), frame.high + 1.0)),
+        int(clamp((bottom + room_y) / frame.pixel_y + 0.5, float(frame.low), frame.high + 1.0)) - 1,
     )
 
 
 @fast
 def paint(
-    out: Any, index: int, offset: int, frame: Any, x: float, y: float, half_x: float, half_y: float, disc: bool,
-    shade: float, whole: int,
-) -> None:  # fmt: skip
-    """Paint a disc or a box about (x, y), px of the level; its rim gets a share of the shade. ``whole``: rounded."""
-    width, left, top, pixel_x, pixel_y, _, _, _, _ = frame
-    x -= left
-    y -= top
+    picture: Any, frame: Frame, x: float, y: float, half_x: float, half_y: float, disc: bool, shade: float
+) -> None:
+    """Paint a disc or a box about (x, y), px of the level; its rim gets a share of the shade."""
+    pixel_x = frame.pixel_x
+    pixel_y = frame.pixel_y
+    x -= frame.left
+    y -= frame.top
     if not (-FAR < x < FAR and -FAR < y < FAR):
         return
     first, last, low, high = pixels_of((x - half_x, x + half_x, y - half_y, y + half_y), frame)
@@ -69,10 +129,10 @@ def paint(
             else:
                 coverage = clamp((half_x - dx) / pixel_x + 0.5, 0.0, 1.0)
                 coverage = coverage * clamp((half_y - dy) / pixel_y + 0.5, 0.0, 1.0)
-            at = offset + row * width + column
-            value = float(out[index, at])
+            at = row * frame.width + column
+            value = float(picture[at])
             value = value + (shade - value) * coverage
-            out[index, at] = float(int(value + 0.5)) if whole else value
+            picture[at] = float(int(value + 0.5)) if frame.rounded else value
 
 
 @fast
@@ -84,9 +144,7 @@ def door_middle(o: Object) -> tuple[float, float]:
 
 
 @fast
-def draw_object(
-    o: Object, out: Any, index: int, offset: int, frame: Any, size: float, box: bool, shade: float, whole: int
-) -> None:
+def draw_object(o: Object, picture: Any, frame: Frame, size: float, box: bool, shade: float) -> None:
     """Paint an object that is there: what one touches of it, a closed door's line, a beam, a crosshair."""
     if o.kind == kinds.DOOR:
         if o.edge_1 and activity_of(o) == 1.0:
@@ -94,14 +152,14 @@ def draw_object(
             upright = UNIT_X[o.edge_1 % 4] != 0.0
             half_x = DOOR_HALF if upright else HALF
             half_y = HALF if upright else DOOR_HALF
-            paint(out, index, offset, frame, x, y, half_x, half_y, False, shade, whole)
+            paint(picture, frame, x, y, half_x, half_y, False, shade)
         return
     x, y = contact_place_of(o)
     if o.kind == kinds.EXIT and not o.is_open:
         shade = 0.5 * shade
-    paint(out, index, offset, frame, x, y, size, size, not box, shade, whole)
+    paint(picture, frame, x, y, size, size, not box, shade)
     if o.kind == kinds.TURRET and o.updating:
-        paint(out, index, offset, frame, o.aim_x, o.aim_y, CROSS_RADIUS, CROSS_RADIUS, True, shade, whole)
+        paint(picture, frame, o.aim_x, o.aim_y, CROSS_RADIUS, CROSS_RADIUS, True, shade)
     if o.kind == kinds.DRONE and o.weapon == WEAPON_LASER and o.routine == DRONE_FIRING:
         dx = o.end_x - x
         dy = o.end_y - y
@@ -109,10 +167,7 @@ def draw_object(
         if length < FAR:
             for step in range(int(length / BEAM_RADIUS)):
                 part = step * BEAM_RADIUS / length
-                paint(
-                    out, index, offset, frame, x + part * dx, y + part * dy, BEAM_RADIUS, BEAM_RADIUS, True,
-                    shade, whole,
-                )  # fmt: skip
+                paint(picture, frame, x + part * dx, y + part * dy, BEAM_RADIUS, BEAM_RADIUS, True, shade)
 
 
 LARGEST = 512
@@ -129,8 +184,7 @@ SHADES = {
 """0 is empty, 255 the ninja; 205 to 230 kill. A closed exit has half its shade."""
 STILL = {kinds.GOLD, kinds.MINE, kinds.EXIT, kinds.SWITCH, kinds.LAUNCH_PAD, kinds.ONE_WAY}
 """Kinds that stay where they are, and look another way only after an event (``Setting.changed``)."""
-PLAIN_SIZE = 6.0
-"""Radius, px, at which what cannot be touched is drawn."""
+PLAIN_SIZE = 6.0  # radius, px, at which what cannot be touched is drawn
 
 
 @dataclass(frozen=True)
@@ -191,13 +245,15 @@ class Pixels(Part):
         sizes = {kind.number: (kind.disc or kind.box or PLAIN_SIZE, kind.box is not None) for kind in OBSERVED}
         sizes[kinds.DOOR] = HALF, False
         layers = np.zeros((1, 1) if self.view else (setting.count, self.length), self.box.dtype)
+        wide, high, rounded = across + 2 * margins[1][0], down + 2 * margins[0][0], int(not self.normalised)
+        frame = Frame(self.width, 0.0, 0.0, pixel_x, pixel_y, 0, self.width - 1, 0, self.height - 1, rounded)
         return (
             observe_pixels,
             setting.values(picture, self.box.dtype),
-            across + 2 * margins[1][0], down + 2 * margins[0][0], self.width, self.height, int(self.view is not None),
-            pixel_x, pixel_y, NINJA_SHADE * factor, int(not self.normalised), setting.changed, layers,
-            setting.values(later, np.int16), *setting.rows(movers, 1), *setting.rows(objects, 7),
-        )  # fmt: skip
+            View(frame, wide, high, int(self.view is not None), NINJA_SHADE * factor),
+            Layers(setting.changed, layers, setting.values(later, np.int16), *setting.rows(movers, 1)),
+            Things(*setting.rows(objects, 7)),
+        )
 
 
 @dataclass(frozen=True)
@@ -226,10 +282,7 @@ def tile_picture(
 @entry_point
 def observe_pixels(
     maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
-    pictures: Any, across: int, down: int, width: int, height: int, follows: int,
-    pixel_x: float, pixel_y: float, ninja_shade: float, whole: int,
-    changed: Any, layers: Any, later: Any, mover_bounds: Any, movers: Any,
-    bounds: Any, slots: Any, sizes: Any, boxes: Any, shades: Any, moves: Any, xs: Any, ys: Any,
+    tiles: Any, view: View, layers: Layers, things: Things,
 ) -> None:  # fmt: skip
     """Draw the pictures of some worlds: the tiles, copied; the objects in the order of their slots; the ninja.
 
@@ -237,75 +290,82 @@ def observe_pixels(
     come those that move; where one may overlap what is drawn later, all of that place is drawn in order, at last.
     With a view, whole pixels move.
     """
+    whole = view.frame
+    width = whole.width
+    height = whole.high + 1
+    pixel_x = whole.pixel_x
+    pixel_y = whole.pixel_y
     for k in range(first, last):
         index = which[k]
         level = level_of[index]
         w = worlds[index]
-        start = bounds[2 * level]
-        end = bounds[2 * level + 1]
-        look = (slots, sizes, boxes, shades, moves, xs, ys)
-        if follows:
-            column = int(clamp(w.ninja.x / pixel_x, 0.0, across - 2.0 * width)) + width - width // 2
-            row = int(clamp(w.ninja.y / pixel_y, 0.0, down - 2.0 * height)) + height - height // 2
-            column = min(column, across - width)
-            row = min(row, down - height)
-            corner = (level * down + row) * across + column
+        start = things.bounds[2 * level]
+        end = things.bounds[2 * level + 1]
+        picture = out[index][offset:]
+        if view.follows:
+            column = int(clamp(w.ninja.x / pixel_x, 0.0, view.across - 2.0 * width)) + width - width // 2
+            row = int(clamp(w.ninja.y / pixel_y, 0.0, view.down - 2.0 * height)) + height - height // 2
+            column = min(column, view.across - width)
+            row = min(row, view.down - height)
+            corner = (level * view.down + row) * view.across + column
             left = (column - width) * pixel_x
             top = (row - height) * pixel_y
-            frame = (width, left, top, pixel_x, pixel_y, 0, width - 1, 0, height - 1)
+            frame = Frame(width, left, top, pixel_x, pixel_y, 0, whole.last, 0, whole.high, whole.rounded)
             for line in range(height):
-                at = offset + line * width
-                source = corner + line * across
-                copy_values(out[index, at : at + width], pictures[source : source + width], width)
-            draw_objects(w, out, index, offset, frame, start, end, look, EVERYWHERE, True, whole)
+                at = line * width
+                source = corner + line * view.across
+                copy_values(picture[at : at + width], tiles[source : source + width], width)
+            draw_objects(w, picture, frame, things, start, end, EVERYWHERE, True)
         else:
-            corner = level * down * across
-            frame = (width, 0.0, 0.0, pixel_x, pixel_y, 0, width - 1, 0, height - 1)
-            if changed[index]:
-                copy_values(layers[index], pictures[corner : corner + width * height], width * height)
-                draw_objects(w, layers, index, 0, frame, start, end, look, EVERYWHERE, False, whole)
-            copy_values(out[index, offset : offset + width * height], layers[index], width * height)
+            corner = level * view.down * view.across
+            frame = whole
+            layer = layers.pictures[index]
+            if layers.changed[index]:
+                copy_values(layer, tiles[corner : corner + width * height], width * height)
+                draw_objects(w, layer, frame, things, start, end, EVERYWHERE, False)
+            copy_values(picture[: width * height], layer, width * height)
             for again in range(2):
-                for place in range(mover_bounds[2 * level], mover_bounds[2 * level + 1]):
-                    number = start + int(movers[place])
-                    o = w.objects[int(slots[number])]
-                    area = area_of(o, sizes[number], 0.0)
-                    if is_covered(number - start, level, later, area) != (again == 1):
+                for place in range(layers.bounds[2 * level], layers.bounds[2 * level + 1]):
+                    number = start + int(layers.movers[place])
+                    o = w.objects[int(things.slots[number])]
+                    size = things.sizes[number]
+                    area = area_of(o, size, 0.0)
+                    if is_covered(number - start, level, layers.later, area) != (again == 1):
                         continue
                     if not again:
-                        box = boxes[number] == 1.0
-                        draw_object(o, out, index, offset, frame, sizes[number], box, shades[number], whole)
+                        draw_object(o, picture, frame, size, things.boxes[number] == 1.0, things.shades[number])
                         continue
-                    near = area_of(o, sizes[number], max(pixel_x, pixel_y) + 2.0 * ROUNDING)
+                    near = area_of(o, size, max(pixel_x, pixel_y) + 2.0 * ROUNDING)
                     first_column, last_column, first_row, last_row = pixels_of(area, frame)
                     wide = last_column + 1 - first_column
                     for line in range(first_row, last_row + 1):
                         at = line * width + first_column
-                        target = out[index, offset + at : offset + at + wide]
-                        copy_values(target, pictures[corner + at : corner + at + wide], wide)
-                    part = (width, 0.0, 0.0, pixel_x, pixel_y, first_column, last_column, first_row, last_row)
-                    draw_objects(w, out, index, offset, part, start, end, look, near, True, whole)
-        paint(out, index, offset, frame, w.ninja.x, w.ninja.y, RADIUS, RADIUS, True, ninja_shade, whole)
+                        source = corner + at
+                        copy_values(picture[at : at + wide], tiles[source : source + wide], wide)
+                    part = Frame(
+                        width, 0.0, 0.0, pixel_x, pixel_y, first_column, last_column, first_row, last_row, whole.rounded
+                    )
+                    draw_objects(w, picture, part, things, start, end, near, True)
+        paint(picture, frame, w.ninja.x, w.ninja.y, RADIUS, RADIUS, True, view.ninja_shade)
 
 
 @fast
 def draw_objects(
-    w: World, out: Any, index: int, offset: int, frame: Any, first: int, last: int, look: Any, area: Any,
-    moving: bool, whole: int,
-) -> None:  # fmt: skip
+    w: World, picture: Any, frame: Frame, things: Things, first: int, last: int, area: Any, moving: bool
+) -> None:
     """Draw the objects that are there and may lie in an area, with or without those that are ``moving``."""
-    slots, sizes, boxes, shades, moves, xs, ys = look
     left, right, top, bottom = area
     for number in range(first, last):
-        if moving or not moves[number]:
-            o = w.objects[int(slots[number])]
-            size = float(sizes[number])
-            here = (xs[number] - size, xs[number] + size, ys[number] - size, ys[number] + size)
-            if moves[number]:
-                here = area_of(o, size, 0.0)
+        moves = things.moves[number]
+        if moving or not moves:
+            o = w.objects[int(things.slots[number])]
+            size = float(things.sizes[number])
+            x = things.xs[number]
+            y = things.ys[number]
+            here = area_of(o, size, 0.0) if moves else (x - size, x + size, y - size, y + size)
             overlaps = left < here[1] and here[0] < right and top < here[3] and here[2] < bottom
             if overlaps and is_there(w, o):
-                draw_object(o, out, index, offset, frame, size, boxes[number] == 1.0, shades[number], whole)
+                draw_object(o, picture, frame, size, things.boxes[number] == 1.0, things.shades[number])
 
 
 @fast

@@ -236,8 +236,9 @@ class Rays(Part):
         return observe_rays, *directions, float(self.reach), factor, setting.values(edges, np.uint8)
 
 
-OUTSIDE, DOORWAY = 3, 4
-"""More states of edges than the world has: those of a cell that is not there; where a door may be (the world knows)."""
+# States of edges besides those of the world.
+OUTSIDE = 3  # of a cell outside the level
+DOORWAY = 4  # where a door may be: the world knows its state
 
 
 @entry_point

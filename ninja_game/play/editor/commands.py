@@ -20,6 +20,7 @@ from ninja_game.files.user_folder import LEVELS, free_path
 from ninja_game.formats.ascii.writer import headers_of
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.sayings import Saying, read_sayings
+from ninja_game.levels.episodes import Entry
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
 from ninja_game.play.editor.messages import MessagesScreen
@@ -34,7 +35,6 @@ from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.menu_screen import CANCEL, Action, FormPanel, Menu, Row, ask_text, nothing
 from ninja_game.play.workspace import CommandMenu, CommandTable, DocumentCommands, bundled_commands, key_text
 from ninja_game.player.attempt import Attempt
-from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import LevelContext, Navigation, PacedRun
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import COLUMNS, ROWS, Level

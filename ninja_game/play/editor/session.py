@@ -33,13 +33,13 @@ from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pack import is_pack
 from ninja_game.formats.replay.made import Made
+from ninja_game.levels.episodes import Entry
 from ninja_game.levels.findings import Finding
 from ninja_game.levels.warnings import level_findings
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link, copy_text, pasted_text
 from ninja_game.play.window import save_picture
 from ninja_game.player.attempt import Attempt
-from ninja_game.player.catalogue import Entry
 from ninja_game.player.player_data import keep_replay
 from ninja_game.runtime import NewestJob
 from ninja_game.sim.level import Level

@@ -24,7 +24,7 @@ FIVE_CELLS = (0, 1, STRIDE - 1, STRIDE, STRIDE + 1)
 
 
 class Work(NamedTuple):
-    """What a tick cost: insertions and removals in lists, and tests of two objects."""
+    """The cost of a tick: insertions and removals in lists, and tests of two objects."""
 
     list_changes: int
     tests: int
@@ -113,7 +113,7 @@ CHART = (LEFT + 460, TOP + 270, 240.0, 140.0)
 
 @cache
 def measured(count: int, radius: float) -> tuple[Work, Work]:
-    """What a tick costs on average, loose and normal, with so many objects."""
+    """The mean cost of a tick with ``count`` objects, in the loose and the normal grid."""
     crowd, ticks = Crowd(count, radius), 8
     works = [crowd.move() for _ in range(ticks)]
     loose, normal = (Work(*(sum(work[grid][part] for work in works) // ticks for part in (0, 1))) for grid in (0, 1))

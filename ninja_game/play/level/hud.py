@@ -14,7 +14,7 @@ from ninja_game.formats.run_time import rounded_text
 from ninja_game.play.level.play import MUST, TAG_ROOM, Things, tag_top
 from ninja_game.sim.collision.tiles import FULL, SHAPE
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
-from ninja_game.sim.level import ROWS
+from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL, LIFETIME
 from ninja_game.ui.canvas import WIDTH, Point
 from ninja_game.ui.theme import Palette, Theme, mixed, wrapped
@@ -28,7 +28,7 @@ _MARK_SIZE = 12.0  # of a medal on the time bar, px
 
 _FOOT_SIZE = 11.0  # letters of the lines in the borders
 _FOOT_WIDTH = 744.0  # px
-_RIGHT = 768.0  # right edge of what is written in the borders, px
+_RIGHT = CELL * (COLUMNS + 1)  # right edge of what is written in the borders, px
 _NAME_FROM = 90.0  # px beside a text in the border from which on there is room for the level's name
 
 _SAID_SIZE = 15.0  # letters of what a level says
@@ -36,7 +36,7 @@ _SAID_LINE = 22.0  # height of its lines, px
 _SAID_WIDE = 440.0  # where its lines are broken, px
 _SAID_WIDEST = 680.0  # where a single word ends, px
 _KEYS_WIDE = 70.0  # room for keys before a line, px
-IN_BORDER = 576.0  # top of what a level says in the border below, px
+IN_BORDER = CELL * (ROWS + 1)  # top of what a level says in the border below, px
 _BESIDE_GOLD = 490.0  # its width there, px
 _FAINT = 0.2  # how solid its panel is over the ninja
 _COVERED, CLEAR = 10.0, 34.0  # px between them at which it is as faint as that, and solid
@@ -72,7 +72,7 @@ def bar_length(lifetime: float) -> float:
 
 
 def trough(palette: Palette) -> pygame.Color:
-    """What is behind the time bar."""
+    """The background of the time bar."""
     return mixed(palette.tile, palette.outline, 0.8)
 
 
@@ -376,7 +376,7 @@ def _fade(surface: pygame.Surface, place: pygame.Rect, behind: pygame.Surface | 
 
 
 def _hidden(things: Things, x: float, y: float, w: float, h: float) -> Iterator[int]:
-    """What each thing is worth that a panel would hide."""
+    """The cost of each thing that a panel would hide."""
     return (worth for a, b, worth in things if -_NEAR < a - x < w + _NEAR and -_NEAR < b - y < h + _NEAR)
 
 

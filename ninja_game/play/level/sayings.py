@@ -69,7 +69,7 @@ class Sayings:
         self.at_start()
 
     def at_start(self) -> None:
-        """The level waits at its start."""
+        """To be called when the level waits at its start."""
         due = [each for each in self._sayings if each.when == "death" and each.deaths == self._deaths]
         self._say(*((due[0].text, SHOWN_TICKS, self._start()) if due else (self._start(), START_TICKS)))
         self._still = self._quiet = 0
@@ -83,7 +83,7 @@ class Sayings:
 
     @property
     def named(self) -> Sequence[str]:
-        """What is pointed at: the goal, as long as the level speaks."""
+        """The things with a name and an arrow: the goal, as long as the level shows texts."""
         return THINGS if self._sayings else ()
 
     @property

@@ -1,4 +1,4 @@
-"""A level on the screen: what keys do in each phase, where they lead, and the picture."""
+"""The screen of a level: what keys do in each phase, where they lead, and the picture."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from ninja_game.errors import LevelError, NinjaGameError, reason
 from ninja_game.formats.links import replay_link
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
+from ninja_game.levels.episodes import Entry, Mood
 from ninja_game.play.app import App, Screen
 from ninja_game.play.clipboard import copy_level_link, copy_link
 from ninja_game.play.level.hud import Hud
@@ -23,7 +24,6 @@ from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.attempt import Attempt
-from ninja_game.player.catalogue import Entry, Mood
 from ninja_game.player.player_data import keep_replay
 from ninja_game.player.playthrough import EpisodeRun, LevelContext, LevelRun, Navigation
 from ninja_game.player.progress import opens_author

@@ -15,6 +15,7 @@ from ninja_game.files.user_folder import free_path
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.generator.daily import FOLDER as DAILY
+from ninja_game.levels.episodes import Entry, author_name
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.level.screen import play_level
@@ -24,7 +25,6 @@ from ninja_game.play.menus.problems import Problem, of_files, problems_button
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text, where_from
-from ninja_game.player.catalogue import Entry, author_name
 from ninja_game.player.progress import Mark, opens_author
 from ninja_game.player.records import SavedReplay
 from ninja_game.ui.input.bindings import InputEvent

@@ -8,6 +8,7 @@ import pygame
 
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.run_time import seconds_text
+from ninja_game.levels.episodes import Episode, EpisodeSet
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.level.screen import LevelScreen, play_level
@@ -15,7 +16,6 @@ from ninja_game.play.menus.menu_screen import CANCEL, Menu, Row
 from ninja_game.play.menus.problems import of_files, problems_button
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, tries_text
-from ninja_game.player.catalogue import Episode, EpisodeSet
 from ninja_game.player.playthrough import EpisodeRun, left_half_way
 from ninja_game.player.progress import CHEATED, LOCKED, WITH_HELP, Mark, has_all_gold, next_par, tally, worst_medal
 from ninja_game.ui.input.bindings import InputEvent

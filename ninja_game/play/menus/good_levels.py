@@ -10,9 +10,9 @@ import pygame
 
 from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.load import load_levels
+from ninja_game.levels.episodes import Entry
 from ninja_game.play.app import App
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
-from ninja_game.player.catalogue import Entry
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Widget

@@ -13,6 +13,7 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
+from ninja_game.levels.episodes import Entry, Mood
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App, Screen
 from ninja_game.play.editor.screen import EditorScreen
@@ -26,7 +27,6 @@ from ninja_game.play.menus.replays import RecordsScreen, ReplaysScreen
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.playback import Playback, RunClock
 from ninja_game.play.window import LOGO
-from ninja_game.player.catalogue import Entry, Mood
 from ninja_game.player.playthrough import EpisodeRun, next_run
 from ninja_game.runtime import in_page_or_not
 from ninja_game.simulation import Simulation

@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 
 import pygame
 
+from ninja_game.levels.episodes import Mood
 from ninja_game.play.app import CALM, App, Screen
-from ninja_game.player.catalogue import Mood
 from ninja_game.player.player_data import PlayerData
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.input.bindings import InputEvent

@@ -22,6 +22,7 @@ from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISOD
 from ninja_game.formats.pack.pack import INDEX, Pack, certificate_name
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.generator.daily import FOLDER as DAILY
+from ninja_game.levels.episodes import Entry, EpisodeSet
 from ninja_game.levels.findings import Finding, PackFinding
 from ninja_game.levels.warnings import level_findings
 from ninja_game.play.app import App
@@ -32,7 +33,6 @@ from ninja_game.play.menus.packer import packer_of
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
-from ninja_game.player.catalogue import Entry, EpisodeSet
 from ninja_game.runs.packs import NEVER_ACCEPTED, file_of, level_of
 from ninja_game.runtime import NewestJob
 from ninja_game.ui.input.bindings import InputEvent

@@ -9,13 +9,13 @@ from random import Random
 import pygame
 
 from ninja_game.formats.run_time import seconds_text
+from ninja_game.levels.episodes import Episode
 from ninja_game.play.app import App
 from ninja_game.play.level.hud_view import SHINE_TICKS
 from ninja_game.play.level.play import STAMP_TICKS
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal
-from ninja_game.player.catalogue import Episode
 from ninja_game.player.player_data import EPISODE_BEST, OF_A_LEVEL
 from ninja_game.player.playthrough import EpisodeRun
 from ninja_game.player.progress import Mark, worst_medal

@@ -19,11 +19,11 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay, write_episode, write_replay
 from ninja_game.formats.run_time import seconds_text
+from ninja_game.levels.episodes import author_name
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.menus.menu_screen import MenuScreen, Question
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.player.catalogue import author_name
 from ninja_game.player.player_data import forget_replay
 from ninja_game.player.progress import opens_author
 from ninja_game.player.records import NEWEST_SHOWN, SavedReplay, has_words

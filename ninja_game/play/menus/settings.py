@@ -23,19 +23,12 @@ from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import NINJA_COLOURS, PALETTES, TEXT_SIZES, Area, Theme
 from ninja_game.ui.widgets import TEXT, Button, Choice, Label, Slider, Widget
 
-IN_REPLAYS_ONLY = frozenset({"faster", "slower", "frame_back", "frame_forward", "edit"})
-IN_LEVELS_ONLY = frozenset({"suicide", "replay", "skip", "quick_save", "quick_load", "rewind", "slow", "step"})
-"""Actions that never mean something on the same screen."""
-
 
 def clash(first: str, second: str) -> bool:
     """Whether two actions must not have the same input: other ones, read on one screen, that share none by default."""
-    if first == second:
-        return False
-    pair = {first, second}
-    if pair & IN_REPLAYS_ONLY and pair & IN_LEVELS_ONLY:
-        return False
     a, b = ACTIONS[first], ACTIONS[second]
+    if first == second or {a.where, b.where} == {"level", "replay"}:
+        return False
     return not (set(a.keys) & set(b.keys) or set(a.pad) & set(b.pad))
 
 

@@ -42,7 +42,7 @@ MOST_PICTURES = 20_000
 
 
 class _StoppedError(Exception):
-    """The film is not wanted any more."""
+    """The film was given up."""
 
 
 @dataclass(frozen=True)
@@ -97,9 +97,9 @@ class Film:
 
 
 def section_of(films: Sequence[Film], first: int, last: int | None) -> list[Film]:
-    """What of films that follow each other is between two pictures, counted from 0 over all. ``last``: None: the end.
+    """The part of consecutive films between two pictures, counted from 0 over all. ``last``: None: the end.
 
-    Raises ArgumentError where nothing is.
+    Raises ArgumentError for an empty part.
     """
     found, before = [], 0
     for film in films:
@@ -164,7 +164,7 @@ class _Panel:
 
 
 def _called(runs: Sequence[Recording]) -> list[str]:
-    """Whose run each is, in a word; of those by one name the file."""
+    """The label of each run: its player; of several by one player the file."""
     names = [run.whose for run in runs]
     return [(run.place or name if names.count(name) > 1 else name)[:20] for run, name in zip(runs, names, strict=True)]
 

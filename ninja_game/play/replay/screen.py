@@ -13,11 +13,11 @@ from ninja_game.formats.links import replay_link
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
 from ninja_game.formats.run_time import seconds_text
+from ninja_game.levels.episodes import Mood
 from ninja_game.play.app import App, Screen
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.replay.playback import Ghost, Playback, RunClock
-from ninja_game.player.catalogue import Mood
 from ninja_game.sim.rules import TICK_MS, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
@@ -300,7 +300,7 @@ class ReplayScreen(Screen):
 
 
 def _with_claims(run: Recording) -> Replay:
-    """A run as others are sent it: one that was only played, or is of N, with the result of it."""
+    """A run to be shared: with its result, where it was only played or is of N."""
     if not run.replay.unclaimed:
         return replace(run.replay, level=run.level)
     # It imports modules that playing does without.

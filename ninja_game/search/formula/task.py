@@ -137,7 +137,7 @@ def target_of(task: SpanTask) -> int | None:
     return found and int(found[1] or -1) + 1
 
 
-def score_in_words(task: SpanTask, found: Found) -> str:
+def score_text(task: SpanTask, found: Found) -> str:
     """What a search has found, in words."""
     last = task.first + found.ticks - 1
     if found.missed_by == 0.0:

@@ -55,7 +55,7 @@ class OtherRuns:
 
     @property
     def chosen(self) -> OtherRun | None:
-        """The run that parts are taken from; a notice where there is none."""
+        """The run that parts are taken from; a notice without one."""
         if not self.editor.others:
             self.editor.app.notify(NONE_YET)
         return self.editor.beside
@@ -78,7 +78,7 @@ class OtherRuns:
     def splice_here(self) -> None:
         """Behind the cursor comes the rest of the other run, from the tick in which its ninja was nearest to ours.
 
-        Nearest by place and by speed: a difference of speed counts as the px that come of it in AHEAD ticks.
+        Nearest by place and by speed: a difference of speed counts as the distance after AHEAD ticks.
         """
         editor, other = self.editor, self.chosen
         tick, positions = editor.cursor, editor.session.timeline.positions
@@ -108,7 +108,7 @@ def other_run(editor: TasEditor, recording: Recording) -> OtherRun:
 
 
 def _free_name(recording: Recording, about: Recording, taken: set[str]) -> str:
-    """What tells a run from the others: its author, or its file and number, or its name."""
+    """A name that no other run has: its author, or its file and number, or its name."""
     # Records of N are often many by one author: their files and numbers tell them apart.
     known = recording.whose if recording.player != about.author else recording.place or recording.name
     name = known or "another run"
@@ -185,7 +185,7 @@ class OtherRunScreen(ReplaysScreen):
 
 
 def _named(row: ReplayRow) -> ReplayRow:
-    """A run in a file by the name of that; one that claims nothing is run, to say how it ends, if that is quick."""
+    """A run in a file by the name of that; one without claims is run to its end, if that is quick."""
     source = row.source
     if not isinstance(source, Recording):
         return row

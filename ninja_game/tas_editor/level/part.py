@@ -26,16 +26,13 @@ from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.theme import Theme
 from ninja_game.view.overlays import OVERLAY_ACTIONS
 
-_REACH = 16.0
-"""px of the level within which an object is pointed at."""
+_REACH = 16.0  # px of the level within which an object is pointed at
 _LEAP = 40.0
 """A drag goes to a nearer part of the run that is many ticks away only if it is nearer by more px than this."""
 
-LINE = 13.0
-"""Height of what is written below the level, logical px."""
+LINE = 13.0  # height of what is written below the level, logical px
 
-_STILL = 3
-"""The mouse that moves less, px, clicks."""
+_STILL = 3  # the mouse that moves less, px, clicks
 
 Px = tuple[int, int]
 
@@ -107,7 +104,7 @@ class LevelPart(TasPart):
 
     @property
     def ghosts(self) -> list[RunGhost]:
-        """Those that were drawn last."""
+        """The ghosts that were drawn last."""
         return list(self._ghosts.values())
 
     def update(self, real_ms: int) -> None:
@@ -315,7 +312,7 @@ class LevelPointer:
             part.ask_to_watch(proposal(part.pointed.id, KIND_NAMES.index(part.pointed.kind)))
 
     def _point(self, event: pygame.Event, at: Px) -> None:
-        """Tell what is there; a click, or a drag, goes to the tick in which the ninja was nearest."""
+        """Name what is there; a click, or a drag, goes to the tick in which the ninja was nearest."""
         part, editor = self._part, self._editor
         positions = editor.session.timeline.positions
         if not len(positions):

@@ -19,19 +19,15 @@ from ninja_game.ui.theme import Theme
 
 Positions = NDArray[np.float64]
 
-BRIGHT_TICKS = 40
-"""Ticks before and after the cursor whose path is bright."""
-_DOT_EVERY, _CLOSE = 10, 0.5
-"""Ticks between two dots on the bright path; where a px of the window is less of the level: each tick."""
-FAINT, CLEAR = 110, 190
-"""How solid paths are, of 255."""
-_BLOCK = 1000
-"""Ticks by which the part of a long run moves whose path is shown."""
-LETTERS = 9
-"""Size of what is written over the level, logical px of the TAS editor, as all sizes here."""
+BRIGHT_TICKS = 40  # ticks before and after the cursor whose path is bright
+_DOT_EVERY = 10  # ticks between two dots on the bright path
+_CLOSE = 0.5  # px of the level in a px of the window, below which each tick has a dot
+FAINT, CLEAR = 110, 190  # of 255, how solid paths are
+_BLOCK = 1000  # ticks by which the part of a long run moves whose path is shown
+LETTERS = 9  # size of what is written over the level, logical px of the TAS editor, as all sizes here
 _LONGEST_NAME = 100
-_THIN, _THICK = 0.8, 2.7
-"""Width of paths, and of their selected part."""
+_THIN = 0.8  # width of paths
+_THICK = 2.7  # of their selected part
 
 
 def shaded(colour: pygame.Color, alpha: int) -> pygame.Color:
@@ -77,7 +73,7 @@ class PathLayer:
 
 
 class LevelPaths:
-    """What lies over a picture of the level. ``canvas``: of that picture; ``theme``: the TAS editor's."""
+    """Draws paths of runs over a picture of the level. ``canvas``: of that picture; ``theme``: the TAS editor's."""
 
     def __init__(self, theme: Theme, canvas: Canvas) -> None:
         self.theme = theme
@@ -177,7 +173,7 @@ class LevelPaths:
 
 
 def union_of(rects: Sequence[pygame.Rect]) -> pygame.Rect:
-    """What holds all rectangles that are not empty."""
+    """The smallest rectangle around all that are not empty."""
     known = [rect for rect in rects if rect]
     return known[0].unionall(known) if known else pygame.Rect(0, 0, 0, 0)
 

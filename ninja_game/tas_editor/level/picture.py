@@ -19,12 +19,9 @@ from ninja_game.view.ninja.ninja_animation import NinjaAnimation
 from ninja_game.view.ninja.ragdoll import Ragdoll
 from ninja_game.view.overlays import Overlays
 
-ZOOM_STEP = 1.25
-"""One notch of the wheel."""
-LARGEST_ZOOM = 8.0
-"""px of the window a px of the level, at most."""
-_MARGIN = 0.3
-"""The part of the picture, at each side, in which what is followed moves the picture."""
+ZOOM_STEP = 1.25  # one notch of the wheel
+LARGEST_ZOOM = 8.0  # px of the window a px of the level, at most
+_MARGIN = 0.3  # the part of the picture, at each side, in which what is followed moves the picture
 
 
 class Camera:
@@ -90,8 +87,7 @@ def _origin(window: int, length: float, centre: float, scale: float) -> int:
     return min(0, max(window - whole, round(window / 2 - centre * scale)))
 
 
-_GHOST_WARM = 12
-"""Ticks that its figure follows before the one that is sought."""
+_GHOST_WARM = 12  # ticks that its figure follows before the one that is sought
 
 
 class RunGhost:
@@ -136,12 +132,10 @@ class RunGhost:
 
 _WARM = 4
 """Ticks that are run with their animations before the one that is sought, so that it looks as if played."""
-_NEAR = 6
-"""Ticks that are played on to, rather than sought."""
+_NEAR = 6  # ticks that are played on to, rather than sought
 
 
-_FALL = 40
-"""Ticks after which a corpse lies still."""
+_FALL = 40  # ticks after which a corpse lies still
 
 
 class CachedWorldSimulation(Simulation):

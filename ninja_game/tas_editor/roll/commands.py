@@ -18,8 +18,7 @@ from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.editor import Span, TasEditor
 from ninja_game.tas_editor.roll.facts import changes, compared
 
-BEHIND = "Nothing here: the run ends earlier"
-"""Where nothing can be copied or taken out."""
+BEHIND = "Nothing here: the run ends earlier"  # where nothing can be copied or taken out
 
 
 class RollCommands:
@@ -71,7 +70,7 @@ class RollCommands:
         ask_text(self._editor.app, "Go to", "Tick or name", "", "Go", self.go_to)
 
     def go_to(self, text: str) -> None:
-        """Go to a tick by its number or its marker's name; a notice tells where there is none."""
+        """Go to a tick by its number or its marker's name; a notice for an unknown one."""
         text = text.strip().removeprefix("#")
         named = [tick for tick, name in self._editor.track.markers if name.casefold() == text.casefold()]
         if named or (text.isascii() and text.isdigit()):

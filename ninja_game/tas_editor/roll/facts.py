@@ -1,4 +1,4 @@
-"""What the rows of the roll show: keys and values of each tick, and where another run has other keys."""
+"""The content of the roll's rows: keys and values of each tick, and where another run has other keys."""
 
 from __future__ import annotations
 
@@ -79,12 +79,11 @@ def _keys(*runs: bytes) -> list[NDArray[np.uint8]]:
     return [np.frombuffer(fitted_inputs(inputs, ticks), np.uint8) & np.uint8(KEYS_DOWN) for inputs in runs]
 
 
-FLOOR, WALL_LEFT, WALL_RIGHT = 1, 2, 4
-"""Contacts, as a sum."""
+FLOOR, WALL_LEFT, WALL_RIGHT = 1, 2, 4  # contacts, as a sum
 
 
 class Values(NamedTuple):
-    """What the world says after a tick: px, px/tick, numbers; ``contacts``: a sum of FLOOR, WALL_LEFT, WALL_RIGHT."""
+    """Values of the world after a tick: px, px/tick, numbers; ``contacts``: a sum of FLOOR, WALL_LEFT, WALL_RIGHT."""
 
     x: float
     y: float
@@ -98,7 +97,7 @@ class Values(NamedTuple):
 
 
 class RowFacts(NamedTuple):
-    """All that the picture of a row depends on.
+    """The data that a row is drawn from.
 
     ``keys``, ``before``: inputs of the tick and of the one before it; ``differs``: the keys that are down either here
     or in the run that this one is compared to. ``values``: None where nothing is simulated.
@@ -166,7 +165,7 @@ def _values(editor: TasEditor, first: int, last: int) -> list[Values]:
 
 @lru_cache(maxsize=2)
 def changed_ticks(track: InputTrack, saved: InputTrack) -> range | bytes:
-    """Where a track is not the saved one: a truth a tick, or, where it is longer or shorter, the span between."""
+    """Ticks in which a track differs from the saved one: a bool per tick, or, for another length, a range."""
     ours, theirs = np.frombuffer(track.inputs, np.uint8), np.frombuffer(saved.inputs, np.uint8)
     if len(ours) == len(theirs):
         return bytes(ours != theirs)
@@ -176,13 +175,13 @@ def changed_ticks(track: InputTrack, saved: InputTrack) -> range | bytes:
     return range(first, len(ours) - min(same, shared - first))
 
 
-def keys_in_words(row: RowFacts, other: str) -> str:
+def key_difference_text(row: RowFacts, other: str) -> str:
     """The keys of a row, and those of the run that is compared, which is called ``other``."""
     ours, theirs = (KEY_NAMES[keys & KEYS_DOWN] for keys in (row.keys, row.keys ^ row.differs))
     return f"{row.tick}: {ours}; {other}: {theirs}"
 
 
-def in_words(row: RowFacts, *, numbers: bool) -> str:
+def row_text(row: RowFacts, *, numbers: bool) -> str:
     """A row in full: places and speeds to the last digit, or the rest."""
     name = f"#{row.name}  " if row.name else ""
     if row.values is None:

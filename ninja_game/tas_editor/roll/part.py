@@ -11,13 +11,12 @@ from ninja_game.play.workspace import Commands
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.editor import TasEditor, TasPart
 from ninja_game.tas_editor.roll.commands import RollCommands
-from ninja_game.tas_editor.roll.facts import compared, different_rows, in_words, keys_in_words, row_facts
+from ninja_game.tas_editor.roll.facts import compared, different_rows, key_difference_text, row_facts, row_text
 from ninja_game.tas_editor.roll.rows import COLUMNS, Column, RollLayout, RowSheet, layout_of
 from ninja_game.ui.text_entry import DOUBLE_MS
 from ninja_game.ui.theme import Theme, mixed
 
-MARGIN = 4
-"""The rows scroll with a cursor that moves in the first or the last of so many parts of the roll."""
+MARGIN = 4  # the rows scroll with a cursor that moves in the first or the last of so many parts of the roll
 
 WHEEL_ROWS = 4
 SCROLL_MS = 25
@@ -44,7 +43,7 @@ class Roll(TasPart):
         return layout_of(self.editor.theme.canvas, self.area, self.hidden)
 
     def scroll(self, top: int) -> None:
-        """Have this tick at the upper edge, as far as there are ticks."""
+        """Scroll so that this tick is at the upper edge, up to the last ticks."""
         self.top = max(0, min(top, self.editor.last_tick + 1 - self.layout.rows))
 
     def follow(self) -> None:
@@ -115,7 +114,7 @@ class Roll(TasPart):
 
 
 class RollMouse:
-    """What the mouse is doing in the roll: "paint", "select", "scroll" or nothing."""
+    """The mouse in the roll: it does "paint", "select", "scroll" or nothing."""
 
     def __init__(self, roll: Roll) -> None:
         self._roll = roll
@@ -246,7 +245,7 @@ class RollMouse:
             other = compared(self._editor) if column.key else None
             rest = column.name in ("state", "jump_timer", "contacts", "gold", "exit")
             row = row_facts(self._editor, tick, tick + 1)[0]
-            self._editor.hint = keys_in_words(row, other.name) if other else in_words(row, numbers=not rest)
+            self._editor.hint = key_difference_text(row, other.name) if other else row_text(row, numbers=not rest)
         self._row_hint = self._editor.hint
 
 

@@ -16,8 +16,10 @@ from ninja_game.tas_editor.roll.facts import FLOOR, WALL_LEFT, WALL_RIGHT, RowFa
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.theme import Area, Palette, Theme, mixed
 
-HEAD, ROW, BAR = 16.0, 11.0, 12.0
-"""Height of the heads and of a row, width of the scroll bar, logical px."""
+# Logical px.
+HEAD = 16.0  # height of the heads
+ROW = 11.0  # height of a row
+BAR = 12.0  # width of the scroll bar
 
 
 class Column(NamedTuple):
@@ -159,7 +161,7 @@ class Digits:
         return {each: (render(each, self._size, colour), wide) for each, wide in self._advance.items()}
 
     def blits(self, text: str, right: int, y: int, colour: pygame.Color) -> list[Blit]:
-        """What draws a number whose last px is left of ``right``, px."""
+        """Blits (picture, place) of a number that ends left of ``right``, px."""
         key = int(colour)
         if key not in self._pictures:
             self._pictures[key] = self._of(colour)
@@ -171,10 +173,8 @@ class Digits:
         return made
 
 
-SIZE = 8.0
-"""Size of the letters, logical px."""
-SHORTEST = 20.0
-"""Room in which a name is worth beginning, logical px."""
+SIZE = 8.0  # size of the letters, logical px
+SHORTEST = 20.0  # room in which a name is worth beginning, logical px
 LONGEST = 6
 _KEY_LETTERS = {KEY_LEFT: "L", KEY_RIGHT: "R", JUMP_HELD: "J"}
 
@@ -244,7 +244,7 @@ class RowSheet:
             pygame.draw.rect(self._picture, palette.accent, frame, max(1, layout.row // 11))
 
     def _ground(self, row: RowFacts) -> tuple[pygame.Surface, pygame.Color, pygame.Color]:
-        """What a row lies on, with the lines between the columns; the colours of its letters and of the lines."""
+        """The background of a row with its lines between columns; the colours of its letters and lines."""
         kind = row.values is None, row.over or row.beyond, row.selected, row.tick % 10 == 0
         if kind not in self._grounds:
             palette, layout = self.theme.palette, self.layout

@@ -12,8 +12,7 @@ from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, Rows, Tab, put_in_a_
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button
 
-LONGEST = 60
-"""Characters of a name."""
+LONGEST = 60  # characters of a name
 
 _INDENT, _DEEPEST = 9, 12
 _COLUMNS = (174, 112, 64)
@@ -130,7 +129,7 @@ class BranchesTab(Tab):
         theme.text(surface, words, right - _COLUMNS[2], y + 3, size=SMALL, bold=bool(ahead), colour=colour)
 
     def _difference(self, branch: Branch) -> tuple[str, int]:
-        """How much a branch is shorter than the run, in words and ticks."""
+        """How many ticks a branch is shorter or longer than the run, as text."""
         end, outcome = self.editor.session.timeline.end
         if branch.track.inputs == self.editor.track.inputs:
             return "the same", 0

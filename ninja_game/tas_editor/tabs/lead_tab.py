@@ -16,18 +16,16 @@ from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, Rows, Tab
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Choice
 
-PAUSE_MS = 300
-"""How long a run must stay as it is before it is compared."""
+PAUSE_MS = 300  # how long a run must stay as it is before it is compared
 
-_COLUMNS = (214, 144, 74)
-"""Where the ticks and the lead stand, px from the right of a row."""
+_COLUMNS = (214, 144, 74)  # where the ticks and the lead stand, px from the right of a row
 
 Pair = tuple[InputTrack, InputTrack]
 Job = tuple[Pair, Recording, Recording, tuple[Marker, ...]]
 
 
 def compared(job: Job) -> tuple[Pair, LeadTable | str]:
-    """The table, or why there is none."""
+    """The table, or a sentence why there is none."""
     pair, ours, theirs, markers = job
     try:
         return pair, lead_table(ours, theirs, markers)
@@ -44,8 +42,9 @@ class LeadTab(Tab):
         self._asked: Pair | None = None
         self._still_ms = 0
         self._job: NewestJob[Job, tuple[Pair, LeadTable | str]] = NewestJob(compared)
-        self._choice = Choice(UNPLACED, "", self._options(), self._against, self._put,
-                              hint="The run that this one is compared to")  # fmt: skip
+        self._choice = Choice(
+            UNPLACED, "", self._options(), self._against, self._put, hint="The run that this one is compared to"
+        )
         self.list = Rows(self._draw_row, self._go, keeps=False, hint="A click puts the cursor there")
         self.widgets = [self._choice, self.list]
 
@@ -124,7 +123,7 @@ class LeadTab(Tab):
         ]
         last = next((row for row in reversed(table.rows) if row.at), None)
         if last is not None:
-            parts.append(f"{lead_in_words(last.ahead)} at {last.name}")
+            parts.append(f"{lead_text(last.ahead)} at {last.name}")
         if table.apart:
             parts.append(f"no rows for {table.apart} s more than {NEAR:.0f} px apart")
         return "; ".join(parts)
@@ -157,10 +156,10 @@ class LeadTab(Tab):
                    colour=colour)  # fmt: skip
 
 
-def lead_in_words(ahead: int) -> str:
-    """A lead in words.
+def lead_text(ahead: int) -> str:
+    """A lead as text.
 
-    >>> lead_in_words(1), lead_in_words(-12), lead_in_words(0)
+    >>> lead_text(1), lead_text(-12), lead_text(0)
     ('1 tick ahead', '12 ticks behind', 'as early')
     """
     ticks = counted(abs(ahead), "tick", "ticks")

@@ -17,7 +17,7 @@ from ninja_game.play.workspace import Commands
 from ninja_game.search.certificate import moved_markers
 from ninja_game.search.formula.background import RunSearch, SpanSearch
 from ninja_game.search.formula.methods import KEPT, fewest_ticks
-from ninja_game.search.formula.task import Found, SpanTask, score_in_words, ways_of
+from ninja_game.search.formula.task import Found, SpanTask, score_text, ways_of
 from ninja_game.sim.inputs import fitted_inputs, with_press_bits
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.tas.contributions import Contributions
@@ -29,16 +29,14 @@ from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, EntryField, Rows, Ta
 from ninja_game.ui.theme import Area, Theme, wrapped
 from ninja_game.ui.widgets import Button, Choice
 
-CLOSING_SECONDS = 0.5
-"""How long a search that is cancelled is waited for when the TAS editor is left."""
+CLOSING_SECONDS = 0.5  # how long a search that is cancelled is waited for when the TAS editor is left
 
 COMPILING = "The rules are made ready. On a machine that has never searched this takes a minute or two."
 NOT_BEGUN = "Stopped before it began. The rules are still made ready, for the next search."
 NOTHING_YET = "Nothing yet."
 NOTHING = "The goal was not reached. More time, a longer span or another method may reach it."
 
-LONGEST = 300
-"""Characters of a formula that one can type."""
+LONGEST = 300  # characters of a formula that one can type
 
 EARLIEST, GREATEST, SMALLEST = "earliest", "greatest", "smallest"
 _METHODS = (
@@ -185,8 +183,8 @@ class SpanResults:
         self.better = tuple(ways_of(better, measured=bool(self.task.measure))[:KEPT])
 
     def words(self, found: Found) -> tuple[str, ...]:
-        """What a better result brings; from where on it has other keys; place and speed at the goal; what it gains."""
-        own, words = self.search.own, score_in_words(self.task, found)
+        """Cells of a result: score, first tick with other keys, place and speed at the goal, gain."""
+        own, words = self.search.own, score_text(self.task, found)
         if own is not None and (self.task.rest or self.task.goal == "won") and found.gold != own.gold:
             words += f", {abs(own.gold - found.gold)} gold {'fewer' if found.gold < own.gold else 'more'}"
         if self._others:
@@ -218,7 +216,7 @@ class SpanResults:
             return search.problem
         if search.own is not None:
             yet = "yet " if self.running else ""
-            return f"Nothing better {yet}than the run's own keys: {score_in_words(self.task, search.own)}."
+            return f"Nothing better {yet}than the run's own keys: {score_text(self.task, search.own)}."
         if not search.ticks_run:
             return COMPILING if self.running else NOT_BEGUN
         return NOTHING_YET if self.running else NOTHING
@@ -304,7 +302,7 @@ class SearchTab(Tab):
             self._fill(self._preset[0] if self.goal.text != "won" else lambda _: SpanGoal())
 
     def propose(self) -> None:
-        """A menu of what people want of the selected ticks, which it names; it fills the fields."""
+        """Open a menu of common goals for the selected ticks; a choice fills the fields."""
         self._follow_selection()
         first, last = self.span
         rows = [(name, partial(self._fill, make), hint.format(first, last - 1)) for name, hint, make in PRESETS]
@@ -328,7 +326,7 @@ class SearchTab(Tab):
         self.wants = self.goal
 
     def _typed(self, _: str) -> None:
-        """A goal that is typed is none of the whole run."""
+        """Leave the methods for the whole run: a goal was typed."""
         if self.method in IMPROVES:
             self.use_selection()
 
@@ -348,7 +346,7 @@ class SearchTab(Tab):
 
     @property
     def task(self) -> SpanTask:
-        """What is wanted as a task. Raises FormulaError, ArgumentError."""
+        """The fields as a task. Raises FormulaError, ArgumentError."""
         session, (first, last) = self.editor.session, self.span
         measure = "" if self.order == EARLIEST else self.measure.text.strip() or "speed"
         return SpanTask(
@@ -464,7 +462,8 @@ class SearchTab(Tab):
         palette, fits = theme.palette, self.results.behind is not None
         *cells, gain = self.results.words(self.found[index])
         for at, cell, width in zip(self._cells(area), cells, widths, strict=True):
-            theme.text(surface, cell, at, y + 3, size=SMALL, width=width,
-                       colour=palette.text if fits else palette.faint)  # fmt: skip
+            theme.text(
+                surface, cell, at, y + 3, size=SMALL, width=width, colour=palette.text if fits else palette.faint
+            )
         theme.text(surface, gain, x + w - 6, y + 3, size=SMALL, bold=fits, align="right", width=78,
                    colour=palette.faint if not fits else palette.bad if gain == "a miss" else palette.good)  # fmt: skip

@@ -17,14 +17,10 @@ from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, following
 
-SMALL = 9.0
-"""Size of the text in lists and buttons, px."""
-ROW = 16
-"""Height of a row of a list, px."""
-UNPLACED: Area = (0, 0, 0, 0)
-"""The area of widgets that their tab has not arranged yet."""
-_SHORT = 60
-"""Longer lists of what is expected are left out of a line."""
+SMALL = 9.0  # size of the text in lists and buttons, px
+ROW = 16  # height of a row of a list, px
+UNPLACED: Area = (0, 0, 0, 0)  # the area of widgets that their tab has not arranged yet
+_SHORT = 60  # longer lists of what is expected are left out of a line
 
 
 class Tab(TasPart):
@@ -44,7 +40,7 @@ class Tab(TasPart):
         theme.panel(surface, *self.area)
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
-        """What the mouse is over is reported in the line below; all else is up to the widgets."""
+        """Show the hint of the widget under the mouse; widgets handle the rest."""
         if event.type == pygame.MOUSEMOTION:
             self._leave_lists(x, y)
             self.editor.hint = next((each.hint for each in self.widgets if each.contains(x, y)), "")
@@ -59,11 +55,11 @@ class Tab(TasPart):
                 widget.over = -1
 
     def stop(self) -> bool:
-        """End what goes on; whether anything did."""
+        """Stop running work; whether there was any."""
         return False
 
     def close(self) -> None:
-        """The TAS editor is left: what goes on ends."""
+        """Stop running work: the TAS editor is left."""
 
 
 class TabName(Button):
@@ -165,7 +161,7 @@ def put_in_a_row(x: float, y: float, buttons: Sequence[Button], widths: Sequence
 
 
 def what_is_wrong(error: NinjaGameError) -> str:
-    """What to tell of an error in a line; of a formula's in which column it is."""
+    """An error as a line; of one in a formula with the column."""
     if isinstance(error, FormulaError) and error.column:
         told = f"Column {error.column}: {error.what}, {error.found}"
         return f"{told}; expected {error.expected}" if len(error.expected) < _SHORT else told

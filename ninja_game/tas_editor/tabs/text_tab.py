@@ -21,8 +21,7 @@ from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, EntryField, Rows, Ta
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button
 
-LONGEST = 300
-"""Characters of a line that is typed."""
+LONGEST = 300  # characters of a line that is typed
 
 
 @lru_cache(maxsize=1)
@@ -113,7 +112,7 @@ class TextTab(Tab):
         return text_of(self._track, first, last, celeste=self.celeste)
 
     def put(self) -> None:
-        """What is in the field instead of its line; the markers there are those that it names."""
+        """Replace the line by the text of the field, with the markers that it names."""
         words, (first, last) = self.field.text.split(), self.span(self.list.index)
         try:
             typed = inputs_of_text("\n".join(words), "") if words else Inputs(b"")

@@ -23,8 +23,7 @@ from ninja_game.ui.list_view import ListView
 from ninja_game.ui.theme import RUN_COLOURS, Area, Palette, Theme, inside
 from ninja_game.ui.widgets import Button, Widget
 
-SHORTEST = 10.0
-"""Ticks that are shown at least."""
+SHORTEST = 10.0  # ticks that are shown at least
 _STEPS = (1, 2, 5, 10, 20, 40, 100, 200, 400, 1000, 2000, 4000, 10_000, 40_000)
 """Ticks between two numbers of the axis."""
 
@@ -136,8 +135,7 @@ def _draw_line(surface: pygame.Surface, colour: pygame.Color, points: Values, wi
             pygame.draw.lines(surface, colour, False, piece.tolist(), width)
 
 
-WatchableObject = tuple[int, int, float, float]
-"""Id, kind, x and y (px) of an object."""
+WatchableObject = tuple[int, int, float, float]  # id, kind, x and y (px) of an object
 
 
 class ObjectList(MenuScreen):
@@ -176,7 +174,7 @@ class ObjectList(MenuScreen):
 
 
 def proposal(id_: int, kind: int) -> str:
-    """What one would watch of an object of a kind.
+    """The formula proposed for an object of a kind.
 
     >>> proposal(3, GOLD), proposal(4, EXIT)
     ('taken(3)', 'opened(4)')
@@ -188,10 +186,8 @@ def proposal(id_: int, kind: int) -> str:
     return f"object_x({id_})" if KIND_OF[kind].moves else f"status({id_})"
 
 
-USUAL = ("speed", "vx", "vy")
-"""What is watched where nothing else is wanted."""
-LANES = 4
-"""Values whose plot is shown at once."""
+USUAL = ("speed", "vx", "vy")  # what is watched where nothing else is wanted
+LANES = 4  # values whose plot is shown at once
 
 
 @dataclass(eq=False)
@@ -220,11 +216,9 @@ def shown_value(each: Watched, tick: int) -> str:
     return f"{value:.6g}"
 
 
-LONGEST = 200
-"""Characters of a formula that one can type."""
+LONGEST = 200  # characters of a formula that one can type
 
-_STILL = 3.0
-"""The mouse that moves less, px, clicks."""
+_STILL = 3.0  # the mouse that moves less, px, clicks
 
 
 class ValuesTab(Tab):
@@ -277,7 +271,7 @@ class ValuesTab(Tab):
         ask_text(self.editor.app, "Watch a value", prompt, text, "Watch", self.add, LONGEST)
 
     def add(self, text: str) -> None:
-        """Watch a formula; what is wrong with it is reported, and the question is put again."""
+        """Watch a formula; an invalid one is reported and asked for again."""
         try:
             watch = parse_watch(text)
             watch.values(self.editor.session.timeline)

@@ -25,17 +25,11 @@ SILENCE = "silence"
 LAYERS = ("base", "danger", "speed", "exit")
 LAYERS_OF: dict[str, tuple[str, ...]] = {MENU: LAYERS[:1], **dict.fromkeys(BY_COLUMN, LAYERS)}
 
-FADE_MS = 350
-"""From one music to the next, each way."""
-
-FOLLOW_MS = 700
-"""How slowly a layer follows its level: after so long it has gone 63 % of the way."""
-
-NEAR, FAR = 120.0, 420.0
-"""px within which danger is as high as it gets, and from which on there is none."""
-
-FAST = 3.2
-"""px/tick at which the layer of speed is at its loudest; none at half of it."""
+FADE_MS = 350  # from one music to the next, each way
+FOLLOW_MS = 700  # a layer has gone 63 % of the way to its level
+NEAR = 120.0  # px within which danger is as high as it gets
+FAR = 420.0  # px from which on there is none
+FAST = 3.2  # px/tick at which the layer of speed is at its loudest; none at half of it
 
 
 class MusicLevels(NamedTuple):

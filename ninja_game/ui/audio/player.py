@@ -23,16 +23,14 @@ from ninja_game.sim.states import RUNNING
 from ninja_game.ui.audio.music import CALM, LAYERS, Music, heard_in_music, music_levels
 from ninja_game.ui.audio.table import CORPSE, GOLD, LOOPS, STEPS, Names, by_hardness, event_sound, has_loop, loop_levels
 
-RATE, BUFFER = 44_100, 512
-"""Samples a second, those of our files; and in the mixer's buffer: 12 ms of delay."""
-
+RATE = 44_100  # samples a second, those of our files
+BUFFER = 512  # samples in the mixer's: 12 ms of delay
 CHANNELS = 32
 LOUDEST = 99
 PAN = 0.35
 """How much softer the far side gets for a sound at the stage's edge."""
 
-CORPSE_PAUSE = 0.06
-"""Seconds between two thuds of a corpse."""
+CORPSE_PAUSE = 0.06  # seconds between two thuds of a corpse
 
 
 class AudioOutput:
@@ -210,11 +208,9 @@ def _open_mixer() -> bool:
     return True
 
 
-CHAIN_TICKS = 60
-"""Gold within so many ticks after the piece before it climbs."""
+CHAIN_TICKS = 60  # gold within so many ticks after the piece before it climbs
 
-STRIDE = 32.4
-"""From one footstep to the next, px: half a cycle of the drawn legs (view/ninja/figure.py)."""
+STRIDE = 32.4  # from one footstep to the next, px: half a cycle of the drawn legs (view/ninja/figure.py)
 
 
 class Variants:

@@ -11,16 +11,14 @@ from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER, TURRET
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import Event, Ninja, World
 
-Names = tuple[str, ...]
-"""Variants of a sound, of which one is chosen by chance, never the last one again."""
+Names = tuple[str, ...]  # variants of a sound, of which one is chosen by chance, never the last one again
 
 
 def several(name: str, count: int) -> Names:
     return tuple(f"{name}-{number}" for number in range(1, count + 1))
 
 
-GOLD = several("gold", 12)
-"""A ladder of pitches."""
+GOLD = several("gold", 12)  # a ladder of pitches
 
 STEPS = several("step", 5)
 

@@ -20,8 +20,7 @@ TAP_SECONDS = 0.15
 
 MOVES = (("left", KEY_LEFT), ("right", KEY_RIGHT), ("jump", JUMP_HELD))
 
-Inputs = Mapping[str, tuple[str, ...]]
-"""Names of inputs by action."""
+Inputs = Mapping[str, tuple[str, ...]]  # names of inputs by action
 
 TOUCH_LABELS = {
     "left": "Left", "right": "Right", "jump": "Jump", "confirm": "Jump", "back": "Back", "pause": "Pause",
@@ -171,8 +170,12 @@ def _jumps_and_chooses(inputs: Inputs, menu: Mapping[str, str]) -> set[str]:
 
 
 class Action(NamedTuple):
-    """``label``: for the settings screen; ``keys`` and ``pad``: names of the default inputs."""
+    """``where``: "level", "replay", "run" (either) or "everywhere", menus too; ``label``: for the settings screen.
 
+    ``keys``, ``pad``: names of the default inputs.
+    """
+
+    where: str
     label: str
     keys: tuple[str, ...]
     pad: tuple[str, ...] = ()
@@ -181,8 +184,8 @@ class Action(NamedTuple):
 def _read_actions() -> dict[str, Action]:
     """The actions of the bundled table, whose head says what its columns are."""
     return {
-        name: Action(label, tuple(keys.split()), tuple(" ".join(pad).split()))
-        for name, label, keys, *pad in asset_rows("commands/game.txt")
+        name: Action(where, label, tuple(keys.split()), tuple(" ".join(pad).split()))
+        for name, where, label, keys, *pad in asset_rows("commands/game.txt")
     }
 
 
@@ -209,17 +212,13 @@ MENU_PAD: dict[str, str] = {
 }  # fmt: skip
 
 
-ANYWHERE = frozenset({"boss", "screenshot", "fullscreen"})
-"""Actions of every screen, menus too."""
-
-
 def bindable(action: str, name: str, in_menus: Mapping[str, str]) -> bool:
     """Whether an input may mean an action: what works menus must not hide the game as well.
 
     >>> [bindable("boss", name, MENU_KEYS) for name in ("return", "b")], bindable("boss", "b", MENU_PAD)
     ([False, True], False)
     """
-    return action not in ANYWHERE or name not in in_menus
+    return ACTIONS[action].where != "everywhere" or name not in in_menus
 
 
 @dataclass(frozen=True)

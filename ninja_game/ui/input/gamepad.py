@@ -32,8 +32,7 @@ LABELS = {
     "hat-left": "Cross left", "hat-right": "Cross right",
 }  # fmt: skip
 
-Change = tuple[str, bool]
-"""An input's name, and whether it is down now."""
+Change = tuple[str, bool]  # an input's name, and whether it is down now
 
 
 class Gamepads:

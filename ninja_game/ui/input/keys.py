@@ -27,8 +27,7 @@ for _name in dir(pygame):
             if hasattr(pygame, _constant):
                 _OF_KEYCODE[getattr(pygame, _constant)] = _code
 
-SCANCODE_LIMIT = 512
-"""SDL's keys have smaller scancodes than this."""
+SCANCODE_LIMIT = 512  # SDL's keys have smaller scancodes than this
 
 _NAMES = {code: name for name, code in sorted(SCANCODES.items(), key=lambda item: -len(item[0]))}
 _UNNAMED = re.compile(r"scancode-([0-9]{1,3})")

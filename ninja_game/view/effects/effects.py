@@ -13,8 +13,7 @@ from ninja_game.sim.memory.schema import Event, TileMap, World
 from ninja_game.sim.rules import FATAL_IMPACT, FLOOR_ALLOWANCE
 from ninja_game.view.effects.particles import Particle, Particles
 
-CONFETTI_FALL = 90.0
-"""px that a paper sails down at most."""
+CONFETTI_FALL = 90.0  # px that a paper sails down at most
 
 _CHARGED = {states.DRONE_PRE_FIRE, states.DRONE_FIRING}
 

@@ -12,8 +12,7 @@ from ninja_game.view.sprites.drawing import DrawTarget, drawing
 from ninja_game.view.sprites.sketch import Sketch, star
 from ninja_game.view.sprites.static_sprites import gold_streak, lightning
 
-MOST = 100
-"""At most so many in front of the ninja and behind it; the oldest goes first."""
+MOST = 100  # at most so many in front of the ninja and behind it; the oldest goes first
 
 
 @dataclass(slots=True)

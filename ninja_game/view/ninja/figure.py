@@ -12,8 +12,7 @@ from ninja_game.ui.canvas import Point
 from ninja_game.ui.theme import Palette, mixed
 from ninja_game.view.sprites.sketch import Sketch, Sprite
 
-FEET = 9.7
-"""px from the centre down to the floor."""
+FEET = 9.7  # px from the centre down to the floor
 
 
 class Pose(NamedTuple):
@@ -82,8 +81,7 @@ FALL = pose((-0.2, -4.0), (0.2, 1.4), (6.4, -9.4), (-6.6, -8.6), (4.6, 9.6), (-2
 """Falling fast: arms up, legs reaching down."""
 
 
-_LEAP_SPEED = 3.0
-"""Speed upwards with which a jump from the floor begins at most, px/tick."""
+_LEAP_SPEED = 3.0  # speed upwards with which a jump from the floor begins at most, px/tick
 
 
 def air_pose(vy: float) -> Pose:
@@ -231,8 +229,7 @@ def bend(a: Point, b: Point, first: float, second: float, side: float) -> Point:
     return a[0] + ux * along - uy * out, a[1] + uy * along + ux * out
 
 
-Limb = tuple[Sequence[Point], Sequence[float]]
-"""Joints, and how wide it is at each."""
+Limb = tuple[Sequence[Point], Sequence[float]]  # joints, and how wide it is at each
 
 
 def limbs_of(pose: Pose, facing: int) -> tuple[Limb, Limb, Limb, Limb]:

@@ -31,15 +31,12 @@ from ninja_game.view.ninja.ragdoll import PELVIS, SHOULDER, TRUNK, Ragdoll
 from ninja_game.view.sprites.drawing import DrawTarget, is_near
 from ninja_game.view.sprites.sketch import Sketch
 
-_BLEND_TICKS = 3.0
-"""A new state's pose takes over from the old one in this many ticks."""
+_BLEND_TICKS = 3.0  # a new state's pose takes over from the old one in this many ticks
 SQUASH = 0.045  # how much a landing presses the figure together, for each px/tick
 MOST_SQUASH = 0.32
 SQUASH_KEPT = 0.72  # share that is left a tick later
-_BALANCE = 0.65
-"""Share of a slope's angle by which a body on it holds itself upright."""
-_UPRIGHT = 0.9
-"""Share of its rotation that a body in the air keeps each tick."""
+_BALANCE = 0.65  # share of a slope's angle by which a body on it holds itself upright
+_UPRIGHT = 0.9  # share of its rotation that a body in the air keeps each tick
 
 
 class NinjaAnimation:

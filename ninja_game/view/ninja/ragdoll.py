@@ -74,7 +74,7 @@ Hit = Callable[[float, float, float, float], None]
 
 
 class Ragdoll:
-    """A corpse. ``hit``: told of every touch, for sound, dust and blood."""
+    """A corpse. ``hit``: called at every touch, for sound, dust and blood."""
 
     def __init__(self, pose: Pose, before: Pose, velocity: Point, facing: int, rng: Random, hit: Hit) -> None:
         self.facing = facing
@@ -264,8 +264,7 @@ KICKS = {
 """How hard (px/tick) each kind that the corpse can touch kicks it."""
 
 
-Push = tuple[float, float, float, float]
-"""By how much a box is pushed (px), and the surface's normal."""
+Push = tuple[float, float, float, float]  # by how much a box is pushed (px), and the surface's normal
 
 
 def tile_pushes(level: TileMap, world: World, box: Box) -> Iterator[Push]:

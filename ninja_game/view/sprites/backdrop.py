@@ -20,7 +20,7 @@ from ninja_game.view.sprites.tile_sheet import TileSheet
 class Backdrop:
     """Scenery, light, static sprites and tiles of a level in one size, as far as they are seen.
 
-    Px here count from the upper left corner of what is seen of the stage.
+    Px count from the upper left corner of the visible part of the stage.
     """
 
     def __init__(self, canvas: Canvas, palette: Palette, book: SpriteBook, level: TileMap) -> None:

@@ -58,8 +58,7 @@ def drawing(*extent: float) -> Callable[[Callable[Concatenate[Sketch, Palette, P
     return lambda paint: Drawing(box, paint)
 
 
-_FAR = 4000
-"""Logical px beyond which nothing is drawn: some levels hold objects far off the stage."""
+_FAR = 4000  # logical px beyond which nothing is drawn: some levels hold objects far off the stage
 
 
 def is_near(x: float, y: float) -> bool:

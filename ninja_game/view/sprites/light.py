@@ -54,8 +54,7 @@ def light_of(world: World, slot: int) -> Light | None:
     return Light(look, x, y)
 
 
-_GRID = 25
-"""Px of the sheet from which lights of all sizes are made."""
+_GRID = 25  # px of the sheet from which lights of all sizes are made
 
 
 @lru_cache(maxsize=64)

@@ -153,10 +153,8 @@ def impact_burst(s: Sketch, p: Palette, step: int) -> None:
     s.disc(p.bright, 0, 0, reach * 0.16)
 
 
-_EYE_OUT = 4.5
-"""How far a drone's eye is off the centre, px."""
-_TURN_STEP = 15
-"""Barrels and eyes turn in steps of so many degrees."""
+_EYE_OUT = 4.5  # how far a drone's eye is off the centre, px
+_TURN_STEP = 15  # barrels and eyes turn in steps of so many degrees
 _COOL_FRAMES = 60
 
 
@@ -177,8 +175,9 @@ class Moving(NamedTuple):
 
 def draw_moving(target: DrawTarget, world: World, animation: ObjectAnimation, fraction: float) -> None:
     """All objects that move, beams first so that they come out of their drones."""
-    shown = [Moving(world.objects[s], s, *animation.place(s, fraction), animation, fraction)
-             for s in animation.moving_slots]  # fmt: skip
+    shown = [
+        Moving(world.objects[s], s, *animation.place(s, fraction), animation, fraction) for s in animation.moving_slots
+    ]
     for m in shown:
         if m.o.kind == kinds.DRONE and m.o.weapon == states.WEAPON_LASER:
             _beam(target, m)

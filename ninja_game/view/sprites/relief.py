@@ -15,8 +15,8 @@ how strong it is. The last lights rock near its other edges too, so that it is d
 GRAIN = {"bright": 13, "outline": 18}
 """By how much the rock's marks of an ink differ from it, of 255 a channel: never enough to be taken for a thing."""
 
-SHADOW, SHADOW_AT = 76, (4, 6)
-"""The shadow's strength, and where it falls, logical px."""
+SHADOW = 76  # its strength, of 255
+SHADOW_AT = (4, 6)  # where it falls, logical px
 
 
 def add_relief(sheet: TileSheet, palette: Palette) -> pygame.Surface:

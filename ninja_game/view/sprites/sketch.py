@@ -13,8 +13,7 @@ import pygame
 
 from ninja_game.ui.canvas import Colour, Point, draw_limb
 
-FINE = 4
-"""How many times larger the shapes are drawn."""
+FINE = 4  # how many times larger the shapes are drawn
 
 
 class Sprite(NamedTuple):

@@ -196,8 +196,7 @@ def lightning(s: Sketch, p: Palette, variant: int) -> None:
     s.path(p.spark, points, 1.0)
 
 
-PlacedSprite = tuple[SpriteKey, float, float]
-"""A drawing and where its point lies, px."""
+PlacedSprite = tuple[SpriteKey, float, float]  # a drawing and where its point lies, px
 
 _EXIT_FRAMES, _PAD_FRAMES, _LOCK_FRAMES, _TRAP_FRAMES = 30, 18, 18, 18
 _DOOR_OPENING, _DOOR_CLOSING, _AIM_FRAMES, _PREPARE_FRAMES = 15, 16, 15, 30

@@ -15,12 +15,11 @@ from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, STRIDE
 from ninja_game.ui.canvas import Canvas, Point
 from ninja_game.view.sprites.sketch import FINE
 
-TileKey = tuple[int, int, int, float, float]
-"""Tile, size and place beside the px."""
+TileKey = tuple[int, int, int, float, float]  # tile, size and place beside the px
 
 
 class TileSheet:
-    """``surface``: premultiplied; its px count from the upper left corner of what is seen of the stage."""
+    """``surface``: premultiplied; its px count from the upper left corner of the visible part of the stage."""
 
     def __init__(self, canvas: Canvas, colour: pygame.Color) -> None:
         self.canvas = canvas
@@ -61,7 +60,7 @@ class TileSheet:
             self._put(self.surface, key, rect, self.colour)
 
     def in_colour(self, colour: pygame.Color) -> pygame.Surface:
-        """What it shows, in another colour."""
+        """The sheet in another colour."""
         other = pygame.Surface(self.surface.size, pygame.SRCALPHA)
         for key, rect in self._shown.values():
             self._put(other, key, rect, colour)

@@ -27,14 +27,11 @@ from ninja_game.runs.chunks import Chunk
 from ninja_game.runs.recording_reader import records_of
 from ninja_game.sim.level import Level
 
-MOST_BYTES = 2**20
-"""Size of a file: a hundred times a long run."""
+MOST_BYTES = 2**20  # size of a file: a hundred times a long run
 
-SETTLED = 2 * 10**9
-"""Nanoseconds after which a change shows in the time of a file."""
+SETTLED = 2 * 10**9  # nanoseconds after which a change shows in the time of a file
 
-MOST_RECORDS = 200
-"""Recordings of one file with records of N."""
+MOST_RECORDS = 200  # recordings of one file with records of N
 
 
 @dataclass(frozen=True)
@@ -87,14 +84,14 @@ class RunFolder:
         """Paths over the level of runs that were compared just now, as ``path_data``."""
 
     def files(self) -> Iterator[tuple[str, str]]:
-        """The paths of all its files from there, and why one is left out; no link is followed."""
+        """The paths of all files in the folder, and why one is left out; no link is followed."""
         above = len(self.folder.parts)
         for found in files_below(self.folder, follow_links=False):
             path, why = (found.path, found.why) if isinstance(found, LeftOut) else (found, "")
             yield "/".join(path.parts[above:]), why
 
     def file(self, name: str) -> SentFile:
-        """One of its files."""
+        """Read a file by its path in the folder."""
         path = self.folder / name
         try:
             return SentFile(name, read_bytes(path, MOST_BYTES))

@@ -1,37 +1,48 @@
-"""Near copies: runs that are an earlier one of the level with some keys changed."""
+"""Copies: runs that are an earlier one of the level, as it was or with some keys changed."""
 
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
-from heapq import heappop, heappush, nlargest
-from itertools import groupby, pairwise
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from hashlib import sha256
+from heapq import heappop, heappush, nlargest, nsmallest
+from itertools import chain, groupby, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.runs.run import RunResult
+from ninja_game.runs.run import RunResult, run_level
 from ninja_game.sim.inputs import KEYS_DOWN
+from ninja_game.web.board.runs import OWN, Key, Rejected, Rows, Run
+from ninja_game.web.pages.gallery import path_data
+from ninja_game.web.pages.memo import Memo, digest_of, program
+
+MOST_COMPARED = 1000
+"""Earlier runs of a level that a new one is compared with: the fastest, which are worth a copy."""
 
 CHANGED = 0.65
 """Ticks changed, added or left out for each stroke, up to which the inputs of two runs are the same: people who do the
 same move most strokes by several ticks (the table in docs/board.md)."""
 
-ON_PATH, FEWEST_STROKES = 0.75, 8
-"""Share of a run's places on another's path, from which the paths are the same; with fewer strokes all have one way."""
+ON_PATH = 0.75  # share of a run's places on another's path, from which the paths are the same
 
-SAME_PRESSES, FEWEST_PRESSES, SHIFTED = 0.45, 16, 10
-"""Share of an earlier run's presses and releases that a run has at the same ticks, from which it is a copy; how many
-these must be; ticks that all of them may be earlier or later. Of 865 honest pairs none has so many."""
+FEWEST_STROKES = 8  # with fewer all runs take the same path
 
-ALIGNED = 4
-"""Earlier runs whose inputs are aligned with those of a new one: those with the most of its strokes."""
+SAME_PRESSES = 0.45
+"""Share of an earlier run's presses and releases that a run has at the same ticks, from which it is a copy. Of 865
+honest pairs none has so many."""
+
+FEWEST_PRESSES = 16  # with fewer they do not tell
+SHIFTED = 10  # ticks that all of them may be earlier or later
+
+ALIGNED = 4  # earlier runs whose inputs are aligned with those of a new one: those with the most of its strokes
 
 
 @dataclass(frozen=True)
 class Course:
-    """What is compared of a run.
+    """The features by which runs are compared.
 
     ``keys``: those down in each tick; ``strokes``: spans of the same keys, each as its number among equal ones, 2^20
     times its keys and 2^24 times its ticks; ``presses``: keys pressed and keys released, each as a bit of eight, plus
@@ -65,14 +76,14 @@ def course_of(inputs: bytes, run: RunResult) -> Course:
 
 
 class Common:
-    """Which courses have a thing, such as a place: a bit for each of the columns that courses are in."""
+    """Which courses have a feature, such as a place: a bit for each of the columns that courses are in."""
 
     def __init__(self) -> None:
         self._rows: dict[float, int] = {}
         self._bits = np.zeros((64, 1), np.uint8)
 
     def mark(self, things: Iterable[float], column: int, *, has: bool) -> None:
-        """The course in a column has these things, or has not any more."""
+        """Note that the course in a column has these features, or no longer has them."""
         rows = [self._rows.setdefault(each, len(self._rows)) for each in things]
         high, wide = self._bits.shape
         if len(self._rows) > high or column // 8 >= wide:
@@ -85,7 +96,7 @@ class Common:
             self._bits[rows, column // 8] &= 255 - bit
 
     def counts(self, things: Iterable[float], columns: int) -> NDArray[np.int64]:
-        """How many of the things each of the first columns has."""
+        """How many of the features each of the first columns has."""
         rows = np.array([self._rows[each] for each in things if each in self._rows], np.intp)
         bits = np.unpackbits(self._bits[rows, : (columns + 7) // 8], axis=1, count=columns, bitorder="little")
         # The narrow sum takes a third of the time.
@@ -128,10 +139,7 @@ class Courses:
         self._places.mark(course.places, column, has=has)
 
     def near(self, course: Course) -> Callable[[NDArray[np.bool_]], tuple[list[int], str]]:
-        """What tells, of columns, the numbers of those that share enough of a course, and what the first one shares.
-
-        The nearest is the first.
-        """
+        """A function of columns: the numbers of the runs near a course, nearest first; what the first shares."""
         columns = len(self.numbers)
         places, presses = self._places.counts(course.places, columns), np.zeros(columns, np.int64)
         of = self._press_counts
@@ -190,3 +198,108 @@ def edit_distance(ours: bytes, theirs: bytes) -> int:
         right = right << 1 | 1
         more, less = (left << 1 | ~(diagonal | right)) & every, right & diagonal & every
     return distance
+
+
+def without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run], list[Rejected]]:
+    """The runs without those that do what an earlier one does, and those; near copies of an earlier one are marked.
+
+    ``owners``: as of Ledger.
+    """
+    on_level: dict[str, list[Run]] = defaultdict(list)
+    copies: list[Rejected] = []
+    ways: dict[tuple[str, str], Run] = {}
+    for run in runs:
+        way = run.level, run.way
+        owner = owners.get(way)
+        if owner and way not in ways and owner["added"] < run.added:
+            why = f"a copy of an earlier run by {owner['player']}, which was withdrawn or does not count any more"
+            copies.append(Rejected(*run.key, "copy", why, run.player, run.entry.title, run.way, run.added))
+            continue
+        first = ways.setdefault(way, run)
+        if first is run:
+            on_level[run.level].append(run)
+        else:
+            stolen = first.player != run.player and first.added < run.added
+            what = f"a copy of the run by {first.player} in" if stolen else "the same run as"
+            why, kind = f"{what} {first.file}", OWN if run.episode and first.player == run.player else "copy"
+            copies.append(Rejected(*run.key, kind, why, run.player, run.entry.title, run.way, run.added, first.key))
+    kept = [run for level in on_level.values() for run in _remarked(level, memo, owners)]
+    return sorted(kept, key=lambda run: run.order), copies
+
+
+def _remarked(runs: list[Run], memo: Memo, owners: Rows) -> Iterator[Run]:
+    """The runs of a level, in order, with a remark on each that is near to earlier ones of others alone.
+
+    One that is near as its row says, and to none before it, waits until the others of its moment are compared: what it
+    is near to may have come back since, in a file with a later name.
+    """
+    if len({run.player for run in runs}) == 1:
+        yield from runs
+        return
+    compared = _Compared(runs[0].level, memo)
+    for _, moment in groupby(runs, key=lambda run: run.added):
+        waiting: list[Run] = []
+        for run, waits in chain(((run, True) for run in moment), ((run, False) for run in waiting)):
+            said = compared.near(run)
+            if waits and not said and owners.get((run.level, run.way), {}).get("near"):
+                waiting.append(run)
+                continue
+            compared.add(run)
+            yield replace(run, remark="; ".join(filter(None, (said, run.remark))), near=said) if said else run
+
+
+class _Compared:
+    """The runs of a level that were compared so far. What is near to them is remembered, and not compared again."""
+
+    def __init__(self, level: str, memo: Memo) -> None:
+        self._memo = memo
+        self._key = digest_of([program(), level])
+        self._runs: list[Run] = []
+        self._courses, self._known = Courses(MOST_COMPARED), 0
+        self._last: tuple[Key, Course] | None = None
+
+    def _key_of(self, run: Run) -> str:
+        """A remark depends on the run, on all earlier runs of the level, and on nothing else."""
+        return sha256(f"{self._key} {run.digest} {run.record} {run.player}".encode("utf-8", "replace")).hexdigest()
+
+    def add(self, run: Run) -> None:
+        self._key = self._key_of(run)
+        self._runs.append(run)
+
+    def near(self, run: Run) -> str:
+        """Which earlier run of another player a run is nearly, as a sentence; "" for none."""
+        said = self._memo.recall(key := self._key_of(run))
+        if not isinstance(said, str):
+            before = range(self._known, len(self._runs))
+            for number in sorted(nsmallest(MOST_COMPARED, before, key=lambda each: self._runs[each].tick)):
+                self._courses.add(number, self._runs[number].tick, partial(self._course, self._runs[number]))
+            self._known = len(self._runs)
+            course = self._course(run, new=True)
+            near = _near_to_another(run.player, course, self._courses, [each.player for each in self._runs])
+            said = f"{near[1]} the run by {self._runs[near[0]].player} in {self._runs[near[0]].file}" if near else ""
+            self._memo.note(key, said)
+        return said
+
+    def _course(self, run: Run, *, new: bool = False) -> Course:
+        """What tells whether a run is near to others. ``new``: its page is made, and shows its path."""
+        if self._last is None or self._last[0] != run.key:
+            inputs = run.inputs
+            found = run_level(run.entry.named.level, inputs)
+            if new:
+                run.folder.drawn[run.key] = path_data(found.positions)
+            self._last = run.key, course_of(inputs, found)
+        return self._last[1]
+
+
+def _near_to_another(player: str, course: Course, earlier: Courses, players: Sequence[str]) -> tuple[int, str] | None:
+    """Which run by another player a run is nearest to, and how, of those before the player's own first near one.
+
+    ``players``: of the earlier runs.
+    """
+    numbers = earlier.numbers
+    own = np.array([players[number] == player for number in numbers.tolist()], bool)
+    near, until = earlier.near(course), len(players)
+    for _ in range(2):  # inputs are aligned only where nothing else is near
+        until = min(near(own & (numbers < until))[0], default=until)
+    others, said = near(~own & (numbers < until))
+    return (others[0], said) if others else None

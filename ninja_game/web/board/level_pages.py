@@ -8,6 +8,7 @@ from dataclasses import replace
 from datetime import datetime
 from hashlib import sha256
 from itertools import compress, pairwise
+from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,7 @@ from numpy.typing import NDArray
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.run_time import seconds_text
-from ninja_game.player.catalogue import Entry
+from ninja_game.levels.episodes import Entry
 from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, SplitRow, run_splits, split_name, split_table, sum_of_best
 from ninja_game.ui.theme import RUN_COLOURS
 from ninja_game.web.board.ranking import Part, Ranked, Ranking
@@ -40,8 +41,7 @@ from ninja_game.web.pages.gallery import (
 )
 from ninja_game.web.pages.memo import Memo, digest_of
 
-PER_PAGE = 100
-"""Rows of a table that goes on on another page: a page has at most 100 KB."""
+PER_PAGE = 100  # rows of a table that goes on on another page: a page has at most 100 KB
 
 LONGEST_NAME = 40  # characters of a name in a table
 
@@ -51,14 +51,18 @@ LINKS = [
     ("rejected.html", "Rejected"),
 ]  # fmt: skip
 
-FIRST, TOGETHER, MOST_SPLITS = 10, 5, 60
-"""Rows of a table; runs side by side; rows of splits, and where there were more, gold is left out."""
+FIRST = 10  # rows of a table
+TOGETHER = 5  # runs side by side
+MOST_SPLITS = 60  # rows of splits; where there were more, gold is left out
 
-RECORDS, SPLITS = "records", "splits"
+RECORDS = "records"
+SPLITS = "splits"
 NEAR = "A run that is nearly somebody else's is never first, until the keeper of the board confirms it."
 
-WIDTH, HEIGHT, MARGIN = 480, 150, 14
-"""Size of the chart and its margin, px, before it is fitted to the page."""
+# The chart, px, before it is fitted to the page.
+WIDTH = 480
+HEIGHT = 150
+MARGIN = 14
 
 
 class LevelPages:
@@ -126,8 +130,8 @@ class LevelPages:
             drawn = paths(f"{UP}{BOARD}/{picture_name(run.level)}", [(self.name(run.player), run.path)])
             return run_page(run.entry, stem, title, facts, BOARD, self.game, self.links, self.site, drawn)
 
-        told = title, run.tick, run.score, run.gold, run.medal, run.made, run.day
-        self.pages.make_replay(f"{stem}.html", [*told, self.around], content)
+        shown = title, run.tick, run.score, run.gold, run.medal, run.made, run.day
+        self.pages.make_replay(f"{stem}.html", [*shown, self.around], content)
 
     def name(self, player: str) -> str:
         """A player's name in a table, and whose it is not where it looks like one that was there before."""
@@ -144,7 +148,7 @@ class LevelPages:
         return (joined(self.player_link(run.player, UP), others), *results, *self.leads(run, UP), *about)
 
     def value(self, category: Category, run: Run) -> str:
-        """The number that a run is ranked by."""
+        """The number that a run is ranked by, as text; "" where it is not of the category."""
         values = self.ranking.values(category, run)
         return category.text(values[0]) if values else ""
 
@@ -153,7 +157,7 @@ class LevelPages:
     def level(self, entry: Entry) -> None:
         """A level's page, and the list of all its runs."""
         digest, named, runs = entry.digest, entry.named, self.ranking.by_level.get(entry.digest, [])
-        told: list[list[Any]] = [[self.stems[run.key], run.added, run.remark, run.near, run.tick] for run in runs]
+        rows: list[list[Any]] = [[self.stems[run.key], run.added, run.remark, run.near, run.tick] for run in runs]
         rules = [[each.name, each.rank, each.when] for each in self.ranking.categories]
         about = [named.name, named.author, named.comment, entry.episode, repr(entry.pars), digest, self.ranking.ladders]
 
@@ -162,7 +166,7 @@ class LevelPages:
             return level_page(entry, {}, UP + self.game, self.deeper, more, site=self.site, top=top, drawn=drawn)
 
         self.pages.make(picture_name(digest), digest, lambda: picture(named.level))
-        self.pages.make(page_name(digest), [about, told, rules, self.deeper, self.site], content)
+        self.pages.make(page_name(digest), [about, rows, rules, self.deeper, self.site], content)
         known = {self.stems[run.key]: run for run in runs}
 
         def cells(row: Sequence[Any]) -> tuple[Content, ...]:
@@ -171,9 +175,8 @@ class LevelPages:
 
         if runs:
             heads, back = ("Player", "Time", "Score", *RUN_HEADS), tag("a", "The level", href=UP + page_name(digest))
-            rows = sorted(told, key=lambda row: row[-1])
             name, caption = f"levels/{digest[:16]}-runs", "All runs, the fastest first"
-            self.list(name, entry.title, caption, heads, rows, tag("p", back), cells=cells)
+            self.list(name, entry.title, caption, heads, sorted(rows, key=itemgetter(-1)), tag("p", back), cells=cells)
 
     def _runs(self, entry: Entry) -> tuple[Content, Content, Content]:
         """What leads to the tables, the paths of the first runs over the level, and all that stands below."""
@@ -191,10 +194,10 @@ class LevelPages:
         same: dict[str, dict[Part, list[Ranked]]] = defaultdict(dict)
         for each, rows in tables.items():
             same[f"{each[0]} {[(row.place, row.run.key) for row in rows[:FIRST]]}"][each] = rows[:FIRST]
-        told: set[str] = set()
+        remarks: set[str] = set()
         shown, leads = list[Content](), list[tuple[str, str]]()
         for number, parts in enumerate(same.values(), 1):
-            shown.append(self._table(parts, told, anchor := f"ranks-{number}"))
+            shown.append(self._table(parts, remarks, anchor := f"ranks-{number}"))
             for each, (best, *_) in parts.items():
                 leader = f": {self.name(best.run.player)}, {each[1].text(best.values[0])}" if best.place == 1 else ""
                 leads.append((anchor, self.part_name(each) + leader))
@@ -204,16 +207,16 @@ class LevelPages:
         contents = tag("nav", tag("ul", *links), class_="contents", aria_label="On this page")
         return contents, drawn, joined(*shown, tag("p", NEAR) if near else None, link, first, folded, beside)
 
-    def _table(self, parts: Mapping[Part, Sequence[Ranked]], told: set[str], anchor: str) -> Markup:
-        """A table of categories with the same runs in order, of filled columns. ``told``: remarks of tables above."""
+    def _table(self, parts: Mapping[Part, Sequence[Ranked]], above: set[str], anchor: str) -> Markup:
+        """A table of categories with the same runs in order, of filled columns. ``above``: remarks of tables above."""
         rows, categories = [], [category for _, category in parts]
         timed = any(category.unit == FASTEST.unit for category in categories)
         for same in zip(*parts.values(), strict=True):
             place, run = same[0].place, same[0].run
-            shown = replace(run, remark="as above") if run.remark in told else run
+            shown = replace(run, remark="as above") if run.remark in above else run
             results = [category.text(each.values[0]) for category, each in zip(categories, same, strict=True)]
             rows.append((place, *self.run(shown, *results, timed=timed)))
-            told |= {run.remark} - {""}
+            above |= {run.remark} - {""}
         names = [category.name if len(parts) > 1 else category.unit for category in categories]
         heads = ("Place", "Player", *names, *RUN_HEADS)
         filled = [any(cell != "" for cell in column) for column in zip(*rows, strict=True)]
@@ -243,7 +246,7 @@ class LevelPages:
         return section(title, chart, table("Newest first", heads, rows[: -FIRST - 1 : -1]), anchor=anchor or None)
 
     def _side_by_side(self, runs: Sequence[Run], name: str) -> tuple[Markup, Markup]:
-        """The first runs of what is called so: their paths; any two of them, and their splits."""
+        """The first runs of a table, its ``name``: their paths; races of any two of them, and their splits."""
         names = [self.name(run.player) for run in runs]
         found = [run_splits(Recording(run.entry.named.level, run.replay), memory="auto") for run in runs]
         known = [
@@ -300,9 +303,9 @@ def signed(ticks: int) -> str:
 
 def _stem(run: Run) -> str:
     """The stem of the file in ``replays`` with a run: of all that the file holds."""
-    named = run.entry.named
-    told = run.digest, str(run.record), run.player, run.entry.title, named.author, run.made, run.co_authors
-    return sha256("\0".join((*told, run.level)).encode("utf-8", "replace")).hexdigest()[:16]
+    author = run.entry.named.author
+    held = run.digest, str(run.record), run.player, run.entry.title, author, run.made, run.co_authors, run.level
+    return sha256("\0".join(held).encode("utf-8", "replace")).hexdigest()[:16]
 
 
 def steps(points: Sequence[tuple[float, float]], top: str, bottom: str, said: str) -> Markup:

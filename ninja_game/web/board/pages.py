@@ -26,8 +26,10 @@ from ninja_game.web.board.runs import KINDS, PLAYED, Key, Run
 from ninja_game.web.pages.frame import REPLAYS, Content, page, section, table, tag
 from ninja_game.web.pages.gallery import BOARD, UP, medal_mark, page_name, shared_text
 
-NEWEST, LEADING, CONTESTED = 30, 20, 10
-"""Rows on the first page of records, players and levels."""
+# Rows on the first page.
+NEWEST = 30
+LEADING = 20
+CONTESTED = 10
 
 FEED = "feed.xml"
 ONE_MOMENT = "Those of one moment go by their files, the last name first."
@@ -101,8 +103,9 @@ class BoardPages(LevelPages):
         newest = section("Newest records", *shown) if rows else None
         leaders = [
             section(self._players_of(ladder), table(BY_LEVELS, self._heads(), map(self._standing, standings[:LEADING])))
-            for ladder, standings in self.ranking.standings.items() if standings
-        ]  # fmt: skip
+            for ladder, standings in self.ranking.standings.items()
+            if standings
+        ]
         lead = tag("p", f"{self.ranking.shown.name}: {summary(self.ranking.judged)}.", class_="lead")
         said = tag("p", "Every run was simulated again: times, gold and scores are the result of its inputs.")
         contents = self._week(), newest, *leaders, self._contested()

@@ -10,13 +10,12 @@ from functools import cached_property
 from operator import itemgetter
 
 from ninja_game.formats.pack.pars import MEDALS
-from ninja_game.player.catalogue import Episode
+from ninja_game.levels.episodes import Episode
 from ninja_game.web.board.rules import USUAL, Category
 from ninja_game.web.board.runs import PLAYED, Run, ValidatedRuns
 from ninja_game.web.pages.gallery import PublishedLevels
 
-Part = tuple[str, Category]
-"""A ladder and a category: runs are ranked within them."""
+Part = tuple[str, Category]  # a ladder and a category: runs are ranked within them
 
 WEEK = timedelta(days=7)
 
@@ -45,7 +44,7 @@ class Record:
 class Standing:
     """A player's sums in a ladder. ``medals``: levels by best medal; ``records``: levels led, by category.
 
-    ``ranks``: places of the best runs in the first category; ``behind``: their times by the best one's, less one.
+    ``ranks``: places of the best runs in the first category; ``behind``: by what share each is slower than the best.
     """
 
     player: str

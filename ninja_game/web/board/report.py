@@ -29,8 +29,7 @@ _FIELDS: dict[str, dict[str, type]] = {
     "withdrawn": {"level": str, "way": str, "player": str, "added": str},
 }  # fmt: skip
 
-_KEPT = {"near": str, "confirmed": bool}
-"""What a row may have, and keeps after the run is withdrawn."""
+_KEPT = {"near": str, "confirmed": bool}  # what a row may have, and keeps after the run is withdrawn
 
 
 def _run_data(run: Run) -> dict[str, Any]:
@@ -104,7 +103,7 @@ def _rows(path: Path, part: str, rows: list[dict[str, Any]], now: datetime) -> R
 
 @lru_cache(4096)
 def _is_date(text: str, now: datetime) -> bool:
-    """Whether a text is a date of ours, and not of a day that is still to come."""
+    """Whether a text is a date in the form of DATE, not in the future."""
     try:
         date = datetime.strptime(text, DATE).replace(tzinfo=UTC)
     except ValueError:
@@ -158,7 +157,7 @@ def gone(ranking: Ranking, before: Ledger) -> Iterator[str]:
 
 
 def _achieved(ranking: Ranking, run: Run) -> str:
-    """What a run is worth, in words."""
+    """Time, gold, places, medal and remark of a run in a line."""
     text = f"{plain(run.player)} passes {plain(run.entry.title)} in {seconds_text(run.tick)} s with {run.gold} gold"
     for (ladder, category), table in ranking.tables[run.level].items():
         place = next((each.place for each in table if each.run is run), 0) if ladder == run.ladder else 0

@@ -24,8 +24,10 @@ NAMES: dict[str, Callable[[Run], float]] = {
 }  # fmt: skip
 """What formulas may say of a run: ticks to the exit, gold, score (ticks), gold of the level, jumps, keys pressed."""
 
-MOST_BYTES, MOST_CATEGORIES, MOST_RANKS, LONGEST_NAME = 2**20, 12, 4, 40
-"""Bytes of a ``board.toml``, and its categories; formulas that rank a category, and characters of its name."""
+MOST_BYTES = 2**20  # of a ``board.toml``
+MOST_CATEGORIES = 12
+MOST_RANKS = 4  # formulas that rank a category
+LONGEST_NAME = 40
 
 _KEYS: Mapping[str, type] = {"name": str, "rank": list, "when": str, "episodes": bool}
 _ARGUMENTS = dict.fromkeys(NAMES, 0)
@@ -79,7 +81,7 @@ class Category:
         return self.difference(-value if self.rising else value)
 
     def measured(self, value: float) -> str:
-        """The same with what it counts.
+        """Its first number with a unit.
 
         >>> HIGHEST.measured(-3657), Category("Fewest keys", ("presses",)).measured(1)
         ('91.425 points', '1 press')

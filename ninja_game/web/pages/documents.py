@@ -29,15 +29,14 @@ from ninja_game.play.window import png_of
 from ninja_game.web.pages import frame
 from ninja_game.web.pages.frame import GAME, HOME, NAVIGATION, SEARCH, Content, Markup, joined, tag
 
-FILM, STILL = "pictures/ninja-game.webp", "pictures/ninja-game.png"
-"""The moving picture of the first page, and one for who wants no motion."""
+FILM = "pictures/ninja-game.webp"  # of the first page
+STILL = "pictures/ninja-game.png"  # for who wants no motion
 
 FIGURES_SCRIPT = "app-folder/figures.js"  # where the build puts what makes figures move
 
 LAB = "lab-"  # how the name of a figure's picture begins
 
-LEFT_OUT = (".", "build/", "dist/")
-"""Folders whose Markdown is not the project's, or not meant for readers."""
+LEFT_OUT = (".", "build/", "dist/")  # folders whose Markdown is not the project's, or not meant for readers
 
 
 def slug(heading: str) -> str:

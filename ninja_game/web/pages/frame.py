@@ -78,18 +78,21 @@ POLICY = "default-src 'none'; img-src 'self'; style-src 'self'; script-src 'self
 POLICY_OF_FIGURES = POLICY.replace("script-src 'self'", "connect-src 'self'; script-src 'self' 'wasm-unsafe-eval'")
 """The policy of pages with figures, which run Python."""
 
-HOME, GAME, SEARCH = "index.html", "play.html", "search.html"
+HOME = "index.html"
+GAME = "play.html"
+SEARCH = "search.html"
 NAVIGATION = (
     (HOME, "Home"), ("learn/index.html", "Learn"), (GAME, "Play"), ("docs/making-levels.html", "Make"),
     ("gallery/index.html", "Compete"), ("docs/index.html", "Reference"), (SEARCH, "Search"),
 )  # fmt: skip
 """Pages in the folder of a site, and what leads to its parts."""
 
-STYLE, SCRIPT, ICON = "style.css", "search.js", "icon.png"
+STYLE = "style.css"
+SCRIPT = "search.js"
+ICON = "icon.png"
 REPLAYS = "replays"
 """The folder of a site with the replays that pages lead to."""
-MARK = ".ninja-game-pages"
-"""A file in a folder of pages, which says that they may be replaced."""
+MARK = ".ninja-game-pages"  # a file in a folder of pages, which says that they may be replaced
 
 _INK_ROLES = (
     "background", "tile", "text", "on_tile", "panel", "panel_edge", "accent", "good", "bad", "gold", "gold_light",
@@ -97,8 +100,7 @@ _INK_ROLES = (
 )  # fmt: skip
 _FAINT = 0.35
 """How far small text goes from the palette's ink to its faint one: enough contrast for small letters."""
-_FRAME = 0.4
-"""How much darker than a tile the frame round a page is: letters stand on it."""
+_FRAME = 0.4  # how much darker than a tile the frame round a page is: letters stand on it
 _ICON_SIZE = 64
 _LONGEST_HEADING = 30
 _LONGEST_LINE = 24

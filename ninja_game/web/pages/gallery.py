@@ -26,7 +26,7 @@ from ninja_game.formats.pack.pars import MARGINS, MEDALS, Pars
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.formats.run_time import seconds_text
-from ninja_game.player.catalogue import Entry, EpisodeSet, episode_set
+from ninja_game.levels.episodes import Entry, EpisodeSet, episode_set
 from ninja_game.sim.kinds import KIND_NAMES
 from ninja_game.sim.level import Level, makes_object
 from ninja_game.ui.theme import CLASSIC
@@ -68,7 +68,7 @@ class PublishedLevels:
 
     @cached_property
     def runs(self) -> Mapping[str, Mapping[str, Recording]]:
-        """By level digest the certificates there are, "exit" or "gold"."""
+        """Certificates by level digest, then by kind: "exit" or "gold"."""
         return {entry.digest: _certificates(self.pack, entry) for entry in self.levels.levels} if self.pack else {}
 
 
@@ -142,8 +142,8 @@ def watch_address(game: str, *stems: str) -> str:
 
 UP = "../"
 PICTURE_HEIGHT = PICTURE_WIDTH * 600 // 792
-FOLDER, BOARD = "gallery", "board"
-"""Folders of a site: the gallery's pages, and those of a board."""
+FOLDER = "gallery"
+BOARD = "board"
 
 Links = Sequence[tuple[str, str]]
 KINDS = {"exit": "To the exit", "gold": "With all gold"}
@@ -196,10 +196,11 @@ def run_page(
     place = f"../{folder}/"
     facts = [*((name, text) for name, text in facts if text), ("Author of the level", entry.named.author or "unknown")]
     leads = (
-        tag("p", tag("a", "Watch this run", href=watch_address(game, stem), class_="button")), definitions(facts),
+        tag("p", tag("a", "Watch this run", href=watch_address(game, stem), class_="button")),
+        definitions(facts),
         tag("p", tag("a", "The level", href=place + page_name(entry.digest))),
         tag("p", tag("a", "The replay as a file", href=f"{stem}.txt", download=True)),
-    )  # fmt: skip
+    )
     drawn = tag("div", drawn) if drawn else level_image(entry, place)
     shown = tag("div", drawn, tag("div", *leads, class_="about"), class_="level")
     about, picture = ". ".join(f"{name}: {text}" for name, text in facts), (site or place) + picture_name(entry.digest)
@@ -207,8 +208,8 @@ def run_page(
     return page(title, shown, up=place, links=links, picture=picture, about=about)
 
 
-MOST_POINTS, NEAREST = 400, 4.0
-"""Points of a path that is drawn, and how far apart they are at least, px."""
+MOST_POINTS = 400  # of a path that is drawn
+NEAREST = 4.0  # px between two of them, at least
 
 
 def path_data(positions: NDArray[np.float64]) -> str:
@@ -261,7 +262,7 @@ def _pars(pars: Pars) -> Markup:
 
 
 def medal_mark(medal: str) -> Content:
-    """A small mark for a medal, "" for none; its letter tells it rejected, not only its colour."""
+    """A small mark for a medal, "" for none; known by its letter, not only by its colour."""
     return tag("span", medal[0].upper(), class_=f"medal {medal}", title=medal) if medal in MEDALS else joined()
 
 

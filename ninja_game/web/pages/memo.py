@@ -1,4 +1,4 @@
-"""What an earlier command found out, so that the next one need not: of the user's own cache folder and no other."""
+"""Results that one command keeps for the next, in the user's own cache folder and nowhere else."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from ninja_game.errors import DAMAGED
 from ninja_game.files.reading import read_bytes
 from ninja_game.files.writing import write_atomically
 
-MOST_BYTES, MOST_MEMOS = 2**30, 100
-"""Size of a file: that of a million runs has half of it. So many files stay in their folder: the newest."""
+MOST_BYTES = 2**30  # that of a million runs has half of it
+MOST_MEMOS = 100  # the newest stay
 
 
 def digest_of(data: object) -> str:
@@ -30,10 +30,9 @@ def program() -> str:
 
 
 class Memo:
-    """Plain values by keys; what is not asked for or noted again is forgotten. ``path``: None: nothing is kept.
+    """A cache of plain values by key; what is neither recalled nor noted is dropped by ``save``.
 
-    A file that is missing, or no memo, is an empty one: all in it can be found out again. ``again``: as if it were,
-    but for what is forgotten.
+    ``path``: of its file, None: nothing is kept; a missing or broken one is empty. ``again``: recall nothing from it.
     """
 
     def __init__(self, path: Path | None = None, *, again: bool = False) -> None:

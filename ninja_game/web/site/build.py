@@ -43,8 +43,7 @@ LARGE = ("pyodide/pyodide.asm.wasm", "pyodide/python_stdlib.zip", "game.tar.gz")
 TEMPLATES = (GAME, "sw.js")
 """Files of the page that know the version; they lie above the folder of what has one."""
 
-FOLDER = "app-folder"
-"""What templates and documents call the folder of the version."""
+FOLDER = "app-folder"  # what templates and documents call the folder of the version
 
 _BESIDE_PAGES = ("style.css", "search.js", "icon.png")
 PAGES = (
@@ -228,11 +227,11 @@ class _Handler(SimpleHTTPRequestHandler):
         return None
 
     def list_directory(self, path: Any) -> None:  # noqa: ARG002 - the base class names it
-        """Say that there is nothing."""
+        """Answer 404: no lists of folders."""
         self.send_error(404)
 
     def log_message(self, *_: Any) -> None:
-        """Say nothing."""
+        """Log nothing."""
 
 
 def site_server(folder: Path, port: int) -> ThreadingHTTPServer:

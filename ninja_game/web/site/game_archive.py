@@ -96,7 +96,7 @@ def _how(folder: Path | None = None) -> str:
 
 
 def _fetch(kept: Path) -> None:
-    """Get the package by npm and unpack what is needed of it. Raises NinjaGameError, in words."""
+    """Get the package by npm and unpack what is needed of it. Raises NinjaGameError."""
     npm = shutil.which("npm")
     if npm is None:
         raise NinjaGameError(f"npm, which gets Pyodide, is not installed; install Node.js, or {_how()}")
@@ -223,8 +223,8 @@ def _texts(files: Files) -> Files:
 
 def _replaced(files: Files, folder: Path) -> Files:
     """The files, with bytecode in place of what ``folder`` has as such."""
-    made = {f"{name}c": (folder / f"{name}c").read_bytes() for name in _texts(files)}
-    return {name: content for name, content in files.items() if not name.endswith(".py")} | made
+    bytecode = {f"{name}c": (folder / f"{name}c").read_bytes() for name in _texts(files)}
+    return {name: content for name, content in files.items() if not name.endswith(".py")} | bytecode
 
 
 def _write(folder: Path, files: Mapping[str, bytes]) -> None:

@@ -11,7 +11,7 @@ import pytest
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.editor import LayoutPreferences, tas_canvas, tas_layout
-from ninja_game.tas_editor.roll.facts import changed_ticks, in_words, row_facts
+from ninja_game.tas_editor.roll.facts import changed_ticks, row_facts, row_text
 from ninja_game.tas_editor.roll.rows import COLUMNS, RowSheet, layout_of, shortened
 from tests.support.tas_driver import TasDriver
 
@@ -82,7 +82,7 @@ def test_rows_know_what_is_simulated_and_where_the_run_ends(at: TasDriver) -> No
     timeline.simulated_until = 30
     rows = row_facts(at.editor, 25, 35)
     assert [row.values is None for row in rows] == [False] * 5 + [True] * 5
-    assert "not simulated" in in_words(rows[-1], numbers=True)
+    assert "not simulated" in row_text(rows[-1], numbers=True)
 
 
 @pytest.mark.parametrize("size", [(792, 600), (1188, 900), (1584, 1200), (1000, 1000), (3000, 700), (200, 150)])

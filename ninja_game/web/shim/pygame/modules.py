@@ -13,7 +13,7 @@ from .surface import LIST, SRCALPHA, TEXT, Surface
 
 
 def _nothing(*_: Any) -> None:
-    """What a page has done already."""
+    """Do nothing: a page needs no such call."""
 
 
 _SCREENS: list[Surface] = []

@@ -16,9 +16,11 @@ from .rect import Rect, _new, make
 SRCALPHA = 0x10000
 BLEND_RGBA_SUB, BLEND_RGBA_MULT, BLEND_PREMULTIPLIED = 7, 8, 17
 
-LONGEST_COPY, LARGEST_COPY, ONE_SHAPE, A_PART = 3000, 65536, 8, 160
-"""Fresh surfaces of at most this many numbers and px, or of one simple shape, are copied to where they are blitted. Of
-a fresh one they are parts, letters of a text say, as often as they are blitted there if their numbers are that few."""
+# A fresh surface is copied to where it is blitted, instead of becoming a canvas, up to these sizes:
+LONGEST_COPY = 3000  # numbers
+LARGEST_COPY = 65536  # px
+ONE_SHAPE = 8  # numbers of a simple shape, whatever its px
+A_PART = 160  # numbers of a part of another fresh one, such as a letter of a text, however often it is blitted
 
 TARGET, CANVAS, FREE, CLIP, IMAGE, STRETCH, FILL, SHIFT, UNSHIFT = range(1, 10)
 POLYGON, DISC, RING, LINE, FRAME, TEXT, STROKE, LIMB = range(10, 18)
