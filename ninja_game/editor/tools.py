@@ -114,6 +114,8 @@ class EditorTools:
 
     def press(self, *, erase: bool = False, pick: bool = False, add: bool = False) -> None:
         """The button goes down at the pointer. ``add``: to what is chosen already."""
+        if pick and (self.placing_switch or self.ghost):
+            return
         if self._switchless is not None:
             if erase:
                 self.cancel()

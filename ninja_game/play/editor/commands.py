@@ -80,6 +80,8 @@ IN_MENU = {"save", "save_as", "open", "new", "about", "messages", "test", "certi
 
 IN_MORE = ("reach", "tests", "paths", "lines", "list", "slopes", "next_finding")
 
+_AGAIN = "Esc again opens the File menu, where Leave is too"
+
 _UNDO = "Undo brings back what was here"
 
 
@@ -213,9 +215,16 @@ class EditorCommands(DocumentCommands):
     # --- files ---
 
     def menu(self) -> None:
-        """Give up what is half done, or open the file menu."""
-        if not (self.view.take(None) or self.session.tools.cancel()):
+        """Give up what is half done, what is selected, the tool: one each time. Then it is said that the next opens."""
+        view, tools = self.view, self.session.tools
+        if view.take(None) or tools.cancel():
+            return
+        if tools.tool != TOOLS[0]:
+            tools.tool = TOOLS[0]
+        elif view.hint == _AGAIN:
             self.file_menu()
+        else:
+            view.hint = _AGAIN
 
     def more(self) -> None:
         """Everything about tests and what is shown, for the mouse."""

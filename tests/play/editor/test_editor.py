@@ -119,6 +119,7 @@ def test_a_pad_draws_too(room: Maker) -> None:
     room.pad(10)  # the next tile
     assert tools.tile == 5
     room.pad(b)
+    room.pad(b)
     assert isinstance(room.top(), Menu)
     room.pad(b)
     assert isinstance(room.top(), EditorScreen)
@@ -712,12 +713,60 @@ def test_a_problem_is_shown_whole_where_there_is_room(room: Maker) -> None:
     assert room.editor.view.hint.startswith("Word word")
 
 
-def test_keys_of_the_file_menu_work_while_it_is_open(room: Maker) -> None:
+def test_escape_gives_up_step_by_step_and_says_that_the_next_opens_the_menu(room: Maker) -> None:
+    tools, view = room.editor.session.tools, room.editor.view
+    tools.tool = "select"
+    room.drag((60, 542))
+    assert tools.selection
+    left = []
+    for _ in range(3):
+        room.press("escape")
+        assert room.top() is room.editor
+        left.append((bool(tools.selection), tools.tool, "Esc again" in view.hint))
+    assert left == [(False, "select", False), (False, "brush", False), (False, "brush", True)]
+    room.mouse(*room.at(300, 300), click=False)
     room.press("escape")
+    assert room.top() is room.editor, "something lay between"
+    room.press("escape")
+    assert room.shown(Menu).title == "Level"
+
+
+def test_a_middle_click_puts_nothing_that_is_in_hand(room: Maker) -> None:
+    tools, before = room.editor.session.tools, room.draft
+    room.drag((60, 542))
+    room.chord("z", pygame.KMOD_LCTRL)
+    tools.tool = "select"
+    room.drag((40, 530), (70, 560))
+    room.chord("c", pygame.KMOD_LCTRL)
+    room.chord("v", pygame.KMOD_LCTRL)
+    room.drag((300, 300), button=pygame.BUTTON_MIDDLE)
+    assert tools.ghost is not None
+    assert room.draft == before
+    room.drag((300, 300))
+    assert (tools.ghost, room.draft == before) == (None, False)
+
+
+def test_a_second_exit_is_told_of(room: Maker) -> None:
+    room.press("grave", "rightbracket")
+    room.drag((300, 300))
+    assert not room.app.notice, "its switch is still in hand"
+    room.drag((350, 300))
+    room.frames(20)
+    assert room.app.notice.startswith("2 exits now: each has its own switch")
+    room.app.notify("")
+    room.drag((300, 400))
+    room.press("escape")
+    room.chord("z", pygame.KMOD_LCTRL)
+    room.frames(20)
+    assert not room.app.notice
+
+
+def test_keys_of_the_file_menu_work_while_it_is_open(room: Maker) -> None:
+    room.press("escape", "escape")
     room.chord("s", pygame.KMOD_LCTRL)
     assert room.editor.session.is_saved
     assert isinstance(room.top(), EditorScreen)
-    room.press("escape")
+    room.press("escape", "escape")
     room.press("f2")
     form = room.shown(FormPanel)
     room.type("New")
