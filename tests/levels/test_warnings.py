@@ -285,7 +285,7 @@ def test_what_only_a_fast_ninja_touches_is_named() -> None:
 
 
 def _opens(level: Level, speed: float) -> bool:
-    """Whether a ninja that comes to the wall from the right with this speed, px/tick, and stays there opens the exit."""
+    """Whether a ninja that comes from the right with this speed, px/tick, and stays at the wall opens the exit."""
     run = Simulation(level)
     ninja = run.world.ninja
     ninja.x = 418.1

@@ -8,6 +8,7 @@ from functools import lru_cache, partial
 
 import pygame
 
+from ninja_game.editor import brush
 from ninja_game.editor.brush import tile_name
 from ninja_game.editor.draft import cell_of
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, Motion
@@ -22,8 +23,10 @@ from ninja_game.play.editor.commands import TABLE
 from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.view import LAYOUT, EditorView
+from ninja_game.play.menus.menu_screen import CANCEL, Menu, Row, ask_text
 from ninja_game.play.workspace import Part
 from ninja_game.sim.level import Level, ObjectSpec
+from ninja_game.sim.rules import CELL
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme, wrapped
@@ -58,15 +61,29 @@ def panel_key(tools: EditorTools) -> tuple[object, ...]:
 def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
     x, y, w, _ = area
     tools = view.session.tools
-    rows: list[Callable[[Area], Widget]] = []
+    rows: list[Callable[[Area], Widget | Sequence[Widget]]] = []
     if tools.selection and tools.chosen is None:
         count = len(tools.selection.numbers)
         cells = tools.selection.area[2] * tools.selection.area[3] if tools.selection.area else 0
         title = f"Selected: {cells} cells, {count} objects" if cells else f"Selected: {count} objects"
-        turns = {"Mirror (H)": MIRROR, "Flip (J)": FLIP, "Turn (U)": CLOCKWISE}
+        turns = {"mirror": MIRROR, "flip": FLIP, "turn": CLOCKWISE}
         rows += [_choice(tools, name) for name in _common(tools.subjects)]
-        rows += [partial(Button, text=text, action=partial(view.turn, turn), size=9.5) for text, turn in turns.items()]
-        rows.append(partial(Button, text="Delete (Del)", action=tools.delete, size=9.5))
+        rows.append(
+            _row("", [(each.capitalize(), TABLE.hint(each), partial(view.turn, turns[each])) for each in turns])
+        )
+        rows += [_row(head, [_arranging(tools, *each) for each in words]) for head, words in _ARRANGING.items()]
+        remake = (
+            partial(_ask_kind, view)
+            if any(brush.object_type_of(spec) in brush.OTHER_KINDS for spec in tools.subjects)
+            else None
+        )
+        rows.append(
+            _row("", [
+                ("Move...", "Move what is selected by columns and rows, or by px", partial(_ask_move, view)),
+                ("Kind...", "What the selected objects become, in their places: not ninjas, exits, doors", remake),
+                ("Delete", TABLE.hint("delete"), tools.delete),
+            ])
+        )  # fmt: skip
     elif tools.selection or tools.objects:
         spec = tools.chosen or tools.spec
         title = f"{'Selected' if tools.selection else 'Draw'}: {object_type_name(spec)}"
@@ -87,7 +104,75 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
         words = [("slopes: by hand", False), ("slopes: by themselves", True)]
         rows.append(lambda area: _setting(area, tools, "slopes", words, TABLE.hint("slopes")))
     head = Label((x, y, w, 15), title, size=10)
-    return [head, *(make((x, y + 17 + ROW * k, w, ROW - 3)) for k, make in enumerate(rows))]
+    made = [make((x, y + 17 + ROW * k, w, ROW - 3)) for k, make in enumerate(rows)]
+    return [head, *(each for widgets in made for each in (widgets if isinstance(widgets, Sequence) else [widgets]))]
+
+
+_ARRANGING: dict[str, Sequence[tuple[str, str, int, float | None]]] = {
+    "Align": (
+        ("Left", "Selected objects to the leftmost", 0, 0.0),
+        ("Centre", "Selected objects to one middle, left and right alike", 0, 0.5),
+        ("Right", "Selected objects to the rightmost", 0, 1.0),
+    ),
+    " ": (
+        ("Top", "Selected objects to the highest", 1, 0.0),
+        ("Middle", "Selected objects to one height, half way", 1, 0.5),
+        ("Bottom", "Selected objects to the lowest", 1, 1.0),
+    ),
+    "Spread": (
+        ("Across", "Selected objects evenly from the leftmost to the rightmost", 0, None),
+        ("Down", "Selected objects evenly from the highest to the lowest", 1, None),
+    ),
+}
+"""Rows of buttons that put objects in line: text, hint, axis and share of ``stamp.arranged``."""
+
+Press = tuple[str, str, Callable[[], object] | None]
+"""Text, hint and action of a button."""
+
+
+def _arranging(tools: EditorTools, text: str, hint: str, axis: int, share: float | None) -> Press:
+    enough = len(tools.selection.parts) > (2 if share is None else 1)
+    return text, hint, partial(tools.arrange, axis, share) if enough else None
+
+
+def _row(head: str, presses: Sequence[Press]) -> Callable[[Area], Sequence[Widget]]:
+    """Buttons side by side, behind a word where there is one."""
+
+    def make(area: Area) -> Sequence[Widget]:
+        x, y, w, h = area
+        left = x + 30 * bool(head)
+        wide = (x + w - left) / len(presses)
+        buttons = [
+            Button((left + wide * k, y, wide - 2, h), text, action, hint=hint, size=8)
+            for k, (text, hint, action) in enumerate(presses)
+        ]
+        return [Label((x, y + 5, 30, h), head, size=8.5), *buttons] if head else buttons
+
+    return make
+
+
+def _ask_move(view: EditorView) -> None:
+    """Ask by how much what is selected moves: columns and rows, or px."""
+
+    def on_accept(text: str) -> None:
+        found = re.fullmatch(r"([+-]?\d+(?:\.\d+)?),([+-]?\d+(?:\.\d+)?)(px)?", text.replace(" ", ""))
+        step = 1.0 if found and found[3] else CELL
+        if found is None:
+            view.app.notify("Not moved: write two numbers, as 2,-1 for cells or 6,0px for px")
+        elif not view.session.tools.shift(step * float(found[1]), step * float(found[2])):
+            view.app.notify("Not moved: a part of it would leave the level")
+
+    prompt = "To the right and down: cells as in 2,-1, or px as in 6,0px"
+    ask_text(view.app, "Move by", prompt, "", "Move", on_accept, 20)
+
+
+def _ask_kind(view: EditorView) -> None:
+    """Ask what the selected objects become."""
+    change = view.session.tools.change_each
+    rows: list[Row] = [
+        (name.capitalize(), partial(change, partial(brush.remade, name=name)), "") for name in brush.OTHER_KINDS
+    ]
+    view.app.push(Menu(view.app, "Selected objects become", [*rows, CANCEL]))
 
 
 def _setting(area: Area, tools: EditorTools, name: str, words: Sequence[tuple[str, object]], hint: str) -> Widget:

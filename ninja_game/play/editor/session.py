@@ -122,7 +122,7 @@ class EditorSession:
         self._recognise()
 
     def _recognise(self) -> None:
-        """Take up the certificate of this level, once it was played: beside its file, or of the same level elsewhere."""
+        """Take up this level's certificate, once it was played: beside its file, or of the same level elsewhere."""
         catalogue, level, path = self.app.player.catalogue, self.draft.level, self.source.path
         same = [Entry(NamedLevel(self.name, "", "", level, str(path)), "yours")] if path else []
         same += [each for each in catalogue.singles() if each.named.level == level]

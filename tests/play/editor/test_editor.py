@@ -465,6 +465,48 @@ def test_a_property_of_several_objects_is_changed_by_one_click_and_undone_at_onc
     assert {spec.values[2] for spec in room.draft.objects[-3:]} == {2.0}, "a key turns all of them too"
 
 
+def test_several_objects_are_aligned_spread_moved_and_changed_by_clicks_each_undone_at_once(room: Maker) -> None:
+    room.press("grave", "0", "z")
+    for x, y in ((204, 300), (232, 330), (300, 312)):
+        room.drag((x, y))
+    room.press("v")
+    drawn = room.draft
+
+    def after(button: str, *more: str, by: str = "") -> list[tuple[float, ...]]:
+        room.drag((190, 280), (320, 350))
+        room.choose(button)
+        if by:
+            room.fill(by, "Move")
+        for each in more:
+            room.choose(each)
+        made = [spec.values for spec in room.draft.objects[-3:]]
+        room.chord("z", pygame.KMOD_LCTRL)
+        assert room.draft == drawn, "one step"
+        return made
+
+    assert after("Left") == [(204.0, 300.0), (204.0, 330.0), (204.0, 312.0)]
+    assert after("Centre") == [(252.0, 300.0), (252.0, 330.0), (252.0, 312.0)]
+    assert after("Right") == [(300.0, 300.0), (300.0, 330.0), (300.0, 312.0)]
+    assert after("Top") == [(204.0, 300.0), (232.0, 300.0), (300.0, 300.0)]
+    assert after("Middle") == [(204.0, 315.0), (232.0, 315.0), (300.0, 315.0)]
+    assert after("Bottom") == [(204.0, 330.0), (232.0, 330.0), (300.0, 330.0)]
+    assert after("Across") == [(204.0, 300.0), (252.0, 330.0), (300.0, 312.0)]
+    assert after("Down") == [(204.0, 300.0), (232.0, 330.0), (300.0, 315.0)]
+    assert after("Move...", by="2, -1") == [(252.0, 276.0), (280.0, 306.0), (348.0, 288.0)]
+    assert after("Move...", by="-6,0.5px") == [(198.0, 300.5), (226.0, 330.5), (294.0, 312.5)]
+    assert after("Kind...", "Launch pad")[1][:2] == (232.0, 330.0)
+
+
+@pytest.mark.parametrize("by", ["two", "40,0"])
+def test_a_move_that_cannot_be_says_why(room: Maker, by: str) -> None:
+    room.press("v")
+    room.drag((30, 520), (190, 560))
+    before = room.draft
+    room.choose("Move...")
+    room.fill(by, "Move")
+    assert (room.draft, room.app.notice.startswith("Not moved: ")) == (before, True)
+
+
 def test_the_list_of_objects_finds_selects_and_orders_them_by_clicks(room: Maker) -> None:
     room.press("grave", "0")
     for x in (204, 252, 300):
