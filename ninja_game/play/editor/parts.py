@@ -46,7 +46,7 @@ def panel_key(tools: EditorTools) -> tuple[object, ...]:
     """What the panel is about: when it changes, the panel is rebuilt."""
     if tools.selection:
         spec = tools.chosen
-        kind = (spec.kind, len(spec.values)) if spec else None
+        kind = (object_type_name(spec), len(spec.values)) if spec else None
         return (
             tools.selection.area,
             tools.selection.numbers,
@@ -55,7 +55,12 @@ def panel_key(tools: EditorTools) -> tuple[object, ...]:
             spec and tuple(points(spec).items()),
         )
     empty = tools.draft.level == Level()
-    return empty, tools.objects, tools.spec.kind if tools.objects else tools.tile, tools.effective_tool in CURVES
+    return (
+        empty,
+        tools.objects,
+        object_type_name(tools.spec) if tools.objects else tools.tile,
+        tools.effective_tool in CURVES,
+    )
 
 
 def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:

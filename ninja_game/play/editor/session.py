@@ -47,6 +47,7 @@ from ninja_game.runtime import NewestJob
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.ui.canvas import Point
 from ninja_game.ui.widgets import following
 from ninja_game.view.sprites.thumbnail import thumbnail
 
@@ -329,11 +330,12 @@ class EditorSession:
         except NinjaGameError:
             self.app.notify("There is no level in the clipboard: copy its text first")
 
-    def level_to_test(self, *, here: bool) -> Level:
+    def level_to_test(self, at: Point | None = None) -> Level:
+        """The level, with the ninja at a point if there is one."""
         self.tools.finish()
-        if not here:
+        if at is None:
             return self.draft.level
-        ninja = placed(object_of_type("ninja"), *self.tools.pointer, "px")
+        ninja = placed(object_of_type("ninja"), *at, "px")
         return put(self.draft, Stamp({}, (ninja,))).level
 
     def tried(self, level: Level, inputs: bytes, *, over: bool = False) -> None:

@@ -425,7 +425,7 @@ def test_what_can_be_reached_follows_pointer_speed_and_level(room: Maker) -> Non
     assert abs((396 - left) - (right - 396)) <= 2 * SQUARE, "standing, both sides are alike"
     # A jump straight up is the world's own: the highest square is where the highest of a run is.
     jump = run_level(
-        room.editor.session.level_to_test(here=True),
+        room.editor.session.level_to_test(room.editor.session.tools.pointer),
         with_press_bits(bytes([0] * LANDED + [4] * (40 - LANDED))),
         memory="plain",
     )
