@@ -73,7 +73,7 @@ class Ground:
         return not self.certain or any(_touches(cell, x, y, radius) for cell in near)
 
     def is_in_wall(self, x: float, y: float, radius: float) -> bool:
-        """Whether only a ninja that sinks into tiles, a fast one, could touch a disc: looked at each 2 px, generously."""
+        """Whether only a ninja that sinks into tiles, a fast one, could touch a disc. Looks each 2 px, generously."""
         if not (cell_at(x, y) and solid_at(self.level, x, y)):
             return False
         reach = radius + rules.RADIUS + _BETWEEN

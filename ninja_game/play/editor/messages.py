@@ -223,6 +223,8 @@ class MessagesScreen(MenuScreen):
         elif self.selected and self.selected.when == "at" and is_inside((column, row)):
             self.selected.detail = f"{column},{row}"
             self.enter()
+        elif pressed and self.selected:
+            self.app.notify(f"To put it there, choose {_WHEN['at'][0]} for it")
         self.redraw = True
 
     def _add(self) -> None:

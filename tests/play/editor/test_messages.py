@@ -154,6 +154,7 @@ def test_a_click_in_the_picture_on_another_message_selects_it(room: Maker) -> No
     room.frames()
     room.mouse(*in_picture(25, 3))
     assert screen.source == "at 10,10: One | at 20,12: Two | start: Go", "what is said at the start has no place"
+    assert "choose Near a place" in room.app.notice
 
 
 def test_a_message_is_tried_from_just_before_it_and_esc_comes_back(room: Maker) -> None:
