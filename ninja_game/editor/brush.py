@@ -7,18 +7,7 @@ from typing import NamedTuple
 
 from ninja_game.editor.draft import Cell, cell_of
 from ninja_game.editor.motion import TILE_IDS, Motion
-from ninja_game.editor.specs import (
-    BODY,
-    SWITCH,
-    carried,
-    has_switch,
-    object_type_name,
-    points,
-    properties,
-    settled,
-    with_word,
-    word,
-)
+from ninja_game.editor.specs import SWITCH, carried, has_switch, object_type_name, points, settled, with_word, word
 from ninja_game.formats.ascii.legend import TILE_CHARS
 from ninja_game.formats.ascii.object_lines import Listed, natural_offset, read_object_line
 from ninja_game.sim import kinds
@@ -153,21 +142,6 @@ def _placed_door(spec: ObjectSpec, x: float, y: float, switch: tuple[float, floa
         spec = with_word(spec, "side", side)
     values = (*switch, *spec.values[2:4], float(column), float(row), *spec.values[6:])
     return settled(spec._replace(values=values))
-
-
-OTHER_KINDS = tuple(each.name for each in OBJECT_TYPES if each.spec.kind not in (kinds.NINJA, kinds.EXIT, kinds.DOOR))
-"""Types that an object can become: not those of which there is one, or which have a side or a switch."""
-
-
-def remade(spec: ObjectSpec, name: str) -> ObjectSpec:
-    """An object as one of OTHER_KINDS, in its place and with its direction and movement; one of no such kind stays."""
-    if object_type_of(spec) not in OTHER_KINDS or BODY not in points(spec):
-        return spec
-    place, made = points(spec)[BODY], object_of_type(name)
-    for each in properties(made).keys() & properties(spec).keys() - {"type"}:
-        if word(spec, each) in properties(made)[each].words:
-            made = with_word(made, each, word(spec, each))
-    return placed(made, *place, "cell" if placed(spec, *place, "cell") == spec else "px")
 
 
 def with_switch(spec: ObjectSpec, x: float, y: float, snap: str) -> ObjectSpec:

@@ -12,8 +12,8 @@ from ninja_game.document import History
 from ninja_game.editor import brush, stamp as stamps
 from ninja_game.editor.draft import Cell, Draft, Tiles, cell_of, changed_cells, is_inside
 from ninja_game.editor.motion import SYMMETRIES, Motion
-from ninja_game.editor.specs import has_switch, points, properties, with_word
-from ninja_game.sim.kinds import DOOR, GOLD, LAUNCH_PAD, MINE, NINJA
+from ninja_game.editor.specs import BODY, has_switch, points, properties, with_word, word
+from ninja_game.sim.kinds import DOOR, EXIT, GOLD, LAUNCH_PAD, MINE, NINJA
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import CELL, HALF, WORLD_HEIGHT, WORLD_WIDTH
 
@@ -29,6 +29,24 @@ DRAGGED = PICK_REACH = 12.0
 """A press that moves farther than this is a drag; an object that is nearer is picked, px."""
 REACH = 17.32
 """px within which an object is deleted (√300: game.md §6)."""
+
+OTHER_KINDS = tuple(each.name for each in brush.OBJECT_TYPES if each.spec.kind not in (NINJA, EXIT, DOOR))
+"""Types that an object can become: not those of which there is one, or which have a side or a switch."""
+
+
+def can_be_remade(spec: ObjectSpec) -> bool:
+    return brush.object_type_of(spec) in OTHER_KINDS and BODY in points(spec)
+
+
+def remade(spec: ObjectSpec, name: str) -> ObjectSpec:
+    """An object as one of OTHER_KINDS, in its place and with its direction and movement; one of no such kind stays."""
+    if not can_be_remade(spec):
+        return spec
+    place, made = points(spec)[BODY], brush.object_of_type(name)
+    for each in properties(made).keys() & properties(spec).keys() - {"type"}:
+        if word(spec, each) in properties(made)[each].words:
+            made = with_word(made, each, word(spec, each))
+    return brush.placed(made, *place, "cell" if brush.placed(spec, *place, "cell") == spec else "px")
 
 
 class EditorTools:

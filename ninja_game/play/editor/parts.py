@@ -8,12 +8,11 @@ from functools import lru_cache, partial
 
 import pygame
 
-from ninja_game.editor import brush
 from ninja_game.editor.brush import tile_name
 from ninja_game.editor.draft import cell_of
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, Motion
 from ninja_game.editor.specs import SWITCH, carried, has_switch, object_type_name, points, properties, word
-from ninja_game.editor.tools import CURVES, NEAREST, SPACINGS, EditorTools
+from ninja_game.editor.tools import CURVES, NEAREST, OTHER_KINDS, SPACINGS, EditorTools, can_be_remade, remade
 from ninja_game.errors import LevelError
 from ninja_game.files.user_folder import short_path
 from ninja_game.formats.ascii.places import place_text, read_place
@@ -32,7 +31,7 @@ from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme, wrapped
 from ninja_game.ui.widgets import Button, Choice, Label, Widget
 
-ROW = 23.0
+ROW = 22.5
 
 FIRST_STEPS = (
     "First draw a floor; put the ninja",
@@ -54,13 +53,8 @@ def panel_key(tools: EditorTools) -> tuple[object, ...]:
             kind,
             spec and tuple(points(spec).items()),
         )
-    empty = tools.draft.level == Level()
-    return (
-        empty,
-        tools.objects,
-        object_type_name(tools.spec) if tools.objects else tools.tile,
-        tools.effective_tool in CURVES,
-    )
+    drawn = object_type_name(tools.spec) if tools.objects else tools.tile
+    return tools.draft.level == Level(), tools.objects, drawn, tools.effective_tool in CURVES
 
 
 def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
@@ -71,24 +65,19 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
         count = len(tools.selection.numbers)
         cells = tools.selection.area[2] * tools.selection.area[3] if tools.selection.area else 0
         title = f"Selected: {cells} cells, {count} objects" if cells else f"Selected: {count} objects"
-        turns = {"mirror": MIRROR, "flip": FLIP, "turn": CLOCKWISE}
         rows += [_choice(tools, name) for name in _common(tools.subjects)]
+        turns = {"mirror": MIRROR, "flip": FLIP, "turn": CLOCKWISE}
         rows.append(
-            _row("", [(each.capitalize(), TABLE.hint(each), partial(view.turn, turns[each])) for each in turns])
+            _row([(name.capitalize(), partial(view.turn, turn), TABLE.hint(name)) for name, turn in turns.items()])
         )
-        rows += [_row(head, [_arranging(tools, *each) for each in words]) for head, words in _ARRANGING.items()]
-        remake = (
-            partial(_ask_kind, view)
-            if any(brush.object_type_of(spec) in brush.OTHER_KINDS for spec in tools.subjects)
-            else None
-        )
-        rows.append(
-            _row("", [
-                ("Move...", "Move what is selected by columns and rows, or by px", partial(_ask_move, view)),
-                ("Kind...", "What the selected objects become, in their places: not ninjas, exits, doors", remake),
-                ("Delete", TABLE.hint("delete"), tools.delete),
-            ])
-        )  # fmt: skip
+        rows += [_arranging(tools, head) for head in _ARRANGING]
+        remake = partial(_ask_kind, view) if any(map(can_be_remade, tools.subjects)) else None
+        last: list[Row] = [
+            ("Move...", partial(_ask_move, view), "Move what is selected by columns and rows, or by px"),
+            ("Kind...", remake, "What the selected objects become, in their places: not ninjas, exits, doors"),
+            ("Delete", tools.delete, TABLE.hint("delete")),
+        ]
+        rows.append(_row(last))
     elif tools.selection or tools.objects:
         spec = tools.chosen or tools.spec
         title = f"{'Selected' if tools.selection else 'Draw'}: {object_type_name(spec)}"
@@ -113,45 +102,31 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
     return [head, *(each for widgets in made for each in (widgets if isinstance(widgets, Sequence) else [widgets]))]
 
 
-_ARRANGING: dict[str, Sequence[tuple[str, str, int, float | None]]] = {
-    "Align": (
-        ("Left", "Selected objects to the leftmost", 0, 0.0),
-        ("Centre", "Selected objects to one middle, left and right alike", 0, 0.5),
-        ("Right", "Selected objects to the rightmost", 0, 1.0),
-    ),
-    " ": (
-        ("Top", "Selected objects to the highest", 1, 0.0),
-        ("Middle", "Selected objects to one height, half way", 1, 0.5),
-        ("Bottom", "Selected objects to the lowest", 1, 1.0),
-    ),
-    "Spread": (
-        ("Across", "Selected objects evenly from the leftmost to the rightmost", 0, None),
-        ("Down", "Selected objects evenly from the highest to the lowest", 1, None),
-    ),
+_ARRANGING: dict[str, dict[str, tuple[int, float | None]]] = {
+    "Align": {"Left": (0, 0.0), "Centre": (0, 0.5), "Right": (0, 1.0)},
+    "": {"Top": (1, 0.0), "Middle": (1, 0.5), "Bottom": (1, 1.0)},
+    "Spread": {"Across": (0, None), "Down": (1, None)},
 }
-"""Rows of buttons that put objects in line: text, hint, axis and share of ``stamp.arranged``."""
-
-Press = tuple[str, str, Callable[[], object] | None]
-"""Text, hint and action of a button."""
+"""Rows of buttons that put objects in line, with axis and share of ``stamp.arranged``."""
 
 
-def _arranging(tools: EditorTools, text: str, hint: str, axis: int, share: float | None) -> Press:
-    enough = len(tools.selection.parts) > (2 if share is None else 1)
-    return text, hint, partial(tools.arrange, axis, share) if enough else None
+def _arranging(tools: EditorTools, head: str) -> Callable[[Area], Sequence[Widget]]:
+    most, buttons = len(tools.selection.parts), []
+    for text, (axis, share) in _ARRANGING[head].items():
+        hint = f"{head or 'Align'} the selected objects: {text.lower()}"
+        buttons.append((text, partial(tools.arrange, axis, share) if most > 1 + (share is None) else None, hint))
+    return _row(buttons, head, 30)
 
 
-def _row(head: str, presses: Sequence[Press]) -> Callable[[Area], Sequence[Widget]]:
-    """Buttons side by side, behind a word where there is one."""
+def _row(buttons: Sequence[Row], head: str = "", room: int = 0) -> Callable[[Area], Sequence[Widget]]:
+    """Buttons side by side, behind a word with so much room."""
 
     def make(area: Area) -> Sequence[Widget]:
         x, y, w, h = area
-        left = x + 30 * bool(head)
-        wide = (x + w - left) / len(presses)
-        buttons = [
-            Button((left + wide * k, y, wide - 2, h), text, action, hint=hint, size=8)
-            for k, (text, hint, action) in enumerate(presses)
-        ]
-        return [Label((x, y + 5, 30, h), head, size=8.5), *buttons] if head else buttons
+        wide = (w - room) / len(buttons)
+        places = [(x + room + wide * k, y, wide - 2, h) for k in range(len(buttons))]
+        row = [Button(at, *each[:2], hint=each[2], size=8) for at, each in zip(places, buttons, strict=True)]
+        return [Label((x, y + 5, room, h), head, size=8.5), *row]
 
     return make
 
@@ -167,16 +142,13 @@ def _ask_move(view: EditorView) -> None:
         elif not view.session.tools.shift(step * float(found[1]), step * float(found[2])):
             view.app.notify("Not moved: a part of it would leave the level")
 
-    prompt = "To the right and down: cells as in 2,-1, or px as in 6,0px"
-    ask_text(view.app, "Move by", prompt, "", "Move", on_accept, 20)
+    ask_text(view.app, "Move right and down by", "Cells: 2,-1   Or px: 6,0px", "", "Move", on_accept, 20)
 
 
 def _ask_kind(view: EditorView) -> None:
     """Ask what the selected objects become."""
     change = view.session.tools.change_each
-    rows: list[Row] = [
-        (name.capitalize(), partial(change, partial(brush.remade, name=name)), "") for name in brush.OTHER_KINDS
-    ]
+    rows: list[Row] = [(each.capitalize(), partial(change, partial(remade, name=each)), "") for each in OTHER_KINDS]
     view.app.push(Menu(view.app, "Selected objects become", [*rows, CANCEL]))
 
 

@@ -622,6 +622,16 @@ def test_the_panel_follows_what_is_dragged(room: Maker) -> None:
     assert place.text == place_text(*points(room.draft.objects[1])[SWITCH])
 
 
+def test_the_panel_names_the_type_that_is_in_hand_or_selected(room: Maker) -> None:
+    room.press("grave")
+    titles = []
+    for key in ("i", "p", "o", "i"):
+        room.press(key)
+        room.frames()
+        titles.append(room.editor.properties.widgets[0].text)  # type: ignore[attr-defined]
+    assert titles == ["Draw: automatic door", "Draw: trap door", "Draw: locked door", "Draw: automatic door"]
+
+
 def test_the_wheel_changes_nothing_while_something_is_drawn(maker: Maker) -> None:
     maker.open("Editor")
     tools = maker.editor.session.tools
