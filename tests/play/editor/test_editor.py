@@ -664,7 +664,7 @@ def test_a_turn_that_leaves_the_level_is_refused_in_words(room: Maker, how: str)
         room.press("u")
     else:
         room.editor.follow_parts()
-        room.choose("Turn (U)")
+        room.choose("Turn")
     assert room.draft is before
     assert "would leave the level" in room.app.notice
     room.press("h")
