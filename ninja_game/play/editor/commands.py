@@ -222,6 +222,7 @@ class EditorCommands(DocumentCommands):
         if tools.tool != TOOLS[0]:
             tools.tool = TOOLS[0]
         elif view.hint == _AGAIN:
+            view.hint = ""
             self.file_menu()
         else:
             view.hint = _AGAIN
