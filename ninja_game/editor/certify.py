@@ -121,6 +121,15 @@ class Search:
         return min(1.0, self.progress.seconds / self.seconds) if self.progress else 0.0
 
 
+def search_of(level: Level, run: Replay) -> Search:
+    """A search that has found this run and is over; it has none where the run fails in the level."""
+    search = Search(level, end="Done")
+    played = _played(level, run.inputs + bytes(1))  # the tick of the contact may read no input
+    if played and played.outcome == "exit":
+        search.take(run)
+    return search
+
+
 class Certifier:
     """The solver in its own thread, the same for all editors: what it has made ready once stays so.
 
@@ -175,15 +184,13 @@ class Certifier:
                 self.search.take(run)
         self._job.ask(self.search)
 
-    def passed(self, level: Level, run: Replay) -> None:
-        """A player's own run certifies a level, until the solver has a better one; one that fails there does not."""
-        played = _played(level, run.inputs + bytes(1))  # the tick of the contact may read no input
-        if played is None or played.outcome != "exit":
-            return
-        if self.search.level != level:
+    def adopt(self, found: Search) -> None:
+        """What is known of a level counts, until the solver has better; a search without a run changes nothing."""
+        if found.run and self.search.level != found.level:
             self.stop()
-            self.search = Search(level, end="Done")
-        self.search.take(run)
+            self.search = found
+        elif found.run:
+            self.search.take(found.run)
 
     def stop(self) -> None:
         """End the search; what was found stays. Nobody waits: a solver that is being compiled ends when it is ready."""

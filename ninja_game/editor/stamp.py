@@ -165,6 +165,22 @@ def moved(draft: Draft, selection: Selection, motion: Motion) -> tuple[Draft, Se
     return draft.with_tiles(tiles).with_objects(tuple(objects)), Selection(area, selection.parts)
 
 
+def arranged(draft: Draft, selection: Selection, axis: int, share: float | None) -> Draft:
+    """The draft with all chosen parts of objects at one x (``axis`` 0) or y (1), or spread along it; tiles stay.
+
+    ``share``: of the way from the least to the greatest, where all go; None: evenly between these. To the px; doors go
+    by cells.
+    """
+    places = {part: points(draft.objects[part[0]])[part[1]][axis] for part in selection.parts}
+    order = sorted(places, key=lambda part: (places[part], part))
+    low, high, objects = places[order[0]], places[order[-1]], list(draft.objects)
+    for k, part in enumerate(order):
+        goal = low + (high - low) * (k / (len(order) - 1) if share is None else share)
+        by = (goal if goal in (low, high) else round(goal)) - places[part]
+        objects[part[0]] = carried(objects[part[0]], Motion(dx=by) if axis == 0 else Motion(dy=by), part[1:])
+    return draft.with_objects(tuple(objects))
+
+
 def pasted(draft: Draft, stamp: Stamp) -> tuple[Draft, Selection]:
     """The draft with a stamp on it, and the selection of what came: objects are added, but a ninja moves."""
     after = put(draft, stamp)

@@ -5,14 +5,15 @@ They know no window: points are px of the level.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import ceil
 
 from ninja_game.document import History
 from ninja_game.editor import brush, stamp as stamps
 from ninja_game.editor.draft import Cell, Draft, Tiles, cell_of, changed_cells, is_inside
 from ninja_game.editor.motion import SYMMETRIES, Motion
-from ninja_game.editor.specs import has_switch, points, properties, with_word
-from ninja_game.sim.kinds import DOOR, GOLD, LAUNCH_PAD, MINE, NINJA
+from ninja_game.editor.specs import BODY, has_switch, points, properties, with_word, word
+from ninja_game.sim.kinds import DOOR, EXIT, GOLD, LAUNCH_PAD, MINE, NINJA
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import CELL, HALF, WORLD_HEIGHT, WORLD_WIDTH
 
@@ -28,6 +29,24 @@ DRAGGED = PICK_REACH = 12.0
 """A press that moves farther than this is a drag; an object that is nearer is picked, px."""
 REACH = 17.32
 """px within which an object is deleted (√300: game.md §6)."""
+
+OTHER_KINDS = tuple(each.name for each in brush.OBJECT_TYPES if each.spec.kind not in (NINJA, EXIT, DOOR))
+"""Types that an object can become: not those of which there is one, or which have a side or a switch."""
+
+
+def can_be_remade(spec: ObjectSpec) -> bool:
+    return brush.object_type_of(spec) in OTHER_KINDS and BODY in points(spec)
+
+
+def remade(spec: ObjectSpec, name: str) -> ObjectSpec:
+    """An object as one of OTHER_KINDS, in its place and with its direction and movement; one of no such kind stays."""
+    if not can_be_remade(spec):
+        return spec
+    place, made = points(spec)[BODY], brush.object_of_type(name)
+    for each in properties(made).keys() & properties(spec).keys() - {"type"}:
+        if word(spec, each) in properties(made)[each].words:
+            made = with_word(made, each, word(spec, each))
+    return brush.placed(made, *place, "cell" if brush.placed(spec, *place, "cell") == spec else "px")
 
 
 class EditorTools:
@@ -114,6 +133,8 @@ class EditorTools:
 
     def press(self, *, erase: bool = False, pick: bool = False, add: bool = False) -> None:
         """The button goes down at the pointer. ``add``: to what is chosen already."""
+        if pick and (self.placing_switch or self.ghost):
+            return
         if self._switchless is not None:
             if erase:
                 self.cancel()
@@ -344,18 +365,34 @@ class EditorTools:
         self.finish()
         if self.selection:
             about = motion.about(*stamps.middle_of(self.draft, self.selection, quarter=bool(motion.xy)))
-            cells = list(stamps.cells_of(self.selection.area)) if self.selection.area else []
-            cells += [cell_of(*points(self.draft.objects[number])[part]) for number, part in self.selection.parts]
-            if not all(is_inside(about.cell(cell)) for cell in cells if is_inside(cell)):
-                return False
-            draft, self.selection = stamps.moved(self.draft, self.selection, about)
-            self.history.change(draft)
+            return self._carry(self.selection, about)
         elif self.objects:
             self.spec = stamps.Stamp({}, (self.spec,)).carried(motion.about(36.0, 36.0)).objects[0]
             self.nearest = self.nearest and self.spec.kind != DOOR
         else:
             self.tile = motion.tile(self.tile)
         return True
+
+    def _carry(self, selection: stamps.Selection, motion: Motion) -> bool:
+        cells = list(stamps.cells_of(selection.area)) if selection.area else []
+        cells += [cell_of(*points(self.draft.objects[number])[part]) for number, part in selection.parts]
+        if not all(is_inside(motion.cell(cell)) for cell in cells if is_inside(cell)):
+            return False
+        draft, after = stamps.moved(self.draft, selection, motion)
+        self.history.change(draft)
+        self.selection = stamps.Selection(after.area or self.selection.area, after.parts)
+        return True
+
+    def shift(self, dx: float, dy: float) -> bool:
+        """Move what is chosen, px; without its tiles where these are no whole cells. False as for ``turn``."""
+        whole = dx % CELL == dy % CELL == 0.0
+        return self._carry(
+            self.selection if whole else stamps.Selection(parts=self.selection.parts), Motion(dx=dx, dy=dy)
+        )
+
+    def arrange(self, axis: int, share: float | None) -> None:
+        """Put the chosen objects in line, or spread them (``stamp.arranged``)."""
+        self.history.change(stamps.arranged(self.draft, self.selection, axis, share))
 
     def copy(self) -> bool:
         """Remember what is chosen; whether anything is."""
@@ -431,10 +468,13 @@ class EditorTools:
         if not self.selection:
             self.nearest = text == NEAREST if name == "side" else self.nearest
             self.spec = self.spec if text == NEAREST else with_word(self.spec, name, text)
+        self.change_each(lambda spec: with_word(spec, name, text) if name in properties(spec) else spec)
+
+    def change_each(self, change: Callable[[ObjectSpec], ObjectSpec]) -> None:
+        """Change all objects of which anything is chosen, as one edit."""
         objects = list(self.draft.objects)
         for number in self.selection.numbers:
-            if name in properties(objects[number]):
-                objects[number] = with_word(objects[number], name, text)
+            objects[number] = change(objects[number])
         parts = frozenset((number, part) for number in self.selection.numbers for part in points(objects[number]))
         self.history.change(self.draft.with_objects(tuple(objects)))
         self.selection = stamps.Selection(self.selection.area, parts)

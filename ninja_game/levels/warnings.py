@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from math import dist, isnan, sqrt
+from math import cos, dist, isnan, pi, sin, sqrt
 
 from ninja_game.formats.ascii.places import place_text
 from ninja_game.formats.ascii.writer import best_form
@@ -72,6 +72,20 @@ class Ground:
         near = (cell for cell in _around(cell_at(x, y)) if cell in self.cells)
         return not self.certain or any(_touches(cell, x, y, radius) for cell in near)
 
+    def is_in_wall(self, x: float, y: float, radius: float) -> bool:
+        """Whether only a ninja that sinks into tiles, a fast one, could touch a disc. Looks each 2 px, generously."""
+        if not (cell_at(x, y) and solid_at(self.level, x, y)):
+            return False
+        reach = radius + rules.RADIUS + _BETWEEN
+        steps = [2.0 * step for step in range(-int(reach / 2), int(reach / 2) + 1)]
+        places = ((x + a, y + b) for a in steps for b in steps if a * a + b * b < reach * reach)
+        return not any(self._has_room(*place) for place in places)
+
+    def _has_room(self, x: float, y: float) -> bool:
+        """Whether the ninja's centre could be here with the ninja out of all tiles."""
+        reached = cell_at(x, y) in self.cells or not self.certain
+        return reached and not any(solid_at(self.level, x + a, y + b) for a, b in _RIM)
+
     def _fill(self, start: int) -> None:
         """Reach cell after cell. A locked door is looked at once for each cell around its switch, as it is reached."""
         locked = [door for door in self.doors.values() if door.mechanism == LOCKED]
@@ -116,6 +130,10 @@ def _touches(cell: int, x: float, y: float, radius: float) -> bool:
     return dx * dx + dy * dy < (radius + rules.RADIUS) ** 2
 
 
+_BETWEEN = sqrt(2.0)
+"""As far, px, may the nearest of the places of ``is_in_wall`` be from where the ninja is."""
+_ROOM = rules.RADIUS - _BETWEEN
+_RIM = [(0.0, 0.0), *((_ROOM * cos(pi * k / 8), _ROOM * sin(pi * k / 8)) for k in range(16))]
 MANY_OBJECTS = 2000
 MANY_THINKERS = 30
 """With more enemies than these that think in turn, one waits more than three seconds for its turn."""
@@ -291,12 +309,19 @@ def _deep(ground: Ground, x: float, y: float) -> bool:
     return all(solid_at(ground.level, x + dx, y + dy) for dx in (-0.5, 0.5) for dy in (-0.5, 0.5))
 
 
+def _untouched(ground: Ground, x: float, y: float, radius: float, switch: str = "") -> Iterator[Finding]:
+    """That no ninja touches a disc, or no slow one. ``switch``: "-switch" where it is that of an object."""
+    if not ground.touchable(x, y, radius):
+        yield found("unreachable" + switch, place=place_text(x, y))
+    elif ground.is_in_wall(x, y, radius):
+        yield found("in-wall" + switch, place=place_text(x, y))
+
+
 def _exit(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
     x, y, switch_x, switch_y = record.values
-    if cell_at(x, y) and not ground.touchable(x, y, rules.EXIT_RADIUS):
-        yield found("unreachable")
-    if not ground.touchable(switch_x, switch_y, rules.SWITCH_RADIUS):
-        yield found("unreachable-switch", place=place_text(switch_x, switch_y))
+    if cell_at(x, y):
+        yield from _untouched(ground, x, y, rules.EXIT_RADIUS)
+    yield from _untouched(ground, switch_x, switch_y, rules.SWITCH_RADIUS, "-switch")
 
 
 def _gold(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
@@ -304,8 +329,8 @@ def _gold(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
     if not cell_at(x, y):
         return
     places = [(x + a * rules.GOLD_RADIUS, y + b * rules.GOLD_RADIUS) for a in _SAMPLES for b in _SAMPLES]
-    if not ground.touchable(x, y, rules.GOLD_RADIUS):
-        yield found("unreachable")
+    if untouched := [*_untouched(ground, x, y, rules.GOLD_RADIUS)]:
+        yield from untouched
     elif sum(solid_at(ground.level, *place) for place in places) >= _HIDDEN * len(places):
         yield found("hidden-gold")
 
@@ -370,8 +395,8 @@ def _door(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
         yield found("doors-on-one-side")
     elif any(ground.edges[edge] == rules.SOLID or ground.is_full(edge // 4) for edge in edges):
         yield found("closed-anyway")
-    if (is_set(trap) or is_set(locked)) and not ground.touchable(x, y, rules.DOOR_SWITCH_RADIUS):
-        yield found("unreachable-switch", place=place_text(x, y))
+    if is_set(trap) or is_set(locked):
+        yield from _untouched(ground, x, y, rules.DOOR_SWITCH_RADIUS, "-switch")
 
 
 _CHECKS: dict[int, Callable[[ObjectSpec, Ground], Iterator[Finding]]] = {

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from ninja_game.document import History
+from ninja_game.editor.brush import object_of_type, placed
 from ninja_game.editor.draft import Draft, Tiles
 from ninja_game.editor.motion import CLOCKWISE, FLIP, HALF_TURN, MIRROR, SYMMETRIES, Motion
 from ninja_game.editor.specs import PROPERTIES, carried, object_type_name, points, properties, settled, with_word, word
@@ -25,6 +26,7 @@ from ninja_game.editor.stamp import (
     put,
     removed,
 )
+from ninja_game.editor.tools import remade
 from ninja_game.formats.ascii.object_lines import Listed, read_object_line
 from ninja_game.sim.collision import tiles as shapes
 from ninja_game.sim.kinds import DOOR, NINJA
@@ -297,3 +299,15 @@ def test_properties_say_what_the_records_words_say() -> None:
     door = with_word(spec("locked door 9,21 left switch 3,19"), "type", "automatic door")
     assert settled(door) == spec("automatic door 9,21 left")
     assert door.kind == DOOR
+
+
+def test_an_object_of_another_kind_keeps_direction_and_its_natural_place() -> None:
+    thwump = object_of_type("thwump")
+    pad = remade(with_word(thwump, "direction", "left"), "launch pad")
+    assert (object_type_name(pad), word(pad, "direction")) == ("launch pad", "left")
+    assert pad == placed(pad, 36.0, 36.0, "cell"), "on the wall of its cell"
+    drone = with_word(object_of_type("zap drone"), "movement", "wander-ccw")
+    assert word(remade(drone, "laser drone"), "movement") == "wander-ccw"
+    assert object_type_name(remade(drone, "laser drone")) == "laser drone"
+    for name in ("ninja", "exit", "locked door"):
+        assert remade(object_of_type(name), "mine") == object_of_type(name)

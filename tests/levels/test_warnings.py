@@ -15,6 +15,7 @@ from ninja_game.levels.findings import DESIGN_RULES, LEVEL_RULES, PACK_RULES, RU
 from ninja_game.levels.warnings import Ground, level_findings, level_warnings, object_name
 from ninja_game.sim import kinds
 from ninja_game.sim.level import ROWS, TILES, Level, ObjectSpec
+from ninja_game.simulation import Simulation
 from tests.support.recorded import hold_against
 from tests.support.reference import levels
 
@@ -261,3 +262,36 @@ def test_the_ninja_reaches_a_disc_in_a_wall_as_far_as_its_own_radius_goes() -> N
     top = 23 * 24.0
     assert ground.touchable(300.0, top - 15.5, 6.0)
     assert not ground.touchable(300.0, top - 16.5, 6.0)
+
+
+def test_what_only_a_fast_ninja_touches_is_named() -> None:
+    box = tuple(int(10 <= cell // ROWS + 1 <= 16 and cell % ROWS + 1 >= 20) for cell in range(TILES))
+    ninja = ObjectSpec(kinds.NINJA, (492.0, 540.0))
+    exits = [
+        ObjectSpec(kinds.EXIT, (*exit_, *switch))
+        for exit_, switch in [((612, 540), (396, 540)), ((396, 492), (492, 492))]
+    ]
+    door = ObjectSpec(kinds.DOOR, (252.0, 540.0, 0.0, 0.0, 3.0, 3.0, 1.0, 0.0, 0.0))
+    gold = [ObjectSpec(kinds.GOLD, (x, 564.0)) for x in (396.0, 403.0)]
+    level = Level(box, (ninja, *exits, door, *gold))
+    said = "only a fast ninja touches it"
+    assert level_warnings(level) == [
+        f"exit at 25,22 (object 1): its switch at 16,22 lies in a wall: {said}",
+        f"locked door at 3,3 (object 3): its switch at 10,22 lies in a wall: {said}",
+        f"gold at 16,23 (object 4): it lies in a wall: {said}",
+        "gold at 403,564px (object 5): the tiles hide it",
+    ]
+    assert [_opens(level, speed) for speed in (2.0, 5.0, 7.0)] == [False, False, True]
+
+
+def _opens(level: Level, speed: float) -> bool:
+    """Whether a ninja that comes from the right with this speed, px/tick, and stays at the wall opens the exit."""
+    run = Simulation(level)
+    ninja = run.world.ninja
+    ninja.x = 418.1
+    ninja.prev_x = ninja.x + speed
+    opened = False
+    for _ in range(100):
+        run.step(left=True)
+        opened |= "exit-opened" in [event.name for event in run.events]
+    return opened

@@ -332,7 +332,7 @@ def _editor(driver: MenuDriver) -> Iterator[str]:
     yield "editor-placing-a-switch"
     driver.press("escape", "m", "m", "m", "m", "f4")
     yield "editor-selected"
-    driver.press("escape", "escape")
+    driver.press(*["escape"] * 4)
     yield "editor-menu"
     driver.press("escape", "f2")
     yield "editor-about"
@@ -380,8 +380,6 @@ def _editor_states(driver: MenuDriver) -> Iterator[str]:
     certifier.search = Search(screen.session.draft.level, run, route, end="done")
     yield "editor-certified"
     driver.mouse(300, 300)
-    driver.press("escape")
-    driver.press("escape")
     driver.frames()
     yield "editor-stale-certificate"
     certifier.search = Search(route=route)

@@ -112,7 +112,10 @@ class MenuDriver:
 
     def choose_in_menu(self, text: str) -> None:
         """Open the menu of an editor, and click a button of it."""
+        before = self.top()
         self.press("escape")
+        if self.top() is before:
+            self.press("escape")
         self.choose(text)
 
     def fill(self, text: str, button: str = "Save") -> None:

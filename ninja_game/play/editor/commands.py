@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -39,6 +38,7 @@ from ninja_game.player.playthrough import LevelContext, Navigation, PacedRun
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import COLUMNS, ROWS, Level
 from ninja_game.ui.audio.music import SILENCE
+from ninja_game.ui.canvas import Point
 from ninja_game.ui.widgets import following
 
 TABLE = CommandTable(bundled_commands("level-editor.txt"))
@@ -80,6 +80,8 @@ IN_MENU = {"save", "save_as", "open", "new", "about", "messages", "test", "certi
 
 IN_MORE = ("reach", "tests", "paths", "lines", "list", "slopes", "next_finding")
 
+_AGAIN = "Esc again opens the File menu, where Leave is too"
+
 _UNDO = "Undo brings back what was here"
 
 
@@ -109,7 +111,7 @@ class EditorCommands(DocumentCommands):
         return {
             "help": lambda: self.app.push(HelpPage(self.app, "The editor", HELP, TABLE.commands)),
             "menu": self.menu, "file": self.file_menu, "more": self.more,
-            "test": self.test, "test_here": lambda: self.test(here=True), "certify": self.certify,
+            "test": self.test, "test_here": lambda: self.test(tools.pointer), "certify": self.certify,
             "save": self.save, "save_as": self.save_as, "open": self.open, "new": self.new, "about": self.about,
             "messages": self.messages,
             "undo": tools.undo, "redo": tools.redo,
@@ -182,12 +184,12 @@ class EditorCommands(DocumentCommands):
 
     # --- trying and certifying ---
 
-    def test(self, *, here: bool = False) -> None:
-        """Play the level; ``here``: with the ninja at the pointer."""
+    def test(self, at: Point | None = None, says: str | None = None) -> None:
+        """Play the level. ``at``: where the ninja begins, if not at its place; ``says``: its messages, if others."""
         session = self.session
-        level = session.level_to_test(here=here)
         try:
-            screen = TryScreen(self.app, session, level)
+            level = session.level_to_test(at)
+            screen = TryScreen(self.app, session, level, session.draft.says if says is None else says)
         except LevelError as error:
             self.app.notify(f"{error.what}: key 9 among the objects places a ninja, F6 tests with one at the pointer")
             return
@@ -213,16 +215,24 @@ class EditorCommands(DocumentCommands):
     # --- files ---
 
     def menu(self) -> None:
-        """Give up what is half done, or open the file menu."""
-        if not (self.view.take(None) or self.session.tools.cancel()):
+        """Give up what is half done, what is selected, the tool: one each time. Then it is said that the next opens."""
+        view, tools = self.view, self.session.tools
+        if view.take(None) or tools.cancel():
+            return
+        if tools.tool != TOOLS[0]:
+            tools.tool = TOOLS[0]
+        elif view.hint == _AGAIN:
+            view.hint = ""
             self.file_menu()
+        else:
+            view.hint = _AGAIN
 
     def more(self) -> None:
         """Everything about tests and what is shown, for the mouse."""
 
         def test_at(cell: Cell | None) -> None:
             if cell:
-                self.test(here=True)
+                self.test(self.session.tools.pointer)
 
         def ask() -> None:
             self.view.taker, self.view.hint = test_at, "Click where the ninja begins; Esc gives up"
@@ -321,19 +331,16 @@ class EditorCommands(DocumentCommands):
 
         ``at``: the cell of the message that is looked for.
         """
-        tools, view = self.session.tools, self.view
+        tools = self.session.tools
         tools.finish()
         found = [points(tools.draft.objects[number]).get(part) for number, part in tools.selection.parts]
         place = cell_of(*next(filter(None, found), tools.pointer))
         here = min(max(1, place[0]), COLUMNS), min(max(1, place[1]), ROWS)
 
-        def pick(take: Callable[[Cell | None], None]) -> None:
-            view.taker, view.hint = take, "Click where the message is said; Esc leaves it where it was"
-
         def put(says: str) -> None:
             tools.history.change(replace(tools.draft, says=says))
 
-        self.app.push(MessagesScreen(self.app, tools.draft, here, pick, put, at))
+        self.app.push(MessagesScreen(self.app, tools.draft, here, put, self.test, at))
 
     def open(self) -> None:
         self.unless_unsaved(lambda: self.app.push(LevelChoice(self.app, self.edit_entry)))
@@ -422,9 +429,9 @@ class TryScreen(LevelScreen):
 
     music = SILENCE
 
-    def __init__(self, app: App, session: EditorSession, level: Level) -> None:
+    def __init__(self, app: App, session: EditorSession, level: Level, says: str) -> None:
         title = f"{session.name} ({app.controls.name('back')}: back to the editor)"
-        named = NamedLevel(title, "", "", level, "", says=session.draft.says)
+        named = NamedLevel(title, "", "", level, "", says=says)
         self._trying = TryContext(session, Entry(named, "yours"))
         super().__init__(app, self._trying)
 

@@ -9,8 +9,9 @@ from functools import partial
 
 import pygame
 
-from ninja_game.editor.draft import Cell, Draft
-from ninja_game.editor.specs import BODY, SWITCH, points
+from ninja_game.editor.brush import EMPTY
+from ninja_game.editor.draft import Cell, Draft, cell_of, is_inside
+from ninja_game.editor.specs import BODY, SWITCH, object_type_name, points
 from ninja_game.errors import LevelError
 from ninja_game.formats.sayings import BAR, KEYS, MOST_LETTERS, MOST_SAYINGS, THINGS, named_keys, read_sayings
 from ninja_game.play.app import App
@@ -18,14 +19,13 @@ from ninja_game.play.level.hud import Hud, HudView, Said
 from ninja_game.play.level.hud_view import named_in
 from ninja_game.play.level.play import Things, things_in
 from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuScreen, Row
-from ninja_game.sim.kinds import EXIT, GOLD
 from ninja_game.sim.level import Level
-from ninja_game.sim.rules import LIFETIME
+from ninja_game.sim.rules import CELL, HALF, LIFETIME
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas, Point
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.text_entry import TextArea, TextEntry
-from ninja_game.ui.theme import Area, Palette, Theme
+from ninja_game.ui.theme import Area, Palette, Theme, inside
 from ninja_game.ui.widgets import Button, Choice, Widget
 from ninja_game.view.sprites.thumbnail import thumbnail
 
@@ -40,9 +40,14 @@ _WHEN = {
     "death": ("After deaths", "At the start, after so many deaths"),
     "lock": ("A door unlocks", "Once, when a locked door opens"),
     "trap": ("A trap closes", "Once, when a trap door closes"),
-    "at": ("Near a place", "Beside its place, the first time that the ninja comes near it"),
+    "at": ("Near a place", "Beside its place, when the ninja first comes near; a click in the picture moves it"),
 }
 """What each moment is called, and when that is."""
+
+_SAID_AT = {
+    "switch": ("exit", SWITCH), "gold": ("gold", BODY), "lock": ("locked door", SWITCH), "trap": ("trap door", SWITCH),
+}  # fmt: skip
+"""The objects, with their parts, at which the ninja is when something is said."""
 
 _HELP = (
     f"{', '.join(f'{{{key}}}' for key in KEYS)} become the key or button of whoever plays;",
@@ -113,18 +118,31 @@ class _Stage:
             self.things, self.named = things_in(world, tagged=True), named_in(world)
 
 
-class MessagesScreen(MenuScreen):
-    """``here``: the cell that a message near a place begins with. ``pick`` has the player point at a cell.
+def _cells_before(draft: Draft, place: Point) -> Point:
+    """Where a test of a message begins, px: just too far from its place, where a floor or at least air leads there."""
+    column, row = cell_of(*place)
+    best, at = 0, place
+    for step in (-1, 1):
+        way = [(column + step * k, row) for k in range(1, 4)]
+        floor = sum(draft.tile((x, row + 1)) != EMPTY for x, _ in way)
+        if 1 + floor > best and all(is_inside(cell) and draft.tile(cell) == EMPTY for cell in way):
+            best, at = 1 + floor, (CELL * way[-1][0] + HALF, CELL * row + HALF)
+    return at
 
-    ``put``: takes the header's value. ``at``: the message of this cell gets the focus.
+
+class MessagesScreen(MenuScreen):
+    """``here``: the cell that a message near a place begins with. ``put``: takes the header's value.
+
+    ``test``: plays the level from a point, or from its start, with such a value. ``at``: the message of this cell gets
+    the focus.
     """
 
     title = "Messages to the player"
     offers_back = False
 
     def __init__(
-        self, app: App, draft: Draft, here: Cell, pick: Callable[[Callable[[Cell | None], None]], object],
-        put: Callable[[str], object], at: Cell | None = None,
+        self, app: App, draft: Draft, here: Cell, put: Callable[[str], object],
+        test: Callable[[Point | None, str], object], at: Cell | None = None,
     ) -> None:  # fmt: skip
         super().__init__(app)
         self.messages = messages_of(draft.says)
@@ -133,7 +151,7 @@ class MessagesScreen(MenuScreen):
         self._stage: dict[tuple[str, int, int], _Stage] = {}
         self._before = self.source
         self._wanted = "{},{}".format(*at) if at else ""
-        self._here, self._pick, self._put = here, pick, put
+        self._here, self._put, self._test = here, put, test
         self._row_widgets: list[list[Widget]] = []
 
     @property
@@ -153,8 +171,10 @@ class MessagesScreen(MenuScreen):
         full = len(self.messages) >= MOST_SAYINGS
         words = f"{MOST_SAYINGS} of {MOST_SAYINGS}: remove one first" if full else "Add a message"
         add = Button((36, y, 160, 28), words, None if full else self._add)
+        hint = "Play from just before the selected message; Esc comes back"
+        test = Button((342, y, 132, 28), "Test", self._try, hint=hint)
         end = [Button((488, y, 132, 28), "OK", self._accept), Button((632, y, 132, 28), "Cancel", self.app.pop)]
-        return [*rows, add, *end]
+        return [*rows, add, test, *end]
 
     def _row(self, number: int) -> list[Widget]:
         message, y = self.messages[number], TOP + ROW * number
@@ -174,10 +194,6 @@ class MessagesScreen(MenuScreen):
             hint = "Column and row of the cell" if message.when == "at" else "How many deaths"
             detail = partial(setattr, message, "detail")
             about.append(TextEntry((155, y, 66, 28), hint, message.detail, detail, longest=6, hint=hint))
-        if message.when == "at":
-            show = Button((224, y, 48, 28), "Pick...", partial(self._point, message), size=10)
-            show.hint = "Pick its place: the next click in the level says where"
-            about.append(show)
         remove = Button((275, y, 55, 28), "Remove", lambda: self._remove(message), size=10)
         return [moment, *about, remove, text]
 
@@ -186,14 +202,30 @@ class MessagesScreen(MenuScreen):
         message.detail = {"death": "3", "at": "{},{}".format(*self._here)}.get(when, "")
         self.enter()
 
-    def _point(self, message: Message) -> None:
-        def take(cell: Cell | None) -> None:
-            if cell is not None:
-                message.detail = "{},{}".format(*cell)
-            self.app.push(self)
+    @property
+    def selected(self) -> Message | None:
+        return self.messages[self._selected] if self._selected < len(self.messages) else None
 
-        self.app.pop()
-        self._pick(take)
+    def _handle_mouse(self, event: pygame.Event) -> None:
+        """A click in the picture selects the message there, or puts the selected one there, and a drag goes on."""
+        pressed = event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT
+        drags = event.type == pygame.MOUSEMOTION and event.buttons[0] and self._dragged is None
+        x, y = self.theme.canvas.logical(event.pos) if pressed or drags else (0.0, 0.0)
+        if not inside(PICTURE, x, y):
+            super()._handle_mouse(event)
+            return
+        column, row = cell_of(*((at - start) * WIDTH / PICTURE[2] for at, start in zip((x, y), PICTURE, strict=False)))
+        near = {f"{column + i},{row + j}": abs(i) + abs(j) for i in (-1, 0, 1) for j in (-1, 0, 1)}
+        found = [k for k, each in enumerate(self.messages) if each.when == "at" and each.detail in near]
+        if pressed and found:
+            self._selected = min(found, key=lambda k: near[self.messages[k].detail])
+            self.focus = self._row_widgets[self._selected][-1]
+        elif self.selected and self.selected.when == "at" and is_inside((column, row)):
+            self.selected.detail = f"{column},{row}"
+            self.enter()
+        elif pressed and self.selected:
+            self.app.notify(f"To put it there, choose {_WHEN['at'][0]} for it")
+        self.redraw = True
 
     def _add(self) -> None:
         self.messages.append(Message())
@@ -204,17 +236,26 @@ class MessagesScreen(MenuScreen):
         self.messages = [each for each in self.messages if each is not message]
         self.enter()
 
-    def _accept(self) -> None:
-        """Give back what is sound; else the focus goes to what is not."""
+    def _is_sound(self) -> bool:
+        """Else the focus goes to what is not."""
         for number, message in enumerate(self.messages):
             about_detail, problem = message.problem
             if problem:
                 self.focus = self._row_widgets[number][1 if about_detail else -1]
                 self.app.notify(problem)
                 self.redraw = True
-                return
-        self.app.pop()
-        self._put(self.source)
+                return False
+        return True
+
+    def _accept(self) -> None:
+        if self._is_sound():
+            self.app.pop()
+            self._put(self.source)
+
+    def _try(self) -> None:
+        if self._is_sound():
+            eye = self._eye(self.selected) if self.selected else None
+            self._test(eye and _cells_before(self._draft, eye), self.source)
 
     def close(self) -> None:
         """Ask what is to become of changes."""
@@ -250,7 +291,7 @@ class MessagesScreen(MenuScreen):
             theme.text(surface, count, 36 + WIDE, row + 95, size=8.5, colour=colour, align="right")
             if self.focus in self._row_widgets[number]:
                 self._selected = number
-        selected = self.messages[self._selected] if self._selected < len(self.messages) else None
+        selected = self.selected
         self._draw_level(surface, selected)
         name, when = _WHEN[selected.when] if selected else ("", "")
         about = [f"{name}: {when[0].lower()}{when[1:]}."] if selected else []
@@ -275,10 +316,15 @@ class MessagesScreen(MenuScreen):
         named = stage.named if said else ()
         stage.hud.draw(picture, HudView(LIFETIME, "", foot, name=draft.name, said=said, named=named))
         surface.blit(picture, place)
+        for number, each in enumerate(self.messages, 1):
+            if each is not message and each.when == "at" and (eye := self._eye(each)):
+                x, y = (start + at * PICTURE[2] / WIDTH for start, at in zip(PICTURE, eye, strict=False))
+                theme.canvas.circle(surface, theme.palette.accent, (x, y), 6)
+                theme.text(surface, str(number), x, y - 4.5, size=9, align="centre", colour=theme.palette.background)
 
     def _eye(self, message: Message) -> Point | None:
         """Where the ninja is when a message is said, px; None at the start, or where that is not known."""
         if message.when == "at" and not message.problem[0]:
             return read_sayings(f"{message.moment}: a text")[0].place
-        kind, part = {"switch": (EXIT, SWITCH), "gold": (GOLD, BODY)}.get(message.when, (-1, BODY))
-        return next((points(spec).get(part) for spec in self._draft.objects if spec.kind == kind), None)
+        name, part = _SAID_AT.get(message.when, ("", BODY))
+        return next((points(spec).get(part) for spec in self._draft.objects if object_type_name(spec) == name), None)

@@ -241,15 +241,16 @@ class PaletteView(Widget):
         for number, family in enumerate(brush.FAMILIES):
             row, column = divmod(number, 4)
             at = x + 3 + column * BLOCK, y + 32 + row * BLOCK_ROW
-            if not tools.objects:
-                theme.text(surface, family.key, *at, size=8)
+            theme.text(surface, family.key, *at, size=8, colour=palette.faint if tools.objects else palette.text)
         for what, area in self.places():
             canvas.fill_rect(surface, palette.background, *area)
             at = canvas.point(area[0], area[1])
             surface.blit(self._icon(theme, what, area), at, special_flags=pygame.BLEND_PREMULTIPLIED)
-            if isinstance(what, brush.ObjectType) and (tools.objects or what.key not in _TILE_KEYS):
+            if isinstance(what, brush.ObjectType):
                 middle, top = area[0] + OBJECT / 2, area[1] + OBJECT
-                theme.text(surface, key_label_of(what.key), middle, top, size=7.5, align="centre", height=KEY)
+                colour = palette.text if tools.objects or what.key not in _TILE_KEYS else palette.faint
+                key = key_label_of(what.key)
+                theme.text(surface, key, middle, top, size=7.5, align="centre", height=KEY, colour=colour)
             if what in (brush.EMPTY, brush.FULL):
                 canvas.frame_rect(surface, palette.panel_edge, *area)
             if what == self._in_hand:

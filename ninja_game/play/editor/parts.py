@@ -12,7 +12,7 @@ from ninja_game.editor.brush import tile_name
 from ninja_game.editor.draft import cell_of
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, Motion
 from ninja_game.editor.specs import SWITCH, carried, has_switch, object_type_name, points, properties, word
-from ninja_game.editor.tools import CURVES, NEAREST, SPACINGS, EditorTools
+from ninja_game.editor.tools import CURVES, NEAREST, OTHER_KINDS, SPACINGS, EditorTools, can_be_remade, remade
 from ninja_game.errors import LevelError
 from ninja_game.files.user_folder import short_path
 from ninja_game.formats.ascii.places import place_text, read_place
@@ -22,14 +22,16 @@ from ninja_game.play.editor.commands import TABLE
 from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.view import LAYOUT, EditorView
+from ninja_game.play.menus.menu_screen import CANCEL, Menu, Row, ask_text
 from ninja_game.play.workspace import Part
 from ninja_game.sim.level import Level, ObjectSpec
+from ninja_game.sim.rules import CELL
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme, wrapped
 from ninja_game.ui.widgets import Button, Choice, Label, Widget
 
-ROW = 23.0
+ROW = 22.5
 
 FIRST_STEPS = (
     "First draw a floor; put the ninja",
@@ -43,7 +45,7 @@ def panel_key(tools: EditorTools) -> tuple[object, ...]:
     """What the panel is about: when it changes, the panel is rebuilt."""
     if tools.selection:
         spec = tools.chosen
-        kind = (spec.kind, len(spec.values)) if spec else None
+        kind = (object_type_name(spec), len(spec.values)) if spec else None
         return (
             tools.selection.area,
             tools.selection.numbers,
@@ -51,22 +53,31 @@ def panel_key(tools: EditorTools) -> tuple[object, ...]:
             kind,
             spec and tuple(points(spec).items()),
         )
-    empty = tools.draft.level == Level()
-    return empty, tools.objects, tools.spec.kind if tools.objects else tools.tile, tools.effective_tool in CURVES
+    drawn = object_type_name(tools.spec) if tools.objects else tools.tile
+    return tools.draft.level == Level(), tools.objects, drawn, tools.effective_tool in CURVES
 
 
 def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
     x, y, w, _ = area
     tools = view.session.tools
-    rows: list[Callable[[Area], Widget]] = []
+    rows: list[Callable[[Area], Widget | Sequence[Widget]]] = []
     if tools.selection and tools.chosen is None:
         count = len(tools.selection.numbers)
         cells = tools.selection.area[2] * tools.selection.area[3] if tools.selection.area else 0
         title = f"Selected: {cells} cells, {count} objects" if cells else f"Selected: {count} objects"
-        turns = {"Mirror (H)": MIRROR, "Flip (J)": FLIP, "Turn (U)": CLOCKWISE}
         rows += [_choice(tools, name) for name in _common(tools.subjects)]
-        rows += [partial(Button, text=text, action=partial(view.turn, turn), size=9.5) for text, turn in turns.items()]
-        rows.append(partial(Button, text="Delete (Del)", action=tools.delete, size=9.5))
+        turns = {"mirror": MIRROR, "flip": FLIP, "turn": CLOCKWISE}
+        rows.append(
+            _row([(name.capitalize(), partial(view.turn, turn), TABLE.hint(name)) for name, turn in turns.items()])
+        )
+        rows += [_arranging(tools, head) for head in _ARRANGING]
+        remake = partial(_ask_kind, view) if any(map(can_be_remade, tools.subjects)) else None
+        last: list[Row] = [
+            ("Move...", partial(_ask_move, view), "Move what is selected by columns and rows, or by px"),
+            ("Kind...", remake, "What the selected objects become, in their places: not ninjas, exits, doors"),
+            ("Delete", tools.delete, TABLE.hint("delete")),
+        ]
+        rows.append(_row(last))
     elif tools.selection or tools.objects:
         spec = tools.chosen or tools.spec
         title = f"{'Selected' if tools.selection else 'Draw'}: {object_type_name(spec)}"
@@ -87,7 +98,58 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
         words = [("slopes: by hand", False), ("slopes: by themselves", True)]
         rows.append(lambda area: _setting(area, tools, "slopes", words, TABLE.hint("slopes")))
     head = Label((x, y, w, 15), title, size=10)
-    return [head, *(make((x, y + 17 + ROW * k, w, ROW - 3)) for k, make in enumerate(rows))]
+    made = [make((x, y + 17 + ROW * k, w, ROW - 3)) for k, make in enumerate(rows)]
+    return [head, *(each for widgets in made for each in (widgets if isinstance(widgets, Sequence) else [widgets]))]
+
+
+_ARRANGING: dict[str, dict[str, tuple[int, float | None]]] = {
+    "Align": {"Left": (0, 0.0), "Centre": (0, 0.5), "Right": (0, 1.0)},
+    "": {"Top": (1, 0.0), "Middle": (1, 0.5), "Bottom": (1, 1.0)},
+    "Spread": {"Across": (0, None), "Down": (1, None)},
+}
+"""Rows of buttons that put objects in line, with axis and share of ``stamp.arranged``."""
+
+
+def _arranging(tools: EditorTools, head: str) -> Callable[[Area], Sequence[Widget]]:
+    most, buttons = len(tools.selection.parts), []
+    for text, (axis, share) in _ARRANGING[head].items():
+        hint = f"{head or 'Align'} the selected objects: {text.lower()}"
+        buttons.append((text, partial(tools.arrange, axis, share) if most > 1 + (share is None) else None, hint))
+    return _row(buttons, head, 30)
+
+
+def _row(buttons: Sequence[Row], head: str = "", room: int = 0) -> Callable[[Area], Sequence[Widget]]:
+    """Buttons side by side, behind a word with so much room."""
+
+    def make(area: Area) -> Sequence[Widget]:
+        x, y, w, h = area
+        wide = (w - room) / len(buttons)
+        places = [(x + room + wide * k, y, wide - 2, h) for k in range(len(buttons))]
+        row = [Button(at, *each[:2], hint=each[2], size=8) for at, each in zip(places, buttons, strict=True)]
+        return [Label((x, y + 5, room, h), head, size=8.5), *row]
+
+    return make
+
+
+def _ask_move(view: EditorView) -> None:
+    """Ask by how much what is selected moves: columns and rows, or px."""
+
+    def on_accept(text: str) -> None:
+        found = re.fullmatch(r"([+-]?\d+(?:\.\d+)?),([+-]?\d+(?:\.\d+)?)(px)?", text.replace(" ", ""))
+        step = 1.0 if found and found[3] else CELL
+        if found is None:
+            view.app.notify("Not moved: write two numbers, as 2,-1 for cells or 6,0px for px")
+        elif not view.session.tools.shift(step * float(found[1]), step * float(found[2])):
+            view.app.notify("Not moved: a part of it would leave the level")
+
+    ask_text(view.app, "Move right and down by", "Cells: 2,-1   Or px: 6,0px", "", "Move", on_accept, 20)
+
+
+def _ask_kind(view: EditorView) -> None:
+    """Ask what the selected objects become."""
+    change = view.session.tools.change_each
+    rows: list[Row] = [(each.capitalize(), partial(change, partial(remade, name=each)), "") for each in OTHER_KINDS]
+    view.app.push(Menu(view.app, "Selected objects become", [*rows, CANCEL]))
 
 
 def _setting(area: Area, tools: EditorTools, name: str, words: Sequence[tuple[str, object]], hint: str) -> Widget:

@@ -20,6 +20,7 @@ from ninja_game.editor.certify import (
     find_reach,
     map_of,
     route_of,
+    search_of,
 )
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Autosave, RecoveredDraft, Source, draft_of_text, new_source, open_source, save
@@ -33,6 +34,7 @@ from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pack import is_pack
 from ninja_game.formats.replay.made import Made
+from ninja_game.formats.replay.text import Replay
 from ninja_game.levels.episodes import Entry
 from ninja_game.levels.findings import Finding
 from ninja_game.levels.warnings import level_findings
@@ -42,8 +44,10 @@ from ninja_game.play.window import save_picture
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.player_data import keep_replay
 from ninja_game.runtime import NewestJob
+from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.ui.canvas import Point
 from ninja_game.ui.widgets import following
 from ninja_game.view.sprites.thumbnail import thumbnail
 
@@ -92,10 +96,12 @@ class EditorSession:
         self.source = found.source if found else source
         self.tools.load(found.draft if found else source.draft)
         self.certifier.edit(self.draft.level)
+        self._objects = self.draft.objects
         # What is still being found out is of another level.
         self._checks: NewestJob[Question, Examined] = NewestJob(_examine)
         self._reaches: NewestJob[Ask, Reach] = NewestJob(find_reach)
         self._maps: NewestJob[tuple[Try, ...], TestMap] = NewestJob(map_of)
+        self._known_runs: NewestJob[tuple[Level, Replay], Search] = NewestJob(lambda known: search_of(*known))
         self.start = "off"
         self._start_asked: Ask | None = None
         self.tries: tuple[Try, ...] = ()
@@ -117,12 +123,16 @@ class EditorSession:
         self._recognise()
 
     def _recognise(self) -> None:
-        """Take up the certificate of this level: beside its file, or wherever the same level has one."""
+        """Take up this level's certificate, once it was played: beside its file, or of the same level elsewhere."""
         catalogue, level, path = self.app.player.catalogue, self.draft.level, self.source.path
         same = [Entry(NamedLevel(self.name, "", "", level, str(path)), "yours")] if path else []
         same += [each for each in catalogue.singles() if each.named.level == level]
-        if run := next(filter(None, map(catalogue.author_run, same)), None):
-            self.certifier.passed(level, run)
+        found = ((each, run) for each in same if (run := catalogue.author_run(each)))
+        entry, run = next(found, (None, None))
+        if run:
+            self._known_runs.ask((level, run))
+            if path and entry is same[0]:
+                self._certified = run, run if run.gold >= level.gold else None, path
 
     @property
     def draft(self) -> Draft:
@@ -168,6 +178,9 @@ class EditorSession:
 
     def update(self) -> None:
         self._follow_pointer()
+        known, self._known_runs.result = self._known_runs.result, None
+        if known and known.level == self.draft.level:
+            self.certifier.adopt(known)
         if not self.certifier.busy:
             self.certify_file()
         self.autosave.poll(self.draft, self.source)
@@ -185,6 +198,17 @@ class EditorSession:
         if due and not self.tools.dragging:
             self._asked, self._asked_at = (level, found), monotonic()
             self._checks.ask(self._asked)
+        if not self.tools.history.in_stroke and self.draft.objects is not self._objects:
+            self._tell_of_exits()
+
+    def _tell_of_exits(self) -> None:
+        """Who puts another exit may have meant to move the one that is there."""
+        before, now = ([spec.kind for spec in objects].count(EXIT) for objects in (self._objects, self.draft.objects))
+        self._objects = self.draft.objects
+        if now > max(1, before):
+            self.app.notify(
+                f"{now} exits now: each has its own switch, any open one ends the level. Undo takes it back"
+            )
 
     def examine(self) -> list[Finding]:
         """The findings of the level as it is now."""
@@ -306,11 +330,12 @@ class EditorSession:
         except NinjaGameError:
             self.app.notify("There is no level in the clipboard: copy its text first")
 
-    def level_to_test(self, *, here: bool) -> Level:
+    def level_to_test(self, at: Point | None = None) -> Level:
+        """The level, with the ninja at a point if there is one."""
         self.tools.finish()
-        if not here:
+        if at is None:
             return self.draft.level
-        ninja = placed(object_of_type("ninja"), *self.tools.pointer, "px")
+        ninja = placed(object_of_type("ninja"), *at, "px")
         return put(self.draft, Stamp({}, (ninja,))).level
 
     def tried(self, level: Level, inputs: bytes, *, over: bool = False) -> None:
@@ -329,7 +354,7 @@ class EditorSession:
         if helped or level != self.draft.level:
             return False
         replay = attempt.replay(self.name, self.app.settings.name)
-        self.certifier.passed(level, replace(replay, made=Made(played=True)))
+        self.certifier.adopt(search_of(level, replace(replay, made=Made(played=True))))
         return True
 
     def keep_certificate(self) -> None:

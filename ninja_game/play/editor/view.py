@@ -194,7 +194,7 @@ LAYOUT = EditorLayout()
 class EditorView(Part):
     """The level under edit, and what lies over it. ``hovering``: the pointer is shown; ``hint``: for the line below.
 
-    ``taker``: gets the cell of the next press, which draws nothing then; None where it is given up.
+    ``taker``: gets the cell of the next press in the level, which draws nothing then; None where it is given up.
     ``open_message``: called with the cell of a message that is clicked twice.
     ``listing``: the list of objects is shown in the place of the palette; ``tests``: the map of the tests is shown.
     """
@@ -236,7 +236,9 @@ class EditorView(Part):
 
     def press(self, *, erase: bool = False, pick: bool = False, add: bool = False) -> None:
         cell = self.session.tools.cell
-        if is_inside(cell) and self.take(cell):
+        if self.taker:
+            if erase or (is_inside(cell) and not pick):
+                self.take(None if erase else cell)
             return
         before, now = None if erase or pick else self._pressed, pygame.time.get_ticks()
         self._pressed = cell, now, self.session.draft

@@ -21,6 +21,8 @@ FILE = "good-levels.toml"
 
 PICTURE: Area = (212, 66, 540, 540 * 25 / 33)
 """Where the level is shown."""
+AWAY = 24
+"""How far, across and down, a number is from what it points to, px."""
 
 
 class GoodLevel(NamedTuple):
@@ -74,8 +76,12 @@ class GoodLevelsScreen(ThumbnailScreen):
         theme, palette, (left, top, width, height) = self.theme, self.theme.palette, PICTURE
         self.thumbnails.draw(surface, self.level.entry, left, top, width)
         for number, (column, row, _) in enumerate(self.level.notes, 1):
-            # At the corner of the cell, so that what is in it is seen.
-            x, y = (place + 24 * cell * width / 792 for place, cell in ((left, column), (top, row)))
+            # Beside what it points to, so that this is seen.
+            px = width / 792
+            at = left + (24 * column + 12) * px, top + (24 * row + 12) * px
+            x, y = at[0] + (AWAY if column < 3 else -AWAY), at[1] + (AWAY if row < 2 else -AWAY)
+            theme.canvas.line(surface, palette.accent, (x, y), at, 1.5)
+            theme.canvas.circle(surface, palette.accent, at, 2.5)
             theme.canvas.circle(surface, palette.accent, (x, y), 9)
             theme.canvas.circle(surface, palette.background, (x, y), 9, 1.5)
             theme.text(surface, str(number), x, y - 5.5, size=11, bold=True, align="centre", colour=palette.background)

@@ -119,6 +119,7 @@ def test_a_pad_draws_too(room: Maker) -> None:
     room.pad(10)  # the next tile
     assert tools.tile == 5
     room.pad(b)
+    room.pad(b)
     assert isinstance(room.top(), Menu)
     room.pad(b)
     assert isinstance(room.top(), EditorScreen)
@@ -424,7 +425,7 @@ def test_what_can_be_reached_follows_pointer_speed_and_level(room: Maker) -> Non
     assert abs((396 - left) - (right - 396)) <= 2 * SQUARE, "standing, both sides are alike"
     # A jump straight up is the world's own: the highest square is where the highest of a run is.
     jump = run_level(
-        room.editor.session.level_to_test(here=True),
+        room.editor.session.level_to_test(room.editor.session.tools.pointer),
         with_press_bits(bytes([0] * LANDED + [4] * (40 - LANDED))),
         memory="plain",
     )
@@ -462,6 +463,48 @@ def test_a_property_of_several_objects_is_changed_by_one_click_and_undone_at_onc
     room.drag((190, 280), (320, 320))
     room.press("a")
     assert {spec.values[2] for spec in room.draft.objects[-3:]} == {2.0}, "a key turns all of them too"
+
+
+def test_several_objects_are_aligned_spread_moved_and_changed_by_clicks_each_undone_at_once(room: Maker) -> None:
+    room.press("grave", "0", "z")
+    for x, y in ((204, 300), (232, 330), (300, 312)):
+        room.drag((x, y))
+    room.press("v")
+    drawn = room.draft
+
+    def after(button: str, *more: str, by: str = "") -> list[tuple[float, ...]]:
+        room.drag((190, 280), (320, 350))
+        room.choose(button)
+        if by:
+            room.fill(by, "Move")
+        for each in more:
+            room.choose(each)
+        made = [spec.values for spec in room.draft.objects[-3:]]
+        room.chord("z", pygame.KMOD_LCTRL)
+        assert room.draft == drawn, "one step"
+        return made
+
+    assert after("Left") == [(204.0, 300.0), (204.0, 330.0), (204.0, 312.0)]
+    assert after("Centre") == [(252.0, 300.0), (252.0, 330.0), (252.0, 312.0)]
+    assert after("Right") == [(300.0, 300.0), (300.0, 330.0), (300.0, 312.0)]
+    assert after("Top") == [(204.0, 300.0), (232.0, 300.0), (300.0, 300.0)]
+    assert after("Middle") == [(204.0, 315.0), (232.0, 315.0), (300.0, 315.0)]
+    assert after("Bottom") == [(204.0, 330.0), (232.0, 330.0), (300.0, 330.0)]
+    assert after("Across") == [(204.0, 300.0), (252.0, 330.0), (300.0, 312.0)]
+    assert after("Down") == [(204.0, 300.0), (232.0, 330.0), (300.0, 315.0)]
+    assert after("Move...", by="2, -1") == [(252.0, 276.0), (280.0, 306.0), (348.0, 288.0)]
+    assert after("Move...", by="-6,0.5px") == [(198.0, 300.5), (226.0, 330.5), (294.0, 312.5)]
+    assert after("Kind...", "Launch pad")[1][:2] == (232.0, 330.0)
+
+
+@pytest.mark.parametrize("by", ["two", "40,0"])
+def test_a_move_that_cannot_be_says_why(room: Maker, by: str) -> None:
+    room.press("v")
+    room.drag((30, 520), (190, 560))
+    before = room.draft
+    room.choose("Move...")
+    room.fill(by, "Move")
+    assert (room.draft, room.app.notice.startswith("Not moved: ")) == (before, True)
 
 
 def test_the_list_of_objects_finds_selects_and_orders_them_by_clicks(room: Maker) -> None:
@@ -579,6 +622,16 @@ def test_the_panel_follows_what_is_dragged(room: Maker) -> None:
     assert place.text == place_text(*points(room.draft.objects[1])[SWITCH])
 
 
+def test_the_panel_names_the_type_that_is_in_hand_or_selected(room: Maker) -> None:
+    room.press("grave")
+    titles = []
+    for key in ("i", "p", "o", "i"):
+        room.press(key)
+        room.frames()
+        titles.append(room.editor.properties.widgets[0].text)  # type: ignore[attr-defined]
+    assert titles == ["Draw: automatic door", "Draw: trap door", "Draw: locked door", "Draw: automatic door"]
+
+
 def test_the_wheel_changes_nothing_while_something_is_drawn(maker: Maker) -> None:
     maker.open("Editor")
     tools = maker.editor.session.tools
@@ -611,7 +664,7 @@ def test_a_turn_that_leaves_the_level_is_refused_in_words(room: Maker, how: str)
         room.press("u")
     else:
         room.editor.follow_parts()
-        room.choose("Turn (U)")
+        room.choose("Turn")
     assert room.draft is before
     assert "would leave the level" in room.app.notice
     room.press("h")
@@ -712,12 +765,61 @@ def test_a_problem_is_shown_whole_where_there_is_room(room: Maker) -> None:
     assert room.editor.view.hint.startswith("Word word")
 
 
-def test_keys_of_the_file_menu_work_while_it_is_open(room: Maker) -> None:
+def test_escape_gives_up_step_by_step_and_says_that_the_next_opens_the_menu(room: Maker) -> None:
+    tools, view = room.editor.session.tools, room.editor.view
+    tools.tool = "select"
+    room.drag((60, 542))
+    assert tools.selection
+    left = []
+    for _ in range(3):
+        room.press("escape")
+        assert room.top() is room.editor
+        left.append((bool(tools.selection), tools.tool, "Esc again" in view.hint))
+    assert left == [(False, "select", False), (False, "brush", False), (False, "brush", True)]
+    room.mouse(*room.at(300, 300), click=False)
     room.press("escape")
+    assert room.top() is room.editor, "something lay between"
+    room.press("escape")
+    assert room.shown(Menu).title == "Level"
+    room.press("escape", "escape")
+    assert room.top() is room.editor, "the menu is left, and asked for once only"
+
+
+def test_a_middle_click_puts_nothing_that_is_in_hand(room: Maker) -> None:
+    tools, before = room.editor.session.tools, room.draft
+    room.drag((60, 542))
+    room.chord("z", pygame.KMOD_LCTRL)
+    tools.tool = "select"
+    room.drag((40, 530), (70, 560))
+    room.chord("c", pygame.KMOD_LCTRL)
+    room.chord("v", pygame.KMOD_LCTRL)
+    room.drag((300, 300), button=pygame.BUTTON_MIDDLE)
+    assert (bool(tools.ghost), room.draft == before) == (True, True)
+    room.drag((300, 300))
+    assert (bool(tools.ghost), room.draft == before) == (False, False)
+
+
+def test_a_second_exit_is_told_of(room: Maker) -> None:
+    room.press("grave", "rightbracket")
+    room.drag((300, 300))
+    assert not room.app.notice, "its switch is still in hand"
+    room.drag((350, 300))
+    room.frames(20)
+    assert room.app.notice.startswith("2 exits now: each has its own switch")
+    room.app.notify("")
+    room.drag((300, 400))
+    room.press("escape")
+    room.chord("z", pygame.KMOD_LCTRL)
+    room.frames(20)
+    assert not room.app.notice
+
+
+def test_keys_of_the_file_menu_work_while_it_is_open(room: Maker) -> None:
+    room.press("escape", "escape")
     room.chord("s", pygame.KMOD_LCTRL)
     assert room.editor.session.is_saved
     assert isinstance(room.top(), EditorScreen)
-    room.press("escape")
+    room.press("escape", "escape")
     room.press("f2")
     form = room.shown(FormPanel)
     room.type("New")

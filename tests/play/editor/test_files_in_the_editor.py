@@ -383,7 +383,7 @@ def test_good_levels_are_shown_with_notes_and_opened_as_copies(
     room.choose("Discard changes")
     assert isinstance(room.top(), EditorScreen)
     assert (room.draft.name, room.editor.session.source.path) == ("Rolling Hills", None)
-    assert room.editor.session.certifier.text.startswith("Certified: "), "an unchanged copy"
+    room.wait(lambda: room.editor.session.certifier.text.startswith("Certified: "), "an unchanged copy's certificate")
 
 
 def test_enter_in_the_search_opens_the_only_level_that_is_found(room: Maker) -> None:

@@ -65,7 +65,7 @@ def test_a_level_from_nothing(tmp_path: Path, root: Path) -> None:
             maker.press("ctrl+s", "Return")
             path = tmp_path / "levels" / "my-level.txt"
             maker.wait_for(path.exists, "saved level")
-            maker.press("Escape", "Up", "Return")  # leave the editor
+            maker.press("Escape", "Escape", "Up", "Return")  # leave the editor
             maker.press("Up", "Up", "Up", "Right", "Return", "Return")  # Levels, its own one, play
             maker.press("space")
             maker.tool("keydown", "Right")
@@ -107,7 +107,7 @@ def test_a_pack_from_nothing(tmp_path: Path, root: Path) -> None:
             maker.press("0")
             maker.drag((218, 14))  # the button Line
             maker.drag(at(5, 20), at(10, 20), at(15, 20))
-            maker.press("ctrl+s", "Escape", "Up", "Return")
+            maker.press("ctrl+s", "Escape", "Escape", "Escape", "Up", "Return")  # the tool, then the menu
             maker.wait_for(lambda: len(load_levels(level)[0].level.objects) == 13, "saved level")
             maker.drag((175, 150))
             maker.press("Return", "Down", "Down", "Down", "Return")  # Copy
@@ -123,6 +123,6 @@ def test_a_pack_from_nothing(tmp_path: Path, root: Path) -> None:
 
 def kept_certificate(maker: Player, before: int) -> bool:
     """Ask the file menu to keep the solver's run; whether there is one more replay than before."""
-    maker.press("Escape", "Up", "Up", "Return")  # the last but one of the file menu
+    maker.press("Escape", "Escape", "Up", "Up", "Return")  # the last but one of the file menu
     maker.catch_up()
     return maker.count("replay") > before

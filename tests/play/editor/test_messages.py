@@ -35,6 +35,12 @@ def opened(maker: Maker) -> MessagesScreen:
     return maker.shown(MessagesScreen)
 
 
+def in_picture(column: int, row: int) -> tuple[float, float]:
+    """Where the preview shows the middle of a cell."""
+    left, top, wide, _ = PICTURE
+    return left + (24 * column + 12) * wide / 792, top + (24 * row + 12) * wide / 792
+
+
 def test_messages_are_made_row_by_row_and_a_test_says_them(room: Maker) -> None:
     room.choose_in_menu("Messages...")
     screen = room.shown(MessagesScreen)
@@ -122,14 +128,10 @@ def test_a_place_begins_at_the_pointer_or_with_what_is_selected_and_is_shown_by_
     room.type("here")
     room.mouse(screen.widgets[0].area[0] + 5, screen.widgets[0].centre[1])
     assert (screen.messages[0].when, screen.messages[0].detail) == ("at", "7,9")
-    room.choose("Pick...")
-    before = room.draft
-    room.press("escape")
-    assert room.top() is screen, "given up"
-    room.choose("Pick...")
-    room.drag((24 * 20 + 5, 24 * 4 + 5))
-    assert room.top() is screen
-    assert room.draft is before, "the click draws nothing"
+    room.mouse(*in_picture(20, 4))
+    assert screen.messages[0].detail == "20,4"
+    assert "text '20,4'" in drawn(room.app)
+    room.mouse(*in_picture(0, 4))
     room.choose("OK")
     assert room.draft.says == "at 20,4: here"
     assert said_places(room.draft.says) == [(24 * 20 + 12, 24 * 4 + 12)]
@@ -138,6 +140,40 @@ def test_a_place_begins_at_the_pointer_or_with_what_is_selected_and_is_shown_by_
     tools.history.change(put(room.draft, Stamp({}, (ObjectSpec(GOLD, (60.0, 60.0)),))))
     tools.choose(frozenset({(len(room.draft.objects) - 1, 0)}))
     assert opened(room)._here == (2, 2)
+
+
+def test_a_click_in_the_picture_on_another_message_selects_it(room: Maker) -> None:
+    room.editor.session.tools.history.change(replace(room.draft, says="at 5,5: One | at 20,12: Two | start: Go"))
+    screen = opened(room)
+    for cell, selected in (((20, 12), 1), ((6, 5), 0), ((10, 10), 0)):
+        room.mouse(*in_picture(*cell))
+        room.frames()
+        assert (screen._selected, screen.focus) == (selected, screen._row_widgets[selected][-1])
+    assert [each.detail for each in screen.messages] == ["10,10", "20,12", ""]
+    room.mouse(*screen._row_widgets[2][-1].centre)
+    room.frames()
+    room.mouse(*in_picture(25, 3))
+    assert screen.source == "at 10,10: One | at 20,12: Two | start: Go", "what is said at the start has no place"
+    assert "choose Near a place" in room.app.notice
+
+
+def test_a_message_is_tried_from_just_before_it_and_esc_comes_back(room: Maker) -> None:
+    room.editor.session.tools.history.change(replace(room.draft, says="start: Go | at 20,22: Here | switch: Out"))
+    screen = opened(room)
+    places = []
+    for row in range(3):
+        room.mouse(*screen._row_widgets[row][-1].centre)
+        room.frames()
+        room.choose("Test")
+        trying = room.shown(TryScreen)
+        places.append((trying.attempt.simulation.ninja.x, len(trying._trying.sayings())))
+        room.press("escape")
+        assert room.top() is screen
+    assert places == [(60.0, 3), (17 * 24 + 12.0, 3), (2 * 24 + 12.0, 3)]
+    screen.messages[0].text = ""
+    room.choose("Test")
+    assert room.top() is screen
+    assert "Type what is said" in room.app.notice
 
 
 def test_a_level_about_which_something_is_said_keeps_its_messages(room: Maker) -> None:
@@ -237,10 +273,10 @@ def test_the_selected_message_lies_in_the_level_where_it_does_in_play(
 @pytest.mark.parametrize("count", range(MOST_SAYINGS + 1))
 def test_buttons_stay_in_their_place_and_nothing_lies_over_anything_else(room: Maker, count: int) -> None:
     screen = opened(room)
-    fixed = [widget.area for widget in screen.widgets[-3:]]
+    fixed = [widget.area for widget in screen.widgets[-4:]]
     screen.messages = [Message("at", "8,21", "x") for _ in range(count)]
     screen.enter()
-    assert [widget.area for widget in screen.widgets[-3:]] == fixed
+    assert [widget.area for widget in screen.widgets[-4:]] == fixed
     areas = [pygame.Rect(*map(round, area)) for area in (PICTURE, *(widget.area for widget in screen.widgets))]
     assert all(area.collidelistall(areas) == [place] for place, area in enumerate(areas))
     assert not screen.offers_back, "OK and Cancel are the ways out"

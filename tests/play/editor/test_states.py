@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import shutil
 from pathlib import Path
+from threading import current_thread
+from typing import Any
 
 import pygame
+import pytest
 
+from ninja_game.editor.certify import Search, search_of
 from ninja_game.editor.files import Source, new_source, open_source
 from ninja_game.editor.stamp import everything
 from ninja_game.files.user_folder import short_path
@@ -45,8 +49,7 @@ def test_what_belongs_to_a_level_ends_with_it_and_slopes_stay(room: Maker) -> No
     assert (session.tools.symmetry, session.start, session.tools.slopes) == ("off", "off", True)
     assert (listed._find.text, len(listed.shown)) == ("", 2)
     room.editor.focus = None
-    room.press("escape")
-    room.choose("Leave the editor")
+    room.choose_in_menu("Leave the editor")
     room.open("Editor")
     assert room.editor.session.tools.slopes
     assert room.app.settings.slopes
@@ -90,15 +93,27 @@ def test_more_has_a_button_for_each_tool_of_tests_and_of_what_is_shown(room: Mak
     assert abs(ninja.x - 300) < 12
 
 
-def test_the_certificate_of_the_same_level_counts_wherever_it_lies(room: Maker, tmp_path: Path) -> None:
+def test_the_certificate_of_the_same_level_counts_wherever_it_lies(
+    room: Maker, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     levels, name = tmp_path / "levels", "00-0-first-steps"
-    session = room.editor.session
+    session, players = room.editor.session, []
+
+    def played(*of: Any) -> Search:
+        players.append(current_thread())
+        return search_of(*of)
+
+    monkeypatch.setattr("ninja_game.play.editor.session.search_of", played)
     shutil.copy(PACK / f"{name}.txt", levels / "mine.txt")
     room.editor.commands.open_file(levels / "mine.txt")
+    room.wait(lambda: session.certifier.text, "certificate")
+    assert current_thread() not in players, "the window does not wait"
     assert session.certifier.text.startswith("Certified: "), "the game's own has one"
     text = (PACK / f"{name}.txt").read_text("utf-8").replace("@", ".", 1)
     (levels / "mine.txt").write_text(text, "utf-8")
     room.editor.commands.open_file(levels / "mine.txt")
+    session._known_runs.finish()
+    room.frames()
     assert session.certifier.text == "", "of another level"
 
 
