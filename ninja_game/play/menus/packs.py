@@ -150,7 +150,7 @@ class PackScreen(ThumbnailScreen):
         self.tray = Rack((622, 126, WIDE + BAR + 24, 4 * HIGH - 28), 1, self, self._choose_beside)
         self.packer = packer_of(app)
         self.packer.desk = self
-        self._told = False, ""
+        self._told = False, "", ""
         self._vain = 0
         self._since_read = 0
         self._checks: NewestJob[Pack, _Checked] = NewestJob(self._check)
@@ -577,7 +577,7 @@ class PackScreen(ThumbnailScreen):
 
     def update(self, real_ms: int) -> None:
         super().update(real_ms)
-        packer, (busy, _) = self.packer, self._told
+        packer, (busy, _, noticed), notice = self.packer, self._told, self.app.notice
         self._since_read += real_ms
         if packer.busy != busy or len(packer.obstacles) != self._vain:
             # What was searched in vain changes nothing on the disk.
@@ -587,8 +587,11 @@ class PackScreen(ThumbnailScreen):
         elif busy and self._since_read >= RENEW_MS:
             self._since_read = 0
             self._read(news=True)
-        if self._told != (packer.busy, packer.text):
-            self._told, self.redraw = (packer.busy, packer.text), True
+        elif notice and notice != noticed:
+            # Perhaps of a certificate that a search of the editor has found.
+            self._read()
+        if self._told != (packer.busy, packer.text, notice):
+            self._told, self.redraw = (packer.busy, packer.text, notice), True
         if self._checks.result is not self._checked and self._checks.idle:
             self._checked, self.redraw = self._checks.result, True
 

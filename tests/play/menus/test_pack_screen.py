@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 import shutil
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from threading import Event
@@ -15,10 +16,12 @@ import pygame
 import pytest
 
 from ninja_game.editor import packs
+from ninja_game.editor.files import ascii_text
 from ninja_game.editor.packs import Obstacles, ReadyPack, Say
 from ninja_game.files.user_folder import short_path
 from ninja_game.formats.links import write_link
 from ninja_game.formats.pack.pack import Pack
+from ninja_game.formats.replay.text import Replay
 from ninja_game.levels.findings import found, in_pack
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.level.screen import LevelScreen
@@ -28,9 +31,13 @@ from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.problems import ProblemsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.runs.packs import lint
+from ninja_game.search.certificate import verified_run
+from ninja_game.search.task import Task
+from ninja_game.sim.inputs import with_press_bits
 from ninja_game.ui.input.gamepad import BUTTONS
 from ninja_game.ui.theme import Area
 from tests.support.draw_log import drawn
+from tests.support.level_maker import ROOM
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK
 from tests.support.waiting import LONGEST
@@ -431,6 +438,52 @@ def test_what_the_editor_certified_is_certified_in_the_folder_too(driver: MenuDr
     screen._level_menu(screen.side[0])
     driver.choose("Play")
     driver.shown(LevelScreen)
+
+
+def test_a_run_follows_its_level_into_a_pack_and_a_lost_one_is_told_of(
+    driver: MenuDriver, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
+) -> None:
+    levels, go_on, told = driver.player.folder / "levels", Event(), list[str]()
+    request.addfinalizer(go_on.set)
+    walk = ROOM
+    for name, draft in (("Gap", walk.with_tiles({(30, 1): 1})), ("Walk", walk)):
+        (levels / f"{name}.txt").write_text(ascii_text(replace(draft, name=name)), "utf-8")
+    packs.new_pack(levels, "Mine", "me")
+
+    def solve(task: Task, *, on_better: Callable[[Replay], object], **_: object) -> Replay:
+        assert go_on.wait(LONGEST)
+        run = verified_run(task.level, with_press_bits(bytes([2]) * 100))
+        on_better(run)
+        return run
+
+    monkeypatch.setattr("ninja_game.search.solve.solve", solve)
+    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
+    screen = opened(driver)
+    screen._choose_tray("yours")
+    for index in (0, 1):
+        for _ in "12":
+            driver.mouse(*(value + 30 for value in screen.tray.row_area(index)[:2]))
+        driver.choose("Edit")
+        driver.press("f7", "escape")
+        driver.choose("Leave the editor")
+        driver.shown(PackScreen)
+    driver.carry(screen.tray.row_area(1), screen.shelves.row_area(1))
+
+    def states() -> list[str]:
+        return [f"{cell.level.title}: {screen.state(cell.level)}" for cell in screen.cells if cell.level]
+
+    assert states() == ["Walk: no run yet"]
+    (levels / "Gap.txt").unlink()
+    notify = driver.app.notify
+    monkeypatch.setattr(driver.app, "notify", lambda text, **_: (told.append(text), notify(text)))
+    go_on.set()
+    driver.wait(lambda: len(told) == 2)
+    assert sorted(told) == [
+        "Gap: no certificate, as no file has the level any more. Open it, and press F7",
+        "Walk: certified, 0.97 s, kept with the level",
+    ]
+    assert (screen.path / "certificates" / "Walk.exit.replay.txt").exists()
+    driver.wait(lambda: states() == ["Walk: certified"], "its card says so")
 
 
 def test_a_pack_that_is_deleted_can_be_found_again(driver: MenuDriver, path: Path) -> None:
