@@ -24,6 +24,7 @@ from ninja_game.levels.warnings import level_findings
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link, pasted_text
 from ninja_game.play.level.screen import play_level
+from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.menu_screen import CANCEL, FormPanel, Menu, Question, Row, ask_text
 from ninja_game.play.menus.pack_shelves import HIGH, WIDE, Cell, Rack
 from ninja_game.play.menus.packer import PackStatus, packer_of
@@ -230,7 +231,9 @@ class PackScreen(ThumbnailScreen):
         copy = partial(packs.copy_pack, copied, self.folder)
         busy = self.packer.busy and self.packer.path == self.path
         gone = "It is being made ready" if busy else "It goes to a folder beside your levels"
+        grid, empty = partial(EpisodeGrid, self.app, self.pack.key if self.pack else ""), not Pack(self.path).episodes
         rows: list[Row] = [
+            ("Play it", None if empty else lambda: self.app.push(grid()), "No episode has levels" * empty),
             ("Name, author, version...", self._form, ""),
             ("Copy of the pack...", lambda: self.ask("Name of the copy", f"{index.name} copy", copy), ""),
             ("Delete the pack...", None if busy else self._delete, gone),
@@ -286,7 +289,7 @@ class PackScreen(ThumbnailScreen):
         if file.parent == self.path:
             rows += [("Rename...", lambda: self.ask("Another name", level.named.name, rename), "")]
             rows += [("Copy", lambda: self.do(copy), "Another level like it")]
-            rows += [("Take out", lambda: self.do(take_out), "Into no episode")] * bool(episode)
+            rows += [("Take out", lambda: self._set_aside(take_out), "Into no episode")] * bool(episode)
         self.app.push(Menu(self.app, level.title, [*rows, CANCEL]))
 
     def _episode_menu(self, episode: EpisodeIndex) -> None:
@@ -305,20 +308,23 @@ class PackScreen(ThumbnailScreen):
         def name_column(name: str) -> None:
             packs.describe(path, {"columns": [*columns[:column], name, *columns[column + 1 :]]})
 
-        rename, begin = (
-            partial(packs.rename_episode, path, number),
-            partial(packs.new_episode, path, column=self._column() + 1),
-        )
+        rename, remove = partial(packs.rename_episode, path, number), partial(packs.remove_episode, path, number)
+        begin = partial(packs.new_episode, path, column=self._column() + 1)
         rows: list[Row] = [
             ("New level...", lambda: self.ask("Name of the level", "New level", level), "Made, and opened"),
             ("Rename...", lambda: self.ask("Another name", episode.name, rename), ""),
             ("Move...", lambda: self._hold(Cell(episode, head=True)), ""),
             ("Name of the column...", lambda: self.ask("Name of the column", columns[column], name_column), ""),
             ("Begin a column...", lambda: self.ask("Its first episode", "New episode", begin), "Beside the others"),
-            ("Remove the episode", lambda: self.do(partial(packs.remove_episode, path, number)), "Its levels stay"),
+            ("Remove the episode", lambda: self._set_aside(remove), "Its levels stay, beside the others"),
             CANCEL,
         ]
         self.app.push(Menu(self.app, episode.name or f"Episode {number + 1}", rows))
+
+    def _set_aside(self, action: Callable[[], object]) -> None:
+        """Take levels out of their episode, and show where they are then."""
+        self.beside = "none"
+        self.do(action)
 
     # --- moving ---
 
@@ -423,7 +429,8 @@ class PackScreen(ThumbnailScreen):
         if finding.code == "no-author":
             go = partial(self._form, 1)
         elif entry:
-            known = why or next((each for each in level_findings(entry.named.level) if each.code == finding.code), None)
+            odd = (each for each in level_findings(entry.named.level) if each.sentence == finding.text)
+            known = why or next(odd, None)
             go, text = partial(self._edit, entry, known), f"{entry.title}: {finding.text}"
             for other, named in pack.levels.items():
                 text = text.replace(f"as {other}", f"as {named.name}")

@@ -26,6 +26,7 @@ from ninja_game.levels.findings import found, in_pack
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
+from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.menu_screen import BACK, FormPanel, MenuScreen
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.problems import ProblemsScreen
@@ -268,7 +269,6 @@ def test_a_pack_is_made_ready_in_the_background(
     saved, rest = f"Saved: {short_path(zipped)}", "the link is in the clipboard"
     assert driver.app.notice == f"{saved}; {rest}"
     notice = driver.app._draw_notice(driver.app.theme)
-    assert not any(notice.colliderect(driver.app.canvas.rect(*each.area)) for each in screen.widgets)
     assert notice.bottom < driver.app.canvas.point(0, 524)[1], "the state of the pack is read meanwhile"
     assert screen.packer.text == f"{saved}, with 1 open problem (no author); {rest}; No par times"
     driver.wait(lambda: screen.status.findings is not None, "the problems are known")
@@ -511,6 +511,8 @@ def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path) 
     with patch("pygame.scrap.put_text", clipboard.append), patch("pygame.scrap.get_text", lambda: clipboard[-1]):
         driver.choose("Copy the link")
         assert driver.app.notice == "Link copied"
+        notice = driver.app._draw_notice(driver.app.theme)
+        assert not any(notice.colliderect(driver.app.canvas.rect(*each.area)) for each in screen.widgets)
         clipboard.append(f"https://example.org/game/ {clipboard[-1]}\n")
         shutil.rmtree(path)
         screen.enter()
@@ -558,6 +560,45 @@ def test_what_is_no_link_of_a_pack_changes_nothing(driver: MenuDriver, path: Pat
         driver.choose("Paste link")
     assert said in driver.app.notice
     assert sorted(path.parent.rglob("*")) == before
+
+
+def test_what_is_taken_out_is_seen_beside_the_shelves(driver: MenuDriver, path: Path) -> None:
+    screen = opened(driver)
+    screen._choose_tray("yours")
+    screen._level_menu(screen.shelves.cells[1])
+    driver.choose("Take out")
+    assert [cell.level.title for cell in screen.tray.cells if cell.level] == ["First Steps"]
+    screen._choose_tray("yours")
+    screen._episode_menu(screen.shelves.cells[0].episode)
+    driver.choose("Remove the episode")
+    assert len(screen.tray.cells) == 5
+    driver.carry(screen.tray.row_area(0), half(screen, 4))
+    assert layout(path)[1] == ["01-0", "01-1", "01-2", "00-0"]
+
+
+def test_a_pack_is_played_from_the_desk(driver: MenuDriver, path: Path) -> None:
+    screen = opened(driver)
+    driver.choose("About it...")
+    driver.choose("Play it")
+    assert driver.shown(EpisodeGrid).pack.key == "Laundry"
+    driver.press("escape")
+    assert driver.top() is screen
+    packs.new_pack(path.parent, "Empty", "me")
+    screen._read(path.parent / "empty")
+    driver.choose("About it...")
+    assert not driver.button("Play it").enabled
+
+
+def test_each_of_two_problems_of_a_kind_leads_to_its_own_place(driver: MenuDriver, path: Path) -> None:
+    level, shown = path / "00-0-first-steps.txt", list[tuple[int, ...]]()
+    level.write_text(level.read_text("utf-8") + "mine 5,21\ngauss turret 7,21\n", "utf-8")
+    screen = PackScreen(driver.app, lambda _, finding: shown.append(finding.records if finding else ()))
+    driver.app.push(screen)
+    inside = [problem for problem in screen.problems() if "inside a tile" in problem.text]
+    for problem in inside:
+        assert problem.go
+        problem.go()
+    assert len(set(shown)) == len(shown) == len(inside) > 1
 
 
 def test_a_new_pack_shows_the_levels_that_are_there(driver: MenuDriver, path: Path) -> None:
