@@ -157,22 +157,18 @@ def level_findings(level: Level) -> list[Finding]:
 
 
 def object_name(record: ObjectSpec, number: int) -> str:
-    """An object by the cell it is in, with the px where only these are exact: ``gold at 12,18 (288,442px, object 7)``.
-
-    Ids count from 0.
-    """
+    """An object, with its place as ``_shown_place`` has it: ``gold at 12,18 (288,442px, object 7)``; ids from 0."""
     keyword, place, _ = best_form(record)
     name = keyword or kinds.KIND_NAMES[record.kind]
     if not place and len(record.values) > 1:
         place = place_text(*record.values[:2])
         name = f"{name} with its switch" if record.kind == kinds.DOOR else name
-    where = f"{name} at {_shown_place(*record.values[:2], place)}" if place else name
+    where = f"{name} at {_shown_place(record.values[0], record.values[1], place)}" if place else name
     return f"{where[:-1]}, object {number})" if where.endswith(")") else f"{where} (object {number})"
 
 
-def _shown_place(x: float, y: float, text: str = "") -> str:
-    """A place, which a file has as ``text``, as the editor shows it: ``12,18``, ``12,18 (288,442px)``."""
-    text = text or place_text(x, y)
+def _shown_place(x: float, y: float, text: str) -> str:
+    """A place that a file has as ``text``: its cell, with the px where only these are exact."""
     cell = cell_at(x, y) if text.endswith("px") else 0
     return f"{tiles.COLUMN[cell]},{tiles.ROW[cell]} ({text})" if cell else text
 
@@ -307,7 +303,7 @@ def _exit(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
     if cell_at(x, y) and not ground.touchable(x, y, rules.EXIT_RADIUS):
         yield found("unreachable")
     if not ground.touchable(switch_x, switch_y, rules.SWITCH_RADIUS):
-        yield found("unreachable-switch", place=_shown_place(switch_x, switch_y))
+        yield found("unreachable-switch", place=_shown_place(switch_x, switch_y, place_text(switch_x, switch_y)))
 
 
 def _gold(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
@@ -382,7 +378,7 @@ def _door(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
     elif any(ground.edges[edge] == rules.SOLID or ground.is_full(edge // 4) for edge in edges):
         yield found("closed-anyway")
     if (is_set(trap) or is_set(locked)) and not ground.touchable(x, y, rules.DOOR_SWITCH_RADIUS):
-        yield found("unreachable-switch", place=_shown_place(x, y))
+        yield found("unreachable-switch", place=_shown_place(x, y, place_text(x, y)))
 
 
 _CHECKS: dict[int, Callable[[ObjectSpec, Ground], Iterator[Finding]]] = {

@@ -176,9 +176,8 @@ class Browser(ThumbnailScreen):
         lock = self.player.lock_of(selected) if selected else "No level"
         self.play_it.enabled = self.practice.enabled = not lock
         self.play_it.hint, self.practice.hint = lock, lock or PRACTICE_HINT
-        self.change.enabled = self.link.enabled = selected is not None
-        self.change.hint = "Open it in the editor" if selected else lock
-        self.link.hint = "Copy a link that opens this level" if selected else lock
+        for button, hint in (self.change, "Open it in the editor"), (self.link, "Copy a link that opens this level"):
+            button.enabled, button.hint = selected is not None, hint if selected else lock
         self.watch_best.enabled = selected is not None and selected.digest in self.bests
         name, ours = self.player.settings.name, selected is not None and selected.source == "game"
         mine = selected is not None and not ours and (selected.source == "yours" or name == selected.named.author)

@@ -165,12 +165,12 @@ class PackStatus:
         return f"Make ready will {', '.join(parts[:-1])}{' and ' * (len(parts) > 1)}{parts[-1]}" if parts else ""
 
     def state(self, level: Entry) -> str:
-        """How far a level is, in a word: its time and difficulty where it is measured."""
+        """How far a level is, in a word: its time where it is measured."""
         known, file = self._states.get(id(level)), Path(level.named.file)
         if known is None:
             beside = (file.parent / certificate_name(file.name, "exit")).is_file()
             if level.pars and (beside or file.parent != (self.pack and self.pack.path)):
-                known = f"{seconds_text(level.pars.exit)} s  {level.pars.grade}".strip()
+                known = f"{seconds_text(level.pars.exit)} s"
             else:
                 run = self.catalogue.author_run(level)
                 vain = (level.named.level, "exit") in self.packer.obstacles

@@ -134,7 +134,7 @@ class PackScreen(ThumbnailScreen):
         tray += [(each.name if each.key else "The game's own", each.key) for each in self.sets if each is not self.pack]
         beside = Choice((622, 96, 134, 26), "", tray, lambda: self.beside, self._choose_tray)
         self.shelves.hint = self.tray.hint = "Drag a level or an episode; Enter or a second click: what can be done"
-        ready = "Stop" if self.packer.busy else "Make ready"
+        ready, end = partial(self.packer.start, self.path), self.packer.end
         hint = "Certify all, measure par times, look for problems; zip and link. Only what changed is done again"
         new = Button((272, 60, 82, 28), "New pack...", self._new_pack, size=10)
         paste = Button((360, 60, 76, 28), "Paste link", self._paste, size=10)
@@ -142,7 +142,7 @@ class PackScreen(ThumbnailScreen):
         about = Button((442, 60, 78, 28), "About it...", self._about, size=10, hint="Name, author, version, link")
         show = partial(ProblemsScreen, self.app, self.problems)
         problems = Button((526, 60, 78, 28), "Problems", lambda: self.app.push(show()), size=10)
-        make = Button((610, 60, 146, 28), ready, self._ready_or_stop, hint=hint)
+        make = Button((610, 60, 146, 28), *(("Stop", end) if self.packer.busy else ("Make ready", ready)), hint=hint)
         link = Button((662, 525, 94, 24), "Copy the link", self._copy_link, size=10)
         link.hint = "Whoever opens it, or pastes it in Levels > Packs, gets the pack"
         folder = Button((562, 525, 94, 24), "Open the folder", self._open_folder, size=10, hint="Where the zip is")
@@ -227,11 +227,11 @@ class PackScreen(ThumbnailScreen):
 
     def _about(self) -> None:
         copied = Pack(self.path)
-        index = copied.index
+        index, empty = copied.index, not copied.episodes
         copy = partial(packs.copy_pack, copied, self.folder)
         busy = self.packer.busy and self.packer.path == self.path
         gone = "It is being made ready" if busy else "It goes to a folder beside your levels"
-        grid, empty = partial(EpisodeGrid, self.app, self.pack.key if self.pack else ""), not Pack(self.path).episodes
+        grid = partial(EpisodeGrid, self.app, self.pack.key if self.pack else "")
         rows: list[Row] = [
             ("Play it", None if empty else lambda: self.app.push(grid()), "No episode has levels" * empty),
             ("Name, author, version...", self._form, ""),
@@ -271,18 +271,14 @@ class PackScreen(ThumbnailScreen):
         file = Path(level.named.file)
         rename, take_out = partial(packs.rename_level, file), partial(packs.place, self.path, file.name, None)
 
-        def copy() -> None:
-            new = packs.duplicate(self.path, level.named)
-            packs.place(self.path, new, episode.number if episode else None)
-
         run = self.player.catalogue.author_run(level)
 
-        def play() -> None:
-            if why := play_level(self.app, level):
-                self.app.notify(why)
+        def copy() -> None:
+            packs.place(self.path, packs.duplicate(self.path, level.named), episode.number if episode else None)
 
         rows: list[Row] = [
-            ("Edit", lambda: self._edit(level, None), ""), ("Play", play, ""),
+            ("Edit", lambda: self._edit(level, None), ""),
+            ("Play", lambda: self.app.notify(play_level(self.app, level)), ""),
             ("Watch the run", partial(watch, self.app, [run]) if run else None, "" if run else "None is known yet"),
             ("Move...", lambda: self._hold(cell), ""),
         ]  # fmt: skip
@@ -450,12 +446,6 @@ class PackScreen(ThumbnailScreen):
         text = f"{entry.title if entry else accepted.file}: {code}. Accepted: {accepted.reason}"
         go = partial(self._edit, entry, None) if entry else None
         return Problem(text, "", go, lambda: self.do(take_back), accepted=True)
-
-    def _ready_or_stop(self) -> None:
-        if self.packer.busy:
-            self.packer.end()
-        else:
-            self.packer.start(self.path)
 
     def update(self, real_ms: int) -> None:
         super().update(real_ms)

@@ -569,7 +569,7 @@ def test_what_is_taken_out_is_seen_beside_the_shelves(driver: MenuDriver, path: 
     driver.choose("Take out")
     assert [cell.level.title for cell in screen.tray.cells if cell.level] == ["First Steps"]
     screen._choose_tray("yours")
-    screen._episode_menu(screen.shelves.cells[0].episode)
+    screen._choose(screen.shelves.cells[0])
     driver.choose("Remove the episode")
     assert len(screen.tray.cells) == 5
     driver.carry(screen.tray.row_area(0), half(screen, 4))
