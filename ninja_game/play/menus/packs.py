@@ -281,7 +281,7 @@ class PackScreen(ThumbnailScreen):
             ("Play", lambda: self.app.notify(play_level(self.app, level)), ""),
             ("Watch the run", partial(watch, self.app, [run]) if run else None, "" if run else "None is known yet"),
             ("Move...", lambda: self._hold(cell), ""),
-        ]  # fmt: skip
+        ]
         if file.parent == self.path:
             rows += [("Rename...", lambda: self.ask("Another name", level.named.name, rename), "")]
             rows += [("Copy", lambda: self.do(copy), "Another level like it")]
