@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import count
-from operator import attrgetter
 from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any
@@ -28,6 +27,7 @@ from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISOD
 from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, MOST_FILES, PARS, Pack, certificate_name
 from ninja_game.formats.pack.pars import write_pars
 from ninja_game.levels.findings import Finding, PackFinding
+from ninja_game.player.catalogue import episode_set
 from ninja_game.runs.packs import KINDS, file_of, is_certified, level_of, lint, make_pars
 from ninja_game.sim.level import Level
 
@@ -344,10 +344,8 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstac
         known = (pack.levels[file].level, kind) in obstacles or (file, kind) in accepted
         return not (known or is_certified(pack, file, kind))
 
-    episodes = sorted(pack.index.episodes, key=attrgetter("number"))
-    in_order = [file for each in episodes for file in each.files(pack.files.levels) if file in pack.levels]
-    files_open = [file for file in dict.fromkeys([*in_order, *pack.levels]) if any(is_open(file, k) for k in KINDS)]
-    levels = {file: pack.levels[file] for file in files_open}
+    in_order = [Path(each.named.file).name for each in episode_set(pack, "").levels]
+    levels = {file: pack.levels[file] for file in in_order if any(is_open(file, kind) for kind in KINDS)}
     wanted = Wanted({"exit": 0, "gold": -1}, {"seconds": seconds})
     files = [{kind: path / certificate_name(file, kind) for kind in KINDS} for file in levels]
     names = {Path(file).stem: shown_text(named.name) for file, named in levels.items()}

@@ -175,13 +175,20 @@ def level_findings(level: Level) -> list[Finding]:
 
 
 def object_name(record: ObjectSpec, number: int) -> str:
-    """An object as its level's file places it: ``thwump at 12,3 (object 7)``; ids count from 0."""
+    """An object, with its place as ``_shown_place`` has it: ``gold at 12,18 (288,442px, object 7)``; ids from 0."""
     keyword, place, _ = best_form(record)
     name = keyword or kinds.KIND_NAMES[record.kind]
     if not place and len(record.values) > 1:
         place = place_text(*record.values[:2])
         name = f"{name} with its switch" if record.kind == kinds.DOOR else name
-    return f"{name} at {place} (object {number})" if place else f"{name} (object {number})"
+    where = f"{name} at {_shown_place(record.values[0], record.values[1], place)}" if place else name
+    return f"{where[:-1]}, object {number})" if where.endswith(")") else f"{where} (object {number})"
+
+
+def _shown_place(x: float, y: float, text: str) -> str:
+    """A place that a file has as ``text``: its cell, with the px where only these are exact."""
+    cell = cell_at(x, y) if text.endswith("px") else 0
+    return f"{tiles.COLUMN[cell]},{tiles.ROW[cell]} ({text})" if cell else text
 
 
 def _some(names: Sequence[str], count: int) -> str:
@@ -312,9 +319,9 @@ def _deep(ground: Ground, x: float, y: float) -> bool:
 def _untouched(ground: Ground, x: float, y: float, radius: float, switch: str = "") -> Iterator[Finding]:
     """That no ninja touches a disc, or no slow one. ``switch``: "-switch" where it is that of an object."""
     if not ground.touchable(x, y, radius):
-        yield found("unreachable" + switch, place=place_text(x, y))
+        yield found("unreachable" + switch, place=_shown_place(x, y, place_text(x, y)))
     elif ground.is_in_wall(x, y, radius):
-        yield found("in-wall" + switch, place=place_text(x, y))
+        yield found("in-wall" + switch, place=_shown_place(x, y, place_text(x, y)))
 
 
 def _exit(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:

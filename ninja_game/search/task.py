@@ -16,7 +16,7 @@ from ninja_game.levels.findings import Finding, found
 from ninja_game.levels.warnings import object_name
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.nodes import Resolution
-from ninja_game.sim.kinds import EXIT
+from ninja_game.sim.kinds import EXIT, GOLD
 from ninja_game.sim.level import Level, makes_object
 from ninja_game.simulation import Body
 
@@ -78,7 +78,8 @@ def obstacle(level: Level, gold: int, progress: Progress) -> Finding:
     def at(code: str, ids: Iterable[int]) -> Finding:
         names = [object_name(level.objects[numbers[id_]], id_) for id_ in ids]
         never = f"never {', '.join(names)}" if names else "each piece now and then"
-        finding = found(code, tuple(numbers[id_] for id_ in ids), most=progress.gold, never=never)
+        records = tuple(numbers[id_] for id_ in ids) or tuple(n for n in numbers if level.objects[n].kind == GOLD)
+        finding = found(code, records, most=progress.gold, never=never)
         return finding if code == "gold-left" else finding._replace(names=", ".join(names))
 
     if gold > progress.gold and progress.untaken is not None:

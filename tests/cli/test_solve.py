@@ -86,7 +86,7 @@ def test_solve_names_the_gold_that_it_never_got(tmp_path: Path) -> None:
     result = command("solve", file, *words)
     assert result.exit_code == 1
     assert "no run with 2 gold to the exit found: 1 at most were collected at once" in result.stdout
-    assert "never gold at 700,300px (object 3)" in result.stdout
+    assert "never gold at 29,12 (700,300px, object 3)" in result.stdout
 
 
 def test_improve_shortens_a_recording(tmp_path: Path) -> None:
@@ -227,7 +227,8 @@ def test_missing_gold_is_told_and_does_not_fail_the_check(tmp_path: Path) -> Non
     assert json.loads(result.stdout)["runs"]["gold"] is None
     result = command("check", level, "--gold", "both", "--ticks", "300000", "--jobs", "1")
     assert (
-        "all gold no run found: 1 at most were collected at once, never gold at 700,300px (object 3)" in result.stdout
+        "all gold no run found: 1 at most were collected at once, never gold at 29,12 (700,300px, object 3)"
+        in result.stdout
     )
     assert command("check", level, "--gold", "all", "--ticks", "300000", "--jobs", "1").exit_code == 1
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -171,8 +172,11 @@ def test_gold_that_was_never_collected_is_told() -> None:
     assert solve(Task(WALLED_IN, gold=-1, work=2_000_000), report=progress.append) is None
     assert (progress[-1].gold, progress[-1].untaken) == (1, (3,))
     why = obstacle(WALLED_IN, WALLED_IN.gold, progress[-1])
-    assert why.sentence == "1 at most were collected at once, never gold at 700,300px (object 3)"
+    assert why.sentence == "1 at most were collected at once, never gold at 29,12 (700,300px, object 3)"
     assert [WALLED_IN.objects[number].kind for number in why.records] == [GOLD]
+    every = obstacle(WALLED_IN, WALLED_IN.gold, replace(progress[-1], untaken=()))
+    assert every.sentence == "1 at most were collected at once, each piece now and then"
+    assert [WALLED_IN.objects[number].kind for number in every.records] == [GOLD, GOLD]
 
 
 UNTOUCHED, UNREACHED = "the solver never touched its switch", "the solver never reached it, although it was open"

@@ -434,7 +434,7 @@ def _packs(driver: MenuDriver) -> Iterator[str]:
     screen = driver.shown(PackScreen)
     screen.enter()
     driver.frames(30)
-    driver.wait(lambda: screen.findings is not None, "the problems are known")
+    driver.wait(lambda: screen.status.findings is not None, "the problems are known")
     driver.frames(2)
     yield "packs"
     driver.carry(screen.shelves.row_area(2), screen.shelves.row_area(9), drop=False)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -42,6 +43,7 @@ from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link, copy_text, pasted_text
 from ninja_game.play.window import save_picture
 from ninja_game.player.attempt import Attempt
+from ninja_game.player.catalogue import Catalogue
 from ninja_game.player.player_data import keep_replay
 from ninja_game.runtime import NewestJob
 from ninja_game.sim.kinds import EXIT
@@ -264,18 +266,31 @@ class EditorSession:
         """Put the runs of a search beside a file that holds its level. ``name``: what is left by now, to be told of."""
         from ninja_game.search.certificate import keep_run
 
+        which = f"{name}: " if name else ""
         try:
-            named = load_levels(path)[0]
+            named = self._file_now(path, search)
+            if named is None and search.run:
+                self.app.notify(f"{which}no certificate, as no file has the level any more. Open it, and press F7")
+                return
             for run in filter(None, (search.run, search.full)):
-                if named.level == search.level and self._keeps_runs(path):
+                if named and self._keeps_runs(Path(named.file)):
                     keep_run(named, run)
         except (NinjaGameError, OSError) as error:
-            self.app.notify(f"No certificate: {reason(error)}")
+            self.app.notify(f"{which}no certificate: {reason(error)}")
         else:
             time = search.run.end_tick / TICKS_PER_SECOND if search.run else 0.0
             how = f"certified, {time:.2f} s, kept with the level" if time else f"no run in {search.seconds:.0f} s"
             if name:
                 self.app.notify(f"{name}: {how}")
+
+    def _file_now(self, path: Path, search: Search) -> NamedLevel | None:
+        """The level of a search in its file, or in another of the player's, such as one in a pack; None: it is gone."""
+        with suppress(NinjaGameError, OSError):
+            if (named := load_levels(path)[0]).level == search.level:
+                return named
+        # The window's own catalogue is not for this thread.
+        own = (each.named for each in Catalogue(self.app.player.folder / LEVELS).singles() if each.source != "game")
+        return next((each for each in own if each.level == search.level and Path(each.file).is_file()), None)
 
     def _leave_search(self) -> None:
         """The level is left: a search of what its file holds goes on without the editor, any other one ends."""

@@ -76,6 +76,8 @@ class Browser(ThumbnailScreen):
         )
         self.watch_best = Button((SIDE, 510, 98, 32), "Watch best", self._watch)
         self.watch_author = Button((SIDE + 104, 510, 98, 32), "Author's run", self._watch_author)
+        self.change = Button((SIDE + 208, 510, 46, 32), "Edit", self._change)
+        self.link = Button((SIDE + 260, 510, 60, 32), "Link", self._copy_link)
         self.entry_field = TextEntry((44, 66, 194, 32), "Search name or author", "", self._search)
 
     def enter(self) -> None:
@@ -95,13 +97,11 @@ class Browser(ThumbnailScreen):
         return [self.list, self.entry_field, sort, *problems]
 
     def build(self) -> Sequence[Widget]:
-        change = Button((SIDE + 208, 510, 46, 32), "Edit", self._change, hint="Open it in the editor")
-        link = Button((SIDE + 260, 510, 60, 32), "Link", self._copy_link, hint="Copy a link that opens this level")
         watch = self.watch_best, self.watch_author
-        more = [change] * bool(self._edit)
+        more = [self.change] * bool(self._edit)
         if self._packs:
             more.append(Button((368, 66, 52, 32), "Packs", self._packs, hint="Bundle your levels into packs"))
-        return [*self.choosers(), self.play_it, self.practice, *watch, *more, link]
+        return [*self.choosers(), self.play_it, self.practice, *watch, *more, self.link]
 
     def capture(self, event: InputEvent) -> bool:
         """What is typed is searched for, wherever the focus is."""
@@ -163,6 +163,8 @@ class Browser(ThumbnailScreen):
             self.shown = found
             self.list.index = self.list.first = 0
         self.list.fill(self.shown)
+        if not self.shown:
+            self._select(0)
 
     @property
     def selected(self) -> Entry | None:
@@ -174,6 +176,8 @@ class Browser(ThumbnailScreen):
         lock = self.player.lock_of(selected) if selected else "No level"
         self.play_it.enabled = self.practice.enabled = not lock
         self.play_it.hint, self.practice.hint = lock, lock or PRACTICE_HINT
+        for button, hint in (self.change, "Open it in the editor"), (self.link, "Copy a link that opens this level"):
+            button.enabled, button.hint = selected is not None, hint if selected else lock
         self.watch_best.enabled = selected is not None and selected.digest in self.bests
         name, ours = self.player.settings.name, selected is not None and selected.source == "game"
         mine = selected is not None and not ours and (selected.source == "yours" or name == selected.named.author)
@@ -213,7 +217,7 @@ class Browser(ThumbnailScreen):
         theme, palette = self.app.theme, self.app.theme.palette
         entry = self.selected
         theme.text(surface, self._count, 44, 549, size=9.5, colour=palette.faint)
-        word = "" if self.watch_author.enabled else f"Author's run: {self.watch_author.hint}"
+        word = "" if self.watch_author.enabled or entry is None else f"Author's run: {self.watch_author.hint}"
         colour = palette.bad if self.message else palette.faint
         theme.text(surface, self.message or word, SIDE, 548, size=10, colour=colour, width=SIDE_WIDTH)
         if entry is None:
@@ -263,9 +267,10 @@ class LevelChoice(Browser):
         super().__init__(app)
         self._choose = choose
         self.list.hint = "Enter opens the level in the editor"
+        self.change = Button((SIDE, 470, SIDE_WIDTH, 32), "Edit", lambda: self.play(self.list.index))
 
     def build(self) -> Sequence[Widget]:
-        return [*self.choosers(), Button((SIDE, 470, SIDE_WIDTH, 32), "Edit", lambda: self.play(self.list.index))]
+        return [*self.choosers(), self.change]
 
     def act(self, action: str, *, held: bool = False) -> None:
         if action == "confirm" and self.focus is self.entry_field and len(self.shown) == 1:

@@ -1,17 +1,23 @@
-"""Makes packs ready to share, whatever screen is on top meanwhile."""
+"""How far a pack is, and what makes it ready to share, whatever screen is on top meanwhile."""
 
 from __future__ import annotations
 
 import os
 from pathlib import Path
 from time import monotonic
+from typing import NamedTuple
 
-from ninja_game.editor.packs import Obstacles, ReadyPack, make_ready
+from ninja_game.editor.packs import MADE_READY, Obstacles, ReadyPack, make_ready, obstacle_of, problems_of
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.writing import write_atomically
+from ninja_game.formats.pack.pack import Pack, certificate_name
+from ninja_game.formats.run_time import seconds_text
+from ninja_game.levels.findings import PackFinding
 from ninja_game.play.app import App, Aside, Screen
 from ninja_game.play.clipboard import copy_link
+from ninja_game.player.catalogue import Catalogue, Entry, EpisodeSet
+from ninja_game.runs.packs import file_of
 from ninja_game.runtime import NewestJob
 from ninja_game.sim.level import Level
 
@@ -20,6 +26,13 @@ SECONDS, LONGER = 20.0, 300.0
 
 HALF_SECONDS = 30.0
 """After so long half of a bar is full where nobody knows how long something takes, then half of the rest."""
+
+
+NOT_FOUND = "no run found"
+"""The state of a level that was searched in vain."""
+
+NOT_CERTIFIED = ("changed", "no run yet")
+"""States of levels of which nobody knows whether they can be passed as they are."""
 
 
 class Packer(Aside):
@@ -88,6 +101,94 @@ class Packer(Aside):
         if codes := dict.fromkeys(each.code.replace("-", " ") for each in ready.findings):
             said[0] += f", with {counted(len(ready.findings), 'open problem')} ({', '.join(codes)})"
         return "; ".join([*said, *ready.notes])
+
+
+class Checked(NamedTuple):
+    """What was odd about a pack. ``to_do``: what Make ready does; ``places``: the files that the others are about."""
+
+    pack: Pack
+    findings: list[PackFinding]
+    to_do: list[PackFinding]
+    places: frozenset[str]
+
+
+class PackStatus:
+    """``pack``: the one that is shown; ``checked``: what was found odd about it, or about how it was before."""
+
+    def __init__(self, packer: Packer, catalogue: Catalogue) -> None:
+        self.packer, self.catalogue = packer, catalogue
+        self.pack: EpisodeSet | None = None
+        self.checked: Checked | None = None
+        self._states: dict[int, str] = {}
+        self._asked: tuple[Pack | None, int] = None, 0
+        self._checks: NewestJob[Pack, Checked] = NewestJob(self.check)
+
+    def show(self, pack: EpisodeSet | None) -> None:
+        """A pack as it is now. What was searched in vain changes nothing on the disk, but what is odd."""
+        self.pack = pack
+        self._states.clear()
+        asked = pack and pack.pack, len(self.packer.obstacles)
+        if asked[0] and asked != self._asked:
+            self.checked = self.checked if asked[1] == self._asked[1] else None
+            self._asked = asked
+            self._checks.ask(asked[0])
+
+    def update(self) -> bool:
+        """Whether there is news."""
+        news = self._checks.idle and self._checks.result is not self.checked
+        self.checked = self._checks.result if news else self.checked
+        return news
+
+    def check(self, pack: Pack) -> Checked:
+        known = self.packer.obstacles
+        every = problems_of(pack, known)
+        to_do = [each for each in every if each.code in MADE_READY and not obstacle_of(pack, each, known)]
+        found = [each for each in every if each not in to_do]
+        return Checked(pack, found, to_do, frozenset(pack.files.place(file_of(pack, each)) for each in found))
+
+    @property
+    def findings(self) -> list[PackFinding] | None:
+        """What is odd about the pack as it is now; None until that is known."""
+        checked = self.checked
+        return checked.findings if checked and self.pack and checked.pack is self.pack.pack else None
+
+    def to_do(self) -> str:
+        """What Make ready will do; "" for nothing."""
+        levels, checked = self.pack.levels if self.pack else [], self.checked
+        states = [self.state(each) for each in levels]
+        known = checked.to_do if checked and self.findings is not None else []
+        certify, gold = sum(map(states.count, NOT_CERTIFIED)), [each.code for each in known].count("no-gold-run")
+        work = {"certify": (certify, "level"), "measure": (certify + states.count("certified"), "medal time")}
+        work["look for all gold in"] = gold, "level"
+        parts = [f"{what} {counted(*count)}" for what, count in work.items() if count[0]]
+        parts = parts or ["renew the medal times"] * bool(known)
+        return f"Make ready will {', '.join(parts[:-1])}{' and ' * (len(parts) > 1)}{parts[-1]}" if parts else ""
+
+    def state(self, level: Entry) -> str:
+        """How far a level is, in a word: its time where it is measured."""
+        known, file = self._states.get(id(level)), Path(level.named.file)
+        if known is None:
+            beside = (file.parent / certificate_name(file.name, "exit")).is_file()
+            if level.pars and (beside or file.parent != (self.pack and self.pack.path)):
+                known = f"{seconds_text(level.pars.exit)} s"
+            else:
+                run = self.catalogue.author_run(level)
+                vain = (level.named.level, "exit") in self.packer.obstacles
+                known = "certified" if run else NOT_FOUND if vain else "changed" if beside else "no run yet"
+            self._states[id(level)] = known
+        return known
+
+    def counts(self) -> str:
+        """The pack in a line."""
+        if self.pack is None or self.pack.pack is None:
+            return ""
+        levels, index, found = self.pack.levels, self.pack.pack.index, self.findings
+        vain = [self.state(each) for each in levels].count(NOT_FOUND)
+        to_do = self.to_do() or (f"{vain} without a run" if vain else "All certified and measured")
+        alone = f", {len(self.pack.singles)} in none" if self.pack.singles else ""
+        where = f"{counted(len(levels), 'level')} in {counted(len(index.episodes), 'episode')}{alone}"
+        open_ones = "Looking for problems" if found is None else counted(len(found), "problem")
+        return f"{where}. {to_do}. {open_ones}" if levels else where
 
 
 def packer_of(app: App) -> Packer:

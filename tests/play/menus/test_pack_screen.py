@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 import shutil
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from threading import Event
@@ -15,22 +16,29 @@ import pygame
 import pytest
 
 from ninja_game.editor import packs
+from ninja_game.editor.files import ascii_text
 from ninja_game.editor.packs import Obstacles, ReadyPack, Say
 from ninja_game.files.user_folder import short_path
 from ninja_game.formats.links import write_link
 from ninja_game.formats.pack.pack import Pack
+from ninja_game.formats.replay.text import Replay
 from ninja_game.levels.findings import found, in_pack
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
+from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.menu_screen import BACK, FormPanel, MenuScreen
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.problems import ProblemsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.runs.packs import lint
+from ninja_game.search.certificate import verified_run
+from ninja_game.search.task import Task
+from ninja_game.sim.inputs import with_press_bits
 from ninja_game.ui.input.gamepad import BUTTONS
 from ninja_game.ui.theme import Area
 from tests.support.draw_log import drawn
+from tests.support.level_maker import ROOM
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK
 from tests.support.waiting import LONGEST
@@ -95,7 +103,7 @@ def test_levels_and_episodes_are_dragged(driver: MenuDriver, path: Path) -> None
     assert layout(path) == {0: ["00-0", "00-2", "00-3", "00-4"], 1: ["01-0", "00-1", "01-1", "01-2"]}
     driver.carry(shelves.row_area(1), screen.tray.area)
     assert layout(path)[0] == ["00-2", "00-3", "00-4"]
-    assert [cell.level.title for cell in screen.side if cell.level] == ["First Steps"]
+    assert [cell.level.title for cell in screen.tray.cells if cell.level] == ["First Steps"]
     driver.carry(screen.tray.row_area(0), shelves.row_area(13))
     assert layout(path)[2] == ["00-0"], "a row below the others is a new episode"
     driver.carry(shelves.row_area(12), shelves.row_area(0))
@@ -157,7 +165,7 @@ def test_a_pad_alone_makes_a_pack_with_a_level_and_edits_it(driver: MenuDriver) 
     button("a")
     button("dpad-down")
     button("a")
-    assert [cell.level.title for cell in screen.cells if cell.level] == ["New level"]
+    assert [cell.level.title for cell in screen.shelves.cells if cell.level] == ["New level"]
     assert driver.shown(EditorScreen).session.source.path == screen.path / "new-level.txt"
     driver.shown(EditorScreen).session.close()
 
@@ -260,15 +268,17 @@ def test_a_pack_is_made_ready_in_the_background(
     assert ZipFile(zipped).namelist()[0] == "laundry/pack.toml"
     saved, rest = f"Saved: {short_path(zipped)}", "the link is in the clipboard"
     assert driver.app.notice == f"{saved}; {rest}"
+    notice = driver.app._draw_notice(driver.app.theme)
+    assert notice.bottom < driver.app.canvas.point(0, 524)[1], "the state of the pack is read meanwhile"
     assert screen.packer.text == f"{saved}, with 1 open problem (no author); {rest}; No par times"
-    driver.wait(lambda: screen.findings is not None, "the problems are known")
+    driver.wait(lambda: screen.status.findings is not None, "the problems are known")
     driver.choose("Problems")
     assert driver.app.notice == "", "what is said there goes with the screen"
     assert [problem.to_do for problem in driver.shown(ProblemsScreen).problems] == [True]
     assert "0 problems" in drawn(driver.app)
     driver.press("escape")
-    assert screen._counts() == "8 levels in 2 episodes. Make ready will look for all gold in 8 levels. 0 problems"
-    assert screen._counts()[:30] in drawn(driver.app)
+    assert screen.status.counts() == "8 levels in 2 episodes. Make ready will look for all gold in 8 levels. 0 problems"
+    assert screen.status.counts()[:30] in drawn(driver.app)
     assert "laundry-1.zip" in drawn(driver.app), "it stays"
     assert driver.button("Make ready")
     opened_folders: list[str] = []
@@ -310,14 +320,14 @@ def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
     assert screen is not first
     driver.wait(lambda: screen.packer.text == "Certifying, 0 of 1 levels done")
     assert driver.button("Stop")
-    [entry] = [cell.level for cell in screen.cells if cell.level and cell.level.title == "First Steps"]
-    assert screen.state(entry) == "no run yet", "though its time is measured"
-    assert screen._counts().startswith("8 levels in 2 episodes. Make ready will certify 1 level")
+    [entry] = [cell.level for cell in screen.shelves.cells if cell.level and cell.level.title == "First Steps"]
+    assert screen.status.state(entry) == "no run yet", "though its time is measured"
+    assert screen.status.counts().startswith("8 levels in 2 episodes. Make ready will certify 1 level")
     go_on.set()
 
     def state() -> str:
-        [entry] = [cell.level for cell in screen.cells if cell.level and cell.level.title == "First Steps"]
-        return screen.state(entry)
+        [entry] = [cell.level for cell in screen.shelves.cells if cell.level and cell.level.title == "First Steps"]
+        return screen.status.state(entry)
 
     driver.wait(lambda: state() != "no run yet", "the card says so before all is done")
     assert screen.packer.busy
@@ -349,9 +359,9 @@ def test_what_was_searched_in_vain_is_said_at_once_and_searched_longer_from_its_
     monkeypatch.setattr("ninja_game.play.menus.packer.make_ready", made)
     screen = opened(driver)
     path_of_level = str(path / "00-0-first-steps.txt")
-    driver.wait(lambda: screen.findings is not None, "the problems are known")
-    assert screen._checked
-    assert path_of_level not in screen._checked.places, "nobody has looked for a run yet"
+    driver.wait(lambda: screen.status.findings is not None, "the problems are known")
+    assert screen.status.checked
+    assert path_of_level not in screen.status.checked.places, "nobody has looked for a run yet"
     driver.choose("Make ready")
     driver.wait(lambda: "no run found" in drawn(driver.app), "the card says so before all is done")
     assert screen.packer.busy
@@ -374,7 +384,7 @@ def test_problems_speak_of_what_is_seen_not_of_files(driver: MenuDriver, path: P
     screen = opened(driver)
     texts = [problem.text for problem in screen.problems() if not problem.to_do]
     assert texts == ["The pack has no author", "Episode 3 has no name", "Episode 3 has no levels"]
-    assert "medal times" in screen._to_do()
+    assert "medal times" in screen.status.to_do()
 
 
 def test_making_ready_is_stopped(driver: MenuDriver, path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -397,17 +407,17 @@ def test_what_changed_is_marked(driver: MenuDriver, path: Path) -> None:
     level = path / "00-1-mind-the-gap.txt"
     level.write_text(level.read_text("utf-8").replace("@", ".", 1), "utf-8")
     screen = opened(driver)
-    stale = [cell.level.title for cell in screen.cells if cell.level and cell.level.pars is None]
+    stale = [cell.level.title for cell in screen.shelves.cells if cell.level and cell.level.pars is None]
     assert stale == ["Mind the Gap"]
-    assert screen._counts().startswith("8 levels in 2 episodes. Make ready will certify 1 level")
-    driver.wait(lambda: screen.findings is not None, "the problems are known")
-    assert [screen.state(cell.level) for cell in screen.cells if cell.level][1] == "changed"
+    assert screen.status.counts().startswith("8 levels in 2 episodes. Make ready will certify 1 level")
+    driver.wait(lambda: screen.status.findings is not None, "the problems are known")
+    assert [screen.status.state(cell.level) for cell in screen.shelves.cells if cell.level][1] == "changed"
     packs.place(path, packs.new_level(path, "Empty", "me"), 1)
     screen.enter()
-    driver.wait(lambda: screen.findings is not None, "the problems are known")
-    assert screen._counts().startswith("9 levels in 2 episodes. Make ready will certify 2 levels")
-    [entry] = [each.level for each in screen.cells if each.level and each.level.title == "Empty"]
-    assert screen.state(entry) == "no run yet"
+    driver.wait(lambda: screen.status.findings is not None, "the problems are known")
+    assert screen.status.counts().startswith("9 levels in 2 episodes. Make ready will certify 2 levels")
+    [entry] = [each.level for each in screen.shelves.cells if each.level and each.level.title == "Empty"]
+    assert screen.status.state(entry) == "no run yet"
     no_ninja = [problem for problem in screen.problems() if "there is no ninja" in problem.text]
     assert [(problem.text[:5], problem.accept) for problem in no_ninja] == [("Mind ", None), ("Empty", None)]
 
@@ -417,20 +427,71 @@ def test_what_the_editor_certified_is_certified_in_the_folder_too(driver: MenuDr
     shutil.copy(path / f"{name}.txt", levels)
     screen = opened(driver)
     screen._choose_tray("yours")
-    entry = screen.side[0].level
+    entry = screen.tray.cells[0].level
     assert entry
-    assert screen.state(entry) == "no run yet"
+    assert screen.status.state(entry) == "no run yet"
     (levels / "certificates").mkdir()
     shutil.copy(path / "certificates" / f"{name}.exit.replay.txt", levels / "certificates")
     screen._read()
-    assert screen.state(entry) == "certified"
-    screen._level_menu(screen.side[0])
+    assert screen.status.state(entry) == "certified"
+    screen._level_menu(screen.tray.cells[0])
     driver.choose("Watch the run")
     driver.shown(ReplayScreen)
     driver.app.pop()
-    screen._level_menu(screen.side[0])
+    screen._level_menu(screen.tray.cells[0])
     driver.choose("Play")
     driver.shown(LevelScreen)
+
+
+def test_a_run_follows_its_level_into_a_pack_and_a_lost_one_is_told_of(
+    driver: MenuDriver, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
+) -> None:
+    levels, go_on, told = driver.player.folder / "levels", Event(), list[str]()
+    request.addfinalizer(go_on.set)
+    walk = ROOM
+    for name, draft in (("Gap", walk.with_tiles({(30, 1): 1})), ("Walk", walk)):
+        (levels / f"{name}.txt").write_text(ascii_text(replace(draft, name=name)), "utf-8")
+    packs.new_pack(levels, "Mine", "me")
+
+    def solve(task: Task, *, on_better: Callable[[Replay], object], **_: object) -> Replay:
+        assert go_on.wait(LONGEST)
+        run = verified_run(task.level, with_press_bits(bytes([2]) * 100))
+        on_better(run)
+        return run
+
+    monkeypatch.setattr("ninja_game.search.solve.solve", solve)
+    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
+    screen = opened(driver)
+    screen._choose_tray("yours")
+    for index in (0, 1):
+        for _ in "12":
+            driver.mouse(*(value + 30 for value in screen.tray.row_area(index)[:2]))
+        driver.choose("Edit")
+        driver.press("f7", "escape")
+        driver.choose("Leave the editor")
+        driver.shown(PackScreen)
+    driver.carry(screen.tray.row_area(1), screen.shelves.row_area(1))
+
+    def states() -> list[str]:
+        return [f"{cell.level.title}: {screen.status.state(cell.level)}" for cell in screen.shelves.cells if cell.level]
+
+    assert states() == ["Walk: no run yet"]
+    (levels / "Gap.txt").unlink()
+    notify = driver.app.notify
+
+    def tell(text: str, **_: object) -> None:
+        told.append(text)
+        notify(text)
+
+    monkeypatch.setattr(driver.app, "notify", tell)
+    go_on.set()
+    driver.wait(lambda: len(told) == 2)
+    assert sorted(told) == [
+        "Gap: no certificate, as no file has the level any more. Open it, and press F7",
+        "Walk: certified, 0.97 s, kept with the level",
+    ]
+    assert (screen.path / "certificates" / "Walk.exit.replay.txt").exists()
+    driver.wait(lambda: states() == ["Walk: certified"], "its card says so")
 
 
 def test_a_pack_that_is_deleted_can_be_found_again(driver: MenuDriver, path: Path) -> None:
@@ -450,16 +511,19 @@ def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path) 
     with patch("pygame.scrap.put_text", clipboard.append), patch("pygame.scrap.get_text", lambda: clipboard[-1]):
         driver.choose("Copy the link")
         assert driver.app.notice == "Link copied"
+        notice = driver.app._draw_notice(driver.app.theme)
+        assert not any(notice.colliderect(driver.app.canvas.rect(*each.area)) for each in screen.widgets)
         clipboard.append(f"https://example.org/game/ {clipboard[-1]}\n")
         shutil.rmtree(path)
         screen.enter()
         assert not screen.mine
         driver.choose("Paste link")
         assert "Laundry is among your packs now" in driver.app.notice
-        driver.wait(lambda: screen.findings is not None, "the problems are known")
-        assert screen._counts() == "8 levels in 2 episodes. Make ready will look for all gold in 8 levels. 0 problems"
-        assert screen._checked
-        assert {finding.code for finding in screen._checked.to_do} == {"no-gold-run"}
+        driver.wait(lambda: screen.status.findings is not None, "the problems are known")
+        work = "Make ready will look for all gold in 8 levels"
+        assert screen.status.counts() == f"8 levels in 2 episodes. {work}. 0 problems"
+        assert screen.status.checked
+        assert {finding.code for finding in screen.status.checked.to_do} == {"no-gold-run"}
         assert [pack.name for pack in screen.mine] == ["Laundry"]
         first = layout(screen.path)
         driver.chord("v", pygame.KMOD_LCTRL)
@@ -498,6 +562,45 @@ def test_what_is_no_link_of_a_pack_changes_nothing(driver: MenuDriver, path: Pat
     assert sorted(path.parent.rglob("*")) == before
 
 
+def test_what_is_taken_out_is_seen_beside_the_shelves(driver: MenuDriver, path: Path) -> None:
+    screen = opened(driver)
+    screen._choose_tray("yours")
+    screen._level_menu(screen.shelves.cells[1])
+    driver.choose("Take out")
+    assert [cell.level.title for cell in screen.tray.cells if cell.level] == ["First Steps"]
+    screen._choose_tray("yours")
+    screen._choose(screen.shelves.cells[0])
+    driver.choose("Remove the episode")
+    assert len(screen.tray.cells) == 5
+    driver.carry(screen.tray.row_area(0), half(screen, 4))
+    assert layout(path)[1] == ["01-0", "01-1", "01-2", "00-0"]
+
+
+def test_a_pack_is_played_from_the_desk(driver: MenuDriver, path: Path) -> None:
+    screen = opened(driver)
+    driver.choose("About it...")
+    driver.choose("Play it")
+    assert driver.shown(EpisodeGrid).pack.key == "Laundry"
+    driver.press("escape")
+    assert driver.top() is screen
+    packs.new_pack(path.parent, "Empty", "me")
+    screen._read(path.parent / "empty")
+    driver.choose("About it...")
+    assert not driver.button("Play it").enabled
+
+
+def test_each_of_two_problems_of_a_kind_leads_to_its_own_place(driver: MenuDriver, path: Path) -> None:
+    level, shown = path / "00-0-first-steps.txt", list[tuple[int, ...]]()
+    level.write_text(level.read_text("utf-8") + "mine 5,21\ngauss turret 7,21\n", "utf-8")
+    screen = PackScreen(driver.app, lambda _, finding: shown.append(finding.records if finding else ()))
+    driver.app.push(screen)
+    inside = [problem for problem in screen.problems() if "inside a tile" in problem.text]
+    for problem in inside:
+        assert problem.go
+        problem.go()
+    assert len(set(shown)) == len(shown) == len(inside) > 1
+
+
 def test_a_new_pack_shows_the_levels_that_are_there(driver: MenuDriver, path: Path) -> None:
     screen = opened(driver)
     driver.choose("New pack...")
@@ -509,7 +612,7 @@ def test_a_new_pack_shows_the_levels_that_are_there(driver: MenuDriver, path: Pa
     typed(driver, "Next")
     driver.frames()
     assert (screen.pack and screen.pack.name, screen.beside) == ("Next", "yours")
-    assert len(screen.side) == 1
+    assert len(screen.tray.cells) == 1
 
 
 def test_an_author_is_asked_for_once(driver: MenuDriver, path: Path) -> None:

@@ -16,7 +16,7 @@ from ninja_game.formats.run_time import seconds_text
 from ninja_game.generator.daily import daily_file
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.main import first_screen
-from ninja_game.play.menus.browser import Browser
+from ninja_game.play.menus.browser import Browser, LevelChoice
 from ninja_game.play.menus.episodes import NAMED, Cells, EpisodeGrid
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.problems import ProblemsScreen
@@ -181,3 +181,21 @@ def test_what_is_typed_is_searched_for_without_a_click_on_the_field(driver: Menu
     driver.press("down")
     driver.type("gap")
     assert [entry.title for entry in browser.shown] == ["Mind the Gap"]
+
+
+def test_nothing_can_be_done_with_no_level(driver: MenuDriver) -> None:
+    browser = driver.open("Levels")
+    assert isinstance(browser, Browser)
+    live = [browser.play_it, browser.practice, browser.change, browser.link]
+    assert all(button.enabled for button in live)
+    driver.type("zzz")
+    assert "No level matches" in drawn(driver.app)
+    assert not any(button.enabled for button in (*live, browser.watch_best, browser.watch_author))
+    assert {button.hint for button in live} == {"No level"}
+    assert "Author's run:" not in drawn(driver.app)
+    driver.press("backspace", "backspace", "backspace")
+    assert all(button.enabled for button in live)
+    driver.press("escape", "escape")
+    driver.app.push(choice := LevelChoice(driver.app, lambda _: None))
+    driver.type("zzz")
+    assert not choice.change.enabled

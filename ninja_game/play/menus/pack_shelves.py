@@ -1,0 +1,116 @@
+"""Levels as cells on shelves, which the mouse takes along."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from math import dist
+from typing import NamedTuple
+
+import pygame
+
+from ninja_game.files.shown_text import shown_text
+from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, EpisodeIndex
+from ninja_game.play.menus.packer import NOT_CERTIFIED, NOT_FOUND, PackStatus
+from ninja_game.play.menus.thumbnails import Thumbnails
+from ninja_game.player.catalogue import Entry
+from ninja_game.ui.list_view import BAR, ListView
+from ninja_game.ui.theme import Area, Theme
+from ninja_game.ui.widgets import draw_all_gold
+
+WIDE, HIGH = 93, 106
+
+PULL = 6
+"""px that the mouse moves with its button down before it takes something along."""
+
+
+class Cell(NamedTuple):
+    """A place on the shelves or beside them. ``episode``: None in the row for a new one; ``level``: None if free."""
+
+    episode: EpisodeIndex | None
+    level: Entry | None = None
+    head: bool = False
+
+
+class Rack(ListView):
+    """Cells that the mouse takes along: ``pull`` gets a cell and the mouse's place. A second click instead chooses.
+
+    ``status``: of the pack that the levels are in.
+    """
+
+    def __init__(
+        self, area: Area, columns: int, *, status: PackStatus, thumbnails: Thumbnails,
+        pull: Callable[[Cell, tuple[float, float]], object], choose: Callable[[Cell], object],
+    ) -> None:  # fmt: skip
+        super().__init__(area, HIGH, self._draw_cell, lambda index: choose(self.cells[index]), opens=True)
+        self.columns, self.status, self.thumbnails, self.pull = columns, status, thumbnails, pull
+        self.cells: Sequence[Cell] = ()
+        self._pressed = (0.0, 0.0)
+        self._again = False
+
+    def show(self, cells: Sequence[Cell]) -> None:
+        self.cells = cells
+        self.fill(cells)
+
+    def click(self, x: float, y: float) -> bool:
+        index = self._index_at(x, y)
+        self._again = index is not None and index == self._clicked
+        self._clicked, self._pressed = -1, (x, y)
+        return super().click(x, y)
+
+    def drag(self, x: float, y: float) -> bool:
+        index = self._index_at(*self._pressed)
+        if index is None or self._pressed[0] >= self.area[0] + self.area[2] - BAR - 4:
+            return super().drag(x, y)
+        if dist((x, y), self._pressed) > PULL:
+            self._again = False
+            self.pull(self.cells[index], (x, y))
+        return True
+
+    def release(self) -> None:
+        """The button goes up where nothing was taken along."""
+        again, self._again = self._again, False
+        if again:
+            self.choose(self.index)
+
+    def at(self, x: float, y: float) -> int | None:
+        return self._index_at(x, y) if self.contains(x, y) else None
+
+    def _draw_cell(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        cell, chosen, (x, y, w, h) = self.cells[index], index == self.index, area
+        inner = (x + 2, y + 2, w - 4, h - 4)
+        if cell.head:
+            self._draw_head(surface, theme, cell, inner)
+        elif cell.level:
+            theme.row(surface, inner, chosen=chosen and focused, focused=focused)
+            self.thumbnails.draw(surface, cell.level, x + 6, y + 6, WIDE - 12)
+            theme.text(surface, shown_text(cell.level.title), x + 6, y + 73, size=9.5, width=w - 12)
+            self._draw_state(surface, theme, cell.level, x + 6, y + 88, w - 12)
+        if chosen and focused:
+            theme.canvas.frame_rect(surface, theme.palette.accent, *inner, 2.5, 4)
+        elif not (cell.head or cell.level):
+            theme.canvas.frame_rect(surface, theme.palette.panel_edge, *inner, 1, 4)
+
+    def _draw_state(self, surface: pygame.Surface, theme: Theme, level: Entry, x: float, y: float, w: float) -> None:
+        palette, state = theme.palette, self.status.state(level)
+        done = level.pars and state not in NOT_CERTIFIED
+        colour = palette.good if done else palette.bad if state in ("changed", NOT_FOUND) else palette.faint
+        theme.text(surface, state, x, y, size=8.5, colour=colour, width=w - 14)
+        if done and level.pars and level.pars.gold is not None:
+            draw_all_gold(surface, theme, x + w - 5, y + 5, 8)
+        if self.status.checked and level.named.file in self.status.checked.places:
+            theme.text(surface, "!", x + w - 16, y - 1, size=11, bold=True, colour=palette.bad, align="centre")
+
+    def _draw_head(self, surface: pygame.Surface, theme: Theme, cell: Cell, area: Area) -> None:
+        x, y, w, h = area
+        theme.panel(surface, *area)
+        if cell.episode is None:
+            theme.paragraph(surface, ["New episode..."], (x + 6, y + h / 2 - 8, w - 12, 24), 10.5, 13)
+            return
+        number = cell.episode.number
+        column = number // EPISODES_PER_COLUMN
+        names = self.status.pack.columns if self.status.pack else ()
+        theme.text(surface, f"Episode {number + 1}", x + 6, y + 6, size=9, colour=theme.palette.faint, width=w - 12)
+        theme.paragraph(surface, [shown_text(cell.episode.name)], (x + 6, y + 21, w - 12, 42), 11, 14)
+        if column < len(names):
+            place, faint = (x + 6, y + 72, w - 12, 26), theme.palette.faint
+            theme.paragraph(surface, [f"in {shown_text(names[column])}"], place, 9, 12, colour=faint)
