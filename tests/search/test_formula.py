@@ -8,6 +8,7 @@ import warnings
 from dataclasses import replace
 from itertools import combinations, product
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,11 +20,13 @@ from ninja_game.backend.memories import compiled_available
 from ninja_game.batch.batch import Batch
 from ninja_game.cli.main import cli
 from ninja_game.formats.load import load_replays
+from ninja_game.search.formula import methods
 from ninja_game.search.formula.language import FormulaError, parse_number, parse_truth
 from ninja_game.search.formula.leg import LegSearch
 from ninja_game.search.formula.methods import count_ways, search_span
 from ninja_game.search.formula.names import FACTS, NAMES, SPAN_NAMES, difference_from, view_of
 from ninja_game.search.formula.task import NEAR, Found, SpanTask, SpanWorlds, score_text, target_of, ways_of
+from ninja_game.search.searching import Search
 from ninja_game.sim.digest import state_digest
 from ninja_game.sim.inputs import with_press_bits
 from tests.support.samples import unclaimed_text
@@ -455,6 +458,26 @@ def test_nothing_is_near_to_a_fact_that_is_not_so() -> None:
 )
 def test_a_goal_that_is_about_one_thing_has_a_target(goal: str, slot: int | None) -> None:
     assert target_of(SpanTask(SWITCH_BEHIND, bytes(9), 0, 9, goal=goal)) == slot
+
+
+@pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
+def test_while_nothing_is_found_the_solver_gets_more_work_and_small_changes_little(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    asked: list[int] = []
+    rounds: list[int] = []
+
+    def change(*arguments: Any) -> None:
+        rounds.append(arguments[-1])
+        arguments[2].going = len(rounds) < 2
+
+    monkeypatch.setattr(methods, "beam", lambda *_, **__: None)
+    monkeypatch.setattr(methods, "change", change)
+    monkeypatch.setattr(Search, "run_leg", lambda _, budget, *__, **___: asked.append(budget))
+    search_span(SpanTask(SWITCH_BEHIND, bytes(10), 5, 305, goal="won"), lambda *_: True)
+    assert (max(asked[:6]), max(asked[6:])) == (2_000_000, 4_000_000)
+    search_span(SpanTask(SWITCH_BEHIND, bytes(10), 5, 305, goal="x > 900"), lambda *_: True)
+    assert rounds == [methods.ROUNDS_BESIDE_LEGS] * 2 + [methods.ROUNDS]
 
 
 @pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")

@@ -18,7 +18,7 @@ from ninja_game.sim.inputs import KEYS_DOWN
 from ninja_game.sim.kinds import EXIT
 
 MOST_TICKS = 2_000_000
-"""Ticks of one search. Most end before: of a span of a hundred ticks there is no more to be seen."""
+"""Ticks of one search, later twice as many. Most end before: of a hundred ticks there is no more to be seen."""
 
 
 class LegSearch:
@@ -41,7 +41,7 @@ class LegSearch:
             field = partial(heuristics.field_to, (float(place["x"]), float(place["y"])))
         until = MORE_THAN_ANY if target else 0
         self._leg = Leg([root], until, root.mask, until, ROUTE_ENDS, 0, field, target=target)
-        self._seed, self._begun = seed * 10_000, 0
+        self._seed, self._begun, self._most = seed * 10_000, 0, MOST_TICKS
         self._search.begin_leg(self._leg, ROUTE_LEGS[0][0], seed=0, bound=1)
         self._search.run(1)
 
@@ -50,10 +50,11 @@ class LegSearch:
         for resolution, ticks in ROUTE_LEGS:
             self._begun += 1
             self._search.begin_leg(self._leg, resolution, seed=self._seed + self._begun, bound=self.task.last + 1)
-            self._search.run_leg(min(ticks, MOST_TICKS), spend, part=ROUTE_EXTRA, least=ROUTE_EXTRA)
+            self._search.run_leg(min(ticks, self._most), spend, part=ROUTE_EXTRA, least=ROUTE_EXTRA)
             ends = [end.inputs for end in sorted(self._search.ends(), key=lambda end: end.tick)]
             found = ends if self._leg.target else [run for run in [self._search.best()] if run]
             if found or spend(0):
                 rows = [each.ljust(self.task.length, b"\0") for each in found]
                 return [np.frombuffer(row, np.uint8) & np.uint8(KEYS_DOWN) for row in rows]
+        self._most *= 2
         return []

@@ -28,6 +28,8 @@ KEPT = 8
 """Results that are kept."""
 ACTIONS = np.array([0, 1, 2, 4, 5, 6], np.uint8)
 """Left, right or neither, with and without jump."""
+ROUNDS, ROUNDS_BESIDE_LEGS = 40, 4
+"""Rounds of small changes in a turn; while nothing is found and the solver looks for a way, which finds more."""
 STEPS = (4, 6, 3, 8, 2, 12, 1)
 """Ticks between two choices of a beam, in turn."""
 MOST_ENDS = 2_000_000
@@ -123,7 +125,7 @@ def search_span(
         if legs and not results.best and results.going and (keys := legs.search(results.spend)):
             results.try_some(keys)
         if method != "beam" and results.going:
-            change(task, mutated, results, rng, rounds=40)
+            change(task, mutated, results, rng, ROUNDS if results.best or not legs else ROUNDS_BESIDE_LEGS)
         turn += 1
     return results.ways
 
