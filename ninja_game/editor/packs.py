@@ -26,8 +26,8 @@ from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, MOST_EPISODES, parse_index
 from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, MOST_FILES, PARS, Pack, certificate_name
 from ninja_game.formats.pack.pars import write_pars
+from ninja_game.levels.episodes import episode_set
 from ninja_game.levels.findings import Finding, PackFinding
-from ninja_game.player.catalogue import episode_set
 from ninja_game.runs.packs import KINDS, file_of, is_certified, level_of, lint, make_pars
 from ninja_game.sim.level import Level
 

@@ -10,9 +10,9 @@ import pygame
 
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, EpisodeIndex
+from ninja_game.levels.episodes import Entry
 from ninja_game.play.menus.packer import NOT_CERTIFIED, NOT_FOUND, PackStatus
 from ninja_game.play.menus.thumbnails import Thumbnails
-from ninja_game.player.catalogue import Entry
 from ninja_game.ui.list_view import BAR, ListView
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import draw_all_gold

@@ -13,10 +13,11 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.pack.pack import Pack, certificate_name
 from ninja_game.formats.run_time import seconds_text
+from ninja_game.levels.episodes import Entry, EpisodeSet
 from ninja_game.levels.findings import PackFinding
 from ninja_game.play.app import App, Aside, Screen
 from ninja_game.play.clipboard import copy_link
-from ninja_game.player.catalogue import Catalogue, Entry, EpisodeSet
+from ninja_game.player.catalogue import Catalogue
 from ninja_game.runs.packs import file_of
 from ninja_game.runtime import NewestJob
 from ninja_game.sim.level import Level
