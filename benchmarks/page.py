@@ -103,7 +103,7 @@ def main() -> None:
         raise SystemExit(words)
     with TemporaryDirectory() as folder, browser() as chromium:
         files = build_site(Path(folder) / "site", None, CACHE)
-        size, packed = sum(each.size for each in files) / 1e6, sum(each.compressed for each in files) / 1e6
+        size, packed = sum(len(each.content) for each in files) / 1e6, sum(each.compressed for each in files) / 1e6
         print(f"size: {size:.2f} MB, {packed:.2f} MB by gzip")
         with served(Path(folder) / "site") as address:
             if options.visits:

@@ -114,8 +114,8 @@ def site(out: Path | None, pyodide: Path | None, serve: bool, port: int, address
     files = build_site(folder, pyodide, cache, address)
     for file in files:
         if file.compressed > 50_000:
-            click.echo(f"{file.name:<28} {file.size:>11,} bytes, {file.compressed:>10,} compressed by gzip")
-    size, compressed = sum(file.size for file in files), sum(file.compressed for file in files)
+            click.echo(f"{file.name:<28} {len(file.content):>11,} bytes, {file.compressed:>10,} compressed by gzip")
+    size, compressed = sum(len(file.content) for file in files), sum(file.compressed for file in files)
     click.echo(f"{f'{folder}: {len(files)} files':<28} {size:>11,} bytes, {compressed:>10,} compressed by gzip")
     gallery = write_gallery(folder, published_levels(data_folder("levels")), address=address)
     click.echo(f"{gallery}: pictures and pages of the game's levels")

@@ -7,10 +7,11 @@ import hashlib
 import json
 from collections.abc import Callable, Iterable
 from contextlib import suppress
-from functools import partial
+from dataclasses import dataclass, field
+from functools import cached_property, partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path, PurePath
-from typing import Any, NamedTuple
+from typing import Any
 
 from ninja_game import __version__
 from ninja_game.errors import DAMAGED, FileError, NinjaGameError
@@ -55,12 +56,17 @@ PAGES = (
 """What is kept for visits without a network beside the game, *Learn* and the gallery; others as they are visited."""
 
 
-class SiteFile(NamedTuple):
-    """A file of a site and what it weighs, bytes: as it is, and as a host compresses it."""
+@dataclass(frozen=True)
+class SiteFile:
+    """A file of a site."""
 
     name: str
-    size: int
-    compressed: int
+    content: bytes = field(repr=False)
+
+    @cached_property
+    def compressed(self) -> int:
+        """Its bytes as a host sends them."""
+        return len(gzip.compress(self.content, 9))
 
 
 def build_site(out: Path, pyodide: Path | None, cache: Path, address: str = "") -> list[SiteFile]:
@@ -88,7 +94,7 @@ def build_site(out: Path, pyodide: Path | None, cache: Path, address: str = "") 
     for folder in sorted({folder for name in gone for folder in PurePath(name).parents}, reverse=True):
         with suppress(OSError):
             (out / folder).rmdir()  # of an earlier version, if nothing else is in it
-    return [SiteFile(name, len(data), len(gzip.compress(data, 9))) for name, data in sorted(files.items())]
+    return [SiteFile(name, content) for name, content in sorted(files.items())]
 
 
 def _own_files(out: Path) -> set[str]:
