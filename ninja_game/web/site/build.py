@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import gzip
 import hashlib
 import json
 from collections.abc import Callable, Iterable
 from contextlib import suppress
-from dataclasses import dataclass, field
-from functools import cached_property, partial
+from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path, PurePath
 from typing import Any
@@ -56,21 +54,8 @@ PAGES = (
 """What is kept for visits without a network beside the game, *Learn* and the gallery; others as they are visited."""
 
 
-@dataclass(frozen=True)
-class SiteFile:
-    """A file of a site."""
-
-    name: str
-    content: bytes = field(repr=False)
-
-    @cached_property
-    def compressed(self) -> int:
-        """Its bytes as a host sends them."""
-        return len(gzip.compress(self.content, 9))
-
-
-def build_site(out: Path, pyodide: Path | None, cache: Path, address: str = "") -> list[SiteFile]:
-    """Write the site into the folder ``out``, new, empty, or a site of ours; what it holds now.
+def build_site(out: Path, pyodide: Path | None, cache: Path, address: str = "") -> dict[str, bytes]:
+    """Write the site into the folder ``out``, new, empty, or a site of ours; its files by name.
 
     ``pyodide``: a folder with the files of its npm package; None gets it by npm into the folder ``cache``.
     ``address``: where the site will be, if that is known: previews of links name their pictures by it.
@@ -94,7 +79,7 @@ def build_site(out: Path, pyodide: Path | None, cache: Path, address: str = "") 
     for folder in sorted({folder for name in gone for folder in PurePath(name).parents}, reverse=True):
         with suppress(OSError):
             (out / folder).rmdir()  # of an earlier version, if nothing else is in it
-    return [SiteFile(name, content) for name, content in sorted(files.items())]
+    return files
 
 
 def _own_files(out: Path) -> set[str]:
