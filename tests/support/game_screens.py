@@ -566,9 +566,9 @@ def screens_as_texts(
         with log.recording(driver.app.theme.palette) as lines:
             driver.app.draw()
         # A line that is cut off may differ by one where it is smoothed.
-        anew = _pixels(driver.app.surface)
-        changed = anew != by_steps
-        differing = np.argwhere(changed)[abs(anew[changed].astype(int) - by_steps[changed]) > 3]
+        redrawn = _pixels(driver.app.surface)
+        changed = redrawn != by_steps
+        differing = np.argwhere(changed)[abs(redrawn[changed].astype(int) - by_steps[changed]) > 3]
         if len(differing):
             log.stale.append(f"{name}, px {differing.min(0)} to {differing.max(0)}")
         assert name not in shown
