@@ -9,6 +9,7 @@ time of the thread, not of the clock, so that what else the machine does hardly 
 from __future__ import annotations
 
 import argparse
+import gzip
 import json
 import statistics
 from collections.abc import Callable
@@ -102,8 +103,8 @@ def main() -> None:
     if words := missing():
         raise SystemExit(words)
     with TemporaryDirectory() as folder, browser() as chromium:
-        files = build_site(Path(folder) / "site", None, CACHE)
-        size, packed = sum(each.size for each in files) / 1e6, sum(each.compressed for each in files) / 1e6
+        files = build_site(Path(folder) / "site", None, CACHE).values()
+        size, packed = sum(map(len, files)) / 1e6, sum(len(gzip.compress(each, 9)) for each in files) / 1e6
         print(f"size: {size:.2f} MB, {packed:.2f} MB by gzip")
         with served(Path(folder) / "site") as address:
             if options.visits:

@@ -107,6 +107,8 @@ def site(out: Path | None, pyodide: Path | None, serve: bool, port: int, address
     """
     if out is None and not serve:
         raise click.UsageError("name the folder OUT, or give --serve")
+    import gzip
+
     from platformdirs import user_cache_path
 
     from ninja_game.files.user_folder import data_folder
@@ -116,11 +118,11 @@ def site(out: Path | None, pyodide: Path | None, serve: bool, port: int, address
     cache = user_cache_path("ninja-game", appauthor=False)
     folder = out or cache / "site"
     files = build_site(folder, pyodide, cache, address)
-    for file in files:
-        if file.compressed > 50_000:
-            click.echo(f"{file.name:<28} {file.size:>11,} bytes, {file.compressed:>10,} compressed by gzip")
-    size, compressed = sum(file.size for file in files), sum(file.compressed for file in files)
-    click.echo(f"{f'{folder}: {len(files)} files':<28} {size:>11,} bytes, {compressed:>10,} compressed by gzip")
+    weights = {name: (len(content), len(gzip.compress(content, 9))) for name, content in sorted(files.items())}
+    size, packed = map(sum, zip(*weights.values(), strict=True))
+    large = {name: weight for name, weight in weights.items() if weight[1] > 50_000}
+    for name, weight in (large | {f"{folder}: {len(files)} files": (size, packed)}).items():
+        click.echo(f"{name:<28} {weight[0]:>11,} bytes, {weight[1]:>10,} compressed by gzip")
     gallery = write_gallery(folder, published_levels(data_folder("levels")), address=address)
     click.echo(f"{gallery}: pictures and pages of the game's levels")
     if serve:

@@ -113,7 +113,9 @@ def discard_unfinished() -> None:
 
 def check_output(path: Path, keep: Iterable[Path] = ()) -> None:
     """Raise now what ``open_atomically`` would raise about a path, for commands that work long before they write."""
-    _target(path, keep)
+    target, _ = _target(path, keep)
+    if not target.parent.is_dir():
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(path))
 
 
 def remove_leftovers(folder: Path, at: int | None = None) -> None:

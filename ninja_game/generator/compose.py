@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache
 from itertools import pairwise
 from math import dist
 from random import Random
@@ -38,13 +39,14 @@ def place_route(board: RockBoard, tiles: dict[Cell, str], rng: Random, *, far: f
     vault = board.heart[len(board.heart) // 2]
     if len(floor) < 12 or vault not in inner:
         return None
+    steps = cache(lambda first: steps_from(first, bare.empty))
     best: tuple[float, list[Cell]] | None = None
     for _ in range(CHOICES):
         key = rng.choice(floor)
         # What is far apart is in the same place on both sides, if it can be.
         errands = [key, *([mirrored(key)] if mirrored(key) in floor else []), *rng.sample(floor, 3)]
         stops = [rng.choice(floor), *errands[: locks + hidden], vault, *([] if hidden else [rng.choice(floor)])]
-        worth = _worth(stops, bare.empty, far)
+        worth = _worth(stops, steps, far)
         if worth is not None and (best is None or worth > best[0]):
             best = worth, stops
     if best is None:
@@ -61,17 +63,20 @@ def place_route(board: RockBoard, tiles: dict[Cell, str], rng: Random, *, far: f
     return scene
 
 
-def _worth(stops: Sequence[Cell], empty: set[Cell], far: float) -> float | None:
-    """How well a route would do; None for one that cannot be walked, or with things too close together."""
+def _worth(stops: Sequence[Cell], steps: Callable[[Cell], Mapping[Cell, int]], far: float) -> float | None:
+    """How well a route would do; None for one that cannot be walked, or with things too close together.
+
+    ``steps``: from a cell to those that can be reached; it is asked for every second stop, both ways are as long.
+    """
     spread = min(dist(a, b) for number, a in enumerate(stops) for b in stops[:number])
     if spread < CLOSE:
         return None
     way = 0
-    for a, b in pairwise(stops):
-        steps = steps_from(a, empty)
-        if b not in steps:
+    for number, pair in enumerate(pairwise(stops)):
+        there = steps(pair[1 - number % 2]).get(pair[number % 2])
+        if there is None:
             return None
-        way += steps[b]
+        way += there
     width = max(column for column, _ in stops) - min(column for column, _ in stops)
     height = max(row for _, row in stops) - min(row for _, row in stops)
     near = dist(stops[0], stops[-1])

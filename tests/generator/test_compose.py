@@ -57,8 +57,9 @@ def test_a_level_comes_back_from_its_text(plan: str) -> None:
 
 
 def test_scenes_have_fixtures_of_all_sorts() -> None:
-    kinds = {record.kind for plan in PLANS for hard in (1, 3, 5, 7, 10) for record in composed(plan, hard).fixtures}
-    assert kinds >= {LAUNCH_PAD, ONE_WAY}
+    for kind in (LAUNCH_PAD, ONE_WAY):
+        scenes = (composed(plan, hard) for hard in (5, 1, 3, 7, 10) for plan in PLANS)
+        assert any(record.kind == kind for scene in scenes for record in scene.fixtures)
 
 
 @pytest.mark.parametrize("plan", PLANS)

@@ -248,7 +248,7 @@ def work_of_turns(app: App, monkeypatch: pytest.MonkeyPatch, deeds: list[Callabl
     return turns
 
 
-@pytest.mark.parametrize("blocks, speed", [(11_000, 1), (1000, 6), (0, 6)])
+@pytest.mark.parametrize("blocks, speed", [pytest.param(11_000, 1, marks=pytest.mark.slow), (1000, 6), (0, 6)])
 def test_no_turn_of_the_costliest_run_is_longer_than_others(
     monkeypatch: pytest.MonkeyPatch, blocks: int, speed: int
 ) -> None:
@@ -297,10 +297,12 @@ def test_a_run_that_costs_too_much_is_shown_as_far_as_it_may_go(monkeypatch: pyt
         assert screen.end == 50
 
 
-def test_save_states_of_large_levels_are_few() -> None:
-    played = playback.Playback(Simulation(heavy_level(3000)), bytes(110), spacing=1)
+def test_save_states_of_large_levels_are_few(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A tenth of the values in a tenth of the level."""
+    monkeypatch.setattr(save_states, "MOST_VALUES", save_states.MOST_VALUES // 10)
+    played = playback.Playback(Simulation(heavy_level(300)), bytes(110), spacing=1)
     played.seek(110)
-    assert len(played._states) <= 300_000 / 3000
+    assert len(played._states) <= 30_000 / 300
 
 
 def test_long_run_keeps_few_states_and_every_moment_stays_exact(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -125,6 +125,7 @@ def test_the_longest_recording_that_n_makes_is_paid_for_on_the_largest_level() -
     assert affordable_ticks(heavy_level()) > MAX_DEMO_TICKS
 
 
+@pytest.mark.slow
 def test_the_costliest_run_takes_seconds_of_the_processor(tmp_path: Path) -> None:
     """Where the rules are compiled; a generous limit, in time of the processor."""
     pytest.importorskip("numba")

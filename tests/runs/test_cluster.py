@@ -39,7 +39,7 @@ def archive(tmp_path: Path) -> Path:
     still = WALK.replace("^100,566", "^400,100", 1)
     for number in range(RUNS):
         level = SPIKED if number % 7 == 0 else still if number % 3 else WALK
-        write_records(folder / f"run-{number:03}.txt", (f"Run {number}", level, running(1500)))
+        write_records(folder / f"run-{number:03}.txt", (f"Run {number}", level, running(500)))
     (folder / "broken.txt").write_text("ninja-game replay 3\nnonsense\n")
     (folder / "walk.replay.txt").write_text(replay_of_walk())
     return folder

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any
 from unittest.mock import patch
 
@@ -14,7 +15,7 @@ from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.tas_editor.tabs.tab import Rows
 from ninja_game.ui.canvas import Canvas
-from ninja_game.ui.lettering import Lettering
+from ninja_game.ui.lettering import Lettering, StrokeFont
 from ninja_game.ui.theme import Theme
 from ninja_game.ui.widgets import Widget
 
@@ -128,7 +129,13 @@ def noted() -> Iterator[list[Layout]]:
         layouts[-1].cover(rect, everything=True)
         return rect
 
+    def blank(self: StrokeFont, text: str, _: Any) -> pygame.Surface:
+        return pygame.Surface((max(1, self.width(text)), self.height), pygame.SRCALPHA)
+
     with ExitStack() as stack:
+        # Letters are not drawn, only measured, and that once in each size: this is most of the work.
+        stack.enter_context(patch.object(StrokeFont, "render", blank))
+        stack.enter_context(patch("ninja_game.ui.lettering.StrokeFont", cache(StrokeFont)))
         stack.enter_context(patch.object(Lettering, "draw", draw))
         stack.enter_context(patch.object(Canvas, "fill_rect", fill_rect))
         stack.enter_context(patch.object(Theme, "window", draw_window))

@@ -5,14 +5,16 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
+from functools import cache
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 import pytest
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.locking import locked
-from ninja_game.web.site.build import MARK
+from ninja_game.web.pages import documents
 from tests.support.visitor import Visitor
 from tests.support.web_page import browser, built_site, missing, python_page, served
 
@@ -24,14 +26,32 @@ def board_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path / "board-cache"
 
 
+@pytest.fixture(scope="session", autouse=True)
+def _made_once() -> Iterator[None]:
+    """What takes most of the time that documents take, and is the same in every build of them."""
+    with ExitStack() as stack:
+        for name in ("_film", "_coloured", "figure_picture"):
+            stack.enter_context(patch.object(documents, name, cache(getattr(documents, name))))
+        yield
+
+
+def made_by_one(factory: pytest.TempPathFactory, name: str, make: Callable[[Path], object]) -> Path:
+    """A folder that the first of the session's workers makes, and the others find as it should be."""
+    base = factory.getbasetemp()
+    folder = (base if "PYTEST_XDIST_WORKER" not in os.environ else base.parent) / name
+    made = folder.with_suffix(".made")
+    with locked(folder, 1800):  # as long as a download and all that Node compiles may take
+        if not made.exists():
+            make(folder)
+            made.touch()
+    return folder
+
+
 @pytest.fixture(scope="session")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Any:
-    """The folder of the site. Workers of one session share it; the second one finds its files as they should be."""
-    base = tmp_path_factory.getbasetemp()
-    folder = (base if "PYTEST_XDIST_WORKER" not in os.environ else base.parent) / "site"
+    """The folder of the site."""
     try:
-        with locked(folder, 1800):  # as long as a download and all that Node compiles may take
-            return folder if (folder / MARK).exists() else built_site(folder)
+        return made_by_one(tmp_path_factory, "site", built_site)
     except NinjaGameError as error:
         if "could not compile" in str(error):
             raise  # what npm or a mirror cannot give is no fault of ours, this is

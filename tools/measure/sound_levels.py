@@ -15,8 +15,6 @@ from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
-from pyloudnorm import Meter
-from scipy.signal import resample_poly, stft, welch
 
 from ninja_game.player.settings import Settings
 from ninja_game.ui.audio.music import LAYERS_OF
@@ -62,6 +60,9 @@ def samples(name: str) -> Wave:
 
 def measured(name: str) -> Measured:
     """What is measured of a file."""
+    from pyloudnorm import Meter
+    from scipy.signal import resample_poly, welch
+
     wave = samples(name)
     long = np.pad(wave, (0, max(0, round(0.45 * RATE) - len(wave))))
     frequencies, density = welch(wave, RATE, nperseg=min(4096, len(wave)))
@@ -103,6 +104,8 @@ def headroom(warning: str, music: str) -> float:
 
 def _bands(wave: Wave) -> Wave:
     """Power by third octave and tenth of a second."""
+    from scipy.signal import stft
+
     count = RATE // 10
     frequencies, _, spectrum = stft(np.pad(wave, count), RATE, nperseg=count, noverlap=count // 2, padded=False)
     edges = 50 * 2 ** (np.arange(28) / 3)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gzip
 import hashlib
 import json
 from collections.abc import Callable, Iterable
@@ -10,7 +9,7 @@ from contextlib import suppress
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path, PurePath
-from typing import Any, NamedTuple
+from typing import Any
 
 from ninja_game import __version__
 from ninja_game.errors import DAMAGED, FileError, NinjaGameError
@@ -54,16 +53,8 @@ PAGES = (
 """What is kept for visits without a network beside the game, *Learn* and the gallery; others as they are visited."""
 
 
-class SiteFile(NamedTuple):
-    """A file of a site and what it weighs, bytes: as it is, and as a host compresses it."""
-
-    name: str
-    size: int
-    compressed: int
-
-
-def build_site(out: Path, pyodide: Path | None, cache: Path, address: str = "") -> list[SiteFile]:
-    """Write the site into the folder ``out``, new, empty, or a site of ours; what it holds now.
+def build_site(out: Path, pyodide: Path | None, cache: Path, address: str = "") -> dict[str, bytes]:
+    """Write the site into the folder ``out``, new, empty, or a site of ours; its files by name.
 
     ``pyodide``: a folder with the files of its npm package; None gets it by npm into the folder ``cache``.
     ``address``: where the site will be, if that is known: previews of links name their pictures by it.
@@ -87,7 +78,7 @@ def build_site(out: Path, pyodide: Path | None, cache: Path, address: str = "") 
     for folder in sorted({folder for name in gone for folder in PurePath(name).parents}, reverse=True):
         with suppress(OSError):
             (out / folder).rmdir()  # of an earlier version, if nothing else is in it
-    return [SiteFile(name, len(data), len(gzip.compress(data, 9))) for name, data in sorted(files.items())]
+    return files
 
 
 def _own_files(out: Path) -> set[str]:
