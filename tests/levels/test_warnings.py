@@ -279,7 +279,7 @@ def test_what_only_a_fast_ninja_touches_is_named() -> None:
         f"exit at 25,22 (object 1): its switch at 16,22 lies in a wall: {said}",
         f"locked door at 3,3 (object 3): its switch at 10,22 lies in a wall: {said}",
         f"gold at 16,23 (object 4): it lies in a wall: {said}",
-        "gold at 403,564px (object 5): the tiles hide it",
+        "gold at 16,23 (403,564px, object 5): the tiles hide it",
     ]
     assert [_opens(level, speed) for speed in (2.0, 5.0, 7.0)] == [False, False, True]
 

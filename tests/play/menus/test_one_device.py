@@ -142,6 +142,7 @@ def test_every_entry_is_opened_and_left(player: Buttons, entry: str) -> None:
             player.driver.mouse(20, 14)
         else:
             player.back()
+            player.back()
         player.choose("Leave the editor")
     else:
         player.back()

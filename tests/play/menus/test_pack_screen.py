@@ -467,8 +467,8 @@ def test_a_run_follows_its_level_into_a_pack_and_a_lost_one_is_told_of(
         for _ in "12":
             driver.mouse(*(value + 30 for value in screen.tray.row_area(index)[:2]))
         driver.choose("Edit")
-        driver.press("f7", "escape")
-        driver.choose("Leave the editor")
+        driver.press("f7")
+        driver.choose_in_menu("Leave the editor")
         driver.shown(PackScreen)
     driver.carry(screen.tray.row_area(1), screen.shelves.row_area(1))
 
