@@ -42,17 +42,14 @@ from collections.abc import Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT))
+
+from ninja_game.cli.commands import COMMANDS  # noqa: E402
+
 VENV = ROOT / ".venv"
 STAMP = VENV / "ninja-game-installed.txt"
 MADE = (".pytest_cache", ".mypy_cache", ".ruff_cache", ".import_linter_cache", ".hypothesis", "build", "dist")
 DEVELOPMENT = ("cluster", "dev", "fast", "film", "learn", "minari", "plots", "train")
-USES = {
-    **dict.fromkeys(("play", "splits", "compare"), ()),
-    "film": ("film",),
-    "verify": ("cluster", "fast"),
-    "demonstrations": ("fast", "learn", "minari"),
-}
-"""The extras that commands of the game use; those that are not here may use Numba."""
 PROGRAMS = {
     "benchmark": ("benchmarks",),
     "golden": ("tools.golden",),
@@ -166,7 +163,7 @@ def main(words: Sequence[str]) -> int:
     name, *rest = words or ["--help"]
     if name == "play" or (name == "run" and rest):
         command = [name, *rest] if name == "play" else rest
-        install(USES.get(command[0], ("fast",)))
+        install(COMMANDS[command[0]].extras if command[0] in COMMANDS else ())
         return become("-m", "ninja_game", *command)
     if name == "clean":
         caches = [path for path in ROOT.rglob("__pycache__") if VENV not in path.parents]

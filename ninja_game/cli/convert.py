@@ -14,7 +14,7 @@ from ninja_game.cli.terminal import data_output
 from ninja_game.errors import FileError, LevelError
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.tree import Tree
-from ninja_game.files.user_folder import free_path
+from ninja_game.files.user_folder import REPLAY_SUFFIX, free_path
 from ninja_game.formats.links import is_link
 from ninja_game.formats.run_time import seconds_text
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from ninja_game.formats.named_level import NamedLevel
     from ninja_game.formats.recording import Recording
 
-RUN_FORMS = {"replay": ".replay.txt", "inputs": ".inputs.txt", "celeste": ".tas", "libtas": ".libtas.txt"}
+RUN_FORMS = {"replay": REPLAY_SUFFIX, "inputs": ".inputs.txt", "celeste": ".tas", "libtas": ".libtas.txt"}
 """The forms of recordings of which a file holds one, and how it is called."""
 
 FORMS = ("ascii", "string", "file", *RUN_FORMS, "episode")
@@ -207,7 +207,7 @@ def record(
     recording = options.choose(load_replays(inputs, level=level, changed=True), "recordings", inputs, record)
     with options.heartbeat(lambda: "running the inputs"):
         (text,) = replay_texts([on_level(recording, level)], budget)
-    path = output or free_path(Path(), inputs.name.partition(".")[0], ".replay.txt")
+    path = output or free_path(Path(), inputs.name.partition(".")[0], REPLAY_SUFFIX)
     Output(str(path), [inputs], force=force).write(text)
     new = parse_replay(text)
     length = new.length

@@ -17,6 +17,7 @@ from click.shell_completion import CompletionItem
 
 from ninja_game.budget import RUN_BUDGET
 from ninja_game.files.shown_text import counted, shown_text
+from ninja_game.files.user_folder import own_levels
 from ninja_game.formats.run_time import seconds_text
 
 if TYPE_CHECKING:
@@ -65,7 +66,7 @@ class LevelPath(InputPath):
 
         if is_link(value):
             return super().convert(value, param, ctx)
-        own = _own_levels()
+        own = own_levels()
         there = Path(value).exists() or "\0" in str(value)
         if not there and str(value) not in own and not Path(value).suffix:
             near = get_close_matches(str(value), own, 3, 0.5) or list(own)[:3]
@@ -73,14 +74,8 @@ class LevelPath(InputPath):
         return super().convert(value if there else own.get(str(value), value), param, ctx)
 
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-        names = [CompletionItem(name) for name in _own_levels() if name.startswith(incomplete)]
+        names = [CompletionItem(name) for name in own_levels() if name.startswith(incomplete)]
         return super().shell_complete(ctx, param, incomplete) + names
-
-
-def _own_levels() -> dict[str, Path]:
-    from ninja_game.files.user_folder import bundled_levels
-
-    return {path.stem: path for path in bundled_levels()}
 
 
 memory_option = click.option(
@@ -205,8 +200,6 @@ def heartbeat(text: Callable[[], str]) -> Iterator[None]:
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-NOT_FOUND = 1
-
 
 class GoldCount(click.ParamType):  # type: ignore[type-arg, unused-ignore]
     """``all`` (-1) or a number of pieces."""
@@ -263,7 +256,7 @@ body_option = click.option(
 
 
 def default_threads(jobs: int | None) -> int:
-    from ninja_game.batch.thread_pool import cores
+    from ninja_game.runtime import cores
 
     return jobs or cores()
 
@@ -274,36 +267,6 @@ def check_gold(task: Task) -> None:
     there = replace(task, gold=-1).gold_wanted
     if task.gold > there:
         raise click.UsageError(f"--gold {task.gold}: the level holds {there} pieces of gold")
-
-
-class SearchLog:
-    """The log of a long search: what it found after how many seconds, a line each, over all commands that went on.
-
-    ``begun``: how many there were; ``spent``: seconds of them. Raises FileError for a file that is something else.
-    """
-
-    HEAD = "# seconds spent, and what improve found"
-
-    def __init__(self, path: Path, keep: Sequence[Path]) -> None:
-        from ninja_game.errors import FileError
-        from ninja_game.files.reading import read_utf8
-        from ninja_game.files.writing import check_output, write_atomically
-
-        check_output(path, keep=keep)
-        if not path.exists():
-            write_atomically(path, f"{self.HEAD}\n")
-        head, *lines = read_utf8(path, 2**20).splitlines() or [""]
-        found = [re.match(r" *(\d{1,9}) s  ", line) for line in lines]
-        if head != self.HEAD or None in found:
-            raise FileError("not the log of a search", str(path), hint="name another file")
-        self._path, self._began = path, time.monotonic()
-        self.begun = sum(line.endswith("begins") for line in lines)
-        self.spent = max((int(match[1]) for match in found if match), default=0)
-        self.note("begins")
-
-    def note(self, what: str) -> None:
-        with self._path.open("a", encoding="utf-8") as out:
-            out.write(f"{self.spent + time.monotonic() - self._began:8.0f} s  {what}\n")
 
 
 class ShownProgress:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 import re
 import sys
 from contextlib import suppress
@@ -21,9 +22,6 @@ _OURS = {
 """Control sequences of our own output; names have passed ``shown_text`` and hold none."""
 
 _DATA = re.compile(r"(\n|\t)")
-
-BAD_INPUT = 2
-"""Exit code for input that cannot be read and for wrong usage."""
 
 _LONGEST_MESSAGE = 2000
 """Characters of a line about what is wrong."""
@@ -57,6 +55,11 @@ def guard_terminal() -> None:
         getattr(stream, "reconfigure", lambda **_: None)(errors="backslashreplace")
         if stream and stream.isatty():
             setattr(sys, name, Terminal(stream, ours))
+
+
+def draw_unseen() -> None:
+    """Let what is drawn from now on need no display, unless the user has chosen one."""
+    os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 
 
 def complain(message: str) -> None:

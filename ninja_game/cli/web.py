@@ -14,10 +14,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ninja_game.cli.commands import FAILED
 from ninja_game.cli.options import NEW_FILE, NEW_FOLDER, OLD_FILE, OLD_FOLDER, InputPath, jobs_option
 from ninja_game.cli.splits import as_json, draw, show, table_of
+from ninja_game.cli.terminal import draw_unseen
 from ninja_game.errors import ArgumentError, FileError
 from ninja_game.files.shown_text import shown_text
+from ninja_game.files.user_folder import cache_folder
 
 if TYPE_CHECKING:
     from ninja_game.formats.recording import Recording
@@ -34,12 +37,6 @@ rules_option = click.option(
 )  # fmt: skip
 
 
-def cache_folder() -> Path:
-    from platformdirs import user_cache_path
-
-    return user_cache_path("ninja-game", appauthor=False) / "board"
-
-
 def memo_of(kind: str, about: Path, folder: Path, *, again: bool) -> Memo:
     """What is remembered of a folder, ``about``: the runs in ``folder``, or the pages of them.
 
@@ -51,7 +48,7 @@ def memo_of(kind: str, about: Path, folder: Path, *, again: bool) -> Memo:
     from ninja_game.web.pages.memo import Memo
 
     name = sha256(str(about.resolve()).encode("utf-8", "surrogateescape")).hexdigest()[:16]
-    path = cache_folder() / f"{kind}-{name}.json"
+    path = cache_folder() / "board" / f"{kind}-{name}.json"
     if not path.is_absolute() or is_in(path, folder) or is_in(path, about):
         what = "your cache folder has a relative path, or lies in the folder of runs, or of the pages"
         raise FileError(what, str(path), hint="runs are judged by nothing that may come with them: choose another one")
@@ -103,15 +100,12 @@ def site(out: Path | None, pyodide: Path | None, serve: bool, port: int, address
     """
     if out is None and not serve:
         raise click.UsageError("name the folder OUT, or give --serve")
-    from platformdirs import user_cache_path
-
     from ninja_game.files.user_folder import data_folder
     from ninja_game.web.pages.gallery import published_levels, write_gallery
     from ninja_game.web.site.build import build_site, site_server
 
-    cache = user_cache_path("ninja-game", appauthor=False)
-    folder = out or cache / "site"
-    files = build_site(folder, pyodide, cache, address)
+    folder = out or cache_folder() / "site"
+    files = build_site(folder, pyodide, cache_folder(), address)
     for file in files:
         if file.compressed > 50_000:
             click.echo(f"{file.name:<28} {file.size:>11,} bytes, {file.compressed:>10,} compressed by gzip")
@@ -210,7 +204,7 @@ def board(
     for _, line in found:
         click.echo(line)
     click.echo(summary(judged) if found else f"nothing has changed: {summary(judged)}")
-    return 0 if all(allowed for allowed, _ in found) else 1
+    return 0 if all(allowed for allowed, _ in found) else FAILED
 
 
 def _ranking(
@@ -333,9 +327,7 @@ def _line(form: str, row: Mapping[str, Any]) -> str:
 
 
 def _film(runs: Sequence[Recording], output: Path) -> None:
-    import os
-
-    os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
+    draw_unseen()
     from ninja_game.play.replay.film import Film, write_film
 
     write_film(Film(runs[0], ghosts=tuple(runs[1:]), keys=True), output, lambda _: True)

@@ -7,6 +7,7 @@ import shlex
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from functools import cache
 from itertools import count
 from pathlib import Path
 
@@ -20,6 +21,8 @@ LEVELS, REPLAYS, EXPORTS, EDITING = "levels", "replays", "exports", "editing"
 """Folders in it: levels and replays that the game offers, what it writes on request, levels that are being edited."""
 
 SETTINGS, RECORDS = "settings.toml", "records.sqlite"  # files in it
+
+REPLAY_SUFFIX = ".replay.txt"  # what the names of our replays end with
 
 
 def user_folder() -> Path:
@@ -35,6 +38,13 @@ def _system_folder() -> Path:
     from platformdirs import user_data_path
 
     return user_data_path("ninja-game", appauthor=False)
+
+
+def cache_folder() -> Path:
+    """The system's place for what the program can make again: compiled code, pages, what a board remembers."""
+    from platformdirs import user_cache_path
+
+    return user_cache_path("ninja-game", appauthor=False)
 
 
 def chosen_folder(variable: str, otherwise: Callable[[], Path]) -> Path:
@@ -141,9 +151,15 @@ def bundled_levels() -> list[Path]:
     return sorted(data_folder("levels").glob("*.txt"))
 
 
+@cache
+def own_levels() -> dict[str, Path]:
+    """Those files by their names without a suffix, by which commands and agents know them."""
+    return {path.stem: path for path in bundled_levels()}
+
+
 def bundled_replays() -> list[Path]:
     """The certificates of the game's own levels, replays that pass them, in the levels' order."""
-    return sorted(data_folder("levels").glob("certificates/*.replay.txt"))
+    return sorted(data_folder("levels").glob(f"certificates/*{REPLAY_SUFFIX}"))
 
 
 def how_to_install(extra: str) -> str:

@@ -19,10 +19,10 @@ from ninja_game.sim.level import TILES, Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 CHOICES = 96  # routes of which the best is taken
-CLOSE = 4.0
-"""Cells that are at least between any two of ninja, switches and exit."""
-BESIDE = 5.0, 11.0
-"""Cells between start and exit that are best: near, but not beside each other."""
+CLOSE_CELLS = 4.0
+"""The least between any two of ninja, switches and exit."""
+BESIDE_CELLS = 5.0, 11.0
+"""Best between start and exit: near, but not beside each other."""
 
 
 def place_route(board: RockBoard, tiles: dict[Cell, str], rng: Random, *, far: float) -> Scene | None:
@@ -66,7 +66,7 @@ def place_route(board: RockBoard, tiles: dict[Cell, str], rng: Random, *, far: f
 def _worth(stops: Sequence[Cell], empty: set[Cell], far: float) -> float | None:
     """How well a route would do; None for one that cannot be walked, or with things too close together."""
     spread = min(dist(a, b) for number, a in enumerate(stops) for b in stops[:number])
-    if spread < CLOSE:
+    if spread < CLOSE_CELLS:
         return None
     way = 0
     for a, b in pairwise(stops):
@@ -77,7 +77,7 @@ def _worth(stops: Sequence[Cell], empty: set[Cell], far: float) -> float | None:
     width = max(column for column, _ in stops) - min(column for column, _ in stops)
     height = max(row for _, row in stops) - min(row for _, row in stops)
     near = dist(stops[0], stops[-1])
-    apart = max(BESIDE[0] - near, near - BESIDE[1], 0.0)
+    apart = max(BESIDE_CELLS[0] - near, near - BESIDE_CELLS[1], 0.0)
     even = sum(mirrored(a) in stops for a in stops[1:-1])
     return even * 2 + min(spread, 10.0) + min(height, 14) / 2 + width / 2 - apart - abs(way - far) / 3
 

@@ -14,7 +14,7 @@ from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
-from ninja_game.errors import LevelError, NinjaGameError
+from ninja_game.errors import DAMAGED, LevelError
 from ninja_game.files.reading import stamp_of
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.named_level import NamedLevel
@@ -451,6 +451,6 @@ def kept_place(store: Store) -> tuple[str, list[Replay]]:
         try:
             key, *texts = json.loads(value)
             return str(key), [parse_replay(text) for text in texts]
-        except (NinjaGameError, ValueError, TypeError, AttributeError, RecursionError):
+        except DAMAGED:
             break
     return "", []

@@ -11,7 +11,7 @@ from time import localtime, strftime
 
 from ninja_game.files.locking import forget
 from ninja_game.files.shown_text import counted, file_stem
-from ninja_game.files.user_folder import REPLAYS, free_path, is_bundled, short_path
+from ninja_game.files.user_folder import REPLAY_SUFFIX, REPLAYS, free_path, is_bundled, short_path
 from ninja_game.formats.links import replay_link
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
@@ -20,7 +20,7 @@ from ninja_game.play.menus.menu_screen import Action, Menu, Row, ask_text, nothi
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.workspace import CommandMenu, Commands, CommandTable, DocumentCommands, bundled_commands
 from ninja_game.player.player_data import keep_replay
-from ninja_game.tas.files import SUFFIX, branches_path, replay_of_track, same_level
+from ninja_game.tas.files import branches_path, replay_of_track, same_level
 from ninja_game.tas.journal import RecoveredRun, recovered
 from ninja_game.tas_editor.editor import TasEditor
 
@@ -90,13 +90,14 @@ class RunCommands(DocumentCommands):
 
     def save_as(self, then: Action = nothing) -> None:
         path, folder = self.session.file.path, self._folder
-        free = free_path(folder, file_stem(self.session.name, "run"), SUFFIX)
-        name = (path or free).name.removesuffix(SUFFIX)
+        free = free_path(folder, file_stem(self.session.name, "run"), REPLAY_SUFFIX)
+        name = (path or free).name.removesuffix(REPLAY_SUFFIX)
 
         def on_accept(text: str) -> None:
             path = folder / Path(text.strip()).expanduser()
             if path.parent.is_dir():
-                self.save_to(path.with_name(f"{file_stem(path.name.removesuffix(SUFFIX), 'run')}{SUFFIX}"), then)
+                stem = file_stem(path.name.removesuffix(REPLAY_SUFFIX), "run")
+                self.save_to(path.with_name(f"{stem}{REPLAY_SUFFIX}"), then)
             else:
                 self.app.notify(f"Not saved: there is no folder {path.parent}")
 

@@ -122,13 +122,12 @@ class HudView:
     """What is written over a level now.
 
     ``lifetime``: ticks, for the time bar; ``label``: a word in its place; ``pars``: medals, and with which lifetime
-    each is lost. ``foot``: texts at the left and the right of the border below, ``name``: what is at the
-    left where a text lies there. ``keys``: those of the present tick,
-    ``frame_ms``: of the last picture; None: not shown.
-    ``moves``: the keys of each line of ``said``, ``letters``: what is on the keys of left, jump and right.
-    ``named``: what a text names, and where that is, px. ``medal``: that of the pass, or "", ``stamp``: how far it has
-    grown, 0…1, ``shine``: how far light has swept over it. ``seen``: how solid the panel of the end is, 0…1.
-    ``ninja``: where it is in play, px: what is said over it fades, ``softly`` or at once.
+    each is lost. ``foot``: texts at the left and the right of the border below, ``name``: what is at the left where a
+    text lies there. ``keys``: those of the present tick, ``frame_ms``: of the last picture; None: not shown. ``moves``:
+    the keys of each line of ``said``, ``letters``: what is on the keys of left, jump and right. ``named``: what a text
+    names, and where that is, px. ``medal``: that of the pass, or "", ``stamp``: how far it has grown, 0…1, ``shine``:
+    how far light has swept over it. ``seen``: how solid the panel of the end is, 0…1. ``ninja``: where it is in play,
+    px: what is said over it fades, ``softly`` or at once.
     """
 
     lifetime: float

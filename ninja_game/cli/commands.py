@@ -1,0 +1,66 @@
+"""The commands, once, and the exit codes. `tools/dev.py` reads this with a bare Python: it imports nothing else."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+_TABLE = """
+game: play | windows | i | | Play a level in a window.
+game: edit | windows | i | fast | Make a level, or change one, in a window.
+game: lab | windows | i | fast | Drag, paint and watch: figures about how the world works.
+game: player | machine | i | fast | Export all data of a player to one file, or import such a file.
+game: film | film | | film | Write a film of a recording: a GIF, a WebM, an MP4, or a folder of pictures.
+game: compile | machine | c | fast | Compile the rules for this machine now, so that no other command waits for it.
+game: desktop | machine | | fast | Put the game into your menu of programs, with its icon and types of files.
+game: link | convert | | fast | Make a link that carries a level, a pack or replays.
+levels: info | info | | fast | Show what is in level and replay files.
+levels: check | check | ci | fast | Certify levels: whether they can be passed, how fast, and what is odd.
+levels: levels | levels | ci | fast | Make packs of levels ready to share: check, par times, zips and links.
+levels: generate | levels | c | fast | Make a new level, certified by the solver.
+levels: convert | convert | | fast | Turn levels and recordings from one format into the other.
+runs: tas | windows | ci | fast | Edit a run tick by tick, in a window.
+runs: record | convert | | fast | Run inputs that a person wrote, and write the result.
+runs: verify | verify | c | cluster fast | Run recordings again and judge them.
+runs: trace | trace | c | fast | Show every tick of recordings: position, velocity, state, events.
+runs: splits | splits | | | Show when runs take gold, open doors and the exit, and end.
+runs: compare | splits | | | Compare two runs of a level: where they part, and how far one is ahead.
+runs: solve | search | c | fast | Find a run to the exit, then shorten it.
+runs: improve | search | c | fast | Shorten a run that exists.
+runs: search | search | c | fast | Find other keys for a span of a run.
+runs: demonstrations | demonstrations | c | fast learn minari | Make demonstrations for learning agents of recordings.
+web: site | web | i | fast | Build the game as a page in a browser: a folder for any static host.
+web: board | web | ci | fast | Rank the runs of a folder, all simulated again: tables, pages, checks.
+"""
+"""A command a line: group and name; its module here; c: it may have to compile the rules first, i: it may replace a
+file that it has read; extras of the package that it may use; the first line of its help."""
+
+
+class Command(NamedTuple):
+    module: str
+    flags: str
+    extras: tuple[str, ...]
+    help: str
+
+
+GROUPS: dict[str, dict[str, Command]] = {}
+for _line in _TABLE.strip().splitlines():
+    _name, _module, _flags, _extras, _help = (cell.strip() for cell in _line.split("|"))
+    _group, _, _name = _name.partition(": ")
+    GROUPS.setdefault(_group, {})[_name] = Command(_module, _flags, tuple(_extras.split()), _help)
+
+COMMANDS = {name: command for group in GROUPS.values() for name, command in group.items()}
+
+FAILED = 1
+"""Exit code where a run failed: a recording does not do what it says, none was found, traces differ."""
+
+BAD_INPUT = 2
+"""Exit code for input that cannot be read and for wrong usage."""
+
+INTERNAL_ERROR = 3
+"""Exit code for a fault of this program; its traceback is on stderr."""
+
+INTERRUPTED, TERMINATED = 130, 143
+"""Exit codes after Ctrl-C and after SIGTERM, as shells have them."""
+
+BROKEN_PIPE = 141
+"""Exit code when whoever read our output has gone, as shells have it."""
