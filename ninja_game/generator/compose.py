@@ -46,9 +46,9 @@ def place_route(board: RockBoard, tiles: dict[Cell, str], rng: Random, *, far: f
         # What is far apart is in the same place on both sides, if it can be.
         errands = [key, *([mirrored(key)] if mirrored(key) in floor else []), *rng.sample(floor, 3)]
         stops = [rng.choice(floor), *errands[: locks + hidden], vault, *([] if hidden else [rng.choice(floor)])]
-        worth = _worth(stops, bare.empty, far)
-        if worth is not None and (best is None or worth > best[0]):
-            best = worth, stops
+        score = _route_score(stops, bare.empty, far)
+        if score is not None and (best is None or score > best[0]):
+            best = score, stops
     if best is None:
         return None
     start, *keys, exit_ = best[1]
@@ -63,7 +63,7 @@ def place_route(board: RockBoard, tiles: dict[Cell, str], rng: Random, *, far: f
     return scene
 
 
-def _worth(stops: Sequence[Cell], empty: set[Cell], far: float) -> float | None:
+def _route_score(stops: Sequence[Cell], empty: set[Cell], far: float) -> float | None:
     """How well a route would do; None for one that cannot be walked, or with things too close together."""
     spread = min(dist(a, b) for number, a in enumerate(stops) for b in stops[:number])
     if spread < CLOSE_CELLS:

@@ -1,4 +1,4 @@
-"""Generate a level: compose, let the solver pass it, measure, add or spare hazards, until it is as hard as wanted.
+"""Generate a level: compose, let the solver pass it, measure, add or remove hazards, until it is as hard as wanted.
 
 The same seed, difficulty and version give the same level on every machine: all work is counted in ticks, never timed.
 """
@@ -96,9 +96,9 @@ def generate(
         run, measured = found
         lacking = len(list(design_findings(design(scene.level, run.inputs))))
         made = Generated(named_level(name_for(plan, rng), scene.level, seed, wanted, measured), run, measured)
-        worth = not _near(measured, wanted, 2), lacking > 0, abs(measured - wanted)
-        if best is None or worth < best[0]:
-            best = worth, made
+        rank = not _near(measured, wanted, 2), lacking > 0, abs(measured - wanted)
+        if best is None or rank < best[0]:
+            best = rank, made
         if _near(measured, wanted) and not lacking:
             break
     return best and best[1]
@@ -123,7 +123,7 @@ def _certified(scene: Scene, rng: Random, wanted: int, effort: Effort, stop: Eve
     lay_trails(scene, path_of(scene.level, run), rng)
     run = verified_run(scene.level, run.inputs)
     measured = difficulty(scene.level, run.inputs, tries=effort.tries)
-    spared = False
+    eased = False
     for _ in range(effort.rounds):
         if _near(measured, wanted) or stop.is_set():
             break
@@ -139,7 +139,7 @@ def _certified(scene: Scene, rng: Random, wanted: int, effort: Effort, stop: Eve
             if number is None:
                 break
             del scene.hazards[number]
-            spared = True
+            eased = True
         try:
             changed = verified_run(scene.level, run.inputs)
         except UnverifiedRunError:
@@ -151,7 +151,7 @@ def _certified(scene: Scene, rng: Random, wanted: int, effort: Effort, stop: Eve
             scene.hazards = before
             continue
         run, measured = changed, then
-    if spared:
+    if eased:
         shorter = solve(Task(scene.level, work=effort.shorten, first=run.inputs), stop=stop)
         if shorter and shorter.end_tick < run.end_tick:
             run, measured = shorter, difficulty(scene.level, shorter.inputs, tries=effort.tries)

@@ -274,7 +274,7 @@ def _gate(scene: Scene, run: Sequence[Point], rng: Random) -> list[ObjectSpec]:
 
 
 def nearest_hazard(scene: Scene, run: Sequence[Point]) -> int | None:
-    """Number of the group of hazards that is nearest to a run and that can be spared; None if none can."""
+    """Number of the group of hazards that is nearest to a run and that can go; None if none can."""
     enemies = scene.count(*ENEMIES)
     spare = [
         (min(dist(record.values[:2], at) for record in group for at in run), number)

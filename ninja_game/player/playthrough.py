@@ -88,7 +88,7 @@ class LevelContext:
         """The level's par times, which go by the classic body."""
         return self.entry.pars if self.body == "circle" else None
 
-    def aim(self) -> str:
+    def next_par(self) -> str:
         """What the level's next medal needs, in words; "" before the first pass, after the last, in practice."""
         mark = self.data.marks.of(self.entry.digest)
         return "" if self.pars is None or self.practice_mode or mark is None else next_par(self.pars, mark)

@@ -38,8 +38,9 @@ from ninja_game.runtime import NewestJob
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.input.keys import chord
 from ninja_game.ui.list_view import BAR, ListView
+from ninja_game.ui.medals import draw_all_gold
 from ninja_game.ui.theme import Area, Theme
-from ninja_game.ui.widgets import Button, Choice, Widget, draw_all_gold
+from ninja_game.ui.widgets import Button, Choice, Widget
 
 WIDE, HIGH = 93, 106
 

@@ -11,9 +11,10 @@ import pytest
 
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.sayings import read_sayings
-from ninja_game.play.level.hud import CLEAR, IN_BORDER, Hud, Said, solid_place
+from ninja_game.play.level.hud import CLEAR, IN_BORDER, Hud, Said
 from ninja_game.play.level.hud_view import cause_of_death, hud_view
-from ninja_game.play.level.play import DEATH_PAUSE, MUST, STUCK_AFTER, Phase, tag_top
+from ninja_game.play.level.places import MUST, solid_place, tag_top
+from ninja_game.play.level.play import DEATH_PAUSE, STUCK_AFTER, Phase
 from ninja_game.play.level.sayings import CLIMB, CLIMBED, FALL_HELP, QUIET_TICKS, START_TICKS, Sayings
 from ninja_game.play.level.screen import LevelScreen, PausePanel, play_level
 from ninja_game.play.menus.browser import Browser
@@ -475,11 +476,11 @@ def test_text_in_play_lies_over_rock_near_the_ninja_or_else_in_the_border(driver
     hud = Hud(driver.app.theme)
     (text, tiles, things, _, covers, _), far = hud_view(level.play).said or ("", (), (), None, True, False), []
     assert covers, "the text of the start stays where it was"
-    level.play.eye = (40, 500)
+    level.play.about = (40, 500)
     level.play.sayings.text = "Another one"
     assert hud_view(level.play).said == Said("Another one", tiles, things, (40, 500), covers=False)
-    for eye in ((40.0, 440.0), (750.0, 440.0)):
-        lines, left, y, w, high, *_ = hud.box(Said(text, tiles, things, eye, covers=False))
+    for about in ((40.0, 440.0), (750.0, 440.0)):
+        lines, left, y, w, high, *_ = hud.box(Said(text, tiles, things, about, covers=False))
         assert y < IN_BORDER
         cells = {(int(a // 24) - 1, int(b // 24) - 1) for a in (left, left + w) for b in (y, y + high * len(lines))}
         assert all(tiles[column * ROWS + row] == 1 for column, row in cells), "over rock only"
@@ -500,7 +501,7 @@ def test_what_is_said_of_a_place_lies_beside_it_and_points_to_it(
 ) -> None:
     level, text = LevelScreen(driver.app, LevelRun(driver.player, entry(short_level()))), " ".join(["word"] * words)
     level.play.sayings._say(text, 99, place=place)
-    level.play.eye = (10.0, 10.0)
+    level.play.about = (10.0, 10.0)
     view = hud_view(level.play)
     assert view.said
     assert view.said[3:] == (place, False, True)
