@@ -35,6 +35,7 @@ if __name__ == "__main__":
 import ast
 import hashlib
 import os
+import runpy
 import shutil
 import subprocess
 import tomllib
@@ -42,14 +43,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
-
-from ninja_game.cli.commands import COMMANDS  # noqa: E402
-
 VENV = ROOT / ".venv"
 STAMP = VENV / "ninja-game-installed.txt"
 MADE = (".pytest_cache", ".mypy_cache", ".ruff_cache", ".import_linter_cache", ".hypothesis", "build", "dist")
 DEVELOPMENT = ("cluster", "dev", "fast", "film", "learn", "minari", "plots", "train")
+COMMANDS = runpy.run_path(str(ROOT / "ninja_game" / "cli" / "commands.py"))["COMMANDS"]
 PROGRAMS = {
     "benchmark": ("benchmarks",),
     "golden": ("tools.golden",),

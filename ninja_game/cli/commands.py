@@ -50,17 +50,9 @@ for _line in _TABLE.strip().splitlines():
 
 COMMANDS = {name: command for group in GROUPS.values() for name, command in group.items()}
 
-FAILED = 1
-"""Exit code where a run failed: a recording does not do what it says, none was found, traces differ."""
-
-BAD_INPUT = 2
-"""Exit code for input that cannot be read and for wrong usage."""
-
-INTERNAL_ERROR = 3
-"""Exit code for a fault of this program; its traceback is on stderr."""
-
-INTERRUPTED, TERMINATED = 130, 143
-"""Exit codes after Ctrl-C and after SIGTERM, as shells have them."""
-
-BROKEN_PIPE = 141
-"""Exit code when whoever read our output has gone, as shells have it."""
+# Exit codes, the last three as shells have them.
+FAILED = 1  # a recording does not do what it says, no run was found, traces differ
+BAD_INPUT = 2  # input that cannot be read, or wrong usage
+INTERNAL_ERROR = 3  # a fault of this program; its traceback is on stderr
+INTERRUPTED, TERMINATED = 130, 143  # by Ctrl-C, by SIGTERM
+BROKEN_PIPE = 141  # whoever read our output has gone

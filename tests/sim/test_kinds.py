@@ -124,10 +124,10 @@ def test_who_kills_is_counted_and_what_helps_against_it_is_said() -> None:
 @pytest.mark.parametrize("kind", [kind for kind in OF_LEVELS if kind.killer], ids=lambda kind: str(kind.name))
 def test_what_kills_counts_where_a_level_is_judged(kind: Kind) -> None:
     hazard = next(each.spec for each in OBJECT_TYPES if each.spec.kind == kind.number)
-    placed = ObjectSpec(kind.number, (240.0, 300.0, *hazard.values[2:]))
+    placed = ObjectSpec(kind.number, (252.0, 300.0, *hazard.values[2:]))
     (space,) = clearance(trace_level(Level(objects=(ObjectSpec(NINJA, (120.0, 300.0)), placed)), bytes(1)))
     # What shoots has not begun to.
-    expected = 120 - RADIUS - (kind.disc or kind.box or 0) if kind.disc or kind.box else inf
+    expected = 132 - RADIUS - (kind.disc or kind.box or 0) if kind.disc or kind.box else inf
     assert space == pytest.approx(expected, abs=3)
 
 

@@ -320,7 +320,7 @@ class SettingsScreen(ThumbnailScreen):
             self._choice("Hints in levels", "level_texts", hint="Shown until you pass the level"),
             self._choice("Race against", "ghost", RACED, f"A ghost; {self.app.controls.name('ghost')} hides it"),
             self._choice("Show keys in play", "show_keys"),
-        ]  # fmt: skip
+        ]
         if overclock_unlocked(self.player.columns_complete, self.player.columns_present):
             widgets.append(
                 Slider(self._area(), "Overclock, ms", (0, FASTEST_TICK_GAIN, 1), lambda: self.app.overclock,
