@@ -11,8 +11,10 @@ import click
 from ninja_game.cli import options
 from ninja_game.cli.commands import FAILED
 from ninja_game.cli.options import NEW_FILE, OLD_FOLDER, OLD_PATH, with_progress
+from ninja_game.errors import FileError
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import free_path
+from ninja_game.files.writing import check_output, write_atomically
 from ninja_game.formats.run_time import seconds_text
 
 if TYPE_CHECKING:
@@ -106,7 +108,6 @@ def pack_up(pack: Path, seconds: float, jobs: int | None, zip_path: Path | None)
       ninja-game levels pack my-pack/ --seconds 60 --zip shared.zip
     """
     from ninja_game.editor.packs import make_ready
-    from ninja_game.files.writing import check_output, write_atomically
 
     path = zip_path or pack.resolve().with_name(f"{pack.resolve().name}.zip")
     check_output(path)
@@ -162,8 +163,6 @@ def generate(seed: int | None, difficulty: int, output: Path | None, replay: Pat
       ninja-game generate --seed 7 --difficulty 3 -o seven.txt
       ninja-game generate --difficulty 9 --replay its-run.replay.txt
     """
-    from ninja_game.errors import FileError
-    from ninja_game.files.writing import check_output, write_atomically
     from ninja_game.formats.ascii.writer import headers_of, write_ascii_level
     from ninja_game.generator.generate import generate
     from ninja_game.search.certificate import named_run, save_replay

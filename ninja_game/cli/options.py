@@ -18,6 +18,7 @@ from click.shell_completion import CompletionItem
 from ninja_game.budget import RUN_BUDGET
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import own_levels
+from ninja_game.files.writing import check_output
 from ninja_game.formats.run_time import seconds_text
 
 if TYPE_CHECKING:
@@ -325,7 +326,6 @@ def smoothed_run(level: Level, run: Replay, price: int) -> Replay:
 
 def saver(path: Path, level: NamedLevel) -> Callable[[Replay], None]:
     """A function that writes each better run of a level to a file, which must not be the level's own."""
-    from ninja_game.files.writing import check_output
     from ninja_game.search.certificate import named_run, save_replay
 
     check_output(path, keep=[Path(level.file)])
@@ -335,7 +335,6 @@ def saver(path: Path, level: NamedLevel) -> Callable[[Replay], None]:
 
 def saver_of_better(path: Path, recording: Recording, command: str) -> Callable[[Replay], None]:
     """A function that writes each better run that a command made of a recording, to a file that is not its own."""
-    from ninja_game.files.writing import check_output
     from ninja_game.search.certificate import better_run, save_replay
 
     check_output(path, keep=[Path(recording.file)])

@@ -20,7 +20,7 @@ from ninja_game.cli.splits import as_json, draw, show, table_of
 from ninja_game.cli.terminal import draw_unseen
 from ninja_game.errors import ArgumentError, FileError
 from ninja_game.files.shown_text import shown_text
-from ninja_game.files.user_folder import cache_folder
+from ninja_game.files.user_folder import cache_folder, data_folder
 
 if TYPE_CHECKING:
     from ninja_game.formats.recording import Recording
@@ -100,7 +100,6 @@ def site(out: Path | None, pyodide: Path | None, serve: bool, port: int, address
     """
     if out is None and not serve:
         raise click.UsageError("name the folder OUT, or give --serve")
-    from ninja_game.files.user_folder import data_folder
     from ninja_game.web.pages.gallery import published_levels, write_gallery
     from ninja_game.web.site.build import build_site, site_server
 
@@ -120,21 +119,14 @@ def site(out: Path | None, pyodide: Path | None, serve: bool, port: int, address
 
 
 class _Board(click.Command):
-    def make_context(
-        self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
-    ) -> click.Context:
-        """The context of the command that is meant: ``board`` or ``board ask``."""
+    def make_context(self, info_name: Any, args: list[str], parent: Any = None, **extra: Any) -> click.Context:
+        """Of the command that is meant: ``board``, or ``board ask``, which a group with an argument could not have."""
         if args[:1] == ["ask"]:
             return ask.make_context(f"{info_name} ask", args[1:], parent, **extra)
         return super().make_context(info_name, args, parent, **extra)
 
-    def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Tell of the command below it, as groups do."""
-        with formatter.section("Commands"):
-            formatter.write_dl([("ask", "Ask the board of a folder about a level, and about players on it.")])
 
-
-@click.command(cls=_Board)
+@click.command(cls=_Board, epilog="ninja-game board ask answers questions about a level, and about players on it.")
 @click.argument("folder", type=OLD_FOLDER)
 @levels_option
 @click.option(
@@ -172,7 +164,6 @@ def board(
       ninja-game board replays/ --levels my-pack/ --site public/
       ninja-game board ask replays/ rank 00-0
     """
-    from ninja_game.files.user_folder import data_folder
     from ninja_game.files.writing import check_output, write_atomically
     from ninja_game.web.board.pages import BoardPages, check_ledger, check_site
     from ninja_game.web.board.report import board_text, changes, gone, plain, summary
@@ -272,7 +263,6 @@ def ask(
       ninja-game board ask replays/ splits "First Steps" Ann Bob
       ninja-game board ask replays/ film 00-0 Ann Bob -o both.gif
     """
-    from ninja_game.files.user_folder import data_folder
     from ninja_game.web.board.runs import ASSISTED, PLAYED
     from ninja_game.web.pages.gallery import published_levels
 

@@ -86,6 +86,8 @@ SOLID = 0.13, 0.64
 SHAPES = 20, 190
 OBJECTS = 50, MOST_OBJECTS
 """What levels keep to: shares of the cells, tiles with a shape, objects."""
+ENEMIES, MINES = (6, 7, 8), (20, 24, 28)
+"""Of which one is how many are tried for; a hard level has up to two enemies more."""
 
 
 def compose(layout: str, rng: Random, difficulty: int) -> Scene | None:
@@ -108,9 +110,9 @@ def compose(layout: str, rng: Random, difficulty: int) -> Scene | None:
     place_fixtures(scene, rng)
     if not lay_gold(scene, rng):
         return None
-    if not place_enemies(scene, rng, rng.choice((6, 7, 8)) + difficulty // 4, difficulty):
+    if not place_enemies(scene, rng, rng.choice(ENEMIES) + difficulty // 4, difficulty):
         return None
-    place_mines(scene, rng, rng.choice((20, 24, 28)))
+    place_mines(scene, rng, rng.choice(MINES))
     fill_voids(scene, rng, difficulty)
     if not OBJECTS[0] <= len(scene.objects) <= OBJECTS[1] or level_findings(scene.level) or not _fair(scene.level):
         return None

@@ -15,7 +15,7 @@ from ninja_game.cli import options
 from ninja_game.cli.main import cli
 from ninja_game.cli.options import default_threads, progress_text
 from ninja_game.files.user_folder import free_path
-from ninja_game.formats.ascii.reader import write_ascii_level
+from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.text import parse_replay
