@@ -18,6 +18,7 @@ from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import REPLAY_SUFFIX
 from ninja_game.files.writing import check_output
 from ninja_game.formats.run_time import seconds_text
+from ninja_game.runtime import cores
 from ninja_game.sim.kinds import DOOR
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
@@ -98,7 +99,7 @@ def check(
     wanted = Wanted(goals, task_options, improve)
     tally = _Tally()
     with options.progress_line() as report:
-        results = certify_all(chosen, kept, wanted, jobs=options.default_threads(jobs), report=report.of_level)
+        results = certify_all(chosen, kept, wanted, jobs=jobs or cores(), report=report.of_level)
         for level, files, found in zip(chosen, kept, results, strict=True):
             tally.add(level, found)
             if isinstance(found, LevelError):

@@ -16,6 +16,7 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import free_path
 from ninja_game.files.writing import check_output, write_atomically
 from ninja_game.formats.run_time import seconds_text
+from ninja_game.runtime import cores
 
 if TYPE_CHECKING:
     from ninja_game.formats.pack.pack import Pack
@@ -112,9 +113,7 @@ def pack_up(pack: Path, seconds: float, jobs: int | None, zip_path: Path | None)
     path = zip_path or pack.resolve().with_name(f"{pack.resolve().name}.zip")
     check_output(path)
     with options.progress_line() as report:
-        ready = make_ready(
-            pack, seconds=seconds, jobs=options.default_threads(jobs), say=lambda text, _: report.say(text)
-        )
+        ready = make_ready(pack, seconds=seconds, jobs=jobs or cores(), say=lambda text, _: report.say(text))
     write_atomically(path, ready.zipped)
     _show(ready.findings)
     click.echo(

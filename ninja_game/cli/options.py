@@ -7,6 +7,7 @@ import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from difflib import get_close_matches
 from pathlib import Path
 from threading import Event, Thread
@@ -256,15 +257,7 @@ body_option = click.option(
 )
 
 
-def default_threads(jobs: int | None) -> int:
-    from ninja_game.runtime import cores
-
-    return jobs or cores()
-
-
 def check_gold(task: Task) -> None:
-    from dataclasses import replace
-
     there = replace(task, gold=-1).gold_wanted
     if task.gold > there:
         raise click.UsageError(f"--gold {task.gold}: the level holds {there} pieces of gold")

@@ -18,6 +18,7 @@ from ninja_game.files.reading import protect_inputs, read_utf8
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import REPLAY_SUFFIX, free_path
 from ninja_game.files.writing import check_output, write_atomically
+from ninja_game.runtime import cores
 
 if TYPE_CHECKING:
     from ninja_game.formats.replay.text import Replay
@@ -83,7 +84,7 @@ def solve(
 
     chosen = options.choose_level(level, record)
     output = output or free_path(Path(), level.stem, REPLAY_SUFFIX)
-    task = Task(chosen.level, jobs=options.default_threads(jobs), **task_options)
+    task = Task(chosen.level, jobs=jobs or cores(), **task_options)
     options.check_gold(task)
     save = options.saver(output, chosen)
     with options.progress_line() as report:
@@ -150,7 +151,7 @@ def improve(
     recording = options.choose(
         load_replays(replay, level=options.level_given(level_path)), "recordings", replay, record
     )
-    threads = options.default_threads(jobs)
+    threads = jobs or cores()
     task = Task(recording.level, body=recording.body, first=recording.inputs, jobs=threads, **task_options)
     options.check_gold(task)
     save = options.saver_of_better(output, recording, "improve")
@@ -277,7 +278,7 @@ def search(
             return spent < seconds
 
         found = search_span(
-            task, report, method=method, every=every, seed=seed, threads=options.default_threads(jobs),
+            task, report, method=method, every=every, seed=seed, threads=jobs or cores(),
             missed=misses.append,
         )  # fmt: skip
     for each in found or misses[-1:]:
