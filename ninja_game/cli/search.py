@@ -278,9 +278,8 @@ def search(
             return spent < seconds
 
         found = search_span(
-            task, report, method=method, every=every, seed=seed, threads=jobs or cores(),
-            missed=misses.append,
-        )  # fmt: skip
+            task, report, method=method, every=every, seed=seed, threads=jobs or cores(), missed=misses.append
+        )
     for each in found or misses[-1:]:
         click.echo(f"{score_in_words(task, each)}: {_keys(each)}")
     if not found:

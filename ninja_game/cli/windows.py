@@ -154,7 +154,7 @@ FIGURES = (
 )  # fmt: skip
 
 
-@click.command(epilog=f"Figures: {', '.join(FIGURES)}.")
+@click.command(epilog=f"\b\nFigures: {', '.join(FIGURES)}.")
 @click.argument("figure", metavar="[FIGURE]", required=False, type=click.Choice(FIGURES))
 @options.window_options
 @click.option(
