@@ -24,7 +24,7 @@ import gymnasium
 import numpy as np
 
 from benchmarks.measure_learning import RESULTS
-from ninja_game.batch.thread_pool import cores
+from ninja_game.runtime import cores
 
 SECONDS, ROUNDS = 0.5, 7
 MANY = 256

@@ -17,8 +17,8 @@ from benchmarks.charts import Chart, seconds_per
 from benchmarks.game_kernels import count_ticks
 from ninja_game.backend.memories import compiled
 from ninja_game.batch.batch import Batch
-from ninja_game.batch.thread_pool import cores
 from ninja_game.formats.recording import Recording
+from ninja_game.runtime import cores
 from ninja_game.sim.kinds import GOLD, MINE, NINJA
 from ninja_game.sim.level import TILES, Level, ObjectSpec
 from ninja_game.sim.memory.compiled import load_worlds

@@ -32,6 +32,11 @@ def in_page_or_not(page: Value, desktop: Value) -> Value:
     return page if IN_PAGE else desktop
 
 
+def cores() -> int:
+    """How many of the machine's cores this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
 def require_desktop() -> None:
     """Raises NinjaGameError in a page."""
     if IN_PAGE:

@@ -14,7 +14,8 @@ import pytest
 from click.testing import CliRunner
 
 import ninja_game
-from ninja_game.cli.main import COMMANDS, cli
+from ninja_game.cli.commands import COMMANDS
+from ninja_game.cli.main import cli
 from tools import dev
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -71,7 +72,7 @@ def test_every_command_has_help_with_an_example(name: str) -> None:
     assert result.exit_code == 0
     assert "Example" in result.output
     assert f"ninja-game {name}" in result.output.split("Example")[1]
-    assert COMMANDS[name] in " ".join(result.output.split())
+    assert COMMANDS[name].help in " ".join(result.output.split())
 
 
 def test_no_files_import_one_another_in_a_circle() -> None:

@@ -35,6 +35,7 @@ if __name__ == "__main__":
 import ast
 import hashlib
 import os
+import runpy
 import shutil
 import subprocess
 import tomllib
@@ -46,13 +47,7 @@ VENV = ROOT / ".venv"
 STAMP = VENV / "ninja-game-installed.txt"
 MADE = (".pytest_cache", ".mypy_cache", ".ruff_cache", ".import_linter_cache", ".hypothesis", "build", "dist")
 DEVELOPMENT = ("cluster", "dev", "fast", "film", "learn", "minari", "plots", "train")
-USES = {
-    **dict.fromkeys(("play", "splits", "compare"), ()),
-    "film": ("film",),
-    "verify": ("cluster", "fast"),
-    "demonstrations": ("fast", "learn", "minari"),
-}
-"""The extras that commands of the game use; those that are not here may use Numba."""
+COMMANDS = runpy.run_path(str(ROOT / "ninja_game" / "cli" / "commands.py"))["COMMANDS"]
 PROGRAMS = {
     "benchmark": ("benchmarks",),
     "golden": ("tools.golden",),
@@ -166,7 +161,7 @@ def main(words: Sequence[str]) -> int:
     name, *rest = words or ["--help"]
     if name == "play" or (name == "run" and rest):
         command = [name, *rest] if name == "play" else rest
-        install(USES.get(command[0], ("fast",)))
+        install(COMMANDS[command[0]].extras if command[0] in COMMANDS else ())
         return become("-m", "ninja_game", *command)
     if name == "clean":
         caches = [path for path in ROOT.rglob("__pycache__") if VENV not in path.parents]

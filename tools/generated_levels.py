@@ -20,7 +20,7 @@ def made(seed: int) -> str:
     level = generate(seed, wanted)
     if level is None:
         return ""
-    return PackedLevel(seed, wanted, level.name, level.difficulty, level.level, level.run.inputs).line
+    return PackedLevel(seed, wanted, level.named.name, level.difficulty, level.named.level, level.run.inputs).line
 
 
 def main() -> None:

@@ -11,7 +11,7 @@ import subprocess
 import sys
 from contextlib import suppress
 
-from ninja_game.backend.kernel_cache import cache_folder
+from ninja_game.backend.kernel_cache import code_folder
 from ninja_game.errors import FileError
 from ninja_game.files.locking import hold
 
@@ -34,7 +34,7 @@ def start() -> None:
     environment = {**os.environ, "PYTHONSAFEPATH": "1", VARIABLE: "0"}
     quiet = subprocess.DEVNULL
     with suppress(OSError, FileError):
-        folder = cache_folder()
+        folder = code_folder()
         folder.mkdir(parents=True, exist_ok=True)
         program = [sys.executable] if getattr(sys, "frozen", False) else [sys.executable, "-m", "ninja_game"]
         command = [*program, "compile", "--background"]
@@ -61,9 +61,9 @@ def is_at_work() -> bool:
 def hold_work() -> int | None:
     """A handle that keeps others from compiling everything as long as it is open; None where another one does.
 
-    Raises OSError where no file can be written, FileError as ``cache_folder``.
+    Raises OSError where no file can be written, FileError as ``code_folder``.
     """
-    folder = cache_folder()
+    folder = code_folder()
     folder.mkdir(parents=True, exist_ok=True)
     return hold(folder / "all.lock")
 

@@ -28,7 +28,7 @@ from ninja_game.backend.numba_import import say_once
 from ninja_game.errors import FileError
 from ninja_game.files.locking import LOCK_SUFFIX, hold
 from ninja_game.files.reading import open_regular
-from ninja_game.files.user_folder import PACKAGE, chosen_folder
+from ninja_game.files.user_folder import PACKAGE, cache_folder, chosen_folder
 from ninja_game.sim.memory.code_digest import OPTIONS, code_digest
 
 SHIPPED = PACKAGE / "data" / "kernels"  # machine code that came with the installation; a checkout has none
@@ -63,7 +63,7 @@ def are_kept(entries: Iterable[Callable[..., Any]], checked: bool) -> bool:
     """Whether there is machine code of all these entry points."""
     kept = {
         path.stem.rpartition("-")[0]
-        for folder in (SHIPPED, cache_folder())
+        for folder in (SHIPPED, code_folder())
         for path in folder.glob("*.code")
         if path.is_file()
     }
@@ -84,25 +84,19 @@ def attach_cache(dispatcher: Any, entry: Callable[..., Any], checked: bool) -> N
     if missing := [name for owner, name in needed if not hasattr(owner, name)]:
         say_once(f"compiled code cannot be kept, since this Numba has no {missing[0]}{COMPILES_AGAIN}")
         return
-    dispatcher._cache = KernelCache(cache_folder(), kernel_name(entry, checked))  # noqa: SLF001
+    dispatcher._cache = KernelCache(code_folder(), kernel_name(entry, checked))  # noqa: SLF001
 
 
 @cache
-def cache_folder() -> Path:
+def code_folder() -> Path:
     """Where machine code is kept: in NUMBA_CACHE_DIR, or else in the user's cache folder.
 
     Raises FileError where there is none, and for a relative path: what lies in the current folder is never loaded.
     """
-    folder = chosen_folder("NUMBA_CACHE_DIR", _system_folder)
+    folder = chosen_folder("NUMBA_CACHE_DIR", lambda: cache_folder() / "compiled")
     if not folder.is_absolute():
         raise FileError("the cache of compiled code has a relative path", found=str(folder), expected="a full path")
     return folder
-
-
-def _system_folder() -> Path:
-    from platformdirs import user_cache_path
-
-    return user_cache_path("ninja-game") / "compiled"
 
 
 def forget_old_code(folder: Path) -> None:

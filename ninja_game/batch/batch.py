@@ -95,6 +95,7 @@ class Batch:
         memory: str = "auto",
         threads: int | None = None,
     ) -> None:
+        # A text is a sequence too: it is refused as one wrong level, not letter by letter.
         self.levels = [levels] if isinstance(levels, (Level, str)) else list(levels)
         if not self.levels:
             raise ArgumentError("0 levels; expected at least one")

@@ -6,7 +6,6 @@ costs some ten microseconds; `concurrent.futures` costs several times that.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator
 from functools import cache
 from operator import index
@@ -15,6 +14,7 @@ from threading import Thread
 from typing import SupportsIndex, TypeAlias
 
 from ninja_game.errors import ArgumentError
+from ninja_game.runtime import cores
 
 Work: TypeAlias = Callable[[int, int], int]  # does items first … last - 1 and says how much that was
 
@@ -53,10 +53,6 @@ def whole_number(name: str, number: object, least: int = 1, most: int = 2**63 - 
 def thread_count(threads: int | None) -> int:
     """The number of threads; None: as many as cores."""
     return cores() if threads is None else whole_number("threads", threads)
-
-
-def cores() -> int:
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 class _ParallelCall:

@@ -15,8 +15,10 @@ from ninja_game.cli.options import NEW_FOLDER, LevelPath
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.shown_text import counted, name_key, shown_text
 from ninja_game.files.tree import Tree
+from ninja_game.files.user_folder import REPLAY_SUFFIX
 from ninja_game.files.writing import check_output
 from ninja_game.formats.run_time import seconds_text
+from ninja_game.runtime import cores
 from ninja_game.sim.kinds import DOOR
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
@@ -89,7 +91,8 @@ def check(
       ninja-game check my-levels/ --first
       ninja-game check my-levels/ --gold both --replays my-levels/certificates --seconds 60
     """
-    from ninja_game.cli.terminal import BAD_INPUT, complain
+    from ninja_game.cli.commands import BAD_INPUT, FAILED
+    from ninja_game.cli.terminal import complain
     from ninja_game.formats.load import load_levels
     from ninja_game.search.certify import Wanted, certify_all
 
@@ -98,7 +101,7 @@ def check(
     wanted = Wanted(goals, task_options, improve)
     tally = _Tally()
     with options.progress_line() as report:
-        results = certify_all(chosen, kept, wanted, jobs=options.default_threads(jobs), report=report.of_level)
+        results = certify_all(chosen, kept, wanted, jobs=jobs or cores(), report=report.of_level)
         for level, files, found in zip(chosen, kept, results, strict=True):
             tally.add(level, found)
             if isinstance(found, LevelError):
@@ -109,7 +112,7 @@ def check(
                 click.echo(json.dumps(_facts(level, found, files)) if as_json else _rows(level, found))
     if not as_json:
         click.echo("\n".join(tally.lines(goals)))
-    return BAD_INPUT if tally.broken else options.NOT_FOUND if tally.without[next(iter(goals))] else 0
+    return BAD_INPUT if tally.broken else FAILED if tally.without[next(iter(goals))] else 0
 
 
 class _Tally:
@@ -150,7 +153,7 @@ def _files(levels: Sequence[NamedLevel], goals: Iterable[str], folder: Path | No
             number += 1
             name = f"{stem}-{number}"
         given.add(name_key(name))
-        files = {goal: folder / f"{name}.{goal}.replay.txt" for goal in goals} if folder else {}
+        files = {goal: folder / f"{name}.{goal}{REPLAY_SUFFIX}" for goal in goals} if folder else {}
         for file in files.values():
             check_output(file, keep=[Path(level.file)])
             Tree(file.parent).check(file.name)

@@ -12,17 +12,17 @@ import click
 from ninja_game.cli import options
 from ninja_game.cli.terminal import data_output
 from ninja_game.errors import FileError, LevelError
-from ninja_game.files.shown_text import counted, shown_text
+from ninja_game.files.shown_text import counted, file_stem, name_key, name_problem, shown_text
 from ninja_game.files.tree import Tree
-from ninja_game.files.user_folder import free_path
-from ninja_game.formats.links import is_link
+from ninja_game.files.user_folder import REPLAY_SUFFIX, free_path
+from ninja_game.formats.links import is_link, level_link, recording_link
 from ninja_game.formats.run_time import seconds_text
 
 if TYPE_CHECKING:
     from ninja_game.formats.named_level import NamedLevel
     from ninja_game.formats.recording import Recording
 
-RUN_FORMS = {"replay": ".replay.txt", "inputs": ".inputs.txt", "celeste": ".tas", "libtas": ".libtas.txt"}
+RUN_FORMS = {"replay": REPLAY_SUFFIX, "inputs": ".inputs.txt", "celeste": ".tas", "libtas": ".libtas.txt"}
 """The forms of recordings of which a file holds one, and how it is called."""
 
 FORMS = ("ascii", "string", "file", *RUN_FORMS, "episode")
@@ -159,8 +159,6 @@ class Output:
 
 def _file_names(found: Sequence[NamedLevel | Recording], suffix: str) -> Iterator[str]:
     """`0007-name-of-the-level.txt`; what came from a folder of single files keeps their names."""
-    from ninja_game.files.shown_text import file_stem, name_key, name_problem
-
     digits = max(3, len(str(len(found) - 1)))
     stems = [Path(each.file).name.removesuffix(".txt").removesuffix(".replay") for each in found]
     names = [Path(stem).stem + suffix for stem in stems]
@@ -207,7 +205,7 @@ def record(
     recording = options.choose(load_replays(inputs, level=level, changed=True), "recordings", inputs, record)
     with options.heartbeat(lambda: "running the inputs"):
         (text,) = replay_texts([on_level(recording, level)], budget)
-    path = output or free_path(Path(), inputs.name.partition(".")[0], ".replay.txt")
+    path = output or free_path(Path(), inputs.name.partition(".")[0], REPLAY_SUFFIX)
     Output(str(path), [inputs], force=force).write(text)
     new = parse_replay(text)
     length = new.length
@@ -239,7 +237,6 @@ def link(files: Sequence[Path], record: int | None, base: str) -> None:
 def link_of(files: Sequence[Path], record: int | None = None) -> str:
     """The link of what files hold: one pack, one level, or all the recordings. Raises NinjaGameError."""
     from ninja_game.formats.ascii.writer import headers_of
-    from ninja_game.formats.links import level_link, recording_link
     from ninja_game.formats.load import load_levels, load_replays, texts_of
     from ninja_game.formats.pack.pack import PackFiles, is_pack
     from ninja_game.formats.recording import holds_recordings

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import reduce
@@ -11,6 +10,7 @@ from pathlib import Path
 import click
 
 from ninja_game.cli.options import InputPath, Pixels, choose, heartbeat, level_given, level_option
+from ninja_game.cli.terminal import draw_unseen
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
@@ -86,7 +86,7 @@ def film(
         raise click.UsageError(f"--beside: {most} runs; at most {MOST_BESIDE}")
     if any(len(runs) != most for runs in beside_of):
         raise click.UsageError("--beside: as many runs for each level of the episode; another whole episode has them")
-    os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
+    draw_unseen()
     from ninja_game.play.replay.film import Film, section_of, write_film
 
     alone = len(parts) == 1

@@ -9,10 +9,14 @@ from typing import TYPE_CHECKING
 import click
 
 from ninja_game.cli import options
+from ninja_game.cli.commands import FAILED
 from ninja_game.cli.options import NEW_FILE, OLD_FOLDER, OLD_PATH, with_progress
+from ninja_game.errors import FileError
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import free_path
+from ninja_game.files.writing import check_output, write_atomically
 from ninja_game.formats.run_time import seconds_text
+from ninja_game.runtime import cores
 
 if TYPE_CHECKING:
     from ninja_game.formats.pack.pack import Pack
@@ -105,14 +109,11 @@ def pack_up(pack: Path, seconds: float, jobs: int | None, zip_path: Path | None)
       ninja-game levels pack my-pack/ --seconds 60 --zip shared.zip
     """
     from ninja_game.editor.packs import make_ready
-    from ninja_game.files.writing import check_output, write_atomically
 
     path = zip_path or pack.resolve().with_name(f"{pack.resolve().name}.zip")
     check_output(path)
     with options.progress_line() as report:
-        ready = make_ready(
-            pack, seconds=seconds, jobs=options.default_threads(jobs), say=lambda text, _: report.say(text)
-        )
+        ready = make_ready(pack, seconds=seconds, jobs=jobs or cores(), say=lambda text, _: report.say(text))
     write_atomically(path, ready.zipped)
     _show(ready.findings)
     click.echo(
@@ -123,7 +124,7 @@ def pack_up(pack: Path, seconds: float, jobs: int | None, zip_path: Path | None)
 
 @click.group(commands={"pack": pack_up, "pars": pars, "lint": lint})
 def levels() -> None:
-    """Make packs of levels ready to share: check them, make their par times, zips and links.
+    """Make packs of levels ready to share: check, par times, zips and links.
 
     A pack is a folder or zip with an index, pack.toml.
 
@@ -161,8 +162,7 @@ def generate(seed: int | None, difficulty: int, output: Path | None, replay: Pat
       ninja-game generate --seed 7 --difficulty 3 -o seven.txt
       ninja-game generate --difficulty 9 --replay its-run.replay.txt
     """
-    from ninja_game.errors import FileError
-    from ninja_game.files.writing import check_output, write_atomically
+    from ninja_game.formats.ascii.writer import headers_of, write_ascii_level
     from ninja_game.generator.generate import generate
     from ninja_game.search.certificate import named_run, save_replay
 
@@ -175,14 +175,15 @@ def generate(seed: int | None, difficulty: int, output: Path | None, replay: Pat
         made = generate(seed, difficulty, report=progress.say)
     if made is None:
         click.echo(f"seed {seed} gives no level of difficulty {difficulty} that can be passed; try another one")
-        return options.NOT_FOUND
-    output = output or free_path(Path(), made.name.lower().replace(" ", "-"), ".txt")
-    write_atomically(output, made.text)
+        return FAILED
+    level = made.named
+    output = output or free_path(Path(), level.name.lower().replace(" ", "-"), ".txt")
+    write_atomically(output, write_ascii_level(level.level, **headers_of(level)))
     if replay:
-        run = named_run(made.run, "generate", name=made.name, author=made.author, level_author=made.author)
+        run = named_run(made.run, "generate", name=level.name, author=level.author, level_author=level.author)
         save_replay(replay, run)
     click.echo(
-        f"{output}: {made.name}, seed {seed}, difficulty {made.difficulty:.1f}, "
+        f"{output}: {level.name}, seed {seed}, difficulty {made.difficulty:.1f}, "
         f"certified in {options.time_text(made.run.end_tick)}"
     )
     return 0

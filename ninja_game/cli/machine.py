@@ -135,9 +135,6 @@ def _quoted(word: str) -> str:
     return f'"{word}"'.replace("\\", "\\\\").replace("%", "%%")
 
 
-LEVEL = "0" * 713 + "|5^100,566!11^160,564,130,564!0^115,566"
-"""The level that is played so that kernels are compiled; machine code does not depend on it."""
-
 MOST_PROCESSES = 2
 """Each compiles the rules again for what it makes of them; more would only wait for each other."""
 
@@ -182,7 +179,7 @@ def compile_everything(processes: int, *, quiet: bool) -> None:
 
     Raises NinjaGameError where nothing is kept.
     """
-    from ninja_game.backend.kernel_cache import are_kept, cache_folder
+    from ninja_game.backend.kernel_cache import are_kept, code_folder
     from ninja_game.runs.workers import in_order, workers
     from ninja_game.sim.memory.kernels import run_world
 
@@ -192,19 +189,20 @@ def compile_everything(processes: int, *, quiet: bool) -> None:
             if lost is not None:
                 raise lost
             if number == 1 and not any(are_kept([run_world], checked) for checked in (False, True)):
-                where = cache_folder()
+                where = code_folder()
                 raise NinjaGameError(f"compiled code is not kept in {where}: make room there, or let it be written")
             if not quiet:
                 click.echo(f"{number} of {len(WORK)} compiled: {name}", err=True)
     if not quiet:
-        click.echo(f"All is compiled, in {time.monotonic() - began:.0f} s: {cache_folder()}")
+        click.echo(f"All is compiled, in {time.monotonic() - began:.0f} s: {code_folder()}")
 
 
 def compile_for(name: str) -> None:
     """Do a little work of that name: its kernels are in the cache then."""
     from ninja_game.formats.n14.level_string import parse_level_string
+    from ninja_game.search.solve import SMALL_LEVEL
 
-    WORK[name](parse_level_string(LEVEL))
+    WORK[name](parse_level_string(SMALL_LEVEL))
 
 
 def _runs(level: Level) -> None:

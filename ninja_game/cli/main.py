@@ -16,75 +16,11 @@ import click
 
 from ninja_game import __version__
 from ninja_game.backend.numba_import import remove_foreign_settings
-from ninja_game.cli.terminal import BAD_INPUT, complain, guard_terminal, say
+from ninja_game.cli.commands import BAD_INPUT, BROKEN_PIPE, COMMANDS, GROUPS, INTERNAL_ERROR, INTERRUPTED, TERMINATED
+from ninja_game.cli.terminal import complain, guard_terminal, say
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.reading import protect_inputs
 from ninja_game.signals import Terminated, announced, end_on_signals, leave_signals, raising, received
-
-GROUPS = {
-    "game": {
-        "play": "Play a level in a window.",
-        "edit": "Make a level, or change one, in a window.",
-        "lab": "Drag, paint and watch: fourteen figures about how the world works.",
-        "player": "Export all data of a player to one file, or import such a file.",
-        "film": "Write a film of a recording: a GIF, a WebM, an MP4, or a folder of pictures.",
-        "compile": "Compile the rules for this machine now, so that no other command waits for it.",
-        "desktop": "Put the game into your menu of programs, with its icon and types of files.",
-        "link": "Make a link that carries a level, a pack or replays.",
-    },
-    "levels": {
-        "info": "Show what is in level and replay files.",
-        "check": "Certify levels: whether they can be passed, how fast, and what is odd.",
-        "levels": "Make packs of levels ready to share: check them, make their par times, zips and links.",
-        "generate": "Make a new level, certified by the solver.",
-        "convert": "Turn levels and recordings from one format into the other.",
-    },
-    "runs": {
-        "tas": "Edit a run tick by tick, in a window.",
-        "record": "Run inputs that a person wrote, and write the result.",
-        "verify": "Run recordings again and judge them.",
-        "trace": "Show every tick of recordings: position, velocity, state, events.",
-        "splits": "Show when runs take gold, open doors and the exit, and end.",
-        "compare": "Compare two runs of a level: where they part, and how far one is ahead.",
-        "solve": "Find a run to the exit, then shorten it.",
-        "improve": "Shorten a run that exists.",
-        "search": "Find other keys for a span of a run.",
-        "demonstrations": "Make demonstrations for learning agents of recordings.",
-    },
-    "web": {
-        "site": "Build the game as a page in a browser: a folder for any static host.",
-        "board": "Rank the runs of a folder, all simulated again: tables, pages, checks.",
-    },
-}
-"""Commands with their first lines of help."""
-
-COMMANDS = {name: text for group in GROUPS.values() for name, text in group.items()}
-MODULES = {
-    **dict.fromkeys(("play", "edit", "tas", "lab"), "windows"),
-    **dict.fromkeys(("solve", "improve"), "search"),
-    **dict.fromkeys(("site", "board"), "web"),
-    **dict.fromkeys(("record", "link"), "convert"),
-    **dict.fromkeys(("player", "desktop", "compile"), "machine"),
-    "compare": "splits",
-    "generate": "levels",
-}
-"""Modules of ``ninja_game.cli`` that hold several commands; any other command is in a module of its name."""
-
-COMPILING = (
-    "verify", "board", "trace", "solve", "improve", "search", "tas", "check", "levels", "generate", "demonstrations",
-    "compile",
-)  # fmt: skip
-"""Those that may have to compile the rules first."""
-
-IN_PLACE = {"play", "edit", "tas", "lab", "player", "check", "levels", "board", "site"}
-"""Those that may replace a file that they have read."""
-
-INTERNAL_ERROR = 3  # exit code for a fault of this program; its traceback is on stderr
-
-# Exit codes as shells have them.
-INTERRUPTED = 130  # after Ctrl-C
-TERMINATED = 143  # after SIGTERM
-BROKEN_PIPE = 141  # whoever read our output has gone
 
 
 class Commands(click.Group):
@@ -96,9 +32,9 @@ class Commands(click.Group):
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         if cmd_name not in COMMANDS:
             return None
-        command = getattr(import_module(f"ninja_game.cli.{MODULES.get(cmd_name, cmd_name)}"), cmd_name)
+        command = getattr(import_module(f"ninja_game.cli.{COMMANDS[cmd_name].module}"), cmd_name)
         assert isinstance(command, click.Command)  # noqa: S101 - for the type checker
-        if cmd_name in COMPILING:
+        if "compiles" in COMMANDS[cmd_name].flags:
             _announce_compiling()
         raising.set()
         return command
@@ -111,14 +47,14 @@ class Commands(click.Group):
         if near:
             ctx.fail(f"No such command {args[0]!r}; did you mean '{near[0]}'?")
         found = super().resolve_command(ctx, args)
-        protect_inputs(found[0] not in IN_PLACE)
+        protect_inputs(found[0] not in COMMANDS or "in-place" not in COMMANDS[found[0]].flags)
         return found
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         width = max(map(len, COMMANDS))
         for title, group in GROUPS.items():
             with formatter.section(title.capitalize()):
-                formatter.write_dl([(name.ljust(width), text) for name, text in group.items()])
+                formatter.write_dl([(name.ljust(width), command.help) for name, command in group.items()])
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run the command; that nobody reads its output any more is not an error."""

@@ -7,6 +7,7 @@ import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from difflib import get_close_matches
 from pathlib import Path
 from threading import Event, Thread
@@ -17,6 +18,8 @@ from click.shell_completion import CompletionItem
 
 from ninja_game.budget import RUN_BUDGET
 from ninja_game.files.shown_text import counted, shown_text
+from ninja_game.files.user_folder import own_levels
+from ninja_game.files.writing import check_output
 from ninja_game.formats.run_time import seconds_text
 
 if TYPE_CHECKING:
@@ -65,7 +68,7 @@ class LevelPath(InputPath):
 
         if is_link(value):
             return super().convert(value, param, ctx)
-        own = _own_levels()
+        own = own_levels()
         there = Path(value).exists() or "\0" in str(value)
         if not there and str(value) not in own and not Path(value).suffix:
             near = get_close_matches(str(value), own, 3, 0.5) or list(own)[:3]
@@ -73,14 +76,8 @@ class LevelPath(InputPath):
         return super().convert(value if there else own.get(str(value), value), param, ctx)
 
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-        names = [CompletionItem(name) for name in _own_levels() if name.startswith(incomplete)]
+        names = [CompletionItem(name) for name in own_levels() if name.startswith(incomplete)]
         return super().shell_complete(ctx, param, incomplete) + names
-
-
-def _own_levels() -> dict[str, Path]:
-    from ninja_game.files.user_folder import bundled_levels
-
-    return {path.stem: path for path in bundled_levels()}
 
 
 memory_option = click.option(
@@ -205,8 +202,6 @@ def heartbeat(text: Callable[[], str]) -> Iterator[None]:
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-NOT_FOUND = 1
-
 
 class GoldCount(click.ParamType):  # type: ignore[type-arg, unused-ignore]
     """``all`` (-1) or a number of pieces."""
@@ -264,48 +259,10 @@ body_option = click.option(
 )
 
 
-def default_threads(jobs: int | None) -> int:
-    from ninja_game.batch.thread_pool import cores
-
-    return jobs or cores()
-
-
 def check_gold(task: Task) -> None:
-    from dataclasses import replace
-
     there = replace(task, gold=-1).gold_wanted
     if task.gold > there:
         raise click.UsageError(f"--gold {task.gold}: the level holds {there} pieces of gold")
-
-
-class SearchLog:
-    """The log of a long search: what it found after how many seconds, a line each, over all commands that went on.
-
-    ``begun``: how many there were; ``spent``: seconds of them. Raises FileError for a file that is something else.
-    """
-
-    HEAD = "# seconds spent, and what improve found"
-
-    def __init__(self, path: Path, keep: Sequence[Path]) -> None:
-        from ninja_game.errors import FileError
-        from ninja_game.files.reading import read_utf8
-        from ninja_game.files.writing import check_output, write_atomically
-
-        check_output(path, keep=keep)
-        if not path.exists():
-            write_atomically(path, f"{self.HEAD}\n")
-        head, *lines = read_utf8(path, 2**20).splitlines() or [""]
-        found = [re.match(r" *(\d{1,9}) s  ", line) for line in lines]
-        if head != self.HEAD or None in found:
-            raise FileError("not the log of a search", str(path), hint="name another file")
-        self._path, self._began = path, time.monotonic()
-        self.begun = sum(line.endswith("begins") for line in lines)
-        self.spent = max((int(match[1]) for match in found if match), default=0)
-        self.note("begins")
-
-    def note(self, what: str) -> None:
-        with self._path.open("a", encoding="utf-8") as out:
-            out.write(f"{self.spent + time.monotonic() - self._began:8.0f} s  {what}\n")
 
 
 class ShownProgress:
@@ -364,7 +321,6 @@ def smoothed_run(level: Level, run: Replay, price: int) -> Replay:
 
 def saver(path: Path, level: NamedLevel) -> Callable[[Replay], None]:
     """A function that writes each better run of a level to a file, which must not be the level's own."""
-    from ninja_game.files.writing import check_output
     from ninja_game.search.certificate import named_run, save_replay
 
     check_output(path, keep=[Path(level.file)])
@@ -374,7 +330,6 @@ def saver(path: Path, level: NamedLevel) -> Callable[[Replay], None]:
 
 def saver_of_better(path: Path, recording: Recording, command: str) -> Callable[[Replay], None]:
     """A function that writes each better run that a command made of a recording, to a file that is not its own."""
-    from ninja_game.files.writing import check_output
     from ninja_game.search.certificate import better_run, save_replay
 
     check_output(path, keep=[Path(recording.file)])

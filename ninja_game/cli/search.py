@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 import time
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,13 +12,43 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli import options
-from ninja_game.files.reading import protect_inputs
+from ninja_game.cli.commands import FAILED
+from ninja_game.errors import FileError
+from ninja_game.files.reading import protect_inputs, read_utf8
 from ninja_game.files.shown_text import shown_text
-from ninja_game.files.user_folder import free_path
+from ninja_game.files.user_folder import REPLAY_SUFFIX, free_path
+from ninja_game.files.writing import check_output, write_atomically
+from ninja_game.runtime import cores
 
 if TYPE_CHECKING:
     from ninja_game.formats.replay.text import Replay
     from ninja_game.search.formula.task import Found
+
+
+class SearchLog:
+    """The log of a long search: what it found after how many seconds, a line each, over all commands that went on.
+
+    ``begun``: how many there were; ``spent``: seconds of them. Raises FileError for a file that is something else.
+    """
+
+    HEAD = "# seconds spent, and what improve found"
+
+    def __init__(self, path: Path, keep: Sequence[Path]) -> None:
+        check_output(path, keep=keep)
+        if not path.exists():
+            write_atomically(path, f"{self.HEAD}\n")
+        head, *lines = read_utf8(path, 2**20).splitlines() or [""]
+        found = [re.match(r" *(\d{1,9}) s  ", line) for line in lines]
+        if head != self.HEAD or None in found:
+            raise FileError("not the log of a search", str(path), hint="name another file")
+        self._path, self._began = path, time.monotonic()
+        self.begun = sum(line.endswith("begins") for line in lines)
+        self.spent = max((int(match[1]) for match in found if match), default=0)
+        self.note("begins")
+
+    def note(self, what: str) -> None:
+        with self._path.open("a", encoding="utf-8") as out:
+            out.write(f"{self.spent + time.monotonic() - self._began:8.0f} s  {what}\n")
 
 
 @click.command()
@@ -51,15 +83,15 @@ def solve(
     from ninja_game.search.solve import Task, solve
 
     chosen = options.choose_level(level, record)
-    output = output or free_path(Path(), level.stem, ".replay.txt")
-    task = Task(chosen.level, jobs=options.default_threads(jobs), **task_options)
+    output = output or free_path(Path(), level.stem, REPLAY_SUFFIX)
+    task = Task(chosen.level, jobs=jobs or cores(), **task_options)
     options.check_gold(task)
     save = options.saver(output, chosen)
     with options.progress_line() as report:
         run = solve(task, report=report, on_better=save)
     if run is None:
         click.echo(options.not_found_text(task, report.last))
-        return options.NOT_FOUND
+        return FAILED
     if smooth is not None:
         run = options.smoothed_run(task.level, run, smooth)
         save(run)
@@ -121,11 +153,11 @@ def improve(
     recording = options.choose(
         load_replays(replay, level=options.level_given(level_path)), "recordings", replay, record
     )
-    threads = options.default_threads(jobs)
+    threads = jobs or cores()
     task = Task(recording.level, body=recording.body, first=recording.inputs, jobs=threads, **task_options)
     options.check_gold(task)
     save = options.saver_of_better(output, recording, "improve")
-    log = options.SearchLog(resume, [replay, output]) if resume else None
+    log = SearchLog(resume, [replay, output]) if resume else None
     if log and earlier:
         others = tuple(each.inputs for each in earlier if each.level == task.level)
         left = max(0.1, task.seconds - log.spent)
@@ -138,7 +170,7 @@ def improve(
         )
         if first is None:
             click.echo(f"{played.outcome} after {played.ticks} ticks, and no way to the exit found from there")
-            return options.NOT_FOUND
+            return FAILED
         task = replace(task, first=first, others=(), seconds=task.seconds if known else task.seconds / 2)
     before: list[int] = []
 
@@ -248,16 +280,15 @@ def search(
             return spent < seconds
 
         found = search_span(
-            task, report, method=method, every=every, seed=seed, threads=options.default_threads(jobs),
-            missed=misses.append,
-        )  # fmt: skip
+            task, report, method=method, every=every, seed=seed, threads=jobs or cores(), missed=misses.append
+        )
     for each in found or misses[-1:]:
         click.echo(f"{score_text(task, each)}: {_keys(each)}")
     if not found:
         click.echo("the goal was not reached; more time, a longer span or another --method may reach it")
     elif output:
         click.echo(f"{output}: the first of them")
-    return 0 if found else options.NOT_FOUND
+    return 0 if found else FAILED
 
 
 def _keys(found: Found) -> str:

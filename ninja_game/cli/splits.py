@@ -12,8 +12,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli import options
-from ninja_game.cli.terminal import BAD_INPUT, complain, data_output
+from ninja_game.cli.commands import BAD_INPUT
+from ninja_game.cli.terminal import complain, data_output, draw_unseen
 from ninja_game.files.shown_text import counted, shown_text
+from ninja_game.files.user_folder import REPLAY_SUFFIX
 from ninja_game.formats.run_time import seconds_text
 
 if TYPE_CHECKING:
@@ -134,7 +136,7 @@ def titles(recordings: Sequence[Recording]) -> list[str]:
     return [
         name
         if name and names.count(name) == 1
-        else f"{shown_text(Path(each.file).name.removesuffix('.replay.txt'))}:{each.record}"
+        else f"{shown_text(Path(each.file).name.removesuffix(REPLAY_SUFFIX))}:{each.record}"
         for name, each in zip(names, recordings, strict=True)
     ]
 
@@ -158,7 +160,7 @@ def show(tables: Sequence[Table]) -> None:
             first = row.ticks[0]
             cells = [_behind(tick, first) for tick in row.ticks[1:]]
             place = f"{row.split.x:.0f}", f"{row.split.y:.0f}"
-            table.add_row(str(row.split), *place, _number(first), _number(row.best_segment), *cells)
+            table.add_row(row.split.name, *place, _number(first), _number(row.best_segment), *cells)
         console.print(table)
         last = sum_of_best(rows)
         console.print(f"sum of best: tick {last}, {seconds_text(last)} s\n")
@@ -210,9 +212,7 @@ def _write_csv(tables: Sequence[Table]) -> None:
 
 def draw(picture: Path, level: Level, paths: Sequence[tuple[str, Any]], keep: Sequence[Path]) -> None:
     """Write the picture of runs of one level. Raises ArgumentError where it would replace one of ``keep``, OSError."""
-    import os
-
-    os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
+    draw_unseen()
     from ninja_game.files.writing import write_atomically
     from ninja_game.play.replay.paths import paths_picture
     from ninja_game.play.window import png_of

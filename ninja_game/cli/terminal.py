@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 import re
 import sys
 from contextlib import suppress
@@ -22,9 +23,8 @@ _OURS = {
 
 _DATA = re.compile(r"(\n|\t)")
 
-BAD_INPUT = 2  # exit code for input that cannot be read and for wrong usage
-
-_LONGEST_MESSAGE = 2000  # characters of a line about what is wrong
+_LONGEST_MESSAGE = 2000
+"""Characters of a line about what is wrong."""
 
 
 class Terminal(io.TextIOWrapper):
@@ -55,6 +55,11 @@ def guard_terminal() -> None:
         getattr(stream, "reconfigure", lambda **_: None)(errors="backslashreplace")
         if stream and stream.isatty():
             setattr(sys, name, Terminal(stream, ours))
+
+
+def draw_unseen() -> None:
+    """Let what is drawn from now on need no display, unless the user has chosen one."""
+    os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 
 
 def complain(message: str) -> None:

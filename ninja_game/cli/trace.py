@@ -14,7 +14,8 @@ from typing import IO, TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli import options
-from ninja_game.cli.terminal import BAD_INPUT, complain, data_output
+from ninja_game.cli.commands import BAD_INPUT, FAILED
+from ninja_game.cli.terminal import complain, data_output
 from ninja_game.files.shown_text import shown_text
 
 if TYPE_CHECKING:
@@ -83,7 +84,7 @@ def trace(
     if not traces.count and not traces.unreadable:
         there_is_no = "recordings here" if record is None else f"record {record}"
         raise click.UsageError(f"{', '.join(map(str, files))}: no {there_is_no}")
-    return BAD_INPUT if traces.unreadable else 1 if different else 0
+    return BAD_INPUT if traces.unreadable else FAILED if different else 0
 
 
 class Traces:

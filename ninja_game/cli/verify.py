@@ -10,8 +10,9 @@ from typing import IO, TYPE_CHECKING, Any
 
 import click
 
+from ninja_game.cli.commands import BAD_INPUT, FAILED
 from ninja_game.cli.options import NEW_FILE, InputPath, budget_option, jobs_option, with_progress
-from ninja_game.cli.terminal import BAD_INPUT, complain
+from ninja_game.cli.terminal import complain
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.sim.rules import LIFETIME
@@ -20,8 +21,6 @@ if TYPE_CHECKING:
     from ninja_game.runs.archive import Totals
     from ninja_game.runs.chunks import Result
     from ninja_game.runs.verify import Verdict
-
-FAILED = 1
 
 
 @click.command()

@@ -14,10 +14,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ninja_game.cli.commands import FAILED
 from ninja_game.cli.options import NEW_FILE, NEW_FOLDER, OLD_FILE, OLD_FOLDER, InputPath, jobs_option
 from ninja_game.cli.splits import as_json, draw, show, table_of
+from ninja_game.cli.terminal import draw_unseen
 from ninja_game.errors import ArgumentError, FileError
 from ninja_game.files.shown_text import shown_text
+from ninja_game.files.user_folder import cache_folder, data_folder
 
 if TYPE_CHECKING:
     from ninja_game.formats.recording import Recording
@@ -36,12 +39,6 @@ rules_option = click.option(
 )
 
 
-def cache_folder() -> Path:
-    from platformdirs import user_cache_path
-
-    return user_cache_path("ninja-game", appauthor=False) / "board"
-
-
 def memo_of(kind: str, about: Path, folder: Path, *, again: bool) -> Memo:
     """What is remembered of a folder, ``about``: the runs in ``folder``, or the pages of them.
 
@@ -53,7 +50,7 @@ def memo_of(kind: str, about: Path, folder: Path, *, again: bool) -> Memo:
     from ninja_game.web.pages.memo import Memo
 
     name = sha256(str(about.resolve()).encode("utf-8", "surrogateescape")).hexdigest()[:16]
-    path = cache_folder() / f"{kind}-{name}.json"
+    path = cache_folder() / "board" / f"{kind}-{name}.json"
     if not path.is_absolute() or is_in(path, folder) or is_in(path, about):
         what = "your cache folder has a relative path, or lies in the folder of runs, or of the pages"
         raise FileError(what, str(path), hint="runs are judged by nothing that may come with them: choose another one")
@@ -109,15 +106,11 @@ def site(out: Path | None, pyodide: Path | None, serve: bool, port: int, address
         raise click.UsageError("name the folder OUT, or give --serve")
     import gzip
 
-    from platformdirs import user_cache_path
-
-    from ninja_game.files.user_folder import data_folder
     from ninja_game.web.pages.gallery import published_levels, write_gallery
     from ninja_game.web.site.build import build_site, site_server
 
-    cache = user_cache_path("ninja-game", appauthor=False)
-    folder = out or cache / "site"
-    files = build_site(folder, pyodide, cache, address)
+    folder = out or cache_folder() / "site"
+    files = build_site(folder, pyodide, cache_folder(), address)
     weights = {name: (len(content), len(gzip.compress(content, 9))) for name, content in sorted(files.items())}
     size, packed = map(sum, zip(*weights.values(), strict=True))
     large = {name: weight for name, weight in weights.items() if weight[1] > 50_000}
@@ -132,21 +125,14 @@ def site(out: Path | None, pyodide: Path | None, serve: bool, port: int, address
 
 
 class _Board(click.Command):
-    def make_context(
-        self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
-    ) -> click.Context:
-        """The context of ``board``, or of ``board ask``."""
+    def make_context(self, info_name: Any, args: list[str], parent: Any = None, **extra: Any) -> click.Context:
+        """Of the command that is meant: ``board``, or ``board ask``, which a group with an argument could not have."""
         if args[:1] == ["ask"]:
             return ask.make_context(f"{info_name} ask", args[1:], parent, **extra)
         return super().make_context(info_name, args, parent, **extra)
 
-    def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Tell of the command below it, as groups do."""
-        with formatter.section("Commands"):
-            formatter.write_dl([("ask", "Ask the board of a folder about a level, and about players on it.")])
 
-
-@click.command(cls=_Board)
+@click.command(cls=_Board, epilog="ninja-game board ask answers questions about a level, and about players on it.")
 @click.argument("folder", type=OLD_FOLDER)
 @levels_option
 @click.option(
@@ -186,7 +172,6 @@ def board(
       ninja-game board replays/ --levels my-pack/ --site public/
       ninja-game board ask replays/ rank 00-0
     """
-    from ninja_game.files.user_folder import data_folder
     from ninja_game.files.writing import check_output, write_atomically
     from ninja_game.web.board.pages import BoardPages, check_ledger, check_site
     from ninja_game.web.board.report import board_text, changes, gone, plain, summary
@@ -218,7 +203,7 @@ def board(
     for _, line in found:
         click.echo(line)
     click.echo(summary(judged) if found else f"nothing has changed: {summary(judged)}")
-    return 0 if all(allowed for allowed, _ in found) else 1
+    return 0 if all(allowed for allowed, _ in found) else FAILED
 
 
 def _ranking(
@@ -289,7 +274,6 @@ def ask(
       ninja-game board ask replays/ splits "First Steps" Ann Bob
       ninja-game board ask replays/ film 00-0 Ann Bob -o both.gif
     """
-    from ninja_game.files.user_folder import data_folder
     from ninja_game.web.board.runs import ASSISTED, PLAYED
     from ninja_game.web.pages.gallery import published_levels
 
@@ -344,9 +328,7 @@ def _line(form: str, row: Mapping[str, Any]) -> str:
 
 
 def _film(runs: Sequence[Recording], output: Path) -> None:
-    import os
-
-    os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
+    draw_unseen()
     from ninja_game.play.replay.film import Film, write_film
 
     write_film(Film(runs[0], ghosts=tuple(runs[1:]), keys=True), output, lambda _: True)

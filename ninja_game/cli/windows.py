@@ -38,10 +38,10 @@ def play(
     """Play a level in a window.
 
     LEVEL is a file of levels, the name of one of the game's own, or a link; without it the game begins at its menu.
-    Links hold everything that they need: no network is asked. A pack, a
-    folder or zip with pack.toml, offers its episodes; with --practice, --body or --record its levels are played one
-    after the other. The menus offer your own files and packs too: those in the folder `levels` of your folder for this
-    game, which NINJA_GAME_HOME moves; a file that is dropped on the menu Levels is copied there.
+    Links hold everything that they need: no network is asked. A pack, a folder or zip with pack.toml, offers its
+    episodes; with --practice, --body or --record its levels are played one after the other. The menus offer your own
+    files and packs too: those in the folder `levels` of your folder for this game, which NINJA_GAME_HOME moves; a file
+    that is dropped on the menu Levels is copied there.
 
     \b
     Examples:
@@ -156,7 +156,7 @@ FIGURES = (
 )  # fmt: skip
 
 
-@click.command()
+@click.command(epilog=f"\b\nFigures: {', '.join(FIGURES)}.")
 @click.argument("figure", metavar="[FIGURE]", required=False, type=click.Choice(FIGURES))
 @options.window_options
 @click.option(
@@ -166,10 +166,9 @@ FIGURES = (
     help="Open no window: write the figure to this .png file, or its demonstration to this .gif file.",
 )
 def lab(figure: str | None, output: Path | None, **window: Any) -> int:
-    """Drag, paint and watch: fourteen figures about how the world works.
+    """Drag, paint and watch: figures about how the world works.
 
-    FIGURE is the one that is shown first: grid, bodies, cells, projection, edges, doors, response, grids, nine-cells,
-    pairs, bullets, rays, drones or tick.
+    FIGURE is the one that is shown first.
 
     \b
     Examples:

@@ -7,6 +7,7 @@ import shlex
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from functools import cache
 from itertools import count
 from pathlib import Path
 
@@ -26,6 +27,8 @@ EDITING = "editing"  # levels that are being edited
 SETTINGS = "settings.toml"
 RECORDS = "records.sqlite"
 
+REPLAY_SUFFIX = ".replay.txt"  # what the names of our replays end with
+
 
 def user_folder() -> Path:
     """The folder, whether it exists or not: ``NINJA_GAME_HOME``, else the system's place for data of programs.
@@ -40,6 +43,13 @@ def _system_folder() -> Path:
     from platformdirs import user_data_path
 
     return user_data_path("ninja-game", appauthor=False)
+
+
+def cache_folder() -> Path:
+    """The system's place for what the program can make again: compiled code, pages, what a board remembers."""
+    from platformdirs import user_cache_path
+
+    return user_cache_path("ninja-game", appauthor=False)
 
 
 def chosen_folder(variable: str, otherwise: Callable[[], Path]) -> Path:
@@ -146,9 +156,15 @@ def bundled_levels() -> list[Path]:
     return sorted(data_folder("levels").glob("*.txt"))
 
 
+@cache
+def own_levels() -> dict[str, Path]:
+    """Those files by their names without a suffix, by which commands and agents know them."""
+    return {path.stem: path for path in bundled_levels()}
+
+
 def bundled_replays() -> list[Path]:
     """The certificates of the game's own levels, replays that pass them, in the levels' order."""
-    return sorted(data_folder("levels").glob("certificates/*.replay.txt"))
+    return sorted(data_folder("levels").glob(f"certificates/*{REPLAY_SUFFIX}"))
 
 
 def how_to_install(extra: str) -> str:

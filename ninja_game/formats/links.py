@@ -213,7 +213,7 @@ def recording_link(recordings: Iterable[Recording]) -> str:
 
 
 def _recording_text(recording: Recording) -> str:
-    if recording.form != "file":
+    if not recording.of_n:
         return replay_text(recording.replay, recording.level)
     return write_level_file([record_of(recording)])
 

@@ -55,8 +55,7 @@ _TILE = re.compile(r"[0-Q]")
 class NamedLevel:
     """A level with what its file says about it; only our readable files say what a level ``teaches`` and ``says``.
 
-    ``form``: the format it was found in; ``record`` (from 0) and ``line`` (from
-    1): where in ``file``.
+    ``form``: the format it was found in; ``record`` (from 0) and ``line`` (from 1): where in ``file``.
     """
 
     name: str

@@ -8,6 +8,7 @@ from functools import cached_property
 from pathlib import Path
 
 from ninja_game.errors import DemoError, ReplayError
+from ninja_game.files.user_folder import REPLAY_SUFFIX
 from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.n14.level_file import LevelRecord, read_level_file
 from ninja_game.formats.n14.level_string import parse_level_string, write_level_string
@@ -45,9 +46,14 @@ class Recording:
     lifetime: int = LIFETIME
 
     @property
+    def of_n(self) -> bool:
+        """Whether it is a record of N's own, with its level in the same record."""
+        return self.form == "file"
+
+    @property
     def name(self) -> str:
         """As its text says; of a replay without a name that of its file."""
-        return self.replay.name or ("" if self.form == "file" else Path(self.file).stem)
+        return self.replay.name or ("" if self.of_n else Path(self.file).stem)
 
     @property
     def author(self) -> str:
@@ -60,7 +66,7 @@ class Recording:
 
         One that says how its run was made was written by this program, which puts the player's name there.
         """
-        return self.author if self.form != "file" or self.replay.made.assisted is not None else ""
+        return self.author if not self.of_n or self.replay.made.assisted is not None else ""
 
     @property
     def level_author(self) -> str:
@@ -70,7 +76,7 @@ class Recording:
     @property
     def place(self) -> str:
         """The name of its file, and which record of it that is where it holds others before."""
-        return Path(self.file).name.removesuffix(".replay.txt") + f" {self.record}" * (self.record > 0)
+        return Path(self.file).name.removesuffix(REPLAY_SUFFIX) + f" {self.record}" * (self.record > 0)
 
     @property
     def whose(self) -> str:

@@ -20,8 +20,8 @@ from ninja_game.sim.level import TILES, Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 CHOICES = 96  # routes of which the best is taken
-CLOSE = 4.0  # cells that are at least between any two of ninja, switches and exit
-BESIDE = 5.0, 11.0  # cells between start and exit that are best: near, but not beside each other
+CLOSE_CELLS = 4.0  # at least between any two of ninja, switches and exit
+BESIDE_CELLS = 5.0, 11.0  # best between start and exit: near, but not beside each other
 
 
 def place_route(board: RockBoard, tiles: dict[Cell, str], rng: Random, *, far: float) -> Scene | None:
@@ -46,9 +46,9 @@ def place_route(board: RockBoard, tiles: dict[Cell, str], rng: Random, *, far: f
         # What is far apart is in the same place on both sides, if it can be.
         errands = [key, *([mirrored(key)] if mirrored(key) in floor else []), *rng.sample(floor, 3)]
         stops = [rng.choice(floor), *errands[: locks + hidden], vault, *([] if hidden else [rng.choice(floor)])]
-        worth = _worth(stops, steps, far)
-        if worth is not None and (best is None or worth > best[0]):
-            best = worth, stops
+        score = _route_score(stops, steps, far)
+        if score is not None and (best is None or score > best[0]):
+            best = score, stops
     if best is None:
         return None
     start, *keys, exit_ = best[1]
@@ -63,13 +63,13 @@ def place_route(board: RockBoard, tiles: dict[Cell, str], rng: Random, *, far: f
     return scene
 
 
-def _worth(stops: Sequence[Cell], steps: Callable[[Cell], Mapping[Cell, int]], far: float) -> float | None:
+def _route_score(stops: Sequence[Cell], steps: Callable[[Cell], Mapping[Cell, int]], far: float) -> float | None:
     """How well a route would do; None for one that cannot be walked, or with things too close together.
 
     ``steps``: from a cell to those that can be reached; it is asked for every second stop, both ways are as long.
     """
     spread = min(dist(a, b) for number, a in enumerate(stops) for b in stops[:number])
-    if spread < CLOSE:
+    if spread < CLOSE_CELLS:
         return None
     way = 0
     for number, pair in enumerate(pairwise(stops)):
@@ -80,7 +80,7 @@ def _worth(stops: Sequence[Cell], steps: Callable[[Cell], Mapping[Cell, int]], f
     width = max(column for column, _ in stops) - min(column for column, _ in stops)
     height = max(row for _, row in stops) - min(row for _, row in stops)
     near = dist(stops[0], stops[-1])
-    apart = max(BESIDE[0] - near, near - BESIDE[1], 0.0)
+    apart = max(BESIDE_CELLS[0] - near, near - BESIDE_CELLS[1], 0.0)
     even = sum(mirrored(a) in stops for a in stops[1:-1])
     return even * 2 + min(spread, 10.0) + min(height, 14) / 2 + width / 2 - apart - abs(way - far) / 3
 
@@ -89,6 +89,8 @@ SOLID = 0.13, 0.64
 SHAPES = 20, 190
 OBJECTS = 50, MOST_OBJECTS
 """What levels keep to: shares of the cells, tiles with a shape, objects."""
+ENEMIES, MINES = (6, 7, 8), (20, 24, 28)
+"""Of which one is how many are tried for; a hard level has up to two enemies more."""
 
 
 def compose(layout: str, rng: Random, difficulty: int) -> Scene | None:
@@ -111,9 +113,9 @@ def compose(layout: str, rng: Random, difficulty: int) -> Scene | None:
     place_fixtures(scene, rng)
     if not lay_gold(scene, rng):
         return None
-    if not place_enemies(scene, rng, rng.choice((6, 7, 8)) + difficulty // 4, difficulty):
+    if not place_enemies(scene, rng, rng.choice(ENEMIES) + difficulty // 4, difficulty):
         return None
-    place_mines(scene, rng, rng.choice((20, 24, 28)))
+    place_mines(scene, rng, rng.choice(MINES))
     fill_voids(scene, rng, difficulty)
     if not OBJECTS[0] <= len(scene.objects) <= OBJECTS[1] or level_findings(scene.level) or not _fair(scene.level):
         return None

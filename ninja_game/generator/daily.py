@@ -14,7 +14,7 @@ from threading import Event
 from ninja_game.files.reading import read_text
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import data_folder
-from ninja_game.formats.ascii.writer import write_ascii_level
+from ninja_game.formats.ascii.writer import headers_of, write_ascii_level
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pack import INDEX, PARS, certificate_name
@@ -83,8 +83,7 @@ def make_daily(levels: Path, day: date, *, report: Callable[[str], None], stop: 
         if stop.is_set():
             return False
         if generated:
-            named = NamedLevel(generated.name, AUTHOR, generated.comment, generated.level, "")
-            _keep(daily_file(levels, day), named, generated.run, generated.difficulty)
+            _keep(daily_file(levels, day), generated.named, generated.run, generated.difficulty)
             return True
     return False
 
@@ -106,4 +105,4 @@ def _keep(file: Path, named: NamedLevel, run: Replay, difficulty: float) -> None
     lines = parse_pars(read_text(table), file=str(table)) if table.exists() else {}
     tree.write(PARS, write_pars({**lines, file.name: pars}))
     # Last of all, so that the rest of it is there.
-    tree.write(file.name, write_ascii_level(named.level, name=named.name, author=AUTHOR, comment=named.comment))
+    tree.write(file.name, write_ascii_level(named.level, **headers_of(named)))

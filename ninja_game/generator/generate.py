@@ -1,4 +1,4 @@
-"""Generate a level: compose, let the solver pass it, measure, add or spare hazards, until it is as hard as wanted.
+"""Generate a level: compose, let the solver pass it, measure, add or remove hazards, until it is as hard as wanted.
 
 The same seed, difficulty and version give the same level on every machine: all work is counted in ticks, never timed.
 """
@@ -11,13 +11,13 @@ from random import Random
 from threading import Event
 
 from ninja_game.batch.difficulty import TRIES, difficulty
-from ninja_game.formats.ascii.writer import write_ascii_level
+from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.replay.text import Replay
 from ninja_game.generator.compose import compose
 from ninja_game.generator.gold import lay_trails
 from ninja_game.generator.layouts import LAYOUTS, name_for
 from ninja_game.generator.obstacles import more_beside, nearest_hazard
-from ninja_game.generator.packed import AUTHOR
+from ninja_game.generator.packed import named_level
 from ninja_game.generator.scene import Point, Scene
 from ninja_game.runs.level_design import design, design_findings
 from ninja_game.runs.run import run_level
@@ -32,8 +32,8 @@ HARDEST = 10
 FIND_TICKS = 1_500_000  # work of the solver on one attempt
 SHORTEN_TICKS = 1_000_000  # on its changed hazards
 ATTEMPTS = 3  # attempts that the solver looks at; of those it passes the nearest to what is wanted is taken
-PATIENCE = 4
-"""So many times as many, with other plans, as long as none is about as hard as wanted; its square if none is passed."""
+MORE_ATTEMPTS = 4
+"""How many times as many are looked at while none is about as hard as wanted; its square while none is passed."""
 ROUNDS = 22  # changes of the hazards of one attempt
 TRIES_TO_COMPOSE = 400
 
@@ -42,20 +42,9 @@ TRIES_TO_COMPOSE = 400
 class Generated:
     """A level with its certificate. ``difficulty``: measured."""
 
-    name: str
-    comment: str
-    level: Level
+    named: NamedLevel
     run: Replay
     difficulty: float
-
-    @property
-    def author(self) -> str:
-        return AUTHOR
-
-    @property
-    def text(self) -> str:
-        """The level as an ASCII file."""
-        return write_ascii_level(self.level, name=self.name, author=AUTHOR, comment=self.comment)
 
 
 @dataclass(frozen=True)
@@ -70,13 +59,14 @@ class Effort:
 
 
 DEFAULT = Effort()
+"""What is done where a caller says nothing."""
 
 
 def generate(
     seed: int | str,
     wanted: int,
     *,
-    effort: Effort = DEFAULT,
+    effort: Effort | None = None,
     report: Callable[[str], None] = lambda _: None,
     stop: Event | None = None,
 ) -> Generated | None:
@@ -84,13 +74,14 @@ def generate(
 
     ``report`` gets a line now and then. Raises MemoryUnavailableError without Numba.
     """
+    effort = effort or DEFAULT
     stop = stop or Event()
     best: tuple[tuple[bool, bool, float], Generated] | None = None
     looked_at = 0
     for number in range(TRIES_TO_COMPOSE):
         far = best is None or best[0][0]
-        patience = 1 if not far else PATIENCE if best else PATIENCE**2
-        if looked_at >= effort.attempts * patience or stop.is_set():
+        times = 1 if not far else MORE_ATTEMPTS if best else MORE_ATTEMPTS**2
+        if looked_at >= effort.attempts * times or stop.is_set():
             break
         rng = Random(f"{seed}/{wanted}/{number}")  # noqa: S311 - not for secrets
         plan = plan_of(seed if looked_at < effort.attempts else str(seed), rng)
@@ -104,12 +95,11 @@ def generate(
             continue
         run, measured = found
         lacking = len(list(design_findings(design(scene.level, run.inputs))))
-        name = name_for(plan, rng)
-        comment = f"seed {seed}, difficulty {wanted}: measured {measured:.1f}"
-        generated = Generated(name, comment, scene.level, run, measured)
-        worth = not _near(measured, wanted, 2), lacking > 0, abs(measured - wanted)
-        if best is None or worth < best[0]:
-            best = worth, generated
+        named = named_level(name_for(plan, rng), scene.level, seed, wanted, measured)
+        generated = Generated(named, run, measured)
+        rank = not _near(measured, wanted, 2), lacking > 0, abs(measured - wanted)
+        if best is None or rank < best[0]:
+            best = rank, generated
         if _near(measured, wanted) and not lacking:
             break
     return best and best[1]
@@ -134,7 +124,7 @@ def _certified(scene: Scene, rng: Random, wanted: int, effort: Effort, stop: Eve
     lay_trails(scene, path_of(scene.level, run), rng)
     run = verified_run(scene.level, run.inputs)
     measured = difficulty(scene.level, run.inputs, tries=effort.tries)
-    spared = False
+    eased = False
     for _ in range(effort.rounds):
         if _near(measured, wanted) or stop.is_set():
             break
@@ -150,7 +140,7 @@ def _certified(scene: Scene, rng: Random, wanted: int, effort: Effort, stop: Eve
             if number is None:
                 break
             del scene.hazards[number]
-            spared = True
+            eased = True
         try:
             changed = verified_run(scene.level, run.inputs)
         except UnverifiedRunError:
@@ -162,7 +152,7 @@ def _certified(scene: Scene, rng: Random, wanted: int, effort: Effort, stop: Eve
             scene.hazards = before
             continue
         run, measured = changed, then
-    if spared:
+    if eased:
         shorter = solve(Task(scene.level, work=effort.shorten, first=run.inputs), stop=stop)
         if shorter and shorter.end_tick < run.end_tick:
             run, measured = shorter, difficulty(scene.level, shorter.inputs, tries=effort.tries)

@@ -19,72 +19,78 @@ from ninja_game.sim.rules import CELL, PAD_RADIUS
 
 MOST_MINES = 34
 MOST_OBJECTS = 110
-MORE = 28  # mines and objects that are allowed besides when a level turns out too easy
+MOST_HARDENING = 28  # mines and objects beyond those that may be added when a level turns out too easy
 SAFE = 150.0  # px from the ninja's start in which nothing waits
-BESIDE = 110.0  # px from gold, exit and switches in which enemies are put first
+BESIDE_PX = 110.0  # from gold, exit and switches, in which enemies are put first
 AT_BAIT = 120.0  # px from the middle of a group of gold in which mines guard it
 FROM_RUN = 17.0  # px from a certified run at which a mine leaves it alone: their radii, and a little
-CLOSE = 48.0  # px from a certified run within which hazards are put when a level turns out too easy
-IN_SIGHT = 200.0  # as CLOSE, of what shoots
+CLOSE_PX = 48.0  # from a certified run, within which hazards are put when a level turns out too easy
+IN_SIGHT = 200.0  # as CLOSE_PX, of what shoots
 MOST_ENEMIES = 11
 MOST_ADDED = 15  # of them, and lines of mines, when a level turns out too easy
+ENEMY_TRIES = 14  # how often a place for one more enemy is looked for
+FEW_SOURCES = 6  # after so many of these tries among all sources
+# The same columns on both sides, so that a level looks made.
+TURRET_COLUMNS = (5, 8, 11, MIDDLE, 21, 24, 27)
+LAUNCHER_COLUMNS = (2, 3, MIDDLE, 29, 30)
 MOST_VOIDS = 4  # empty places that are furnished
 VOID = 4.2 * CELL  # px around such a place in which nothing is
 STEP = 28.0  # px between the mines of a line
 ON_ROCK = 6.0  # px from the rock to the middle of a mine
 GATE = 20.0  # px from the run to either mine of a gate
 
-Source = Callable[[Scene, Random], Iterator[str]]
+Source = Callable[[Scene, Random], Iterator[ObjectSpec]]
 
 
-def guards(scene: Scene, rng: Random) -> Iterator[str]:
+def guards(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
     """On floors that are long enough to run on."""
     for run in scene.runs():
         if run.length >= 5:
-            yield f"floor guard {run.column + rng.randint(1, run.length - 2)},{run.row}"
+            yield object_of(f"floor guard {run.column + rng.randint(1, run.length - 2)},{run.row}")
 
 
-def zaps(scene: Scene, rng: Random) -> Iterator[str]:
+def zaps(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
     """Around stones and along walls."""
     way = rng.choice(("surface-cw", "surface-ccw"))
     for column, row in _beside_tiles(scene):
         direction = "right" if scene.full((column, row + 1)) == (way == "surface-ccw") else "left"
-        yield f"zap drone {column},{row} {way} {direction}"
+        yield object_of(f"zap drone {column},{row} {way} {direction}")
 
 
-def patrols(scene: Scene, rng: Random) -> Iterator[str]:
+def patrols(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
     """Drones that go to and fro over a floor."""
     kind = rng.choice(("zap drone", *WEAPONS))
     for run in scene.runs():
         if run.length >= 4:
             direction = rng.choice(("left", "right"))
-            yield f"{kind} {run.column + run.length // 2},{run.row - rng.choice((0, 1))} alternating {direction}"
+            place = f"{run.column + run.length // 2},{run.row - rng.choice((0, 1))}"
+            yield object_of(f"{kind} {place} alternating {direction}")
 
 
-def thwumps(scene: Scene, _: Random) -> Iterator[str]:
+def thwumps(scene: Scene, _: Random) -> Iterator[ObjectSpec]:
     """Under ceilings with air below."""
     for column, row in sorted(scene.steps):
         depth = 1
         while (column, row + depth) in scene.steps:
             depth += 1
         if scene.full((column, row - 1)) and 4 <= depth <= 12 and column % 2 == 0:
-            yield f"thwump {column},{row} down"
+            yield object_of(f"thwump {column},{row} down")
 
 
-def turrets(scene: Scene, _: Random) -> Iterator[str]:
+def turrets(scene: Scene, _: Random) -> Iterator[ObjectSpec]:
     """In the open."""
     for column, row in sorted(scene.steps):
         around = all((column + i, row + j) in scene.steps for i in (-1, 0, 1) for j in (-1, 0, 1))
-        if around and column in (MIDDLE, 5, 8, 11, 21, 24, 27):
-            yield f"gauss turret {column},{row}"
+        if around and column in TURRET_COLUMNS:
+            yield object_of(f"gauss turret {column},{row}")
 
 
-def launchers(scene: Scene, _: Random) -> Iterator[str]:
+def launchers(scene: Scene, _: Random) -> Iterator[ObjectSpec]:
     """In high corners."""
     for column, row in sorted(scene.steps):
         corner = scene.full((column, row - 1)) and (column - 1, row) in scene.steps and row < 12
-        if corner and column in (2, 3, MIDDLE, 29, 30):
-            yield f"homing launcher {column},{row}"
+        if corner and column in LAUNCHER_COLUMNS:
+            yield object_of(f"homing launcher {column},{row}")
 
 
 SOURCES: dict[Source, tuple[int, float]] = {
@@ -101,36 +107,35 @@ def place_enemies(scene: Scene, rng: Random, wanted: int, difficulty: int) -> bo
     able = [source for source, (least, _) in SOURCES.items() if difficulty >= least]
     weights = [SOURCES[source][1] for source in able]
     chosen = [rng.choices(able, weights)[0] for _ in range(3)]
-    for number in range(14):
+    for number in range(ENEMY_TRIES):
         source = chosen[number % len(chosen)]
-        if number == 6:
+        if number == FEW_SOURCES:
             chosen = able
         if scene.count(*ENEMIES) >= wanted:
             break
-        lines = list(source(scene, rng))
-        rng.shuffle(lines)
+        offered = list(source(scene, rng))
+        rng.shuffle(offered)
         # The first three guard the hoard together, each other one something else.
         together = len(scene.hazards) < 3
-        lines.sort(key=partial(_from_hoard, scene) if together else lambda line: not _guards_something(scene, line))
+        offered.sort(key=partial(_from_hoard if together else _guards_nothing, scene))
         apart = (2 if together else 4) * CELL
-        enemy = next((spec for line in lines if (spec := _enemy(scene, object_of(line), apart))), None)
+        enemy = next((spec for spec in offered if _enemy(scene, spec, apart)), None)
         if enemy:
             scene.hazards.append([enemy])
             x, y, *_ = enemy.values
-            twins = [spec for line in lines if [(spec := object_of(line)).values[:2]] == scene.twin([(x, y)])]
+            twins = [spec for spec in offered if [spec.values[:2]] == scene.twin([(x, y)])]
             if twins and rng.random() < 0.75 and scene.count(*ENEMIES) < wanted and _enemy(scene, twins[0], apart):
                 scene.hazards.append([twins[0]])
     return scene.count(*ENEMIES) >= 3
 
 
-def _guards_something(scene: Scene, line: str) -> bool:
-    """Whether an enemy is near gold, exit or a switch."""
-    x, y, *_ = object_of(line).values
-    return any(dist((x, y), point) <= BESIDE for point in scene.wanted())
+def _guards_nothing(scene: Scene, enemy: ObjectSpec) -> bool:
+    """Whether an enemy is far from all that one wants or has to touch."""
+    return all(dist(enemy.values[:2], point) > BESIDE_PX for point in scene.wanted())
 
 
-def _from_hoard(scene: Scene, line: str) -> float:
-    return dist(object_of(line).values[:2], middle(scene.board.heart[len(scene.board.heart) // 2]))
+def _from_hoard(scene: Scene, enemy: ObjectSpec) -> float:
+    return dist(enemy.values[:2], middle(scene.board.heart[len(scene.board.heart) // 2]))
 
 
 def _enemy(scene: Scene, spec: ObjectSpec, apart: float) -> ObjectSpec | None:
@@ -225,13 +230,14 @@ def more_beside(scene: Scene, run: Sequence[Point], difficulty: int, rng: Random
     """
     if scene.count(*ENEMIES) < MOST_ADDED and rng.random() < 0.4:
         source = rng.choices(list(SOURCES), [often * (difficulty >= least) for least, often in SOURCES.values()])[0]
-        lines = list(source(scene, rng))
-        rng.shuffle(lines)
-        for spec in map(object_of, lines[:60]):
-            near = IN_SIGHT if spec.kind in _SHOOTERS else CLOSE
+        offered = list(source(scene, rng))
+        rng.shuffle(offered)
+        for spec in offered[:60]:
+            near = IN_SIGHT if spec.kind in _SHOOTERS else CLOSE_PX
             if min(dist(spec.values[:2], at) for at in run) < near and _enemy(scene, spec, 3 * CELL):
                 return [spec]
-    if scene.count(kinds.MINE) > MOST_MINES + MORE - 3 or len(scene.objects) > MOST_OBJECTS + MORE - 3:
+    beyond = max(scene.count(kinds.MINE) - MOST_MINES, len(scene.objects) - MOST_OBJECTS)
+    if beyond > MOST_HARDENING - 3:
         return []
     if rng.random() < 0.5 and (gate := _gate(scene, run, rng)):
         return gate
@@ -239,8 +245,8 @@ def more_beside(scene: Scene, run: Sequence[Point], difficulty: int, rng: Random
     for line in _surface_lines(scene, rng, floors=True):
         far = [(min(dist(spec.values[:2], at) for at in run), spec) for spec in _mines(scene, line)]
         group = [spec for away, spec in far if away >= FROM_RUN][:8]
-        if len(group) >= 2 and min(away for away, _ in far) < CLOSE:
-            groups.append((sum(away < CLOSE for away, _ in far), group))
+        if len(group) >= 2 and min(away for away, _ in far) < CLOSE_PX:
+            groups.append((sum(away < CLOSE_PX for away, _ in far), group))
     # Of those with the most mines close to the run, one.
     groups.sort(key=lambda each: -each[0])
     return rng.choice(groups[:6])[1] if groups else []
@@ -261,7 +267,7 @@ def _gate(scene: Scene, run: Sequence[Point], rng: Random) -> list[ObjectSpec]:
 
 
 def nearest_hazard(scene: Scene, run: Sequence[Point]) -> int | None:
-    """Number of the group of hazards that is nearest to a run and that can be spared; None if none can."""
+    """Number of the group of hazards that is nearest to a run and that can go; None if none can."""
     enemies = scene.count(*ENEMIES)
     spare = [
         (min(dist(spec.values[:2], at) for spec in group for at in run), number)
@@ -274,15 +280,15 @@ def nearest_hazard(scene: Scene, run: Sequence[Point]) -> int | None:
 MOST_FIXTURES = 12
 
 
-def pads(scene: Scene, rng: Random) -> Iterator[str]:
+def pads(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
     """Launch pads on floors."""
     runs = [run for run in scene.runs() if run.length >= 3]
     rng.shuffle(runs)
     for run in runs[:2]:
-        yield f"launch pad {run.column + rng.randint(0, run.length - 1)},{run.row} up"
+        yield object_of(f"launch pad {run.column + rng.randint(0, run.length - 1)},{run.row} up")
 
 
-def one_ways(scene: Scene, rng: Random) -> Iterator[str]:
+def one_ways(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
     """One-way platforms over two gaps between tiles."""
     gaps = list[list[Cell]]()
     for row in range(4, 22):
@@ -298,10 +304,10 @@ def one_ways(scene: Scene, rng: Random) -> Iterator[str]:
     rng.shuffle(gaps)
     apart = [gap for gap in gaps[1:] if abs(gap[0][1] - gaps[0][0][1]) > 3 or gap[0][0] > gaps[0][-1][0]]
     for gap in [*gaps[:1], *apart[:1]]:
-        yield from (f"one-way {c},{r} up" for c, r in gap)
+        yield from (object_of(f"one-way {c},{r} up") for c, r in gap)
 
 
-def blocks(scene: Scene, rng: Random) -> Iterator[str]:
+def blocks(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
     """Bounce blocks in open air, in pairs or like steps, some the same on both sides."""
     air = [(c, r) for c, r in sorted(scene.steps) if all((c + i, r + j) in scene.steps for i in (-2, 0, 2) for j in
            (-2, -1, 0, 1, 2))]  # fmt: skip
@@ -309,14 +315,13 @@ def blocks(scene: Scene, rng: Random) -> Iterator[str]:
     for c, r in rng.sample(air, min(len(air), 3)):
         steps = [(c + x * k, r + y * k) for k in range(2 + (x > 1))]
         both = [*steps, *map(mirrored, steps * (rng.random() < 0.7))]
-        yield from (f"bounce block {c},{r}" for c, r in both if (c, r) in scene.steps)
+        yield from (object_of(f"bounce block {c},{r}") for c, r in both if (c, r) in scene.steps)
 
 
 def place_fixtures(scene: Scene, rng: Random) -> None:
     """Put one or two sorts of fixtures into a scene."""
     sorts = rng.sample((blocks, pads, one_ways), rng.choice((1, 2, 2)))
-    for line in (line for sort in sorts for line in sort(scene, rng)):
-        spec = object_of(line)
+    for spec in (spec for sort in sorts for spec in sort(scene, rng)):
         # A pad lies on the edge of its cell.
         point = (spec.values[0], spec.values[1] - (PAD_RADIUS if spec.kind == kinds.LAUNCH_PAD else 0.0))
         if len(scene.fixtures) < MOST_FIXTURES and scene.clear_of(point, key=40.0, other=12.0):

@@ -28,6 +28,11 @@ MOST_BYTES = 8 * 2**20  # the largest size of the file, and of its text when unp
 MOST_MEMORY = 64 * 2**20  # bytes that unpacking may take
 
 
+def named_level(name: str, level: Level, seed: int | str, wanted: int, measured: float) -> NamedLevel:
+    """A generated level as its file is to have it."""
+    return NamedLevel(name, AUTHOR, f"seed {seed}, difficulty {wanted}: measured {measured:.1f}", level, "")
+
+
 class PackedLevel(NamedTuple):
     """A generated level. ``wanted``: the difficulty asked for, 1 to 10; ``difficulty``: as measured.
 
@@ -44,8 +49,7 @@ class PackedLevel(NamedTuple):
 
     @property
     def named(self) -> NamedLevel:
-        comment = f"seed {self.seed}, difficulty {self.wanted}: measured {self.difficulty:.1f}"
-        return NamedLevel(self.name, AUTHOR, comment, self.level, "")
+        return named_level(self.name, self.level, self.seed, self.wanted, self.difficulty)
 
     @property
     def line(self) -> str:

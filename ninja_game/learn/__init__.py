@@ -49,8 +49,7 @@ _BENCH = {**PROTOCOL, "level": "bench:train"}
 
 ENVIRONMENTS: dict[str, dict[str, Any]] = {
     "Ninja-v0": {},
-    "NinjaPixels-v0": {"observation": "pixels"},
-    "NinjaPixels-v1": {"observation": "image"},
+    "NinjaPixels-v0": {"observation": "image"},
     "NinjaSet-v0": {"level": "set"},
     "NinjaTrain-v0": {"level": "train"},
     "NinjaTest-v0": {"level": "test"},

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
 from ninja_game.levels.picture import level_picture
-from ninja_game.sim.kinds import BOUNCE_BLOCK, DRONE, EXIT, FLOOR_GUARD, GOLD, MINE, NINJA, THWUMP
+from ninja_game.sim.kinds import EXIT, GOLD, KINDS, MINE, NINJA
 from ninja_game.sim.level import Level, ObjectSpec, makes_object
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.simulation import Body, Simulation
@@ -17,7 +17,8 @@ from ninja_game.simulation import Body, Simulation
 if TYPE_CHECKING:
     from ninja_game.play.window import Window
 
-_MOVING = {BOUNCE_BLOCK, FLOOR_GUARD, DRONE, THWUMP}
+_MOVING = {kind.number for kind in KINDS if kind.moves and (kind.disc or kind.box)}
+"""What is drawn where it is; a turret and a launcher stay in their places, only their shots go."""
 _GONE_WHEN_0 = {GOLD, MINE}
 _NOWHERE = (0.0, 0.0)
 

@@ -61,10 +61,10 @@ def advance_worlds(
 
     A world stops at its first exit contact or death, and at ``time_limit`` ticks. Jump is pressed, as at a keyboard,
     where it is held and was not in the tick before. ``repeat`` of CHANCES: how often it plays the keys of the step
-    before; while it waits, none. ``weights`` (PAID_EXIT to PAID_TICK): what each is worth;
-    ``rewards`` (worlds) receives the sum. ``facts`` (worlds x OUTCOME to RANDOM): EVENTS are those of all ticks, as
-    bits. ``changed`` (worlds): whether one of CHANGES happened; also set where the list of events was full.
-    ``terminated``, ``truncated`` (worlds): what ENDED tells.
+    before; while it waits, none. ``weights`` (PAID_EXIT to PAID_TICK): what each is worth; ``rewards`` (worlds)
+    receives the sum. ``facts`` (worlds x OUTCOME to RANDOM): EVENTS are those of all ticks, as bits. ``changed``
+    (worlds): whether one of CHANGES happened; also set where the list of events was full. ``terminated``, ``truncated``
+    (worlds): what ENDED tells.
     """
     total = 0
     for k in range(first, last):

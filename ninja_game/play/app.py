@@ -176,10 +176,10 @@ CALM = Mood()
 """The mood of all menus, whatever level was played before."""
 
 UNSEEN = {"dummy", "offscreen"}
-"""Drivers of SDL without a wipe: nobody looks on."""
+"""Drivers of SDL at which nobody looks on: no wipe, and no waiting for the next picture."""
 
 FALLBACK_RATE = 60
-"""Pictures per second where the display does not say its rate."""
+"""Pictures per second where the display does not say its rate, or is none."""
 
 NOTICE = 12.5  # letters of a notice
 IN_BORDER = 10.0  # the same in the border below a level
@@ -215,6 +215,7 @@ class App:
         self.player = player
         self.controls = controls
         self.audio_output = audio_output
+        self._hand_on(self.settings)
         self.overclock = 0
         self.tas_editor = tas_editor
         self.stack = ScreenStack()
@@ -249,10 +250,7 @@ class App:
         before = self.settings
         message = self.player.change_settings(before.changed(**values))
         after = self.settings
-        self.controls.bind(after.keys, after.pad)
-        self.controls.pads.dead_zone = after.dead_zone
-        self.controls.tap_to_run = after.tap_to_run
-        self.audio_output.set_volumes(*after.volumes)
+        self._hand_on(after)
         self.window.set_fullscreen(wanted=after.fullscreen)
         look = attrgetter("palette", "fullscreen", "text_size")
         if look(after) != look(before):
@@ -260,6 +258,13 @@ class App:
         self.stack.redraw_all()
         if message:
             self.notify(message)
+
+    def _hand_on(self, settings: Settings) -> None:
+        """Let the controls and the sound follow the settings."""
+        self.controls.bind(settings.keys, settings.pad)
+        self.controls.pads.dead_zone = settings.dead_zone
+        self.controls.tap_to_run = settings.tap_to_run
+        self.audio_output.set_volumes(*settings.volumes)
 
     def know_author(self, before: str, author: str) -> None:
         """An author's name was typed: it is the player's, and begins what is made next, where none is set yet."""
@@ -332,13 +337,14 @@ class App:
         second, and does not wait: it always shows the same.
         """
         clock = pygame.time.Clock()
-        simulated = frames is not None and pygame.display.get_driver() in {"dummy", "offscreen"}
+        simulated = frames is not None and pygame.display.get_driver() in UNSEEN
         last = pygame.time.get_ticks()
         count = 0
         try:
             while self.running and self.stack and (frames is None or count < frames):
                 count += 1
-                now = last + (count * 1000 // 60 - (count - 1) * 1000 // 60) if simulated else pygame.time.get_ticks()
+                passed = count * 1000 // FALLBACK_RATE - (count - 1) * 1000 // FALLBACK_RATE
+                now = last + passed if simulated else pygame.time.get_ticks()
                 self.frame(now - last)
                 last = now
                 if not simulated:
@@ -473,22 +479,20 @@ def build_app(
 ) -> App:
     """The app as the player's settings have it; a notice tells what is wrong with the player's files.
 
-    ``folder``: the player's, instead of the usual one. ``controls``: instead of the player's bindings.
-    ``audio_output``: instead of the sound device. ``tas_editor``, ``window``: as of ``App``.
+    ``folder``: the player's, instead of the usual one. ``controls``: what reads keys and pads, bound as the settings
+    say. ``audio_output``: instead of the sound device. ``tas_editor``, ``window``: as of ``App``.
 
     Raises NinjaGameError where there is no display.
     """
     player = PlayerData(folder)
-    settings = player.settings
-    bindings = controls or Bindings(settings.keys, settings.pad, dead_zone=settings.dead_zone)
-    bindings.tap_to_run = settings.tap_to_run
-    sound = audio_output or AudioPlayer(data_folder("assets") / "sounds", *settings.volumes)
-    app = App(player, bindings, sound, size=size, tas_editor=tas_editor, window=window)
+    sound = audio_output or AudioPlayer(data_folder("assets") / "sounds")
+    app = App(player, controls or Bindings(), sound, size=size, tas_editor=tas_editor, window=window)
     player.open_records()
-    if bindings.unknown:
-        player.report(f"settings.toml: no key is called {shown_text(', '.join(bindings.unknown), 60)}.")
-    if settings.palette not in (BY_COLUMN, *PALETTES):
-        player.report(f"settings.toml: there is no palette {settings.palette}: {', '.join((BY_COLUMN, *PALETTES))}.")
+    if unknown := app.controls.unknown:
+        player.report(f"settings.toml: no key is called {shown_text(', '.join(unknown), 60)}.")
+    palette = app.settings.palette
+    if palette not in (BY_COLUMN, *PALETTES):
+        player.report(f"settings.toml: there is no palette {palette}: {', '.join((BY_COLUMN, *PALETTES))}.")
     app.report_problems()
     return app
 

@@ -31,9 +31,10 @@ from ninja_game.files.writing import write_atomically
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
+from ninja_game.formats.run_time import level_score
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import WITH_HELP, is_place
-from ninja_game.player.records import KILLERS, Records, level_score
+from ninja_game.player.records import KILLERS, Records
 from ninja_game.player.schema import SCHEMA, TABLES, VERSION, OtherVersionError, bounded
 from ninja_game.player.settings import read_settings
 from ninja_game.player.store import Store

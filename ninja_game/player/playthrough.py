@@ -14,7 +14,7 @@ from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
-from ninja_game.errors import LevelError, NinjaGameError
+from ninja_game.errors import DAMAGED, LevelError
 from ninja_game.files.reading import stamp_of
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.named_level import NamedLevel
@@ -88,8 +88,8 @@ class LevelContext:
         """The level's par times, which go by the classic body."""
         return self.entry.pars if self.body == "circle" else None
 
-    def aim(self) -> str:
-        """A sentence: what the next medal needs; "" before the first pass, after the last, in practice."""
+    def next_par(self) -> str:
+        """What the level's next medal needs, in words; "" before the first pass, after the last, in practice."""
         mark = self.data.marks.of(self.entry.digest)
         return "" if self.pars is None or self.practice_mode or mark is None else next_par(self.pars, mark)
 
@@ -451,6 +451,6 @@ def kept_place(store: Store) -> tuple[str, list[Replay]]:
         try:
             key, *texts = json.loads(value)
             return str(key), [parse_replay(text) for text in texts]
-        except (NinjaGameError, ValueError, TypeError, AttributeError, RecursionError):
+        except DAMAGED:
             break
     return "", []

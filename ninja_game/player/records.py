@@ -13,12 +13,12 @@ from ninja_game.formats.ascii.object_lines import WEAPONS
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
 from ninja_game.formats.replay.made import names_of_text, parse_made
 from ninja_game.formats.replay.text import OUTCOMES, Replay
+from ninja_game.formats.run_time import level_score
 from ninja_game.player.store import Store
 from ninja_game.sim.events import DIED
 from ninja_game.sim.kinds import DRONE, KIND_OF, KINDS
 from ninja_game.sim.memory.interface import BODIES
 from ninja_game.sim.memory.schema import World
-from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.sim.states import NO_CAUSE
 
 NEWEST_SHOWN = 500  # replays listed at most, the newest first
@@ -214,15 +214,6 @@ _DROP_UNNEEDED = f"DELETE FROM replay WHERE {_UNNEEDED}"
 def _digest(replay: Replay) -> str:
     assert replay.level is not None  # noqa: S101 - attempts give replays with their levels
     return replay.level_digest or level_digest(replay.level)
-
-
-def level_score(gold: int, exit_tick: int) -> int:
-    """Score of a passed level in ticks: ``gold`` pieces taken, exit touched in tick ``exit_tick`` (from 0).
-
-    >>> level_score(3, 600)
-    3240
-    """
-    return LIFETIME + GOLD_BONUS * gold - exit_tick
 
 
 SELF = "player"  # falls, being crushed, suicide, time

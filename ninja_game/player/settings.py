@@ -41,12 +41,16 @@ InputNames = Mapping[str, tuple[str, ...]]  # action to the names of its inputs 
 
 
 class SettingRule(NamedTuple):
-    """Where a setting stands in the file, what it may be, and what it means."""
+    """Where a setting stands in the file, what it may be, and what it means.
+
+    ``span``: of a number, the lowest, the highest and a slider's step.
+    """
 
     table: str
     fits: Callable[[Any], bool]
     expected: str
     meaning: str
+    span: tuple[float, float, float] = (0, 0, 0)
 
 
 def _setting(default: Any, table: str, fits: Callable[[Any], bool], expected: str, meaning: str) -> Any:
@@ -57,20 +61,20 @@ def _flag(default: bool, table: str, meaning: str) -> Any:
     return _setting(default, table, lambda value: isinstance(value, bool), "true or false", meaning)
 
 
-def _whole(default: int, table: str, low: int, high: int, meaning: str) -> Any:
-    def fits(value: Any) -> bool:
-        return isinstance(value, int) and not isinstance(value, bool) and low <= value <= high
+def _number(default: float, table: str, low: float, high: float, meaning: str, step: float = 1) -> Any:
+    """A setting that is a whole number where its default is one."""
+    sort, kind = ("a whole number", int) if isinstance(default, int) else ("a number", (int, float))
 
-    return _setting(default, table, fits, f"a whole number from {low} to {high}", meaning)
+    def fits(value: Any) -> bool:
+        return isinstance(value, kind) and not isinstance(value, bool) and low <= value <= high
+
+    rule = SettingRule(table, fits, f"{sort} from {low} to {high}", meaning, (low, high, step))
+    return field(default=default, metadata={"rule": rule})
 
 
 def _text(default: str, table: str, pattern: str, expected: str, meaning: str) -> Any:
     fits = re.compile(pattern).fullmatch
     return _setting(default, table, lambda value: isinstance(value, str) and bool(fits(value)), expected, meaning)
-
-
-def _is_share(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and 0.05 <= value <= 0.95
 
 
 def _is_name(value: Any) -> bool:
@@ -111,8 +115,8 @@ class Settings:
         False, "look", "fewer particles, no shake, no wipes, no freeze; nothing plays behind the menus"
     )
     reduced_gore: bool = _flag(False, "look", "no blood")
-    shake: int = _whole(50, "look", 0, 100, "of the picture at explosions, percent")
-    particles: int = _whole(100, "look", 0, 100, "share of the particles that are shown, percent")
+    shake: int = _number(50, "look", 0, 100, "of the picture at explosions, percent", 5)
+    particles: int = _number(100, "look", 0, 100, "share of the particles that are shown, percent", 5)
     show_ghost: bool = _flag(True, "look", "a run to race against plays along")
     ghost: str = _text(
         "best", "look", "|".join(GHOSTS), "'best', 'next', 'silver', 'gold' or 'author'",
@@ -120,38 +124,38 @@ class Settings:
     )  # fmt: skip
     show_keys: bool = _flag(False, "look", "the keys that are held, while one plays")
     show_frame_time: bool = _flag(False, "look", "ms that a picture takes")
-    frame_limit: int = _whole(0, "look", 0, 1000, "pictures a second; 0: as the display")
-    window_width: int = _whole(0, "look", 0, 16384, "px; 0: as it fits the screen")
-    window_height: int = _whole(0, "look", 0, 16384, "px; 0: as it fits the screen")
-    volume: int = _whole(70, "sound", 0, 99, "of all that is heard")
-    effects_volume: int = _whole(99, "sound", 0, 99, "of all but the music, a share of the volume")
-    loop_volume: int = _whole(99, "sound", 0, 99, "of sounds that go on, a share of the effects")
-    music_volume: int = _whole(45, "sound", 0, 99, "of the music, a share of the volume")
+    frame_limit: int = _number(0, "look", 0, 1000, "pictures a second; 0: as the display")
+    window_width: int = _number(0, "look", 0, 16384, "px; 0: as it fits the screen")
+    window_height: int = _number(0, "look", 0, 16384, "px; 0: as it fits the screen")
+    volume: int = _number(70, "sound", 0, 99, "of all that is heard", 3)
+    effects_volume: int = _number(99, "sound", 0, 99, "of all but the music, a share of the volume", 3)
+    loop_volume: int = _number(99, "sound", 0, 99, "of sounds that go on, a share of the effects", 3)
+    music_volume: int = _number(45, "sound", 0, 99, "of the music, a share of the volume", 3)
     music_in_practice: bool = _flag(True, "sound", "music in practice mode too")
-    text_scale: int = _whole(0, "tas", 0, 400, "size of the text in the TAS editor, percent; 0: as it suits the window")
-    level_width: int = _whole(
+    text_scale: int = _number(0, "tas", 0, 400, "of the text in the TAS editor, percent; 0: as it suits the window")
+    level_width: int = _number(
         0, "tas", 0, 99, "of the level in the TAS editor, percent of the window; 0: as it suits the window"
     )
-    tabs_height: int = _whole(
+    tabs_height: int = _number(
         0, "tas", 0, 99, "of the tabs in the TAS editor, percent of the window; 0: as it suits the window"
     )
-    play_speed: int = _whole(100, "tas", 10, 800, "of playing in the TAS editor, percent")
+    play_speed: int = _number(100, "tas", 10, 800, "of playing in the TAS editor, percent")
     slopes: bool = _flag(False, "editor", "slopes set themselves where full tiles are drawn")
     practice: bool = _flag(False, "play", "practice mode: saving states, rewinding, slow motion; nothing counts")
     level_texts: bool = _flag(True, "play", "levels that have not been passed say how they are meant")
-    game_speed: int = _whole(100, "accessibility", 50, 100, "of play, percent; below 100 a run is assisted: no record")
+    game_speed: int = _number(
+        100, "accessibility", 50, 100, "of play, percent; below 100 a run is assisted: no record", 5
+    )
     invincible: bool = _flag(False, "accessibility", "nothing that is met kills; a run is assisted: no record")
     tap_to_run: bool = _flag(False, "accessibility", "a press of a running key runs until the next one")
-    text_size: int = _whole(100, "accessibility", 100, 150, "of all texts but those of the TAS editor, percent")
+    text_size: int = _number(100, "accessibility", 100, 150, "of all texts but those of the TAS editor, percent")
     sound_cues: bool = _flag(False, "accessibility", "marks where a sound warns: rocket, laser, chase, turret")
     name: str = _setting("", "play", _is_name, "at most 40 printable characters", "of the player, in replays")
     site: str = _text(
         "", "play", "|(?!.{201})https?://[!-~]+", "'' or an address such as 'https://example.org/game/'",
         "address of the page with the game to which links lead",
     )  # fmt: skip
-    dead_zone: float = _setting(
-        0.35, "pad", _is_share, "a number from 0.05 to 0.95", "share of a stick's way that counts as rest"
-    )
+    dead_zone: float = _number(0.35, "pad", 0.05, 0.95, "share of a stick's way that counts as rest", 0.05)
     keys: InputNames = field(default_factory=dict, metadata=_bindings("keys", "['z', 'lshift']"))
     pad: InputNames = field(default_factory=dict, metadata=_bindings("buttons", "['a']"))
 

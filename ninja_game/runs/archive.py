@@ -24,7 +24,6 @@ from pathlib import Path
 from typing import IO, Any, TypeAlias
 
 from ninja_game.backend.memories import choose_memory
-from ninja_game.batch.thread_pool import cores
 from ninja_game.budget import RUN_BUDGET
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.user_folder import bundled_levels, data_folder
@@ -47,6 +46,7 @@ from ninja_game.runs.trace import trace_recording
 from ninja_game.runs.trace_files import FiledTrace
 from ninja_game.runs.verify import with_demands
 from ninja_game.runs.workers import ClusterError, WorkerLostError, Workers, in_order, workers
+from ninja_game.runtime import cores
 from ninja_game.sim.level import Level
 
 

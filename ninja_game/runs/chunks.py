@@ -46,9 +46,9 @@ class Chunk:
     """A file, records ``first`` … of one, or run ``first`` of an episode.
 
     ``text``: of the whole file, if ``records`` is empty; ``beside``: all files that it takes in, None while they are
-    read where they are needed; ``problem``: why the file cannot be read, '' if it can;
-    ``named``: whether the caller named the file, or it was found in a folder; ``key``: by which the checkpoint log
-    knows it, ``done``: whether that has its results.
+    read where they are needed; ``problem``: why the file cannot be read, '' if it can; ``named``: whether the caller
+    named the file, or it was found in a folder; ``key``: by which the checkpoint log knows it, ``done``: whether that
+    has its results.
     """
 
     file: str

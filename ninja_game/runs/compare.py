@@ -28,16 +28,6 @@ _NAMES = {
 SPLIT_EVENTS = tuple(_NAMES)  # the events that are splits (`ninja_game/sim/events.py`)
 
 
-def split_name(split: str) -> str:
-    """The name of a split for tables.
-
-    >>> split_name("gold-taken 12"), split_name("door-opened 3, time 2"), split_name("won")
-    ('gold 12', 'door 3, time 2', 'exit')
-    """
-    event, _, rest = split.partition(" ")
-    return f"{_NAMES.get(event, event)} {rest}".strip()
-
-
 Key = tuple[str, int | None, int]
 """What makes splits of two runs the same: event, id of the object, and which occurrence of it, from 0."""
 
@@ -59,9 +49,16 @@ class Split(NamedTuple):
     def key(self) -> Key:
         return self.event, self.object_id, self.number
 
-    def __str__(self) -> str:
+    @property
+    def name(self) -> str:
+        """In plain words.
+
+        >>> Split(90, "door-opened", 3, 1, 60.0, 540.0).name, Split(120, "won", None, 0, 60.0, 540.0).name
+        ('door 3, time 2', 'exit')
+        """
         again = f", time {self.number + 1}" if self.number else ""
-        return self.event if self.object_id is None else f"{self.event} {self.object_id}{again}"
+        name = _NAMES.get(self.event, self.event)
+        return name if self.object_id is None else f"{name} {self.object_id}{again}"
 
 
 @dataclass(frozen=True)
@@ -240,7 +237,7 @@ def compare_runs(ours: Recording, theirs: Recording, budget: int = RUN_BUDGET) -
     first_place = _first_unequal(here.positions, there.positions)
     other_splits = there.by_key
     splits = tuple(
-        Lead(str(split), split.x, split.y, split.tick, other_splits[split.key].tick)
+        Lead(split.name, split.x, split.y, split.tick, other_splits[split.key].tick)
         for split in here.splits
         if split.key in other_splits
     )
@@ -324,9 +321,8 @@ def lead_table(ours: Recording, theirs: Recording, markers: Sequence[Marker]) ->
     """Compare a run, with its markers, to another one. Raises what ``compare_runs`` does."""
     found = compare_runs(ours, theirs)
     there = {lead.tick: lead for lead in found.places}
-    named = [lead._replace(at=split_name(lead.at)) for lead in found.splits]
-    named += [there[tick]._replace(at=name) for tick, name in markers if tick in there]
+    marked = [there[tick]._replace(at=name) for tick, name in markers if tick in there]
     seconds = each_second(found.places)
     apart = (len(found.positions[0]) - 1) // TICKS_PER_SECOND - len(seconds)
-    rows = sorted([*named, *seconds], key=lambda lead: lead.tick)
+    rows = sorted([*found.splits, *marked, *seconds], key=lambda lead: lead.tick)
     return LeadTable(tuple(rows), found, apart)

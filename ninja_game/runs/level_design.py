@@ -16,7 +16,8 @@ from ninja_game.sim import kinds
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec, well_formed
-from ninja_game.sim.rules import CELL, DRONE_RADIUS, GUARD_RADIUS, MINE_RADIUS, RADIUS, ROCKET_RADIUS
+from ninja_game.sim.rules import CELL, RADIUS
+from ninja_game.sim.states import LAUNCHER_FLIGHT, TURRET_PRE_FIRE
 
 Points = NDArray[np.float64]  # places, px: (n, 2)
 
@@ -27,13 +28,14 @@ EMPTY = 4 * CELL  # space so far (px) from every object and from the run is not 
 FEW = 6  # fewer pieces are neither even nor in groups
 BAY = 6, 5  # columns and rows of a bay that may repeat
 
-RADII = {"mine": MINE_RADIUS, "floor guard": GUARD_RADIUS, "drone": DRONE_RADIUS, "thwump": 9.0}
-"""Radius of hazards that kill by touch, px."""
-GUNS = {"gauss turret": 2, "homing launcher": 2}
-"""Hazards that aim or fly, and their status number while that kills."""
-DIRECTIONS = (1, 0), (0, 1), (-1, 0), (0, -1)  # right, down, left, up, as a thwump's direction numbers them
-LANES = {kinds.THWUMP, kinds.FLOOR_GUARD}
-HAZARDS = kinds.MINE, *kinds.ENEMIES
+HAZARDS = [kind for kind in kinds.KINDS if kind.killer]
+RADII = {kind.name: kind.disc or kind.box or 0.0 for kind in HAZARDS}
+"""How far from its place in a trace a hazard kills, px: the shot of a turret and the tip of a rocket are points."""
+GUNS = {"gauss turret": TURRET_PRE_FIRE, "homing launcher": LAUNCHER_FLIGHT}
+"""Hazards that kill by what they shoot, and their status number while that is under way."""
+DIRECTIONS = (1, 0), (0, 1), (-1, 0), (0, -1)
+"""Right, down, left, up, as a thwump's direction numbers them."""
+LANES = {kinds.THWUMP, kinds.FLOOR_GUARD}  # what strikes along a line, farther than it goes by itself
 
 
 class Design(NamedTuple):
@@ -86,7 +88,7 @@ def design(level: Level, inputs: bytes) -> Design:
     path = np.column_stack([run.ninja["x"], run.ninja["y"]])
     gold, mines = places(level, kinds.GOLD), places(level, kinds.MINE)
     room = len(ground.cells) * CELL * CELL
-    homes = np.concatenate([places(level, kind) for kind in HAZARDS])
+    homes = np.concatenate([places(level, kind.number) for kind in HAZARDS])
     to_exit = distances(places(level, kinds.NINJA)[-1:], places(level, kinds.EXIT))
     return Design(
         float(np.median(distances(homes, path))) if len(homes) else None,
@@ -119,18 +121,17 @@ def clearance(run: RunTrace) -> NDArray[np.float64]:
     for column, kind in enumerate(run.kinds):
         rows = run.objects[:, column]
         deadly = rows["s"] == 1 if kind == "mine" else rows["s"] == GUNS[kind] if kind in GUNS else None
-        if deadly is None and kind not in RADII:
+        if kind not in RADII:
             continue
-        space = (
-            np.hypot(run.ninja["x"] - rows["x"], run.ninja["y"] - rows["y"]) - RADIUS - RADII.get(kind, ROCKET_RADIUS)
-        )
+        space = np.hypot(run.ninja["x"] - rows["x"], run.ninja["y"] - rows["y"]) - RADIUS - RADII[kind]
         nearest = np.minimum(nearest, space if deadly is None else np.where(deadly, space, np.inf))
     return nearest
 
 
 def in_danger(level: Level, ground: Ground, still: RunTrace, points: Points) -> NDArray[np.bool_]:
     """Which points lie within 40 px of where a hazard can be, or in the sight of a gun."""
-    moving = [rows[::5] for kind, rows in zip(still.kinds, still.objects.T, strict=True) if kind in RADII]
+    by_touch = RADII.keys() - GUNS.keys()
+    moving = [rows[::5] for kind, rows in zip(still.kinds, still.objects.T, strict=True) if kind in by_touch]
     reached = [np.column_stack([rows["x"], rows["y"]]) for rows in moving]
     lanes = [lane(ground, record) for record in level.objects if record.kind in LANES and well_formed(record)]
     reached += [np.array(list(each)).reshape(-1, 2) for each in lanes]

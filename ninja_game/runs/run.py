@@ -22,6 +22,7 @@ from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.replay.headers import Waypoint
 from ninja_game.formats.replay.text import WAYPOINT_TICKS, Replay
+from ninja_game.formats.run_time import level_score
 from ninja_game.sim.digest import replay_digest
 from ninja_game.sim.inputs import ALL_KEYS, check_inputs, fitted_inputs
 from ninja_game.sim.level import Level
@@ -43,8 +44,8 @@ class RunResult:
 
     ``outcome``: "exit", "dead" or "running"; ``end_tick``: the tick of that contact or death, -1 while running;
     ``places``: the ninja after each tick, x and y in turn as little-endian float64, px; ``state_numbers``: a byte each.
-    ``in_time``: the lifetime never ran out (game.md §1.1). ``digest``: of what the
-    world shows after the last tick, as replays have it, where it was asked for.
+    ``in_time``: the lifetime never ran out (game.md §1.1). ``digest``: of what the world shows after the last tick, as
+    replays have it, where it was asked for.
     """
 
     outcome: str
@@ -86,7 +87,7 @@ class RunResult:
     @property
     def score_ticks(self) -> int:
         """Lifetime left, in ticks, if this run ended in its last tick (game.md §1.3)."""
-        return LIFETIME + GOLD_BONUS * self.gold - (self.ticks - (self.outcome != "running"))
+        return level_score(self.gold, self.ticks - (self.outcome != "running"))
 
     @property
     def xy_sha256(self) -> str:

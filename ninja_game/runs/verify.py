@@ -110,8 +110,8 @@ def verify_recording(
     judged with every index checked.
 
     Raises, naming file and record, LevelError for a level that cannot be played, BudgetError for a run that is not over
-    when its ``budget`` of work is (``ninja_game.budget``), OutOfRangeError for a run that leads out
-    of its world, SelfTestError where no run can be judged.
+    when its ``budget`` of work is (``ninja_game.budget``), OutOfRangeError for a run that leads out of its world,
+    SelfTestError where no run can be judged.
     """
     return drained(verify_in_slices(recording, memory, counting, budget))
 
@@ -177,8 +177,7 @@ def with_demands(
     """The verdict with the name of its level and with what is demanded of it beyond its own claims.
 
     ``levels``: the names of the levels that count, by digest; ``episodes``: the keys of those that count;
-    ``only_these``: a run on any other level is a problem;
-    ``strict``: so is each field that is not as STRICT has it.
+    ``only_these``: a run on any other level is a problem; ``strict``: so is each field that is not as STRICT has it.
     """
     demanded = []
     if (only_these or strict) and verdict.level_digest not in levels:

@@ -108,11 +108,11 @@ class Counters(RandomState):
 class Resolution(NamedTuple):
     """How finely a search looks: size of a place (px), of a velocity (px/tick), length of a macro (ticks).
 
-    ``weight``: of the estimated ticks to go against those run; ``patience``: ticks after which the same place counts
-    as new, at most ``visits`` times; ``enemy_cell``: size of a place (px) of enemies nearer than ``enemy_reach`` (px,
-    across and down together), 0: they do not count. Guided searches only: ``slack``: ticks by
-    which an estimate may exceed the best run, in a plan as a share of it; ``off_table``: how much a tick counts where
-    the guide knows nothing. The shifts move the cells of places and velocities; each search draws its own.
+    ``weight``: of the estimated ticks to go against those run; ``patience``: ticks after which the same place counts as
+    new, at most ``visits`` times; ``enemy_cell``: size of a place (px) of enemies nearer than ``enemy_reach`` (px,
+    across and down together), 0: they do not count. Guided searches only: ``slack``: ticks by which an estimate may
+    exceed the best run, in a plan as a share of it; ``off_table``: how much a tick counts where the guide knows
+    nothing. The shifts move the cells of places and velocities; each search draws its own.
     """
 
     cell: float = 12.0

@@ -203,7 +203,8 @@ class _Job:
         return best
 
 
-_SMALL = "0" * 713 + "|5^100,566!11^160,564,130,564!0^115,566"
+SMALL_LEVEL = "0" * 713 + "|5^100,566!11^160,564,130,564!0^115,566"
+"""What is played so that kernels are compiled; machine code does not depend on it."""
 
 
 @cache
@@ -213,7 +214,7 @@ def compile_solver() -> None:
     Raises MemoryUnavailableError without Numba.
     """
     for gold in (0, -1):
-        _Job(SharedProgress(Task(parse_level_string(_SMALL), gold=gold, work=30_000), None), 0).compile()
+        _Job(SharedProgress(Task(parse_level_string(SMALL_LEVEL), gold=gold, work=30_000), None), 0).compile()
 
 
 def solve(

@@ -1,7 +1,7 @@
 """Death and win, and what every object does about it: the idle event (objects.md §4).
 
-All reactions stand here in one table, not in the kinds' files: dying needs every kind's reaction and the kinds need
-dying, which would be a circle of imports.
+All reactions stand here, not in the kinds' files: dying needs every kind's reaction and the kinds need dying, which
+would be a circle of imports.
 """
 
 from __future__ import annotations

@@ -24,7 +24,8 @@ class Kind(NamedTuple):
     ``number``: its type number in level strings, below 0 for what only the game makes. ``name``: as people read it.
     ``value_count``: how many values a record needs; any other number makes an inert object (objects.md §2.1).
     ``fields``: its class in the schema. ``rules``: which of the dispatching functions know it: create, touch, update,
-    think, idle, status. ``disc`` or ``box``: radius or half side, px, of what the ninja touches; neither: nothing.
+    think, idle, status. ``disc`` or ``box``: radius or half side, px, of what the ninja touches; neither: nothing. That
+    of a door is an automatic door's: the others are opened or shut by a switch of ``rules.DOOR_SWITCH_RADIUS``.
     ``killer``: what it is called when it kills ("": it does not). ``by_touch``: it kills who touches it. ``moves``: it
     is drawn where it goes, not once on the wall. ``traced``: whether traces show it.
     """

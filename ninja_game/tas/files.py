@@ -29,8 +29,6 @@ from ninja_game.sim.level import Level
 from ninja_game.tas.timeline import AFTERMATH
 from ninja_game.tas.tracks import Branches, InputTrack, branches_of_json
 
-SUFFIX = ".replay.txt"
-
 
 @dataclass(frozen=True)
 class RunFile:
@@ -77,7 +75,7 @@ def open_run(path: Path, *, record: int | None = None, level: Level | None = Non
     track = track_of(on)
     if on is not recording:
         return OpenedRun(on, track, moved=True)
-    elsewhere = is_link(path) or recording.form == "file" or is_bundled(path)
+    elsewhere = is_link(path) or recording.of_n or is_bundled(path)
     if elsewhere or not _written_by_us(data := read_bytes(path)):
         return OpenedRun(recording, track)
     file = RunFile(path, digest_of(data), digest_of_file(branches_path(path)), track)

@@ -11,16 +11,16 @@ from time import localtime, strftime
 
 from ninja_game.files.locking import forget
 from ninja_game.files.shown_text import counted, file_stem
-from ninja_game.files.user_folder import REPLAYS, free_path, is_bundled, short_path
+from ninja_game.files.user_folder import REPLAY_SUFFIX, REPLAYS, free_path, is_bundled, short_path
 from ninja_game.formats.links import replay_link
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.menu_screen import Action, Menu, Row, ask_text, nothing
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.play.workspace import CommandMenu, Commands, CommandTable, DocumentCommands, bundled_commands
+from ninja_game.play.workspace import CommandMenu, Commands, CommandTable, DocumentCommands, bundled_commands, key_text
 from ninja_game.player.player_data import keep_replay
-from ninja_game.tas.files import SUFFIX, branches_path, replay_of_track, same_level
+from ninja_game.tas.files import branches_path, replay_of_track, same_level
 from ninja_game.tas.journal import RecoveredRun, recovered
 from ninja_game.tas_editor.editor import TasEditor
 
@@ -66,13 +66,14 @@ class RunCommands(DocumentCommands):
         self.app.push(HelpPage(self.app, "The TAS editor", HELP, TABLE.commands))
 
     def menu(self) -> None:
+        key = {name: key_text(command) for name, command in TABLE.by_name.items()}
         rows: list[Row] = [
-            ("Save", self.save, "Ctrl+S"), ("Save as...", self.save_as, "Ctrl+Shift+S"),
-            ("Open another run...", lambda: self._run("open_other"), "Beside this one: Ctrl+O"),
+            ("Save", self.save, key["save"]), ("Save as...", self.save_as, key["save_as"]),
+            ("Open another run...", lambda: self._run("open_other"), f"Beside this one: {key['open_other']}"),
             ("Not saved last time...", self.list_recovered, "Runs that were edited when the program ended"),
             ("Watch", self.watch, "In the replay viewer, which makes films too"),
             ("Keep as a replay", self.keep, "Among yours"), ("Copy a link", self.copy_link, "Opens the run"),
-            ("Help", self.help, "F1"), ("Leave", self.leave, ""),
+            ("Help", self.help, key["help"]), ("Leave", self.leave, ""),
         ]  # fmt: skip
         self.app.push(CommandMenu(self.app, "Run", rows, TABLE, IN_MENU, self._run))
 
@@ -90,13 +91,14 @@ class RunCommands(DocumentCommands):
 
     def save_as(self, then: Action = nothing) -> None:
         path, folder = self.session.file.path, self._folder
-        free = free_path(folder, file_stem(self.session.name, "run"), SUFFIX)
-        name = (path or free).name.removesuffix(SUFFIX)
+        free = free_path(folder, file_stem(self.session.name, "run"), REPLAY_SUFFIX)
+        name = (path or free).name.removesuffix(REPLAY_SUFFIX)
 
         def on_accept(text: str) -> None:
             path = folder / Path(text.strip()).expanduser()
             if path.parent.is_dir():
-                self.save_to(path.with_name(f"{file_stem(path.name.removesuffix(SUFFIX), 'run')}{SUFFIX}"), then)
+                stem = file_stem(path.name.removesuffix(REPLAY_SUFFIX), "run")
+                self.save_to(path.with_name(f"{stem}{REPLAY_SUFFIX}"), then)
             else:
                 self.app.notify(f"Not saved: there is no folder {path.parent}")
 

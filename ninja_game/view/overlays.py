@@ -15,10 +15,10 @@ from ninja_game.sim.kinds import DOOR, DRONE, KIND_OF, LAUNCHER, SWITCH, TURRET
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.objects.dispatch import NINE_CELLS
-from ninja_game.sim.rules import INTERESTING, OFF, RADIUS, STRIDE
+from ninja_game.sim.rules import CELL, HALF, INTERESTING, OFF, RADIUS, STRIDE
 from ninja_game.sim.states import AUTOMATIC, WEAPON_ZAP
 from ninja_game.simulation import Simulation
-from ninja_game.ui.canvas import Canvas
+from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.drawing import DrawTarget, is_near
 
@@ -26,6 +26,31 @@ OVERLAY_ACTIONS = (
     "overlay_hitboxes", "overlay_grid", "overlay_edges", "overlay_rays", "overlay_cells", "overlay_thinkers",
 )  # fmt: skip
 HIT_BOXES, GRID, EDGES, RAYS, CELLS, THINKERS = OVERLAY_ACTIONS
+
+_SIDES: tuple[tuple[float, float, float, float], ...] = (
+    (10.6, -11, 10.6, 11), (-11, 10.6, 11, 10.6), (-10.6, -11, -10.6, 11), (-11, -10.6, 11, -10.6),
+)  # fmt: skip
+"""A line just inside each side of a cell: each cell has its own edge states."""
+
+_THINKER = 9.0
+"""Radius of the ring round an object that thinks, px."""
+
+_SMALLEST = 1.0
+"""Half size, px, at which a point is drawn: the tip of a rocket."""
+
+
+@dataclass(frozen=True)
+class HitShape:
+    """A circle (``round``) or square about a point, px; ``half``: its radius or half side."""
+
+    x: float
+    y: float
+    half: float
+    round: bool
+    lethal: bool = False
+    ninja: bool = False
+    vx: float = 0.0
+    vy: float = 0.0
 
 
 class Overlays:
@@ -78,16 +103,10 @@ class Overlays:
 
 def _paint_grid(sheet: pygame.Surface, canvas: Canvas, palette: Palette) -> None:
     colour = (*palette.text[:3], 70)
-    for column in range(34):
-        pygame.draw.line(sheet, colour, canvas.point(24 * column, 0), canvas.point(24 * column, 600))
-    for row in range(26):
-        pygame.draw.line(sheet, colour, canvas.point(0, 24 * row), canvas.point(792, 24 * row))
-
-
-_SIDES: tuple[tuple[float, float, float, float], ...] = (
-    (10.6, -11, 10.6, 11), (-11, 10.6, 11, 10.6), (-10.6, -11, -10.6, 11), (-11, -10.6, 11, -10.6),
-)  # fmt: skip
-"""A line just inside each side of a cell: each cell has its own edge states."""
+    for x in range(0, WIDTH + 1, int(CELL)):
+        pygame.draw.line(sheet, colour, canvas.point(x, 0), canvas.point(x, HEIGHT))
+    for y in range(0, HEIGHT + 1, int(CELL)):
+        pygame.draw.line(sheet, colour, canvas.point(0, y), canvas.point(WIDTH, y))
 
 
 def _paint_edges(sheet: pygame.Surface, canvas: Canvas, palette: Palette, world: World) -> None:
@@ -108,7 +127,7 @@ def _paint_edges(sheet: pygame.Surface, canvas: Canvas, palette: Palette, world:
 def _tint(target: DrawTarget, colour: pygame.Color, alpha: int, cell: int, inset: float = 0) -> None:
     if not EXISTS[cell]:
         return
-    x, y, w = CENTRE_X[cell] - 12 + inset, CENTRE_Y[cell] - 12 + inset, 24 - 2 * inset
+    x, y, w = CENTRE_X[cell] - HALF + inset, CENTRE_Y[cell] - HALF + inset, CELL - 2 * inset
     target.covered.append(target.canvas.fill_rect(target.surface, (colour.r, colour.g, colour.b, alpha), x, y, w, w))
 
 
@@ -130,8 +149,8 @@ def touched_cells(x: float, y: float, cell: int) -> list[int]:
     """The cells whose tiles a circle at (x, y) can touch: its own, one up or down, one beside, one between."""
     cells = [cell]
     dx, dy = x - CENTRE_X[cell], y - CENTRE_Y[cell]
-    beside = cell + (1 if dx > 0 else -1) if abs(dx) + RADIUS > 12 else 0
-    above = cell + (STRIDE if dy > 0 else -STRIDE) if abs(dy) + RADIUS > 12 else 0
+    beside = cell + (1 if dx > 0 else -1) if abs(dx) + RADIUS > HALF else 0
+    above = cell + (STRIDE if dy > 0 else -STRIDE) if abs(dy) + RADIUS > HALF else 0
     cells += [found for found in (above, beside) if found]
     if above and beside:
         cells.append(above + beside - cell)
@@ -197,25 +216,6 @@ def _draw_shape(target: DrawTarget, shape: HitShape) -> None:
     else:
         rect = canvas.frame_rect(target.surface, colour, shape.x - half, shape.y - half, 2 * half, 2 * half, 0.5)
     target.covered.append(rect.inflate(2, 2))
-
-
-@dataclass(frozen=True)
-class HitShape:
-    """A circle (``round``) or square about a point, px; ``half``: its radius or half side."""
-
-    x: float
-    y: float
-    half: float
-    round: bool
-    lethal: bool = False
-    ninja: bool = False
-    vx: float = 0.0
-    vy: float = 0.0
-
-
-_THINKER = 9.0  # radius of the ring round an object that thinks, px
-
-_SMALLEST = 1.0  # half size, px, at which a point is drawn: the tip of a rocket
 
 
 def hit_shapes(world: World) -> Iterator[HitShape]:

@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 import pytest
 
 from ninja_game.backend import background_compiler, memories
-from ninja_game.backend.kernel_cache import are_kept, cache_folder
+from ninja_game.backend.kernel_cache import are_kept, code_folder
 from ninja_game.backend.memories import (
     _OBJECTS,
     CHECKED,
@@ -175,7 +175,7 @@ def started(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[tuple[list[
     monkeypatch.setattr(background_compiler, "_STARTED", [])
     monkeypatch.setattr(memories, "_KERNELS", {})
     for module in ("kernel_cache", "background_compiler"):
-        monkeypatch.setattr(f"ninja_game.backend.{module}.cache_folder", lambda: tmp_path / "cache")
+        monkeypatch.setattr(f"ninja_game.backend.{module}.code_folder", lambda: tmp_path / "cache")
     monkeypatch.setenv(background_compiler.VARIABLE, "1")
     return Started.commands
 
@@ -222,7 +222,7 @@ def test_where_no_cache_can_be_nothing_is_started(
     def refuse() -> Path:
         raise FileError("no folder")
 
-    monkeypatch.setattr(background_compiler, "cache_folder", refuse)
+    monkeypatch.setattr(background_compiler, "code_folder", refuse)
     assert not background_compiler.is_at_work()
 
 
@@ -296,7 +296,7 @@ def test_a_kernel_that_another_process_compiles_is_waited_for(tmp_path: Path) ->
 @pytest.mark.slow
 def test_the_command_leaves_nothing_to_compile_for_others(tmp_path: Path) -> None:
     """In the cache of whoever runs the tests, so that this compiles only what the other tests need too."""
-    folder = cache_folder()
+    folder = code_folder()
     with program(folder, "", "compile") as compiling:
         out, errors = compiling.communicate()
         assert compiling.returncode == 0, errors

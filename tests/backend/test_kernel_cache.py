@@ -12,9 +12,10 @@ from types import FunctionType
 import pytest
 
 from ninja_game.backend import memories
-from ninja_game.backend.kernel_cache import KEPT_FILES, cache_folder, forget_old_code
+from ninja_game.backend.kernel_cache import KEPT_FILES, code_folder, forget_old_code
 from ninja_game.backend.memories import MemoryUnavailableError, choose_memory
 from ninja_game.errors import ArgumentError, FileError
+from ninja_game.files.user_folder import cache_folder
 from ninja_game.sim.memory.kernels import step_world
 from ninja_game.sim.ninja import tick
 from tests.support.slow import the_rest_is_slow
@@ -275,10 +276,15 @@ def test_machine_code_is_another_if_a_literal_of_a_rule_is_edited() -> None:
 def test_compiled_code_is_never_loaded_from_a_relative_folder(folder: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("NUMBA_CACHE_DIR", folder)
     with pytest.raises(FileError, match=r"relative path|NUMBA_CACHE_DIR names no folder"):
-        cache_folder.__wrapped__()
+        code_folder.__wrapped__()
+
+
+def test_compiled_code_and_the_site_have_one_cache_folder(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
+    assert code_folder.__wrapped__() == cache_folder() / "compiled"
 
 
 def test_the_home_of_the_user_is_meant_by_its_sign(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("HOME", str(tmp_path))
     monkeypatch.setenv("NUMBA_CACHE_DIR", "~/cache")
-    assert cache_folder.__wrapped__() == tmp_path / "cache"
+    assert code_folder.__wrapped__() == tmp_path / "cache"

@@ -10,7 +10,8 @@ import click
 import pytest
 from click.testing import CliRunner
 
-from ninja_game.cli.main import COMMANDS, cli
+from ninja_game.cli.commands import COMMANDS
+from ninja_game.cli.main import cli
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 DOC = (ROOT / "docs" / "command-line.md").read_text(encoding="utf-8")

@@ -11,7 +11,8 @@ import click
 import pytest
 from click.testing import CliRunner
 
-from ninja_game.cli.main import COMMANDS, cli
+from ninja_game.cli.commands import COMMANDS
+from ninja_game.cli.main import cli
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.user_folder import bundled_levels, data_folder
 from ninja_game.signals import Terminated

@@ -157,7 +157,7 @@ def test_a_cache_that_is_damaged_or_of_another_processor_has_no_power(
 ) -> None:
     require("compiled")
     expected = ordinary(runs, "compiled")
-    shutil.copytree(kernel_cache.cache_folder(), tmp_path / "cache")
+    shutil.copytree(kernel_cache.code_folder(), tmp_path / "cache")
     change(tmp_path / "cache")
     assert judged(runs, "compiled", tmp_path, {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}) == expected
 

@@ -13,13 +13,14 @@ from click.testing import CliRunner, Result
 from ninja_game.backend.memories import compiled_available
 from ninja_game.cli import options
 from ninja_game.cli.main import cli
-from ninja_game.cli.options import default_threads, progress_text
+from ninja_game.cli.options import progress_text
 from ninja_game.files.user_folder import free_path
-from ninja_game.formats.ascii.reader import write_ascii_level
+from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.text import parse_replay
 from ninja_game.runs.run import run_level
+from ninja_game.runtime import cores
 from ninja_game.search.certificate import named_run, save_replay, verified_run
 from tests.support.samples import NO_NINJA, SPIKED, WALK, WALK_END, running, write_records
 
@@ -46,8 +47,7 @@ def level_file(folder: Path, text: str, name: str = "level.txt") -> Path:
 @pytest.mark.skipif(not hasattr(os, "sched_getaffinity"), reason="this system has no affinity")
 def test_threads_default_to_the_cores_that_this_process_may_use(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: {3})
-    assert default_threads(None) == 1
-    assert default_threads(5) == 5
+    assert cores() == 1
 
 
 def test_solve_writes_a_replay_that_passes(tmp_path: Path) -> None:

@@ -72,7 +72,7 @@ def test_comparison_of_two_records_of_a_file(runs: Path) -> None:
     assert result.exit_code == 0, result.output
     assert "A: Walk, 35 ticks" in result.stdout
     assert "first other keys: tick 0" in result.stdout
-    assert [line.split()[-1] for line in result.stdout.splitlines() if line.startswith("won")] == ["+4"]
+    assert [line.split()[-1] for line in result.stdout.splitlines() if line.startswith("exit ")] == ["+4"]
     same = called("compare", runs, runs, "--record", 0, "--against-record", 0)
     assert "the runs are equal" in same.stdout
 

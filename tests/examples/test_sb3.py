@@ -52,7 +52,7 @@ def test_an_agent_learns_in_it() -> None:
     PPO("CnnPolicy", stacked, n_steps=8, batch_size=16).learn(16)
 
 
-@pytest.mark.parametrize("name", [name for name in ENVIRONMENTS if name != "NinjaPixels-v0"])
+@pytest.mark.parametrize("name", ENVIRONMENTS)
 def test_its_checker_takes_every_environment(name: str) -> None:
     """But version 0 of pixels, which have no channel."""
     import gymnasium

@@ -11,8 +11,8 @@ from hypothesis import example, given, settings, strategies as st
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.ascii.legend import SYMBOLS, TILE_CHARS, visible_parts
-from ninja_game.formats.ascii.reader import is_ascii_level, parse_ascii_level, write_ascii_level
-from ninja_game.formats.ascii.writer import same_record
+from ninja_game.formats.ascii.reader import is_ascii_level, parse_ascii_level
+from ninja_game.formats.ascii.writer import same_record, write_ascii_level
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim.kinds import GOLD, NINJA, VALUE_COUNTS
 from ninja_game.sim.level import TILES, Level, ObjectSpec

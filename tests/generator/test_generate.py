@@ -40,10 +40,10 @@ def test_a_seed_always_makes_the_same_level(asked: tuple[int, int]) -> None:
 @pytest.mark.parametrize("asked", the_rest_is_slow([(11, 1), (12, 4), (13, 8)], 1))
 def test_the_certificate_passes_the_level_and_gives_its_difficulty(asked: tuple[int, int]) -> None:
     level = made(*asked)
-    run = run_level(level.level, level.run.inputs, memory="plain")
+    run = run_level(level.named.level, level.run.inputs, memory="plain")
     assert (run.outcome, run.end_tick) == ("exit", level.run.end_tick)
-    assert level.difficulty == round(difficulty(level.level, level.run.inputs, tries=SMALL.tries), 2)
-    assert level_warnings(level.level) == []
+    assert level.difficulty == round(difficulty(level.named.level, level.run.inputs, tries=SMALL.tries), 2)
+    assert level_warnings(level.named.level) == []
 
 
 @pytest.mark.slow
@@ -108,7 +108,7 @@ def test_bad_input_is_told(words: list[str], told: str, tmp_path: Path, monkeypa
 
 
 def test_a_seed_without_a_level_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(generate, "__kwdefaults__", {**(generate.__kwdefaults__ or {}), "effort": Effort(attempts=0)})
+    monkeypatch.setattr("ninja_game.generator.generate.DEFAULT", Effort(attempts=0))
     result = command("--seed", "4")
     assert result.exit_code == 1
     assert "try another" in result.stdout

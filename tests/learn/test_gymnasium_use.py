@@ -101,7 +101,7 @@ def test_a_spec_makes_the_environment_again() -> None:
 V0 = {
     "Ninja-v0": {},
     "NinjaCurriculum-v0": {"level": "curriculum"},
-    "NinjaPixels-v0": {"observation": "pixels"},
+    "NinjaPixels-v0": {"observation": "image"},
     "NinjaSet-v0": {"level": "set"},
     "NinjaTest-v0": {"level": "test"},
     "NinjaTrain-v0": {"level": "train"},

@@ -9,7 +9,8 @@ from pathlib import Path
 import pytest
 
 from ninja_game.files.user_folder import data_folder
-from ninja_game.formats.ascii.reader import parse_ascii_level, write_ascii_level
+from ninja_game.formats.ascii.reader import parse_ascii_level
+from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.pack import Pack

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from ninja_game.formats.replay.text import write_replay
+from ninja_game.formats.run_time import level_score
 from ninja_game.player.attempt import Attempt
-from ninja_game.player.records import level_score
 from ninja_game.runs.run import run_level
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from tests.support.players import EXIT_TICK, RIGHT, deadly_level, played, short_level

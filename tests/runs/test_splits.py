@@ -46,7 +46,7 @@ def test_a_run_notes_gold_the_switch_and_its_end() -> None:
         ("gold-taken", 2), ("exit-opened", 1), ("won", None),
     ]  # fmt: skip
     assert (found.outcome, found.ticks, found.gold, found.splits[-1].tick) == ("exit", WALK_END + 1, 1, WALK_END)
-    assert [str(split) for split in found.splits] == ["gold-taken 2", "exit-opened 1", "won"]
+    assert [split.name for split in found.splits] == ["gold 2", "switch of exit 1", "exit"]
 
 
 def test_a_death_is_a_split_whoever_killed() -> None:
@@ -85,7 +85,7 @@ def test_comparison_tells_the_first_difference_and_the_lead_everywhere() -> None
     found = compare_runs(walk(0), walk(6, at=5))
     assert found.first_keys == 5
     assert found.first_place == 6, "keys act on the velocity, which moves the ninja in the next tick"
-    assert [lead.at for lead in found.splits] == ["gold-taken 2", "exit-opened 1", "won"]
+    assert [lead.at for lead in found.splits] == ["gold 2", "switch of exit 1", "exit"]
     # Besides the six ticks it has to gather speed again.
     assert [lead.ahead for lead in found.splits] == [6, 7, 7]
     assert {lead.ahead for lead in found.places if lead.tick < 5} == {0}

@@ -7,6 +7,7 @@ import inspect
 import re
 from collections import Counter
 from collections.abc import Callable
+from math import inf
 from pathlib import Path
 from typing import Any
 
@@ -20,13 +21,17 @@ from ninja_game.learn.observations.pixels import SHADES
 from ninja_game.levels.picture import COLOURS
 from ninja_game.play.level.sayings import WHY
 from ninja_game.player.records import KILLERS, SELF
+from ninja_game.runs.level_design import clearance
+from ninja_game.runs.trace import trace_level
 from ninja_game.sim import events, kinds
 from ninja_game.sim.death import idle_event
 from ninja_game.sim.digest import replay_digest
 from ninja_game.sim.kinds import INERT, KINDS, NINJA, NO_KIND, Kind
+from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.memory.object_fields import Header, Object
 from ninja_game.sim.memory.plain import PlainWorlds
 from ninja_game.sim.objects import dispatch
+from ninja_game.sim.rules import RADIUS
 from ninja_game.sim.traces import is_traced, status_of
 from ninja_game.ui.audio.table import BY_DEATH, BY_EVENT, OTHER_DEATH
 from ninja_game.view.ninja.ragdoll import KICKS
@@ -114,6 +119,16 @@ def test_a_kind_is_drawn(kind: Kind) -> None:
 def test_who_kills_is_counted_and_what_helps_against_it_is_said() -> None:
     assert {kind.killer for kind in KINDS if kind.killer} <= set(KILLERS)
     assert set(WHY) == set(KILLERS) - {SELF}
+
+
+@pytest.mark.parametrize("kind", [kind for kind in OF_LEVELS if kind.killer], ids=lambda kind: str(kind.name))
+def test_what_kills_counts_where_a_level_is_judged(kind: Kind) -> None:
+    hazard = next(each.spec for each in OBJECT_TYPES if each.spec.kind == kind.number)
+    placed = ObjectSpec(kind.number, (252.0, 300.0, *hazard.values[2:]))
+    (space,) = clearance(trace_level(Level(objects=(ObjectSpec(NINJA, (120.0, 300.0)), placed)), bytes(1)))
+    # What shoots has not begun to.
+    expected = 132 - RADIUS - (kind.disc or kind.box or 0) if kind.disc or kind.box else inf
+    assert space == pytest.approx(expected, abs=3)
 
 
 def test_who_never_sleeps_costs_more_work_than_others() -> None:

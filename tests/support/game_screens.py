@@ -34,7 +34,7 @@ from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.replays import ReplaysScreen
-from ninja_game.play.menus.settings import PAGES
+from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.sim.kinds import GOLD, MINE
 from ninja_game.sim.level import ObjectSpec
@@ -266,7 +266,7 @@ def _replays(driver: MenuDriver) -> None:
 def _settings(driver: MenuDriver) -> Iterator[str]:
     """Every page, a slider with the focus, a press that is waited for, a key that is taken."""
     driver.open("Settings")
-    for page in PAGES:
+    for page in driver.shown(SettingsScreen).titles:
         driver.settings_page(page)
         yield f"settings-{page.lower()}"
     driver.settings_page("Keyboard")

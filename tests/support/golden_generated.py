@@ -5,6 +5,7 @@ from __future__ import annotations
 from hashlib import sha256
 from pathlib import Path
 
+from ninja_game.formats.ascii.writer import headers_of, write_ascii_level
 from ninja_game.generator.generate import Effort, generate
 
 TABLE = Path(__file__).parent.parent / "golden" / "generated.tsv"
@@ -18,7 +19,9 @@ SMALL = Effort(find=1_500_000, shorten=300_000, attempts=6, rounds=8, tries=64)
 def generated_digest(seed: int, wanted: int) -> str:
     """The digest of the text of a level from a small budget."""
     made = generate(seed, wanted, effort=SMALL)
-    return sha256(made.text.encode()).hexdigest() if made else "none"
+    if made is None:
+        return "none"
+    return sha256(write_ascii_level(made.named.level, **headers_of(made.named)).encode()).hexdigest()
 
 
 def read_generated() -> dict[tuple[int, int], str]:

@@ -15,7 +15,7 @@ from ninja_game.formats.load import load_replays
 from ninja_game.play.app import Screen, build_app
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.menu_screen import FormPanel
-from ninja_game.play.menus.settings import PAGES, SettingsScreen
+from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.player.player_data import PlayerData
 from ninja_game.tas_editor.opening import open_tas_editor
 from ninja_game.ui.audio.player import AudioOutput
@@ -186,7 +186,7 @@ class MenuDriver:
         """Choose a page of the settings, which are open, with the mouse."""
         screen = self.top()
         assert isinstance(screen, SettingsScreen)
-        x, y, w, h = screen.tabs.row_area(PAGES.index(page))
+        x, y, w, h = screen.tabs.row_area(screen.titles.index(page))
         self.mouse(x + w / 2, y + h / 2)
         return screen
 

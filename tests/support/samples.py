@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ninja_game import Simulation
-from ninja_game.formats.ascii.reader import write_ascii_level
+from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.n14.demo import write_demo
 from ninja_game.formats.n14.level_file import LevelRecord, write_level_file
 from ninja_game.formats.n14.level_string import parse_level_string

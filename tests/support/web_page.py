@@ -9,8 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from platformdirs import user_cache_path
-
+from ninja_game.files.user_folder import cache_folder
 from ninja_game.web.site.build import build_site, site_server
 from ninja_game.web.site.game_archive import VERSION
 
@@ -19,7 +18,7 @@ BUSY = ROOT / "benchmarks" / "busy.py"
 DIGESTS, SCENES = (ROOT / "tests" / "support" / f"page_{name}.py" for name in ("digests", "scenes"))
 """Files that Python runs here and in a page alike."""
 
-CACHE = user_cache_path("ninja-game", appauthor=False)
+CACHE = cache_folder()
 PYODIDE = CACHE / f"pyodide-{VERSION}"
 """Where Pyodide's files are once a site was built."""
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from ninja_game.cli.main import COMMANDS, COMPILING
+from ninja_game.cli.commands import COMMANDS
 from tools import ROOT, dev
 
 MODULES = ("click", "json", "numba", "numpy", "pathlib", "rich", "socket", "tomllib")
@@ -99,12 +99,11 @@ def test_what_is_installed_is_installed_once(tmp_path: Path, monkeypatch: pytest
 def test_run_installs_what_its_command_uses(installed: list[tuple[str, ...]]) -> None:
     dev.main(["run", "demonstrations", "--help"])
     assert installed == [("fast", "learn", "minari")]
-    assert set(dev.USES) <= set(COMMANDS)
-    assert {extra for extras in dev.USES.values() for extra in extras} <= set(dev.DEVELOPMENT)
+    assert {extra for command in COMMANDS.values() for extra in command.extras} <= set(dev.DEVELOPMENT)
 
 
 def test_a_command_that_compiles_gets_numba() -> None:
-    assert all("fast" in dev.USES.get(command, ("fast",)) for command in COMPILING)
+    assert all("fast" in command.extras for command in COMMANDS.values() if "compiles" in command.flags)
 
 
 def test_pip_installs_the_locked_versions_where_uv_cannot_be_had(

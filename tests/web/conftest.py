@@ -22,8 +22,8 @@ from tests.support.web_page import browser, built_site, missing, python_page, se
 @pytest.fixture(autouse=True)
 def board_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The cache folder of boards in a test."""
-    monkeypatch.setattr("ninja_game.cli.web.cache_folder", lambda: tmp_path / "board-cache")
-    return tmp_path / "board-cache"
+    monkeypatch.setattr("ninja_game.cli.web.cache_folder", lambda: tmp_path / "cache")
+    return tmp_path / "cache" / "board"
 
 
 @pytest.fixture(scope="session", autouse=True)

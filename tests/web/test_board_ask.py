@@ -77,7 +77,7 @@ def test_inputs_are_counted(folder: Path, levels: Path) -> None:  # noqa: F811
 
 def test_splits_pictures_and_films(folder: Path, levels: Path, tmp_path: Path) -> None:  # noqa: F811
     code, text = ask(folder, levels, "splits", "Walk", "Ann", "Bea")
-    assert (code, "won" in text, "+5" in text) == (0, True, True), text
+    assert (code, "\nexit " in text, "+5" in text) == (0, True, True), text
     ((event, *_),) = (
         [row["event"], row] for row in json.loads(ask(folder, levels, "splits", "Walk", "--json")[1])["splits"][-1:]
     )

@@ -213,7 +213,7 @@ def test_what_comes_with_the_runs_is_not_remembered(
     assert forged != known.read_text("utf-8")
     shutil.rmtree(board_cache)
     simulated.clear()
-    for folder in (runs, runs / ".cache", runs / "board-cache", tmp_path / "site" / "board", tmp_path / "site"):
+    for folder in (runs, runs / ".cache", runs / "cache", tmp_path / "site" / "board", tmp_path / "site"):
         put(folder, known.name, forged)
     put(tmp_path, "site/board/.ninja-game-pages", "made by ninja-game\n")
     put(runs, "board.json", json.dumps({"version": 2, "runs": [], "rejected": []}))

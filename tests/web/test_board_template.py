@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from ninja_game.backend.kernel_cache import cache_folder
+from ninja_game.backend.kernel_cache import code_folder
 from ninja_game.files.user_folder import bundled_replays
 
 TEMPLATE = Path("docs/board-template")
@@ -44,7 +44,7 @@ class Clone:
             "GIT_CONFIG_GLOBAL": os.devnull, "GIT_CONFIG_SYSTEM": os.devnull, "BASE": "origin/main",
             "RUNNER_TEMP": str(self.temp), "GITHUB_STEP_SUMMARY": str(self.temp / "summary.md"),
             "PATH": f"{self.temp}{os.pathsep}{os.environ['PATH']}", "XDG_CACHE_HOME": str(self.temp / "cache"),
-            "NUMBA_CACHE_DIR": str(cache_folder()), "PYTHONPATH": str(Path.cwd()), "LC_ALL": "C",
+            "NUMBA_CACHE_DIR": str(code_folder()), "PYTHONPATH": str(Path.cwd()), "LC_ALL": "C",
         }  # fmt: skip
         subprocess.run(["git", "clone", "-q", str(origin), str(folder)], check=True, env=self.environment)
         self.git("config", "user.name", folder.name)

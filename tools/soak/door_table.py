@@ -23,8 +23,8 @@ from ninja_game.errors import DAMAGED, NinjaGameError
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.shown_text import file_stem, shown_text
 from ninja_game.files.user_folder import RECORDS
-from ninja_game.formats.ascii.reader import parse_ascii_level, write_ascii_level
-from ninja_game.formats.ascii.writer import same_record
+from ninja_game.formats.ascii.reader import parse_ascii_level
+from ninja_game.formats.ascii.writer import same_record, write_ascii_level
 from ninja_game.formats.links import is_link, read_link, recordings_of as watched_recordings, watched, write_link
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.n14.demo import parse_demo, write_demo

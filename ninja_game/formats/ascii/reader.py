@@ -9,12 +9,10 @@ from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.object_lines import Listed, OddTile, read_object_line, suggestion
 from ninja_game.formats.ascii.picture import ROW_END, ROW_START, Problems, merge_picture_and_list, read_picture
 from ninja_game.formats.ascii.places import shown
-from ninja_game.formats.ascii.writer import HEADER_KEYS, MAGIC, VERSION, write_ascii_level
+from ninja_game.formats.ascii.writer import HEADER_KEYS, MAGIC, VERSION
 from ninja_game.formats.lines import MOST_NAME, UNCOMMENTED, Line, numbered_lines, read_quoted
 from ninja_game.formats.sayings import read_sayings
 from ninja_game.sim.level import Level
-
-__all__ = ["AsciiLevel", "is_ascii_level", "parse_ascii_level", "write_ascii_level"]
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,7 @@ from ninja_game.errors import FileError, NinjaGameError, PackError
 from ninja_game.files.reading import MAX_BYTES, PLACE, decoded, files_in, read_bytes
 from ninja_game.files.shown_text import name_key
 from ninja_game.files.untrusted import open_zip, unpacked
+from ninja_game.files.user_folder import REPLAY_SUFFIX
 from ninja_game.formats.links import is_link, link_kind, pack_link, pack_texts
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel, parse_levels
@@ -40,7 +41,7 @@ def certificate_name(file: str, kind: str) -> str:
     >>> certificate_name("a.txt", "exit")
     'certificates/a.exit.replay.txt'
     """
-    return f"{CERTIFICATES}/{file.rpartition('.')[0]}.{kind}.replay.txt"
+    return f"{CERTIFICATES}/{file.rpartition('.')[0]}.{kind}{REPLAY_SUFFIX}"
 
 
 class PackFiles:
@@ -100,7 +101,7 @@ class PackFiles:
     @property
     def own_names(self) -> list[str]:
         """The names of what makes a pack: index, par times, levels, certificates."""
-        replays = [name for name in self.names if name.startswith(f"{CERTIFICATES}/") and name.endswith(".replay.txt")]
+        replays = [name for name in self.names if name.startswith(f"{CERTIFICATES}/") and name.endswith(REPLAY_SUFFIX)]
         return [name for name in (INDEX, PARS) if name in self.names] + self.levels + replays
 
     def zipped(self) -> bytes:

@@ -10,7 +10,14 @@ from typing import NamedTuple
 from ninja_game.errors import ReplayError
 from ninja_game.files.reading import MAX_BYTES, has_folder, read_beside
 from ninja_game.formats.lines import Line, numbered_lines
-from ninja_game.formats.replay.notations import KEY_NAMES, Marker, in_our_notation, is_marker_name, is_tas_text
+from ninja_game.formats.replay.notations import (
+    KEY_NAMES,
+    Marker,
+    in_order,
+    in_our_notation,
+    is_marker_name,
+    is_tas_text,
+)
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, MAX_TICKS, pressed
 
 MOST_INCLUDES = 100  # files that a text may take in, the same one every time
@@ -188,16 +195,11 @@ def _bad_run(text: str, file: str, line: int, column: int) -> ReplayError:
     elif star and not keys:
         hint = "a count stands next to its keys, without a blank: R*33"
     elif set(keys.upper()) <= set("LRJ!-."):
-        hint = f"write {_in_order(keys.upper())}{star}{count}"
+        mark = "!" if "!" in keys else "-" if "-" in keys else ""
+        hint = f"write {in_order(keys.upper())}{mark}{star}{count}"
     else:
         hint = "L left, R right, J jump, . no key"
     return ReplayError("not an input run", file, line, column, repr(text[:30]), "keys and a count, such as R*30", hint)
-
-
-def _in_order(keys: str) -> str:
-    """Keys in the order of the notation: L, R, J, each once, then the mark."""
-    mark = "!" if "!" in keys else "-" if "-" in keys else ""
-    return ("".join(key for key in "LRJ" if key in keys) or ".") + mark
 
 
 def included_beside(file: str) -> Include | None:

@@ -207,7 +207,7 @@ def _libtas_word(line: str, file: str, number: int) -> str:
             hint = "take it out, or replace it: the ninja runs left and right, and jumps"
             raise ReplayError("a key that the ninja has not", file, number, 1, repr(keysym[:20]), expected, hint)
         letters.append(letter)
-    return _in_order(letters)
+    return in_order(letters)
 
 
 def _celeste_word(found: str, file: str, number: int) -> str:
@@ -216,8 +216,9 @@ def _celeste_word(found: str, file: str, number: int) -> str:
     if not set(letters) <= set("LRJ"):
         hint = "a second jump key would press again what is held: write J" if "K" in letters else "take it out"
         raise ReplayError("a key that the ninja has not", file, number, 1, repr(found[:40]), "L, R and J", hint)
-    return _in_order(letters)
+    return in_order(letters)
 
 
-def _in_order(letters: Iterable[str]) -> str:
+def in_order(letters: Iterable[str]) -> str:
+    """Keys in the order of the notation: L, R, J, each once."""
     return "".join(letter for letter in "LRJ" if letter in [*letters]) or "."

@@ -13,7 +13,7 @@ from functools import lru_cache
 from typing import Any, Self
 
 from ninja_game.errors import ReplayError
-from ninja_game.formats.ascii.reader import write_ascii_level
+from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.lines import Line, header_text, numbered_lines
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.numbers import format_number

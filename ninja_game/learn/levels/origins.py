@@ -10,21 +10,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from functools import cache
 from pathlib import Path
 from typing import TypeAlias
 
 from ninja_game.errors import ArgumentError
-from ninja_game.files.user_folder import bundled_levels
+from ninja_game.files.user_folder import own_levels
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.named_level import NamedLevel, parse_levels
+from ninja_game.formats.pack.index import LEVELS_PER_EPISODE
 from ninja_game.learn.levels.source import Curriculum, LevelSource, nearest
 from ninja_game.sim.level import Level
 
 DEFAULT_LEVEL = "00-0-first-steps"
-
-LEVELS_PER_EPISODE = 5
-"""One level of each episode of the set is for testing: level 2 of the first episode, 3 of the next, and so on."""
 
 Origin: TypeAlias = "str | Path | Level | NamedLevel | LevelSource | Sequence[Origin]"
 """What ``level_source`` takes."""
@@ -82,7 +79,7 @@ def level_source(origin: Origin) -> LevelSource:
         return bench_source(rest)
     if word == "packed":
         return _packed(rest)
-    files = _own_files()
+    files = own_levels()
     chosen = _split(list(files)).get(origin) or [name for name in files if name == origin]
     if chosen:
         return _named([named for name in chosen for named in load_levels(files[name])])
@@ -92,13 +89,8 @@ def level_source(origin: Origin) -> LevelSource:
     raise ArgumentError(f"there is no level, and no file, {origin!r:.100}; expected such as {nearest(origin, words)}")
 
 
-@cache
-def _own_files() -> dict[str, Path]:
-    return {path.stem: path for path in bundled_levels()}
-
-
 def _split(names: Sequence[str]) -> dict[str, list[str]]:
-    """The parts of the set: files EE-L-name, by the rule of LEVELS_PER_EPISODE."""
+    """The parts of the set, of files EE-L-name: for testing, level 2 of the first episode, 3 of the next, and so on."""
     episodes = sorted({name[:2] for name in names})
     test = {f"{episode}-{(place + 2) % LEVELS_PER_EPISODE}" for place, episode in enumerate(episodes)}
     return {
@@ -144,7 +136,7 @@ def generated_levels(seeds: Iterable[int], difficulty: int) -> LevelSource:
     from ninja_game.generator.generate import generate
 
     made = [(seed, generate(seed, difficulty)) for seed in seeds]
-    found = [(f"generated-{difficulty}-{seed}", level.level) for seed, level in made if level]
+    found = [(f"generated-{difficulty}-{seed}", level.named.level) for seed, level in made if level]
     if not found:
         raise ArgumentError(f"none of these seeds gives a level of difficulty {difficulty}; try others")
     return LevelSource([name for name, _ in found], [level for _, level in found])

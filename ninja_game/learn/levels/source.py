@@ -151,8 +151,8 @@ class Curriculum(LevelSource):
     Of the open levels those with more failures are chosen more often, in proportion to 1.1 - rate.
 
     ``difficulties``: one for each level; None: those in the table of the game's levels (docs/making-levels.md).
-    ``start``: how many are open at first. Raises ArgumentError for what is not a source, and
-    for a level whose difficulty is not known.
+    ``start``: how many are open at first. Raises ArgumentError for what is not a source, and for a level whose
+    difficulty is not known.
     """
 
     def __init__(

@@ -17,7 +17,7 @@ from ninja_game.formats.sayings import BAR, KEYS, MOST_LETTERS, MOST_SAYINGS, TH
 from ninja_game.play.app import App
 from ninja_game.play.level.hud import Hud, HudView, Said
 from ninja_game.play.level.hud_view import named_in
-from ninja_game.play.level.play import Things, things_in
+from ninja_game.play.level.places import Things, things_in
 from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuScreen, Row
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import CELL, HALF, LIFETIME

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.play.lab.figure import Call, Control, Figure, Sheet, Stage
-from ninja_game.play.rooms import strokes
 from ninja_game.sim.collision.tiles import EXISTS
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, pressed
@@ -31,7 +31,7 @@ KEYS: Sequence[tuple[str, object]] = (
     ("by itself", -1), ("none", 0), ("left", KEY_LEFT), ("right", KEY_RIGHT), ("jump", JUMP_HELD),
     ("jump right", KEY_RIGHT + JUMP_HELD), ("jump left", KEY_LEFT + JUMP_HELD),
 )  # fmt: skip
-PLAYED = strokes("10 r30 rj20 r30 l40 lj25 l30 10")
+PLAYED = read_inputs([(1, ".*10 R*30 RJ*20 R*30 L*40 LJ*25 L*30 .*10")]).keys
 
 
 class OneTick(Figure):

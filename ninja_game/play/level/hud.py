@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from math import hypot
 from typing import NamedTuple
 
 import pygame
 
 from ninja_game.formats.run_time import rounded_text
-from ninja_game.play.level.play import MUST, TAG_ROOM, Things, tag_top
-from ninja_game.sim.collision.tiles import FULL, SHAPE
+from ninja_game.play.level.places import MUST, TAG_ROOM, Things, away_from, hidden_by, solid_place, tag_top
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL, LIFETIME
 from ninja_game.ui.canvas import WIDTH, Point
+from ninja_game.ui.medals import draw_medal, draw_stamp
 from ninja_game.ui.theme import Palette, Theme, mixed, wrapped
-from ninja_game.ui.widgets import draw_medal, draw_stamp
 
 _BAR_LEFT, _BAR_MIDDLE = 24.0, 12.0  # px
 _BAR_LONGEST = 630.0  # px, with the lifetime that a level begins with, or more
@@ -40,7 +38,6 @@ IN_BORDER = CELL * (ROWS + 1)  # top of what a level says in the border below, p
 _BESIDE_GOLD = 490.0  # its width there, px
 _FAINT = 0.2  # how solid its panel is over the ninja
 _COVERED, CLEAR = 10.0, 34.0  # px between them at which it is as faint as that, and solid
-_BESIDE = 36.0  # px from a place to the panel of what is said about it: solid while the ninja is there
 _TAIL = 8.0  # half the width of its pointer, px
 
 _POINTER_SIZE = 9.5  # letters of the names of things
@@ -50,9 +47,6 @@ _LINE_SIZE = 12.5  # letters of the rest of its panel
 _LINE_WIDEST = WIDTH - 150.0  # a longer line of it is broken, px
 PRIZE = 54.0  # the medal drawn in it, px
 _UPPER = 36.0  # its top, unless it would hide where the run ended or an exit, px
-_LOWEST = 573.0  # where it ends at the latest: below are the level's name and what a pass has brought, px
-_NEAR = 16.0  # px that a panel keeps from the middle of a thing
-_ALONG = 7  # open cells that weigh as much as a cell along rock
 
 _KEYS = (
     (0, KEY_LEFT, ((-3, 0), (2, -4), (2, 4))),
@@ -103,7 +97,7 @@ class Said(NamedTuple):
     text: str
     tiles: tuple[int, ...]
     things: Things
-    eye: Point | None
+    about: Point | None
     covers: bool
     near: bool = False
 
@@ -122,13 +116,12 @@ class HudView:
     """What is written over a level now.
 
     ``lifetime``: ticks, for the time bar; ``label``: a word in its place; ``pars``: medals, and with which lifetime
-    each is lost. ``foot``: texts at the left and the right of the border below, ``name``: what is at the
-    left where a text lies there. ``keys``: those of the present tick,
-    ``frame_ms``: of the last picture; None: not shown.
-    ``moves``: the keys of each line of ``said``, ``letters``: what is on the keys of left, jump and right.
-    ``named``: what a text names, and where that is, px. ``medal``: that of the pass, or "", ``stamp``: how far it has
-    grown, 0…1, ``shine``: how far light has swept over it. ``seen``: how solid the panel of the end is, 0…1.
-    ``ninja``: where it is in play, px: what is said over it fades, ``softly`` or at once.
+    each is lost. ``foot``: texts at the left and the right of the border below, ``name``: what is at the left where a
+    text lies there. ``keys``: those of the present tick, ``frame_ms``: of the last picture; None: not shown. ``moves``:
+    the keys of each line of ``said``, ``letters``: what is on the keys of left, jump and right. ``named``: what a text
+    names, and where that is, px. ``medal``: that of the pass, or "", ``stamp``: how far it has grown, 0…1, ``shine``:
+    how far light has swept over it. ``seen``: how solid the panel of the end is, 0…1. ``ninja``: where it is in play,
+    px: what is said over it fades, ``softly`` or at once.
     """
 
     lifetime: float
@@ -178,8 +171,8 @@ class Hud:
             seen = 1.0 if in_border else _clear_of(view.ninja, said, softly=view.softly)
             place = self.theme.canvas.rect(*said.area)
             behind = _behind(surface, place, seen)
-            if view.said and view.said.near and view.said.eye:
-                written.append(self._tail(surface, said, view.said.eye))
+            if view.said and view.said.near and view.said.about:
+                written.append(self._tail(surface, said, view.said.about))
             written.append(self.said(surface, said, () if in_border else view.moves, view.letters))
             _fade(surface, place, behind, seen)
         if view.end and view.seen > 0:
@@ -255,7 +248,7 @@ class Hud:
         w = max(220.0, head + beside, *(theme.width(line, _LINE_SIZE) for line in lines)) + 44
         h = 48.0 + 18 * len(lines) + below
         x, y = (WIDTH - w) / 2, _UPPER
-        if any(worth > MUST for worth in _hidden(things, x, y, w, h)):
+        if any(cost > MUST for cost in hidden_by(things, x, y, w, h)):
             x, y, *_ = solid_place(tiles, w, h, things, rows=2)
         place = theme.canvas.rect(x, y, w, h)
         behind = _behind(surface, place, view.seen)
@@ -345,16 +338,11 @@ class Hud:
         return rect
 
 
-def _away(point: Point, x: float, y: float, w: float, h: float) -> float:
-    """How far a point is from a panel, px."""
-    return hypot(max(x - point[0], 0.0, point[0] - x - w), max(y - point[1], 0.0, point[1] - y - h))
-
-
 def _clear_of(ninja: Point | None, box: Box, *, softly: bool) -> float:
     """How solid a text's panel is, _FAINT…1: the less, the nearer the ninja is to being hidden by it."""
     if ninja is None:
         return 1.0
-    away = _away(ninja, *box.area)
+    away = away_from(ninja, *box.area)
     share = (away - _COVERED) / (CLEAR - _COVERED) if softly else float(away >= CLEAR)
     return _FAINT + (1 - _FAINT) * min(1.0, max(0.0, share))
 
@@ -375,24 +363,21 @@ def _fade(surface: pygame.Surface, place: pygame.Rect, behind: pygame.Surface | 
         surface.blit(behind, place, special_flags=pygame.BLEND_PREMULTIPLIED)
 
 
-def _hidden(things: Things, x: float, y: float, w: float, h: float) -> Iterator[int]:
-    """The cost of each thing that a panel would hide."""
-    return (worth for a, b, worth in things if -_NEAR < a - x < w + _NEAR and -_NEAR < b - y < h + _NEAR)
-
-
 @lru_cache(maxsize=4)
 def _box(theme: Theme, said: Said, keys: float) -> Box:
     """As ``Hud.box``. Kept, since a text is drawn in each picture and its place takes longer than all the rest."""
-    text, tiles, things, eye, covers, near = said
-    high, beside = _SAID_LINE * theme.scales[0], eye if near else None
-    if eye:
-        things = (*things, (*eye, MUST))
+    text, tiles, things, about, covers, near = said
+    high, beside = _SAID_LINE * theme.scales[0], about if near else None
+    if about:
+        things = (*things, (*about, MUST))
     boxes: list[tuple[int, Box]] = []
     for rows, width in ((0, 1), (0, 0.6), (0, 0.4)) if beside else ((1, 1), (2, 1), (2, 0.6), (0, 1), (0, 0.6)):
         lines = text.split("\n") if keys else wrapped(theme, text, width * _SAID_WIDE, _SAID_SIZE)
         lines = [theme.fit(line, _SAID_WIDEST - keys, _SAID_SIZE) for line in lines]
         w = min(max(theme.width(line, _SAID_SIZE) for line in lines), _SAID_WIDEST - keys) + 28 + keys
-        left, y, covered, hidden = solid_place(tiles, w, high * len(lines) + 19, things, eye, rows=rows, beside=beside)
+        left, y, covered, hidden = solid_place(
+            tiles, w, high * len(lines) + 19, things, about, rows=rows, beside=beside
+        )
         box = Box(lines, left, y, w, high, 10.0, _SAID_SIZE)
         if hidden < (MUST if keys else 1) and (covers or not rows or not covered):
             return box
@@ -403,57 +388,3 @@ def _box(theme: Theme, said: Said, keys: float) -> Box:
     size = min(_SAID_SIZE, _SAID_SIZE * _BESIDE_GOLD / theme.width(text, _SAID_SIZE))
     w = theme.width(text, size) + 28
     return Box([text], (WIDTH - w) / 2, IN_BORDER, w, 17.0, 3.0, size)
-
-
-@lru_cache(maxsize=4)
-def solid_place(
-    tiles: tuple[int, ...], w: float, h: float, things: Things = (), eye: Point | None = None, *,
-    rows: int = 0, beside: Point | None = None,
-) -> tuple[float, float, int, int]:  # fmt: skip
-    """Upper left corner of a panel of that size, px, where it covers no thing, little gold and the least of any way.
-
-    The third is how much it covers, the last how much of that are things, gold and the author's way. What is full is no
-    way, open space far from all that is full hardly one. Of equal places it is the one nearest to ``eye``, or to the
-    middle of the upper border. ``rows``: at the left, in the middle and at the right of so many heights only, from the
-    upper border to the lower one; ``beside``: around that place only, _BESIDE px from it.
-    """
-    open_cells, ways = _ways(tiles)
-
-    def cost(place: tuple[float, float]) -> tuple[int, float, int]:
-        x, y = place
-        columns, heights = (slice(int(a // CELL) - 1, int((a + b - 1) // CELL)) for a, b in ((x, w), (y, h)))
-        area = (1 << heights.stop) - (1 << heights.start)
-        covered = sum((cells & area).bit_count() for cells in open_cells[columns])
-        covered += (_ALONG - 1) * sum((cells & area).bit_count() for cells in ways[columns])
-        hidden = sum(_hidden(things, x, y, w, h))
-        far = hypot(x + w / 2 - eye[0], y + h / 2 - eye[1]) if eye else 0.0
-        return covered + hidden, far or abs(x + w / 2 - WIDTH / 2) + y, hidden
-
-    edge = CELL + 4
-    lefts = [edge + k * (WIDTH - 2 * edge - w) / 8 for k in range(0, 9, 4 if rows else 1)]
-    apart = (_LOWEST - h - edge) / max(1, rows - 1) if rows else 6
-    tops = [edge + k * apart for k in range(rows or int((_LOWEST - h - edge) / 6))]
-    if beside:
-        ends = (beside[0], w, WIDTH - edge), (beside[1], h, _LOWEST)
-        lefts, tops = (
-            [min(max(edge, at + k * (_BESIDE + size / 2) / 4 - size / 2), end - size) for k in range(-4, 5)]
-            for at, size, end in ends
-        )
-    places = [(x, y) for x in lefts for y in tops]
-    clear = [place for place in places if beside and _away(beside, *place, w, h) >= _BESIDE - 1]
-    x, y = min(clear or places, key=cost)
-    covered, _, hidden = cost((x, y))
-    return x, y, covered, hidden
-
-
-@lru_cache(maxsize=4)
-def _ways(tiles: tuple[int, ...]) -> tuple[list[int], list[int]]:
-    """A number for each column of a level, a bit for each row: what is not full, and of that what lies along rock."""
-    all_rows = (1 << ROWS) - 1
-    full = [sum(1 << row for row in range(ROWS) if SHAPE[tiles[first + row]] == FULL)
-            for first in range(0, len(tiles), ROWS)]  # fmt: skip
-    along = [all_rows, *(a | b | c for a, b, c in zip(full, full[1:], full[2:], strict=False)), all_rows]
-    edges = 1 | 1 << ROWS - 1
-    return [~each & all_rows for each in full], [
-        (near | near << 1 | near >> 1 | edges) & ~each & all_rows for near, each in zip(along, full, strict=True)
-    ]

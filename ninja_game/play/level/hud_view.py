@@ -9,7 +9,8 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.run_time import rounded_text, seconds_text
 from ninja_game.formats.sayings import THINGS, named_keys
 from ninja_game.play.level.hud import EndPanel, HudView, Said
-from ninja_game.play.level.play import MUST, STAMP_TICKS, LevelPlay, Phase, Things
+from ninja_game.play.level.places import MUST, Things
+from ninja_game.play.level.play import STAMP_TICKS, LevelPlay, Phase
 from ninja_game.play.level.sayings import FALL_HELP, WHY
 from ninja_game.player.player_data import FIRST_PASS, NEW_ALL_GOLD, OF_A_LEVEL
 from ninja_game.player.playthrough import Navigation
@@ -43,7 +44,7 @@ def hud_view(play: LevelPlay) -> HudView:
     # The start's text stays where it is; who needs to see what keys do is stuck. Both may cover open space.
     covers = play.sayings.is_start or "\n" in text
     place = play.sayings.place
-    where = context.level.tiles, play.things, place or play.eye, covers, place is not None
+    where = context.level.tiles, play.things, place or play.about, covers, place is not None
     said = Said(named_keys(text, key), *where) if text else None
     if play.phase is Phase.DEAD:
         cause, _, why = cause_of_death(play).partition(". ")
@@ -58,7 +59,7 @@ def hud_view(play: LevelPlay) -> HudView:
         end = EndPanel(title, [*_reached(play), keys], *_covering(play))
     hint = _hint(play, key)
     name = shown_text(context.title)
-    title = f"{name} ({play.aim})" if play.phase is Phase.READY and play.aim else name
+    title = f"{name} ({play.next_par})" if play.phase is Phase.READY and play.next_par else name
     if (settings.game_speed < 100 or play.invincible or attempt.assisted) and not context.practice_mode:
         title += f"    {NO_MEDAL}"
     practice = "Practice" + (", slow motion" if play.tools.slow else "")
@@ -87,7 +88,7 @@ def hud_view(play: LevelPlay) -> HudView:
 def _pars_ahead(play: LevelPlay) -> list[tuple[str, float]]:
     """The medals that this try can still bring, in a level that was passed, each with the lifetime at its par."""
     pars, attempt = play.context.pars, play.attempt
-    if pars is None or not play.aim or play.phase is Phase.PASSED:
+    if pars is None or not play.next_par or play.phase is Phase.PASSED:
         return []
     tick = attempt.simulation.tick
     ahead = ((medal, attempt.lifetime - (pars.par(medal) - tick)) for medal in _MARKED)
@@ -96,7 +97,7 @@ def _pars_ahead(play: LevelPlay) -> list[tuple[str, float]]:
 
 def _covering(play: LevelPlay) -> tuple[tuple[int, ...], Things]:
     """The tiles and things of which the panel of an ended run covers little; never where it ended, nor an exit."""
-    x, y = play.eye or (0.0, 0.0)
+    x, y = play.about or (0.0, 0.0)
     end = [(x + dx, y + dy, 9 * MUST) for dx in (-_END_ROOM, 0, _END_ROOM) for dy in (-_END_ROOM, 0, _END_ROOM)]
     exits = [(o.x, o.y, 9 * MUST) for o in play.attempt.simulation.world.objects[1:] if o.kind == EXIT]
     return play.context.level.tiles, (*end, *exits, *play.things)

@@ -7,14 +7,13 @@ from enum import Enum
 from random import Random
 
 from ninja_game.play.app import App
+from ninja_game.play.level.places import MAY, Things, things_in
 from ninja_game.play.level.sayings import Sayings
 from ninja_game.play.replay.playback import Ghost, Playback, RunClock
 from ninja_game.player.attempt import Attempt, Moment
 from ninja_game.player.playthrough import LevelContext
 from ninja_game.player.progress import HELPED
 from ninja_game.player.records import cause_of
-from ninja_game.sim.kinds import EXIT, GOLD, SWITCH
-from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.states import CRUSHED
 from ninja_game.simulation import Simulation
@@ -64,33 +63,6 @@ def followed(shown: float, true: float) -> float:
     return shown + (true - shown) * min(1.0, share)
 
 
-Things = tuple[tuple[float, float, int], ...]
-"""Where things are, px, and how bad it is to cover them: ``MUST``, or ``MAY`` for gold and the way."""
-
-MUST, MAY = 1000, 30
-
-
-TAG_ROOM = 72.0
-"""Below this line, px, there is room for a thing's name above it."""
-
-
-def tag_top(y: float) -> float:
-    """Upper edge of the name of a thing at ``y``, px: above it, or below where that is at the upper edge."""
-    return y - 39 if y > TAG_ROOM else y + 23
-
-
-def things_in(world: World, *, tagged: bool) -> Things:
-    """The ninja and what else is in a world; ``tagged``: the names beside switches and exits too."""
-    objects = world.objects[1:]
-    places = [(o.x, o.y, MAY if o.kind == GOLD else MUST) for o in objects]
-    names = [o for o in objects if tagged and o.kind in {SWITCH, EXIT}]
-    return (
-        (world.ninja.x, world.ninja.y, MUST),
-        *places,
-        *((o.x + dx, tag_top(o.y) + 8, MUST) for o in names for dx in (-12, 12)),
-    )
-
-
 class Phase(Enum):
     READY = "ready"
     PLAY = "play"
@@ -108,9 +80,10 @@ class LevelPlay:
 
     ``view`` shows every tick. ``tries``: the failed ones, inputs. ``after_end``: ticks since the exit contact or death;
     ``killer``: what killed, one of ``records.KILLERS``, ``crushed`` whether by being crushed. ``keys``: those of the
-    last tick. ``things``: what a text of the level is not to cover; ``eye``: where the ninja was when the present text
-    came, or the run ended; None for the text of the start. ``notices``: what a pass has brought. ``aim``: the next par,
-    while it waits at the start. ``changed``: more than a tick has happened, so that everything has to be drawn again.
+    last tick. ``things``: what a text of the level is not to cover; ``about``: where the ninja was when the present
+    text came, or the run ended; None for the text of the start. ``notices``: what a pass has brought. ``next_par``: in
+    words, while it waits at the start. ``changed``: more than a tick has happened, so that everything has to be drawn
+    again.
     """
 
     def __init__(self, app: App, context: LevelContext) -> None:
@@ -139,12 +112,12 @@ class LevelPlay:
         self.app.controls.stop_running()
         self._held_before = self.app.controls.poll()
         self.keys = self._ignored = self._tapped = 0
-        self.eye: tuple[float, float] | None = None
+        self.about: tuple[float, float] | None = None
         self.after_end = self._frozen_ms = 0
         self.killer, self.crushed = "", False
         self.sayings.at_start()
         self.notices: list[str] = []
-        self.aim = self.context.aim()
+        self.next_par = self.context.next_par()
         runs = self.context.ghosts()
         if runs != [(ghost.inputs, ghost.pace) for ghost in self.ghosts]:
             self.ghosts = [Ghost(run, self.context.level, self.context.body, pace=pace) for run, pace in runs]
@@ -299,7 +272,7 @@ class LevelPlay:
             self.view.on_tick()
             self.tools.on_tick()
             if self.phase is Phase.PLAY and self.sayings.on_tick(self.attempt.simulation.world):
-                self.changed, self.eye = True, None if self.sayings.is_start else self.ninja_place()
+                self.changed, self.about = True, None if self.sayings.is_start else self.ninja_place()
             self._note_end()
         if due and self.phase is Phase.PLAY:
             self.attempt.check_time()
@@ -310,7 +283,7 @@ class LevelPlay:
     def _note_end(self) -> None:
         """Phases follow the first exit contact or death."""
         if self.phase is Phase.PLAY and self.attempt.outcome != "running":
-            self.after_end, self.eye = 0, self.ninja_place()
+            self.after_end, self.about = 0, self.ninja_place()
             self.phase = _PHASE_OF_OUTCOME[self.attempt.outcome]
             self.changed = True
             if self.phase is Phase.PASSED:

@@ -20,8 +20,9 @@ from ninja_game.player.playthrough import EpisodeRun, left_half_way
 from ninja_game.player.progress import CHEATED, LOCKED, WITH_HELP, Mark, has_all_gold, next_par, tally, worst_medal
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import BAR, ListView
+from ninja_game.ui.medals import MEDALS, draw_all_gold, draw_medal
 from ninja_game.ui.theme import Area, Theme, mixed
-from ninja_game.ui.widgets import MEDALS, Button, Choice, Widget, draw_all_gold, draw_medal
+from ninja_game.ui.widgets import Button, Choice, Widget
 
 LEFT, TOP, WIDE, MOST_HIGH = 44, 116, 318, 286
 """Where the grid lies: it is as large as the episodes that there are, cells up to LARGEST px."""

@@ -12,10 +12,11 @@ import pygame
 from ninja_game import __version__
 from ninja_game.errors import LevelError
 from ninja_game.files.user_folder import data_folder
+from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.replay.playback import Playback, RunClock
-from ninja_game.play.rooms import room_level, strokes
+from ninja_game.play.rooms import room_level
 from ninja_game.play.workspace import Command, key_text
 from ninja_game.sim.level import Level
 from ninja_game.simulation import Simulation
@@ -54,7 +55,8 @@ def _page(table: dict[str, Any], file: str) -> Page:
         level = room_level(table["room"].strip("\n").split("\n"), table.get("objects", []))
     except LevelError as error:
         raise LevelError(f"the page {table['title']!r}: {error}", file) from error
-    return Page(table["title"], tuple(table["text"]), level, strokes(table["keys"]), tuple(table["shows"]))
+    inputs = read_inputs([(1, table["keys"])]).keys
+    return Page(table["title"], tuple(table["text"]), level, inputs, tuple(table["shows"]))
 
 
 class HelpPage(MenuScreen):

@@ -14,8 +14,8 @@ from ninja_game.levels.episodes import Entry
 from ninja_game.play.menus.packer import NOT_CERTIFIED, NOT_FOUND, PackStatus
 from ninja_game.play.menus.thumbnails import Thumbnails
 from ninja_game.ui.list_view import BAR, ListView
+from ninja_game.ui.medals import draw_all_gold
 from ninja_game.ui.theme import Area, Theme
-from ninja_game.ui.widgets import draw_all_gold
 
 WIDE, HIGH = 93, 106
 

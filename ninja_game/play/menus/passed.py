@@ -22,7 +22,8 @@ from ninja_game.player.progress import Mark, worst_medal
 from ninja_game.player.records import EpisodeBest
 from ninja_game.sim.rules import TICK_MS
 from ninja_game.ui.canvas import WIDTH
-from ninja_game.ui.widgets import Button, Widget, draw_stamp
+from ninja_game.ui.medals import draw_stamp
+from ninja_game.ui.widgets import Button, Widget
 from ninja_game.view.effects.particles import Particle, Particles
 from ninja_game.view.sprites.drawing import DrawTarget, shared_book
 from ninja_game.view.sprites.light import Look, light_picture

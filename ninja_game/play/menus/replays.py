@@ -12,7 +12,7 @@ import pygame
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.reading import LeftOut, files_below
 from ninja_game.files.shown_text import unreadable
-from ninja_game.files.user_folder import bundled_replays
+from ninja_game.files.user_folder import REPLAY_SUFFIX, bundled_replays
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.links import recording_link, replay_link
 from ninja_game.formats.load import load_replays
@@ -177,7 +177,7 @@ class ReplaysScreen(MenuScreen):
         if replay is None:
             self.app.notify("Only replays of this game can be saved as text")
         else:
-            self.app.write_export(row.text, ".replay.txt", write_replay(replay))
+            self.app.write_export(row.text, REPLAY_SUFFIX, write_replay(replay))
 
     def _copy_link(self, row: ReplayRow) -> None:
         def make() -> str:
@@ -343,7 +343,7 @@ class RecordsScreen(MenuScreen):
                     row.text, ".episode.txt", lambda path: write_atomically(path, write_episode(replays))
                 )
             else:
-                self.app.write_export(row.text, ".replay.txt", write_replay(*replays))
+                self.app.write_export(row.text, REPLAY_SUFFIX, write_replay(*replays))
         else:
             super().handle(event)
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
+from itertools import count
 
 import pygame
 
@@ -13,7 +14,7 @@ from ninja_game.play.app import App, Screen
 from ninja_game.play.menus.menu_screen import CANCEL, Menu, Row
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
 from ninja_game.player.progress import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
-from ninja_game.player.settings import BY_COLUMN, GHOSTS
+from ninja_game.player.settings import BY_COLUMN, GHOSTS, RULES
 from ninja_game.ui.canvas import WIDTH
 from ninja_game.ui.input.bindings import ACTIONS, MENU_KEYS, MENU_PAD, InputEvent, bindable
 from ninja_game.ui.input.gamepad import pad_label
@@ -90,8 +91,9 @@ def binding_widgets(screen: SettingsScreen, device: str) -> list[Widget]:
     if device == "pad":
         pads = screen.app.controls.pads.count
         zone = Slider(
-            (216, 514, 540, 30), "Dead zone of sticks", (0.05, 0.95, 0.05), lambda: screen.player.settings.dead_zone,
-            lambda value: screen.change(dead_zone=round(value, 2)), show=lambda value: f"{100 * value:.0f}%",
+            (216, 514, 540, 30), "Dead zone of sticks", RULES["dead_zone"].span,
+            lambda: screen.player.settings.dead_zone, lambda value: screen.change(dead_zone=round(value, 2)),
+            show="{:.0%}".format,
             hint=f"{pads or 'No'} gamepads are plugged in" if pads != 1 else "One gamepad is plugged in",
         )  # fmt: skip
         widgets.append(zone)
@@ -200,7 +202,6 @@ class BindingTable(ListView):
                 theme.text(surface, text, x + width / 2, top + 0.5, size=10, align="centre", width=width - 10)
 
 
-PAGES = ("Picture", "Sound", "Play", "Accessibility", "Keyboard", "Gamepad")
 SWITCH = [("off", False), ("on", True)]
 RACED = [("your best run", "best"), ("your next medal", "next"), *((f"{medal} medal", medal) for medal in GHOSTS[2:])]
 RATES = [("same as display", 0), ("30", 30), ("60", 60), ("120", 120), ("144", 144), ("240", 240)]
@@ -216,18 +217,25 @@ class SettingsScreen(ThumbnailScreen):
 
     def __init__(self, app: App) -> None:
         super().__init__(app)
-        self.page = PAGES[0]
+        self.pages: dict[str, Callable[[], list[Widget]]] = {
+            "Picture": self._picture, "Sound": self._sound, "Play": self._play, "Accessibility": self._accessibility,
+            "Keyboard": partial(binding_widgets, self, "keys"), "Gamepad": partial(binding_widgets, self, "pad"),
+        }  # fmt: skip
+        self.titles = list(self.pages)
+        self.page = self.titles[0]
         self.tables: dict[str, BindingTable] = {}
-        self.tabs = ListView((40, TOP - 4, 158, 40 * len(PAGES)), 40, self._draw_tab, self._go_in, selected=self._show)
+        self.tabs = ListView((40, TOP - 4, 158, 40 * len(self.titles)), 40, self._draw_tab, self._go_in,
+                             selected=self._show)  # fmt: skip
         self.tabs.hint = "Up and down to choose a page, Right to open it"
-        self.tabs.fill(PAGES)
+        self.tabs.fill(self.titles)
 
     def build(self) -> Sequence[Widget]:
-        return [self.tabs, *self._page_widgets()]
+        self._rows = count()
+        return [self.tabs, *self.pages[self.page]()]
 
     def _show(self, index: int) -> None:
-        if self.page != PAGES[index]:
-            self.page = PAGES[index]
+        if self.page != self.titles[index]:
+            self.page = self.titles[index]
             self.enter()
             self.redraw = True
 
@@ -241,27 +249,22 @@ class SettingsScreen(ThumbnailScreen):
         else:
             self.focus_on(self.tabs)
 
-    def _page_widgets(self) -> list[Widget]:
-        if self.page in ("Keyboard", "Gamepad"):
-            return binding_widgets(self, "keys" if self.page == "Keyboard" else "pad")
-        pages = {"Picture": self._picture, "Sound": self._sound, "Play": self._play}
-        return pages.get(self.page, self._accessibility)()
-
     def change(self, **values: object) -> None:
         self.app.change_settings(**values)
 
-    def _area(self, place: int) -> tuple[float, float, float, float]:
-        return LEFT, TOP + STEP * place, WIDTH_OF_ROW, HEIGHT_OF_ROW
+    def _area(self) -> Area:
+        """Of the next row of the page."""
+        return LEFT, TOP + STEP * next(self._rows), WIDTH_OF_ROW, HEIGHT_OF_ROW
 
     def _choice(
-        self, place: int, text: str, name: str, options: Sequence[tuple[str, object]], hint: str = ""
+        self, text: str, name: str, options: Sequence[tuple[str, object]] = SWITCH, hint: str = ""
     ) -> Choice[object]:
         return Choice(
-            self._area(place), text, options, lambda: getattr(self.player.settings, name),
+            self._area(), text, options, lambda: getattr(self.player.settings, name),
             lambda value: self.change(**{name: value}), hint=hint,
         )  # fmt: skip
 
-    def _slider(self, place: int, text: str, name: str, range_: tuple[float, float, float], hint: str = "") -> Slider:
+    def _slider(self, text: str, name: str, hint: str = "") -> Slider:
         """One for a number; volumes, stored as 0 to 99, are heard at once."""
         volume = name.endswith("volume")
 
@@ -270,9 +273,10 @@ class SettingsScreen(ThumbnailScreen):
             if volume:
                 self.chime("gold-1" if name == "volume" else "menu-move")
 
-        share = 100 / range_[1]
+        span = RULES[name].span
+        share = 100 / span[1]
         return Slider(
-            self._area(place), text, range_, lambda: getattr(self.player.settings, name), put,
+            self._area(), text, span, lambda: getattr(self.player.settings, name), put,
             show=lambda value: f"{share * value:.0f}%", hint=hint,
         )  # fmt: skip
 
@@ -285,36 +289,34 @@ class SettingsScreen(ThumbnailScreen):
         looks = "Classic is plain grey. Contrast and Safe mark everything deadly with spikes"
         more = "Finish a whole column of episodes for more" if count < len(NINJA_COLOURS) else ""
         return [
-            self._choice(0, "Palette", "palette", palettes, looks),
-            self._choice(1, "Ninja colour", "ninja_colour", colours, more),
-            self._choice(2, "Full screen", "fullscreen", SWITCH, "F11 at any time"),
-            self._choice(3, "Smooth motion", "smooth", SWITCH, "Draws more than the 40 ticks a second of the game"),
-            self._choice(4, "Frame rate", "frame_limit", RATES),
-            self._choice(5, "Show frame time", "show_frame_time", SWITCH),
+            self._choice("Palette", "palette", palettes, looks),
+            self._choice("Ninja colour", "ninja_colour", colours, more),
+            self._choice("Full screen", "fullscreen", hint="F11 at any time"),
+            self._choice("Smooth motion", "smooth", hint="Draws more than the 40 ticks a second of the game"),
+            self._choice("Frame rate", "frame_limit", RATES),
+            self._choice("Show frame time", "show_frame_time"),
         ]
 
     def _sound(self) -> list[Widget]:
         return [
-            self._slider(0, "Volume", "volume", (0, 99, 3), "Everything you hear"),
-            self._slider(1, "Effects", "effects_volume", (0, 99, 3), "Everything but the music"),
-            self._slider(2, "Slides, rockets, lasers", "loop_volume", (0, 99, 3), "The effects that go on and on"),
-            self._slider(3, "Music", "music_volume", (0, 99, 3), "A tune for each column of episodes"),
-            self._choice(4, "Music in practice", "music_in_practice", SWITCH),
+            self._slider("Volume", "volume", "Everything you hear"),
+            self._slider("Effects", "effects_volume", "Everything but the music"),
+            self._slider("Slides, rockets, lasers", "loop_volume", "The effects that go on and on"),
+            self._slider("Music", "music_volume", "A tune for each column of episodes"),
+            self._choice("Music in practice", "music_in_practice"),
         ]
 
     def _play(self) -> list[Widget]:
         widgets: list[Widget] = [
-            self._choice(0, "Practice mode", "practice", SWITCH, PRACTICE_HINT),
-            Label((LEFT, TOP + STEP + 10, 212, 14), "Your name in replays"),
-            TextEntry((LEFT + 220, TOP + STEP, WIDTH_OF_ROW - 220, HEIGHT_OF_ROW), "unnamed",
-                      self.player.settings.name, lambda text: self.change(name=text)),
-            self._choice(2, "Hints in levels", "level_texts", SWITCH, "Shown until you pass the level"),
-            self._choice(3, "Race against", "ghost", RACED, f"A ghost; {self.app.controls.name('ghost')} hides it"),
-            self._choice(4, "Show keys in play", "show_keys", SWITCH),
-        ]  # fmt: skip
+            self._choice("Practice mode", "practice", hint=PRACTICE_HINT),
+            *self._name_row(),
+            self._choice("Hints in levels", "level_texts", hint="Shown until you pass the level"),
+            self._choice("Race against", "ghost", RACED, f"A ghost; {self.app.controls.name('ghost')} hides it"),
+            self._choice("Show keys in play", "show_keys"),
+        ]
         if overclock_unlocked(self.player.columns_complete, self.player.columns_present):
             widgets.append(
-                Slider(self._area(5), "Overclock, ms", (0, FASTEST_TICK_GAIN, 1), lambda: self.app.overclock,
+                Slider(self._area(), "Overclock, ms", (0, FASTEST_TICK_GAIN, 1), lambda: self.app.overclock,
                        lambda value: setattr(self.app, "overclock", round(value)),
                        hint="Speeds the game up until you quit")
             )  # fmt: skip
@@ -323,19 +325,25 @@ class SettingsScreen(ThumbnailScreen):
         below = TOP + STEP * 9
         return [*widgets, *(Label((LEFT, below + 20 * k, WIDTH_OF_ROW, 14), text) for k, text in enumerate(texts))]
 
+    def _name_row(self) -> list[Widget]:
+        x, y, w, h = self._area()
+        name, put = self.player.settings.name, lambda text: self.change(name=text)
+        entry = TextEntry((x + 220, y, w - 220, h), "unnamed", name, put)
+        return [Label((x, y + 10, 212, 14), "Your name in replays"), entry]
+
     def _accessibility(self) -> list[Widget]:
         return [
-            self._choice(0, "Text size", "text_size", list(TEXT_SIZES.items())),
-            self._slider(1, "Game speed", "game_speed", (50, 100, 5), "Slower is easier, but earns no medal"),
-            self._choice(2, "Invincible", "invincible", SWITCH,
-                         "Only being crushed or running out of time can stop you. Earns no medal"),
-            self._choice(3, "Running keys", "tap_to_run", [("hold", False), ("tap", True)],
+            self._choice("Text size", "text_size", list(TEXT_SIZES.items())),
+            self._slider("Game speed", "game_speed", "Slower is easier, but earns no medal"),
+            self._choice("Invincible", "invincible",
+                         hint="Only being crushed or running out of time can stop you. Earns no medal"),
+            self._choice("Running keys", "tap_to_run", [("hold", False), ("tap", True)],
                          "Tap: one press keeps you running until the next"),
-            self._choice(4, "Show warning sounds", "sound_cues", SWITCH, "Marks every rocket, laser, chase and turret"),
-            self._choice(5, "Reduced motion", "reduced_motion", SWITCH, "Fewer particles; no shakes, freezes or wipes"),
-            self._choice(6, "Reduced gore", "reduced_gore", SWITCH, "No blood"),
-            self._slider(7, "Screen shake", "shake", (0, 100, 5)),
-            self._slider(8, "Particles", "particles", (0, 100, 5)),
+            self._choice("Show warning sounds", "sound_cues", hint="Marks every rocket, laser, chase and turret"),
+            self._choice("Reduced motion", "reduced_motion", hint="Fewer particles; no shakes, freezes or wipes"),
+            self._choice("Reduced gore", "reduced_gore", hint="No blood"),
+            self._slider("Screen shake", "shake"),
+            self._slider("Particles", "particles"),
         ]  # fmt: skip
 
     def draw_frame(self, surface: pygame.Surface) -> None:
@@ -354,4 +362,4 @@ class SettingsScreen(ThumbnailScreen):
     def _draw_tab(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         x, y, w, h = area
         theme.row(surface, (x + 4, y + 4, w, h - 8), chosen=index == self.tabs.index, focused=focused)
-        theme.text(surface, PAGES[index], x + 4 + w / 2, y + h / 2 - 6, size=12, align="centre", bold=focused)
+        theme.text(surface, self.titles[index], x + 4 + w / 2, y + h / 2 - 6, size=12, align="centre", bold=focused)

@@ -15,8 +15,8 @@ from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.player.progress import Mark, has_all_gold, medal_of
 from ninja_game.player.records import Played
 from ninja_game.ui.audio.music import MENU
+from ninja_game.ui.medals import MEDALS, draw_all_gold, draw_medal
 from ninja_game.ui.theme import Theme
-from ninja_game.ui.widgets import MEDALS, draw_all_gold, draw_medal
 from ninja_game.view.sprites.thumbnail import thumbnail
 
 BUDGET = 0.006

@@ -171,11 +171,9 @@ def _called(runs: Sequence[Recording]) -> list[str]:
 
 def split_texts(own: RunSplits, others: Sequence[RunSplits]) -> list[tuple[int, str]]:
     """Tick and text of each split of a run: how many ticks later (+) or earlier (-) the others have it."""
-    from ninja_game.runs.compare import split_name
-
     found, names = [], _called([each.recording for each in (own, *others)])[1:]
     for split in own.splits:
-        words = [split_name(str(split))]
+        words = [split.name]
         for each, name in zip(others, names, strict=True):
             there = each.by_key.get(split.key)
             words.append(f"{name} {there.tick - split.tick:+d}" if there else f"{name} never")

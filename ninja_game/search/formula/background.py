@@ -11,11 +11,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ninja_game.batch.thread_pool import cores
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.replay.text import Replay
 from ninja_game.runs.run import run_level
-from ninja_game.runtime import require_desktop, run_in_background
+from ninja_game.runtime import cores, require_desktop, run_in_background
 from ninja_game.search.certificate import UnverifiedRunError, with_plain_triggers
 from ninja_game.search.formula.methods import METHODS, search_span, to_exit
 from ninja_game.search.formula.task import Found, SpanTask

@@ -1,7 +1,7 @@
 """Which kind's rule runs: at load, when the ninja asks the nine cells, in an update, in a think (objects.md §2-§3).
 
-If-chains over small integers, because both memories are fastest with them. What every kind does
-about a death or a win is in ``death.py``, what traces show of it in ``traces.py``; ``kinds.py`` says who is where.
+If-chains over small integers, because both memories are fastest with them. What every kind does about a death or a win
+is in ``death.py``, what traces show of it in ``traces.py``; ``kinds.py`` says who is where.
 """
 
 from __future__ import annotations

@@ -9,11 +9,11 @@ from time import monotonic
 
 import pygame
 
-from ninja_game.batch.thread_pool import cores
 from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.files.shown_text import counted
 from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.play.workspace import Commands
+from ninja_game.runtime import cores
 from ninja_game.search.certificate import moved_markers
 from ninja_game.search.formula.background import RunSearch, SpanSearch
 from ninja_game.search.formula.methods import KEPT, fewest_ticks

@@ -30,22 +30,24 @@ TOUCH_LABELS = {
 
 
 class Bindings:
-    """Which keys and pad inputs mean which actions.
+    """Which keys and pad inputs mean which actions: ``keys`` and ``pad``, by action.
 
-    ``keys`` and ``pad``: what the player has changed, by action; the other actions have their defaults. Unknown names
-    are ignored, and stand in ``unknown``; an action that has only such keys keeps its defaults.
     ``tap_to_run``: a press of left or right runs on until the next press of either.
     """
 
-    def __init__(self, keys: Inputs | None = None, pad: Inputs | None = None, *, dead_zone: float = 0.35) -> None:
-        self.pads = Gamepads(dead_zone)
+    def __init__(self) -> None:
+        self.pads = Gamepads()
         self.pad_used = self.touched = False
         self._taps: dict[int, float] = {}
         self.tap_to_run = False
         self._running = self._jumps_down = 0
-        self.bind(keys or {}, pad or {})
+        self.bind({}, {})
 
     def bind(self, keys: Inputs, pad: Inputs) -> None:
+        """Take what the player has changed, by action; the other actions have their defaults.
+
+        Unknown names are ignored, and stand in ``unknown``; an action that has only such keys keeps its defaults.
+        """
         self.unknown = sorted({name for names in keys.values() for name in names if not scancode_named(name)})
         self.keys = {}
         for action, default in ACTIONS.items():

@@ -11,6 +11,8 @@ from typing import Any
 
 import pygame
 
+from ninja_game.player.settings import Settings
+
 RELEASE_SHARE = 0.8
 """A stick counts as back at rest below this share of the dead zone, so that it does not flutter at its edge."""
 
@@ -38,8 +40,8 @@ Change = tuple[str, bool]  # an input's name, and whether it is down now
 class Gamepads:
     """All pads together. ``dead_zone``: share of a stick's way that counts as rest. ``down``: the inputs held now."""
 
-    def __init__(self, dead_zone: float = 0.35) -> None:
-        self.dead_zone = dead_zone
+    def __init__(self) -> None:
+        self.dead_zone = Settings.dead_zone
         self._down: dict[int, set[str]] = {}
         self._open: dict[int, Any] = {}
         with suppress(ImportError, pygame.error):

@@ -19,7 +19,7 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Entry
-from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, SplitRow, run_splits, split_name, split_table, sum_of_best
+from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, SplitRow, run_splits, split_table, sum_of_best
 from ninja_game.ui.theme import RUN_COLOURS
 from ninja_game.web.board.ranking import Part, Ranked, Ranking
 from ninja_game.web.board.rules import FASTEST, Category
@@ -260,7 +260,7 @@ class LevelPages:
         ]
         races = table("Seconds by which the left one is later; a link watches both", ("Run", *names), pairs)
         rows = _split_rows(found)
-        lines = [(split_name(str(row.split)), *_cells(row)) for row in rows]
+        lines = [(row.split.name, *_cells(row)) for row in rows]
         splits = table("Seconds; later than the first: +", ("Split", names[0], "Fastest segment", *names[1:]), lines)
         best = tag("p", f"Sum of the fastest segments, each from the row above: {seconds_text(sum_of_best(rows))} s.")
         drawn = joined(drawn, tag("p", f"The first {len(runs)} runs: {name}"), together)

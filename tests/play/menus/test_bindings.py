@@ -100,7 +100,7 @@ def test_stick_presses_beyond_the_dead_zone_and_does_not_flutter(bindings: Bindi
 
 
 def test_stick_thrown_across_releases_one_side_and_presses_the_other() -> None:
-    pads = Gamepads(0.35)
+    pads = Gamepads()
     pads.changes(axis(-1.0))
     assert sorted(pads.changes(axis(1.0))) == [("leftx+", True), ("leftx-", False)]
 

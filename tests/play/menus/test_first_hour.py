@@ -10,17 +10,19 @@ import pygame
 import pytest
 
 from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.formats.sayings import read_sayings
-from ninja_game.play.level.hud import CLEAR, IN_BORDER, Hud, Said, solid_place
+from ninja_game.play.level.hud import CLEAR, IN_BORDER, Hud, Said
 from ninja_game.play.level.hud_view import cause_of_death, hud_view
-from ninja_game.play.level.play import DEATH_PAUSE, MUST, STUCK_AFTER, Phase, tag_top
+from ninja_game.play.level.places import MUST, solid_place, tag_top
+from ninja_game.play.level.play import DEATH_PAUSE, STUCK_AFTER, Phase
 from ninja_game.play.level.sayings import CLIMB, CLIMBED, FALL_HELP, QUIET_TICKS, START_TICKS, Sayings
 from ninja_game.play.level.screen import LevelScreen, PausePanel, play_level
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.play.rooms import room_level, strokes
+from ninja_game.play.rooms import room_level
 from ninja_game.player.playthrough import EpisodeRun, LevelRun
 from ninja_game.player.records import SELF
 from ninja_game.sim.kinds import EXIT, SWITCH
@@ -475,11 +477,11 @@ def test_text_in_play_lies_over_rock_near_the_ninja_or_else_in_the_border(driver
     hud = Hud(driver.app.theme)
     (text, tiles, things, _, covers, _), far = hud_view(level.play).said or ("", (), (), None, True, False), []
     assert covers, "the text of the start stays where it was"
-    level.play.eye = (40, 500)
+    level.play.about = (40, 500)
     level.play.sayings.text = "Another one"
     assert hud_view(level.play).said == Said("Another one", tiles, things, (40, 500), covers=False)
-    for eye in ((40.0, 440.0), (750.0, 440.0)):
-        lines, left, y, w, high, *_ = hud.box(Said(text, tiles, things, eye, covers=False))
+    for about in ((40.0, 440.0), (750.0, 440.0)):
+        lines, left, y, w, high, *_ = hud.box(Said(text, tiles, things, about, covers=False))
         assert y < IN_BORDER
         cells = {(int(a // 24) - 1, int(b // 24) - 1) for a in (left, left + w) for b in (y, y + high * len(lines))}
         assert all(tiles[column * ROWS + row] == 1 for column, row in cells), "over rock only"
@@ -500,7 +502,7 @@ def test_what_is_said_of_a_place_lies_beside_it_and_points_to_it(
 ) -> None:
     level, text = LevelScreen(driver.app, LevelRun(driver.player, entry(short_level()))), " ".join(["word"] * words)
     level.play.sayings._say(text, 99, place=place)
-    level.play.eye = (10.0, 10.0)
+    level.play.about = (10.0, 10.0)
     view = hud_view(level.play)
     assert view.said
     assert view.said[3:] == (place, False, True)
@@ -544,7 +546,7 @@ def climb(keys: str) -> tuple[list[str], float]:
     """What is said in a well in which one plays so, and the greatest height, px."""
     simulation, sayings = Simulation(WELL), Sayings((), helps=True)
     seen, floor, height = [], simulation.world.ninja.y, 0.0
-    for each in strokes(keys):
+    for each in read_inputs([(1, keys)]).keys:
         simulation.step_keys(each)
         height = max(height, floor - simulation.world.ninja.y)
         if sayings.on_tick(simulation.world) and sayings.text:
@@ -552,26 +554,26 @@ def climb(keys: str) -> tuple[list[str], float]:
     return seen, height
 
 
-SLIP = "40 r12 rj20 r20 l60 "
+SLIP = ".*40 R*12 RJ*20 R*20 L*60 "
 
 
 def test_who_slips_down_a_wall_twice_sees_what_the_keys_do_at_it() -> None:
     right, left = (CLIMB % names for names in (("{right}", "{left}"), ("{left}", "{right}")))
     assert climb(SLIP)[0] == []
     assert climb(SLIP * 2)[0] == [right]
-    assert climb(SLIP * 2 + "500 " + SLIP * 2)[0] == [right, right], "it comes back"
-    assert climb(2 * "40 l12 lj20 l20 r60 ")[0] == [left]
-    assert climb("40 r12 rj20 r20 l60 " + "40 rj30 40 " * 6)[0] == []
+    assert climb(SLIP * 2 + ".*500 " + SLIP * 2)[0] == [right, right], "it comes back"
+    assert climb(2 * ".*40 L*12 LJ*20 L*20 R*60 ")[0] == [left]
+    assert climb(".*40 R*12 RJ*20 R*20 L*60 " + ".*40 RJ*30 .*40 " * 6)[0] == []
 
 
 def test_help_with_walls_is_gone_once_the_climb_is_done() -> None:
     simulation, sayings = Simulation(WELL), Sayings((), helps=True)
-    for each in strokes(SLIP * 2):
+    for each in read_inputs([(1, SLIP * 2)]).keys:
         simulation.step_keys(each)
         sayings.on_tick(simulation.world)
     assert sayings.text
     floor = simulation.world.ninja.y
-    for each in strokes("r12 rj20 r18 " + "rj20 r8 " * 5):
+    for each in read_inputs([(1, "R*12 RJ*20 R*18 " + "RJ*20 R*8 " * 5)]).keys:
         simulation.step_keys(each)
         sayings.on_tick(simulation.world)
         if not sayings.text:
@@ -630,7 +632,7 @@ def test_last_level_of_an_episode_left_out_leads_to_the_next_episode(driver: Men
 
 def test_climbing_as_the_hint_says_works_and_away_from_the_wall_first_does_not() -> None:
     _, once = climb("40 r12 rj20 r20")
-    assert climb("40 r12 rj20 r18 " + "rj20 r8 " * 6)[1] > once + 100, "towards the wall, jump held at each touch"
+    assert climb("40 r12 rj20 r18 " + "RJ*20 R*8 " * 6)[1] > once + 100, "towards the wall, jump held at each touch"
     assert climb("40 r12 rj20 r18 " + "l3 lj20 l30 ")[1] <= once, "away first: no jump at all"
     assert climb("40 r12 rj20 r18 j20 l20")[1] > once + 10, "jump alone"
 

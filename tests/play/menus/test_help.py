@@ -9,7 +9,7 @@ import pytest
 
 from ninja_game.errors import LevelError
 from ninja_game.play.menus.help import HelpScreen, Page, read_pages
-from ninja_game.play.rooms import room_level, strokes
+from ninja_game.play.rooms import room_level
 from ninja_game.sim.kinds import KIND_NAMES
 from ninja_game.simulation import Simulation
 from ninja_game.ui.input.bindings import ACTIONS
@@ -36,9 +36,7 @@ def test_every_kind_of_object_has_a_page() -> None:
     assert shown == set(range(len(KIND_NAMES)))
 
 
-def test_wrong_strokes_and_rooms_are_named() -> None:
-    with pytest.raises(LevelError, match="x5"):
-        strokes("r3 x5")
+def test_a_wrong_room_is_named() -> None:
     with pytest.raises(LevelError):
         room_level(["@..,.."], ["nonsense 5,5"])
 

@@ -17,7 +17,7 @@ from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.menu_screen import BACK, MenuScreen, Question
 from ninja_game.play.menus.replays import RecordsScreen, ReplaysScreen
-from ninja_game.play.menus.settings import PAGES, SettingsScreen
+from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.ui.input.gamepad import BUTTONS
 from ninja_game.ui.list_view import ListView
@@ -154,7 +154,7 @@ def test_every_entry_is_opened_and_left(player: Buttons, entry: str) -> None:
 def test_every_page_of_the_settings_and_the_help_and_every_figure_is_seen(player: Buttons) -> None:
     player.choose("Settings")
     settings = player.driver.shown(SettingsScreen)
-    for number, page in enumerate(PAGES):
+    for number, page in enumerate(settings.pages):
         player.row(settings.tabs, number)
         assert settings.page == page
     player.back()
@@ -180,7 +180,7 @@ def test_every_page_of_the_settings_and_the_help_and_every_figure_is_seen(player
 def test_a_setting_is_changed(player: Buttons) -> None:
     player.choose("Settings")
     screen = player.driver.shown(SettingsScreen)
-    player.row(screen.tabs, PAGES.index("Accessibility"))
+    player.row(screen.tabs, screen.titles.index("Accessibility"))
     if player.kind == "mouse":
         player.driver.choose("Invincible")
     else:

@@ -23,7 +23,7 @@ from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.menu_screen import MenuScreen, Question
 from ninja_game.play.menus.replays import RecordsScreen, ReplaysScreen
-from ninja_game.play.menus.settings import PAGES, SettingsScreen
+from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.settings import BY_COLUMN
 from ninja_game.ui.theme import wrapped
@@ -138,7 +138,7 @@ def test_stall_during_a_short_press_does_not_repeat_it(driver: MenuDriver) -> No
 
 def test_every_page_of_the_settings_shows(driver: MenuDriver) -> None:
     driver.open("Settings")
-    for page in PAGES:
+    for page in driver.shown(SettingsScreen).pages:
         assert driver.settings_page(page).page == page
         driver.frames(2)
 

@@ -7,7 +7,7 @@ import pytest
 
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.menu_screen import Menu
-from ninja_game.play.menus.settings import LEFT, LIST, PAGES, ROW, SLOTS, STEP, TOP, Capture, SettingsScreen, clash
+from ninja_game.play.menus.settings import LEFT, LIST, ROW, SLOTS, STEP, TOP, Capture, SettingsScreen, clash
 from ninja_game.ui.input.bindings import ACTIONS, MENU_KEYS, MENU_PAD, bindable
 from ninja_game.ui.theme import PALETTES
 from ninja_game.ui.widgets import Choice, Slider
@@ -23,14 +23,14 @@ def screen(driver: MenuDriver) -> SettingsScreen:
 
 
 def test_moving_between_pages_shows_them(driver: MenuDriver, screen: SettingsScreen) -> None:
-    for page in PAGES[1:]:
+    for page in screen.titles[1:]:
         driver.press("down")
         assert screen.page == page
         assert screen.focus is screen.tabs
 
 
 def test_right_enters_the_first_row_and_escape_goes_back_one_step(driver: MenuDriver, screen: SettingsScreen) -> None:
-    for page in PAGES:
+    for page in screen.titles:
         assert screen.page == page
         driver.press("right")
         assert screen.focus is screen.widgets[1]

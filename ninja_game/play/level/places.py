@@ -1,0 +1,108 @@
+"""Where a panel over a level may lie: what it hides, and the place that hides least."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import lru_cache
+from math import hypot
+
+from ninja_game.sim.collision.tiles import FULL, SHAPE
+from ninja_game.sim.kinds import EXIT, GOLD, SWITCH
+from ninja_game.sim.level import ROWS
+from ninja_game.sim.memory.schema import World
+from ninja_game.sim.rules import CELL
+from ninja_game.ui.canvas import WIDTH, Point
+
+_BESIDE = 36.0  # px from a place to the panel of what is said about it: solid while the ninja is there
+_LOWEST = 573.0  # where it ends at the latest: below are the level's name and what a pass has brought, px
+_NEAR = 16.0  # px that a panel keeps from the middle of a thing
+_ALONG = 7  # open cells that weigh as much as a cell along rock
+
+Things = tuple[tuple[float, float, int], ...]
+"""Where things are, px, and how bad it is to cover them: ``MUST``, or ``MAY`` for gold and the way."""
+
+MUST, MAY = 1000, 30
+
+TAG_ROOM = 72.0
+"""Below this line, px, there is room for a thing's name above it."""
+
+
+def tag_top(y: float) -> float:
+    """Upper edge of the name of a thing at ``y``, px: above it, or below where that is at the upper edge."""
+    return y - 39 if y > TAG_ROOM else y + 23
+
+
+def things_in(world: World, *, tagged: bool) -> Things:
+    """The ninja and what else is in a world; ``tagged``: the names beside switches and exits too."""
+    objects = world.objects[1:]
+    places = [(o.x, o.y, MAY if o.kind == GOLD else MUST) for o in objects]
+    names = [o for o in objects if tagged and o.kind in {SWITCH, EXIT}]
+    return (
+        (world.ninja.x, world.ninja.y, MUST),
+        *places,
+        *((o.x + dx, tag_top(o.y) + 8, MUST) for o in names for dx in (-12, 12)),
+    )
+
+
+def away_from(point: Point, x: float, y: float, w: float, h: float) -> float:
+    """How far a point is from a panel, px."""
+    return hypot(max(x - point[0], 0.0, point[0] - x - w), max(y - point[1], 0.0, point[1] - y - h))
+
+
+def hidden_by(things: Things, x: float, y: float, w: float, h: float) -> Iterator[int]:
+    """How bad it is, for each thing that a panel would hide."""
+    return (cost for a, b, cost in things if -_NEAR < a - x < w + _NEAR and -_NEAR < b - y < h + _NEAR)
+
+
+@lru_cache(maxsize=4)
+def solid_place(
+    tiles: tuple[int, ...], w: float, h: float, things: Things = (), about: Point | None = None, *,
+    rows: int = 0, beside: Point | None = None,
+) -> tuple[float, float, int, int]:  # fmt: skip
+    """Upper left corner of a panel of that size, px, where it covers no thing, little gold and the least of any way.
+
+    The third is how much it covers, the last how much of that are things, gold and the author's way. What is full is no
+    way, open space far from all that is full hardly one. Of equal places it is the one nearest to ``about``, or to the
+    middle of the upper border. ``rows``: at the left, in the middle and at the right of so many heights only, from the
+    upper border to the lower one; ``beside``: around that place only, _BESIDE px from it.
+    """
+    open_cells, ways = _ways(tiles)
+
+    def cost(place: tuple[float, float]) -> tuple[int, float, int]:
+        x, y = place
+        columns, heights = (slice(int(a // CELL) - 1, int((a + b - 1) // CELL)) for a, b in ((x, w), (y, h)))
+        area = (1 << heights.stop) - (1 << heights.start)
+        covered = sum((cells & area).bit_count() for cells in open_cells[columns])
+        covered += (_ALONG - 1) * sum((cells & area).bit_count() for cells in ways[columns])
+        hidden = sum(hidden_by(things, x, y, w, h))
+        far = hypot(x + w / 2 - about[0], y + h / 2 - about[1]) if about else 0.0
+        return covered + hidden, far or abs(x + w / 2 - WIDTH / 2) + y, hidden
+
+    edge = CELL + 4
+    lefts = [edge + k * (WIDTH - 2 * edge - w) / 8 for k in range(0, 9, 4 if rows else 1)]
+    apart = (_LOWEST - h - edge) / max(1, rows - 1) if rows else 6
+    tops = [edge + k * apart for k in range(rows or int((_LOWEST - h - edge) / 6))]
+    if beside:
+        ends = (beside[0], w, WIDTH - edge), (beside[1], h, _LOWEST)
+        lefts, tops = (
+            [min(max(edge, at + k * (_BESIDE + size / 2) / 4 - size / 2), end - size) for k in range(-4, 5)]
+            for at, size, end in ends
+        )
+    places = [(x, y) for x in lefts for y in tops]
+    clear = [place for place in places if beside and away_from(beside, *place, w, h) >= _BESIDE - 1]
+    x, y = min(clear or places, key=cost)
+    covered, _, hidden = cost((x, y))
+    return x, y, covered, hidden
+
+
+@lru_cache(maxsize=4)
+def _ways(tiles: tuple[int, ...]) -> tuple[list[int], list[int]]:
+    """A number for each column of a level, a bit for each row: what is not full, and of that what lies along rock."""
+    all_rows = (1 << ROWS) - 1
+    full = [sum(1 << row for row in range(ROWS) if SHAPE[tiles[first + row]] == FULL)
+            for first in range(0, len(tiles), ROWS)]  # fmt: skip
+    along = [all_rows, *(a | b | c for a, b, c in zip(full, full[1:], full[2:], strict=False)), all_rows]
+    edges = 1 | 1 << ROWS - 1
+    return [~each & all_rows for each in full], [
+        (near | near << 1 | near >> 1 | edges) & ~each & all_rows for near, each in zip(along, full, strict=True)
+    ]
