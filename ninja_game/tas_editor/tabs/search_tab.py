@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from functools import partial
 from math import hypot
 from time import monotonic
 
 import pygame
 
+from ninja_game.backend.kernel_cache import before_compiling
 from ninja_game.batch.thread_pool import cores
 from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.files.shown_text import counted
@@ -26,13 +28,18 @@ from ninja_game.tas.timeline import Timeline
 from ninja_game.tas.tracks import InputTrack, first_difference
 from ninja_game.tas_editor.editor import OtherRun, Span, TasEditor
 from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, EntryField, Rows, Tab, what_is_wrong
+from ninja_game.ui.canvas import WIDTH
 from ninja_game.ui.theme import Area, Theme, wrapped
 from ninja_game.ui.widgets import Button, Choice
 
 CLOSING_SECONDS = 0.5
 """How long a search that is cancelled is waited for when the TAS editor is left."""
 
-COMPILING = "The rules are made ready. On a machine that has never searched this takes a minute or two."
+LOADING = "Loading what searches need."
+COMPILING = (
+    "Compiling what searches need for this machine, only the first time: a minute or two. Meanwhile you can play, look "
+    "around and edit; only an edit in the ticks that are searched, or before them, ends this search."
+)
 NOT_BEGUN = "Stopped before it began. The rules are still made ready, for the next search."
 NOTHING_YET = "Nothing yet."
 NOTHING = "The goal was not reached. More time, a longer span or another method may reach it."
@@ -82,8 +89,13 @@ class SpanResults:
         self.better: tuple[Found, ...] = ()
         self._seen: tuple[Found, ...] = ()
         self._preview: tuple[Found, OtherRun] | None = None
+        self._compiles = False
+        before_compiling.append(self._note_compiling)
         self.search.start()
         self._started = monotonic()
+
+    def _note_compiling(self) -> None:
+        self._compiles = True
 
     def _whole(self, method: str, jobs: int) -> RunSearch:
         gold = int(self.editor.session.timeline.column("gold")[self.task.last - 1]) if method == IMPROVE_GOLD else 0
@@ -99,6 +111,8 @@ class SpanResults:
     def close(self) -> None:
         self.search.cancel()
         self.search.finish(CLOSING_SECONDS)
+        with suppress(ValueError):
+            before_compiling.remove(self._note_compiling)
 
     @property
     def behind(self) -> int | None:
@@ -207,7 +221,8 @@ class SpanResults:
         if search.problem:
             return "cannot be searched"
         if not search.ticks_run:
-            return f"getting ready: {monotonic() - self._started:.0f} s" if self.running else "ended"
+            doing = "compiling" if self._compiles else "getting ready"
+            return f"{doing}: {monotonic() - self._started:.0f} s" if self.running else "ended"
         doing = "searching" if self.running else "ended"
         return f"{doing}: {search.ticks_run / 1e6:.1f} million ticks, {search.seconds:.0f} s"
 
@@ -220,8 +235,20 @@ class SpanResults:
             yet = "yet " if self.running else ""
             return f"Nothing better {yet}than the run's own keys: {score_in_words(self.task, search.own)}."
         if not search.ticks_run:
-            return COMPILING if self.running else NOT_BEGUN
+            return NOT_BEGUN if not self.running else COMPILING if self._compiles else LOADING
         return NOTHING_YET if self.running else NOTHING
+
+
+class PresetMenu(Menu):
+    """Its rows are low, and it lies over the roll, so that the run in the level is seen."""
+
+    row_height = 24
+    veil = 40
+
+    @property
+    def _box(self) -> Area:
+        _, y, w, h = super()._box
+        return WIDTH - w - 10, y, w, h
 
 
 class SearchTab(Tab):
@@ -233,7 +260,6 @@ class SearchTab(Tab):
         self._behind = 0
         self._why = ""
         self._taken: Span = (0, 0)
-        self._filled = False
         self.order = EARLIEST
         self.rest = False
         self.method = "auto"
@@ -304,28 +330,32 @@ class SearchTab(Tab):
             self._fill(self._preset[0] if self.goal.text != "won" else lambda _: SpanGoal())
 
     def propose(self) -> None:
-        """A menu of what people want of the selected ticks, which it names; it fills the fields."""
+        """A menu of what people want of the selected ticks, which it names; it fills the fields and starts."""
         self._follow_selection()
         first, last = self.span
-        rows = [(name, partial(self._fill, make), hint.format(first, last - 1)) for name, hint, make in PRESETS]
-        self.editor.app.push(Menu(self.editor.app, f"Presets for ticks {first} to {last - 1}", rows))
+        rows = [(name, partial(self._fill_and_start, make), hint.format(first, last - 1)) for name, hint, make in PRESETS]
+        self.editor.app.push(PresetMenu(self.editor.app, f"Presets for ticks {first} to {last - 1}", rows))
 
-    def _fill(self, make: Callable[[SearchedSpan], SpanGoal]) -> None:
+    def _fill_and_start(self, make: Callable[[SearchedSpan], SpanGoal]) -> None:
+        if self._fill(make):
+            self.start()
+
+    def _fill(self, make: Callable[[SearchedSpan], SpanGoal]) -> bool:
+        """Fill the fields; what has no such goal is reported. Whether it was done."""
         try:
             wanted = make(SearchedSpan(self.editor.session, *self.span))
         except NinjaGameError as error:
             self.editor.app.notify(str(error))
-            return
+            return False
         self._preset = make, wanted
         self.goal.show(wanted.goal)
         self.measure.show(wanted.measure)
         self.order = EARLIEST if not wanted.measure else SMALLEST if wanted.least else GREATEST
         self.rest = wanted.rest
-        self._filled = True
         self.method = wanted.method or ("auto" if self.method in IMPROVES else self.method)
         first, self._behind = self.span
         self.span, self._why = (0 if wanted.method else first, wanted.last or self._behind), wanted.why
-        self.wants = self.goal
+        return True
 
     def _typed(self, _: str) -> None:
         """A goal that is typed is none of the whole run."""
@@ -370,7 +400,6 @@ class SearchTab(Tab):
     def start(self) -> None:
         """Search; a search that is going on ends. What is wrong is reported."""
         self.close()
-        self._filled = False
         self.list.over = -1
         try:
             whole = self.method in IMPROVES
@@ -424,7 +453,7 @@ class SearchTab(Tab):
         results, state = self.results, tuple[object, ...]()
         if results:
             state = (results.status, results.running, results.behind, self.editor.track, *map(id, self.found))
-        wanted = self.order, self.rest, self.goal.text, self._filled
+        wanted = self.order, self.rest, self.goal.text
         return self.span, self._why, self.editor.selection, *wanted, self.list.over, state
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
@@ -442,8 +471,6 @@ class SearchTab(Tab):
             status, colour = results.status, palette.bad if results.search.problem else palette.text
             if results.behind is None:
                 status, colour = "the run was changed: search again", palette.bad
-        if self._filled:
-            status, colour = "Filled in: Enter starts", palette.text
         theme.text(surface, status, x + 222, y + 72, size=SMALL, colour=colour, width=w - 226)
         if self.found:
             for at, head in zip(self._cells(self.list.row_area(0)), _HEADS, strict=True):
