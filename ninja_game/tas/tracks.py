@@ -57,6 +57,10 @@ class InputTrack:
             after[0] = self._joined(last, held)
         return InputTrack(before + bytes(made) + bytes(after), self._markers_after(first, last, len(made)))
 
+    def up_to(self, ticks: int) -> InputTrack:
+        """Its first ticks, with their markers and that of the tick behind them."""
+        return InputTrack(self.inputs[:ticks], tuple(each for each in self.markers if each.tick <= ticks))
+
     def _joined(self, tick: int, held: int) -> int:
         """A tick behind an edit: it triggers as the keys say, unless it was odd before."""
         keys, held_before = self.inputs[tick], self.inputs[tick - 1] & JUMP_HELD if tick else 0

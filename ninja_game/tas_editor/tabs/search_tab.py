@@ -85,7 +85,7 @@ class SpanResults:
         # The begins of runs that results fit to, and the first tick that follows a result in each: the run that is
         # searched and those that results were put into.
         whole = len(task.inputs) if task.rest else task.last
-        self._fitting = [(task.inputs[:whole], task.last)]
+        self._fitting = [(task.inputs[:whole], (task.rest and task.behind) or task.last)]
         self.better: tuple[Found, ...] = ()
         self._seen: tuple[Found, ...] = ()
         self._preview: tuple[Found, OtherRun] | None = None
@@ -165,9 +165,9 @@ class SpanResults:
             return InputTrack(inputs, moved_markers(self.editor.session.recording(), inputs))
         if not self.task.rest:
             return track.replaced(first, behind, keys)
-        rest = len(found.inputs) - first - found.ticks
-        made = track.replaced(first, len(track) - rest, keys)
-        return InputTrack(track.inputs[:first] + found.inputs[first:], made.markers)
+        end = int(min(found.score, len(found.inputs)))  # behind the exit, where that is reached, nothing follows
+        made = track.replaced(first, behind, keys)
+        return InputTrack(track.inputs[:first] + found.inputs[first:], made.markers).up_to(end)
 
     def preview(self, found: Found) -> OtherRun:
         if self._preview is None or self._preview[0] is not found:
