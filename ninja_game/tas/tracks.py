@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ninja_game.errors import ArgumentError
-from ninja_game.formats.replay.input_text import marker_name
+from ninja_game.formats.replay.input_text import not_a_marker
 from ninja_game.formats.replay.notations import Marker, is_marker_name
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, MAX_TICKS, check_inputs, pressed
 from ninja_game.sim.states import OUTCOME_NAMES
@@ -84,12 +84,13 @@ class InputTrack:
         return self.replaced(first, last, keys)
 
     def named(self, tick: int, name: str) -> InputTrack:
-        """With another name for a tick, blanks as '-'; '': without one. The run grows if it ends before the tick.
+        """With another name for a tick, or a comment; '': without one. The run grows if it ends before the tick.
 
         Raises ReplayError for a name that replay texts cannot hold, ArgumentError for a tick that there cannot be.
         """
-        name = name.strip().replace(" ", "-")
-        name = name and marker_name(name)
+        name = name.strip().replace('"', "'")
+        if name and not is_marker_name(name):
+            raise not_a_marker(name)
         if not 0 <= tick <= MAX_TICKS:
             raise ArgumentError(f"a run has at most {MAX_TICKS} ticks")
         others = [marker for marker in self.markers if marker.tick != tick and marker.name != name]

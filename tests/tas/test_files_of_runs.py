@@ -88,7 +88,8 @@ def test_nothing_behind_the_exit_is_written(tmp_path: Path) -> None:
     with_claims = saved_run(opened, opened.track.replaced(40, 60, [0] * 20), path)
     assert (with_claims.recording.ticks, with_claims.recording.replay.unclaimed) == (WALK_END + 1, False)
     for track in (opened.track.replaced(40, 41, [4]), opened.track.named(40, "later")):
-        assert saved_run(open_run(path), track, path) == with_claims
+        again = saved_run(open_run(path), track, path)
+        assert (again.track, again.recording) == (with_claims.track, with_claims.recording)
 
 
 def test_a_demo_of_n_opens_and_is_saved_as_a_new_replay(tmp_path: Path) -> None:

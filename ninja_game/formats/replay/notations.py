@@ -24,17 +24,27 @@ _WORDS = {
 
 
 class Marker(NamedTuple):
-    """A name for a tick of a run."""
+    """A name for a tick of a run, or a comment there."""
 
     tick: int
     name: str
 
 
-_MARKER_NAME = re.compile(r"[\w.-]{1,100}")
+_PLAIN_NAME = re.compile(r"[\w.-]+")
+LONGEST_MARKER = 100
 
 
 def is_marker_name(name: str) -> bool:
-    return _MARKER_NAME.fullmatch(name) is not None
+    return 0 < len(name) <= LONGEST_MARKER and name.isprintable() and '"' not in name and name == name.strip()
+
+
+def marker_word(name: str) -> str:
+    """A marker as it stands among inputs.
+
+    >>> marker_word("corner"), marker_word("wait for the drone!")
+    ('#corner', '#"wait for the drone!"')
+    """
+    return f"#{name}" if _PLAIN_NAME.fullmatch(name) else f'#"{name}"'
 
 
 def write_inputs(inputs: bytes, markers: Sequence[Marker] = ()) -> list[str]:
@@ -48,7 +58,7 @@ def write_inputs(inputs: bytes, markers: Sequence[Marker] = ()) -> list[str]:
     lines: list[str] = []
     parts = [Marker(0, ""), *sorted(markers), Marker(len(inputs), "")]
     for (start, name), (end, _) in pairwise(parts):
-        lines.append(f"#{name}" if name else "")
+        lines.append(marker_word(name) if name else "")
         for run in _runs(ticks[start:end]):
             if len(lines[-1]) + 1 + len(run) <= _WIDTH:
                 lines[-1] += " " * bool(lines[-1]) + run

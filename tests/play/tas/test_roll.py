@@ -133,7 +133,11 @@ def test_markers_are_named_found_and_dropped(at: TasDriver) -> None:
         assert at.editor.cursor == tick
     at.screen.roll.edits.go_to("nowhere")
     assert "nowhere" in at.app.notice
-    at.screen.roll.edits._name(15, "a;b")
+    at.screen.roll.edits._name(15, "door")
+    assert at.editor.track.markers == (Marker(15, "door"),)
+    assert "moved here from tick 40" in at.app.notice
+    at.chord("z", CTRL)
+    at.screen.roll.edits._name(15, "a\tb")
     assert "not a marker" in at.app.notice
     at.screen.roll.edits._name(15, "")
     assert at.editor.track.markers == (Marker(40, "door"),)
