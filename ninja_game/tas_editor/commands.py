@@ -108,7 +108,7 @@ class RunCommands(DocumentCommands):
         session, tail = self.session, ""
         if session.has_tail:
             died = session.timeline.end[1] == "dead"
-            tail = ", with what is behind its end (Ctrl+E takes that out)" if died else ", without what is behind its exit"
+            tail = ", with what is behind its end (Ctrl+E removes it)" if died else ", without what is behind its exit"
         branches = " and its branches beside it" * branches_path(path).exists()
         replay = session.about.replay
         nobody = "; its player is unknown: your name can be set in the settings"

@@ -321,9 +321,9 @@ class Panel(MenuScreen):
         return (WIDTH - PANEL_WIDTH) / 2, (HEIGHT - height) / 2, PANEL_WIDTH, height
 
     def build(self) -> Sequence[Widget]:
-        x, y, w, _ = self._box
+        (x, y, w, _), high = self._box, self.row_height
         return [
-            Button((x + 30, y + 48 + self.row_height * k, w - 60, 0.8 * self.row_height), text, action, hint=hint, size=12)
+            Button((x + 30, y + 48 + high * k, w - 60, 0.8 * high), text, action, hint=hint, size=12)
             for k, (text, action, hint) in enumerate(self.rows())
         ]
 

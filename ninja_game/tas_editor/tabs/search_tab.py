@@ -333,7 +333,8 @@ class SearchTab(Tab):
         """A menu of what people want of the selected ticks, which it names; it fills the fields and starts."""
         self._follow_selection()
         first, last = self.span
-        rows = [(name, partial(self._fill_and_start, make), hint.format(first, last - 1)) for name, hint, make in PRESETS]
+        start = self._fill_and_start
+        rows = [(name, partial(start, make), hint.format(first, last - 1)) for name, hint, make in PRESETS]
         self.editor.app.push(PresetMenu(self.editor.app, f"Presets for ticks {first} to {last - 1}", rows))
 
     def _fill_and_start(self, make: Callable[[SearchedSpan], SpanGoal]) -> None:

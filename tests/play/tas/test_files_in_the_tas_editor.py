@@ -61,6 +61,7 @@ def test_a_run_is_saved_into_its_file(at: TasDriver) -> None:
     change(at)
     at.chord("s", CTRL)
     assert at.app.notice == f"Saved: {path}"
+    assert at.app._draw_notice(at.screen.theme).right <= at.screen.theme.canvas.rect(*at.screen.roll.area).left
     assert at.session.is_saved
     assert load_replays(path)[0].replay.playback(30) == at.editor.track.inputs[:30]
     assert journals(at) == []
@@ -91,7 +92,7 @@ def test_keys_behind_a_death_are_saved_without_claims(tmp_path: Path) -> None:
     assert at.session.timeline.end[1] == "dead"
     at.chord("s", CTRL)
     at.choose("Save")
-    assert "Saved, with what is behind its end (Ctrl+E takes that out)" in at.app.notice
+    assert "Saved, with what is behind its end (Ctrl+E removes it)" in at.app.notice
     path = at.session.file.path
     assert path is not None
     assert load_replays(path)[0].replay.inputs == at.editor.track.inputs

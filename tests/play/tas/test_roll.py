@@ -38,6 +38,10 @@ def test_keys_move_and_select(at: TasDriver) -> None:
     assert at.screen.roll.top == editor.last_tick + 1 - rows
     at.press("home")
     assert at.screen.roll.top == editor.cursor == 0
+    last = max(len(editor.track) - 1, at.session.timeline.end[0])
+    for _ in range(2):
+        at.chord("end", SHIFT)
+        assert editor.selection == (0, last + 1), "not beyond the run, again and again"
     at.chord("a", CTRL)
     assert editor.selection == (0, len(editor.track))
 

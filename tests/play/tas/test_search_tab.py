@@ -20,7 +20,15 @@ from ninja_game.search.formula.task import Found
 from ninja_game.sim.inputs import Input
 from ninja_game.tas.goals import IMPROVE, PRESETS
 from ninja_game.tas_editor.tabs import search_tab as module
-from ninja_game.tas_editor.tabs.search_tab import COMPILING, LOADING, NOT_BEGUN, NOTHING, NOTHING_YET, SearchTab, SpanResults
+from ninja_game.tas_editor.tabs.search_tab import (
+    COMPILING,
+    LOADING,
+    NOT_BEGUN,
+    NOTHING,
+    NOTHING_YET,
+    SearchTab,
+    SpanResults,
+)
 from ninja_game.tas_editor.tabs.tab import SMALL
 from ninja_game.ui.input.keys import SCANCODES
 from ninja_game.ui.theme import Theme
@@ -95,7 +103,8 @@ def test_a_click_on_a_preset_starts_it_and_escape_ends_it(at: TasDriver, tab: Se
     at.press("escape")
     at.choose("Presets")
     menu = at.shown(Menu)
-    assert menu._box[0] > at.screen.splitters.layout.level[0] + at.screen.splitters.layout.level[2] / 2, "the run is seen beside it"
+    left, _, width, _ = at.screen.level.area
+    assert menu._box[0] > left + width, "the run is seen beside it"
     place = at.button("Reach the exit sooner").centre
     at.event(pygame.MOUSEBUTTONDOWN, *place, button=1)
     at.event(pygame.MOUSEBUTTONUP, *place, button=1)
