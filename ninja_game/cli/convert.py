@@ -158,10 +158,7 @@ class Output:
 
 
 def _file_names(found: Sequence[NamedLevel | Recording], suffix: str) -> Iterator[str]:
-    """`0007-name-of-the-level.txt`, with its file's name in front where there are several of them.
-
-    What came from a folder of single files keeps their names.
-    """
+    """`0007-name-of-the-level.txt`, of several files with theirs before it; single files keep their names."""
     from ninja_game.files.shown_text import file_stem, name_key, name_problem
 
     digits = max(3, len(str(len(found) - 1)))

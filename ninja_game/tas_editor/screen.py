@@ -75,9 +75,7 @@ class TasScreen(WorkspaceScreen):
 
     @property
     def notice_room(self) -> tuple[float, float]:
-        """Beside the rows of the roll."""
-        left, _, width, _ = self.splitters.layout.level
-        return left, left + width
+        return 0.0, self.splitters.layout.roll[0]  # not over its rows
 
     def commands(self) -> Commands:
         own = dict(self.files.commands())

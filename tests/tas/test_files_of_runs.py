@@ -257,7 +257,7 @@ def test_branches_travel_beside_their_run(tmp_path: Path) -> None:
 
 def test_markers_that_no_text_can_hold_are_not_replay_of_walk() -> None:
     replay = parse_replay(replay_of_walk())
-    for markers in (((1, "a b"),), ((1, "a"), (2, "a")), ((-1, "a"),), ((99, "a"),)):
+    for markers in (((1, 'a"b'),), ((1, "a"), (2, "a")), ((-1, "a"),), ((99, "a"),)):
         track = InputTrack(replay.inputs).named(1, "x")
         bad = tuple(track.markers[0]._replace(tick=tick, name=name) for tick, name in markers)
         with pytest.raises(ReplayError):

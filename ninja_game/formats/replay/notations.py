@@ -31,19 +31,15 @@ class Marker(NamedTuple):
 
 
 _PLAIN_NAME = re.compile(r"[\w.-]+")
-LONGEST_MARKER = 100
+_ANY_NAME = re.compile(r'(?! )[^"]{1,100}(?<! )')
 
 
 def is_marker_name(name: str) -> bool:
-    return 0 < len(name) <= LONGEST_MARKER and name.isprintable() and '"' not in name and name == name.strip()
+    return _ANY_NAME.fullmatch(name) is not None and name.isprintable()
 
 
 def marker_word(name: str) -> str:
-    """A marker as it stands among inputs.
-
-    >>> marker_word("corner"), marker_word("wait for the drone!")
-    ('#corner', '#"wait for the drone!"')
-    """
+    """A marker as it stands among inputs, in quotation marks where it is no plain name."""
     return f"#{name}" if _PLAIN_NAME.fullmatch(name) else f'#"{name}"'
 
 

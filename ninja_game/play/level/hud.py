@@ -220,9 +220,7 @@ class Hud:
         """A line in the border below the level; where both texts do not fit, the left one is shortened."""
         return self._border_line(surface, left, right, 593 - size, size)
 
-    def _border_line(
-        self, surface: pygame.Surface, left: str, right: str, y: float, size: float = _FOOT_SIZE
-    ) -> list[pygame.Rect]:
+    def _border_line(self, surface: pygame.Surface, left: str, right: str, y: float, size: float) -> list[pygame.Rect]:
         theme, colour = self.theme, self.theme.palette.on_tile
         gap = 14 if left and right else 0
         # The right text grows only where that takes nothing from the left one.
@@ -234,7 +232,7 @@ class Hud:
 
     def head(self, surface: pygame.Surface, left: str, right: str) -> list[pygame.Rect]:
         """A line in the border above the level, like ``foot`` below it."""
-        return self._border_line(surface, left, right, 7)
+        return self._border_line(surface, left, right, 7, _FOOT_SIZE)
 
     def frame_time(self, surface: pygame.Surface, ms: float) -> pygame.Rect:
         """What the last turn of the loop took, in the corner."""

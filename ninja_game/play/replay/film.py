@@ -41,10 +41,8 @@ MOST_PICTURES = 20_000
 """Pictures of a film whose last tick nobody named: more than eight minutes."""
 
 
-LONGEST_NAME = 28
-"""Letters of a run's name among its splits."""
-LETTERS = 13.0
-"""Size of what is written above and below the level, larger than in the game: films are small."""
+LONGEST_NAME = 28  # letters of a run's name among its splits
+LETTERS = 13.0  # the size of what is written above and below the level, larger than in the game: films are small
 
 
 class _StoppedError(Exception):

@@ -34,7 +34,7 @@ class RollCommands:
         return {
             **{name: partial(self._move, to) for name, to in moves.items()},
             **{f"select_{name}": partial(self._move, to, select=True) for name, to in moves.items()},
-            "select_last": partial(self._move, lambda: max(len(editor.track) - 1, self._end()), select=True),
+            "select_last": lambda: editor.go(max(len(editor.track) - 1, editor.session.timeline.end[0]), select=True),
             "select_all": lambda: editor.select(0, len(editor.track)), "go_to": self.ask_where,
             "next_marker": lambda: self._to_marker(1), "previous_marker": lambda: self._to_marker(-1),
             "next_difference": lambda: self._to_difference(1),
@@ -64,11 +64,8 @@ class RollCommands:
 
     def _last(self) -> int:
         """The tick of exit or death; from there or behind it the last one."""
-        end = self._end()
+        end = self._editor.session.timeline.end[0]
         return end if self._editor.cursor < end else self._editor.last_tick
-
-    def _end(self) -> int:
-        return self._editor.session.timeline.end[0]
 
     def ask_where(self) -> None:
         ask_text(self._editor.app, "Go to", "Tick or name", "", "Go", self.go_to)

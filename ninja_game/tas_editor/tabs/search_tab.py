@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import suppress
 from functools import partial
 from math import hypot
 from time import monotonic
 
 import pygame
 
-from ninja_game.backend.kernel_cache import before_compiling
 from ninja_game.batch.thread_pool import cores
 from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.files.shown_text import counted
@@ -35,10 +33,9 @@ from ninja_game.ui.widgets import Button, Choice
 CLOSING_SECONDS = 0.5
 """How long a search that is cancelled is waited for when the TAS editor is left."""
 
-LOADING = "Loading what searches need."
 COMPILING = (
-    "Compiling what searches need for this machine, only the first time: a minute or two. Meanwhile you can play, look "
-    "around and edit; only an edit in the ticks that are searched, or before them, ends this search."
+    "Searches are loaded; the first time on a machine they are compiled, which takes a minute or two. Meanwhile you can "
+    "play, look around and edit; only an edit in the ticks that are searched, or before them, ends the search."
 )
 NOT_BEGUN = "Stopped before it began. The rules are still made ready, for the next search."
 NOTHING_YET = "Nothing yet."
@@ -89,13 +86,8 @@ class SpanResults:
         self.better: tuple[Found, ...] = ()
         self._seen: tuple[Found, ...] = ()
         self._preview: tuple[Found, OtherRun] | None = None
-        self._compiles = False
-        before_compiling.append(self._note_compiling)
         self.search.start()
         self._started = monotonic()
-
-    def _note_compiling(self) -> None:
-        self._compiles = True
 
     def _whole(self, method: str, jobs: int) -> RunSearch:
         gold = int(self.editor.session.timeline.column("gold")[self.task.last - 1]) if method == IMPROVE_GOLD else 0
@@ -111,8 +103,6 @@ class SpanResults:
     def close(self) -> None:
         self.search.cancel()
         self.search.finish(CLOSING_SECONDS)
-        with suppress(ValueError):
-            before_compiling.remove(self._note_compiling)
 
     @property
     def behind(self) -> int | None:
@@ -221,8 +211,7 @@ class SpanResults:
         if search.problem:
             return "cannot be searched"
         if not search.ticks_run:
-            doing = "compiling" if self._compiles else "getting ready"
-            return f"{doing}: {monotonic() - self._started:.0f} s" if self.running else "ended"
+            return f"getting ready: {monotonic() - self._started:.0f} s" if self.running else "ended"
         doing = "searching" if self.running else "ended"
         return f"{doing}: {search.ticks_run / 1e6:.1f} million ticks, {search.seconds:.0f} s"
 
@@ -235,7 +224,7 @@ class SpanResults:
             yet = "yet " if self.running else ""
             return f"Nothing better {yet}than the run's own keys: {score_in_words(self.task, search.own)}."
         if not search.ticks_run:
-            return NOT_BEGUN if not self.running else COMPILING if self._compiles else LOADING
+            return COMPILING if self.running else NOT_BEGUN
         return NOTHING_YET if self.running else NOTHING
 
 
@@ -333,21 +322,16 @@ class SearchTab(Tab):
         """A menu of what people want of the selected ticks, which it names; it fills the fields and starts."""
         self._follow_selection()
         first, last = self.span
-        start = self._fill_and_start
-        rows = [(name, partial(start, make), hint.format(first, last - 1)) for name, hint, make in PRESETS]
+        fill = partial(self._fill, start=True)
+        rows = [(name, partial(fill, make), hint.format(first, last - 1)) for name, hint, make in PRESETS]
         self.editor.app.push(PresetMenu(self.editor.app, f"Presets for ticks {first} to {last - 1}", rows))
 
-    def _fill_and_start(self, make: Callable[[SearchedSpan], SpanGoal]) -> None:
-        if self._fill(make):
-            self.start()
-
-    def _fill(self, make: Callable[[SearchedSpan], SpanGoal]) -> bool:
-        """Fill the fields; what has no such goal is reported. Whether it was done."""
+    def _fill(self, make: Callable[[SearchedSpan], SpanGoal], *, start: bool = False) -> None:
         try:
             wanted = make(SearchedSpan(self.editor.session, *self.span))
         except NinjaGameError as error:
             self.editor.app.notify(str(error))
-            return False
+            return
         self._preset = make, wanted
         self.goal.show(wanted.goal)
         self.measure.show(wanted.measure)
@@ -356,7 +340,8 @@ class SearchTab(Tab):
         self.method = wanted.method or ("auto" if self.method in IMPROVES else self.method)
         first, self._behind = self.span
         self.span, self._why = (0 if wanted.method else first, wanted.last or self._behind), wanted.why
-        return True
+        if start:
+            self.start()
 
     def _typed(self, _: str) -> None:
         """A goal that is typed is none of the whole run."""
