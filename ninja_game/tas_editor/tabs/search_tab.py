@@ -34,7 +34,7 @@ CLOSING_SECONDS = 0.5
 """How long a search that is cancelled is waited for when the TAS editor is left."""
 
 COMPILING = (
-    "Searches are loaded; the first time on a machine they are compiled, which takes a minute or two. Meanwhile you can "
+    "Searches are loaded; the first time on a machine they are compiled, a minute or two. Meanwhile you can "
     "play, look around and edit; only an edit in the ticks that are searched, or before them, ends the search."
 )
 NOT_BEGUN = "Stopped before it began. The rules are still made ready, for the next search."
