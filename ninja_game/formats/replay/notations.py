@@ -39,7 +39,7 @@ def is_marker_name(name: str) -> bool:
 
 
 def marker_word(name: str) -> str:
-    """A marker as it stands among inputs, in quotation marks where it is no plain name."""
+    """A marker as it stands among inputs, in quotation marks unless its name is plain."""
     return f"#{name}" if _PLAIN_NAME.fullmatch(name) else f'#"{name}"'
 
 
