@@ -158,13 +158,14 @@ class Output:
 
 
 def _file_names(found: Sequence[NamedLevel | Recording], suffix: str) -> Iterator[str]:
-    """`0007-name-of-the-level.txt`; what came from a folder of single files keeps their names."""
+    """`0007-name-of-the-level.txt`, of several files with theirs before it; single files keep their names."""
     digits = max(3, len(str(len(found) - 1)))
     stems = [Path(each.file).name.removesuffix(".txt").removesuffix(".replay") for each in found]
     names = [Path(stem).stem + suffix for stem in stems]
     alone = len({name_key(name) for name in names}) == len(found) > 1 and not any(map(name_problem, names))
+    several = len({each.file for each in found}) > 1
     for number, (each, own) in enumerate(zip(found, names, strict=True)):
-        name = file_stem(each.name)
+        name = file_stem(f"{stems[number]} {each.name}" if several else each.name)
         yield own if alone else f"{number:0{digits}d}{'-' * bool(name)}{name}{suffix}"
 
 

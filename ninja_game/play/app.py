@@ -53,6 +53,12 @@ class Screen:
         return self.app.theme
 
     @property
+    def notice_room(self) -> tuple[float, float]:
+        """From where to where notices may reach, logical px."""
+        canvas = self.theme.canvas
+        return canvas.logical((0, 0))[0], canvas.logical(canvas.window)[0]
+
+    @property
     def mood(self) -> Mood:
         """Its look; by default that of the screen before."""
         return self.app.mood
@@ -430,17 +436,18 @@ class App:
             pygame.display.update(changed)
 
     def _draw_notice(self, theme: Theme) -> pygame.Rect:
-        (left, _), (right, _) = theme.canvas.logical((0, 0)), theme.canvas.logical(theme.canvas.window)
-        middle, lines = (left + right) / 2, wrapped(theme, self.notice, NOTICE_WIDE, NOTICE)[:NOTICE_LINES]
+        left, right = self.top.notice_room
+        most = min(NOTICE_WIDE, right - left - 28)
+        middle, lines = (left + right) / 2, wrapped(theme, self.notice, most, NOTICE)[:NOTICE_LINES]
         y, size, margin, high = self.top.notice_top, NOTICE, 6.0, 1.5 * NOTICE * theme.scales[0]
         if self.top.plays and len(lines) == 1:
             # In the border: nothing is written over a level in which somebody runs.
             y, size, margin, high = 577.0, IN_BORDER, 1.0, 20.0
-        wide = min(NOTICE_WIDE, max(theme.width(line, size) for line in lines)) + 28
+        wide = min(most, max(theme.width(line, size) for line in lines)) + 28
         rect = theme.window(self.surface, middle - wide / 2, y, wide, high * len(lines) + 2 * margin)
         for k, line in enumerate(lines):
             top = y + margin + high * (k + 0.5) - size / 2
-            theme.text(self.surface, line, middle, top, size=size, align="centre", width=NOTICE_WIDE + 4)
+            theme.text(self.surface, line, middle, top, size=size, align="centre", width=most + 4)
         return rect
 
     def write_export(self, title: str, suffix: str, content: str | Callable[[Path], object]) -> Path | None:

@@ -178,16 +178,17 @@ def unclaimed_replay(about: Recording, track: InputTrack) -> Replay:
 
 
 def replay_of_track(about: Recording, track: InputTrack) -> Replay:
-    """An input track as a replay of ours: with claims, or without where keys or names behind its end have to stay.
+    """An input track as a replay of ours: with claims, or without where keys or names behind its death have to stay.
 
-    An exit or a death soon behind the last input, which the TAS editor shows, is part of it. Raises ArgumentError for
-    a run without ticks.
+    An exit or a death soon behind the last input, which the TAS editor shows, is part of it. Of a run that reaches the
+    exit nothing behind that is left. Raises ArgumentError for a run without ticks.
     """
     unclaimed = unclaimed_replay(about, track)
     record = partial(record_replay, about.level, track.inputs, body=about.body, name=about.name, author=about.author)
     run = record(ticks=min(len(track) + AFTERMATH, MAX_TICKS))
     if run.outcome == "running":
         run = record()
+    track = track.up_to(run.ticks) if run.outcome == "exit" else track
     if has_tail(track, run.ticks):
         return unclaimed
     return replace(

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ninja_game.errors import ArgumentError
-from ninja_game.formats.replay.input_text import marker_name
+from ninja_game.formats.replay.input_text import not_a_marker
 from ninja_game.formats.replay.notations import Marker, is_marker_name
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, MAX_TICKS, check_inputs, pressed
 from ninja_game.sim.states import OUTCOME_NAMES
@@ -57,6 +57,10 @@ class InputTrack:
             after[0] = self._joined(last, held)
         return InputTrack(before + bytes(made) + bytes(after), self._markers_after(first, last, len(made)))
 
+    def up_to(self, ticks: int) -> InputTrack:
+        """Its first ticks, with their markers and that of the tick behind them."""
+        return InputTrack(self.inputs[:ticks], tuple(each for each in self.markers if each.tick <= ticks))
+
     def _joined(self, tick: int, held: int) -> int:
         """A tick behind an edit: it triggers as the keys say, unless it was odd before."""
         keys, held_before = self.inputs[tick], self.inputs[tick - 1] & JUMP_HELD if tick else 0
@@ -80,12 +84,13 @@ class InputTrack:
         return self.replaced(first, last, keys)
 
     def named(self, tick: int, name: str) -> InputTrack:
-        """With another name for a tick, blanks as '-'; '': without one. The run grows if it ends before the tick.
+        """With another name for a tick, or a comment; '': without one. The run grows if it ends before the tick.
 
         Raises ReplayError for a name that replay texts cannot hold, ArgumentError for a tick that there cannot be.
         """
-        name = name.strip().replace(" ", "-")
-        name = name and marker_name(name)
+        name = name.strip().replace('"', "'")
+        if name and not is_marker_name(name):
+            raise not_a_marker(name)
         if not 0 <= tick <= MAX_TICKS:
             raise ArgumentError(f"a run has at most {MAX_TICKS} ticks")
         others = [marker for marker in self.markers if marker.tick != tick and marker.name != name]

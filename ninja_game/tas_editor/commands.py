@@ -107,15 +107,18 @@ class RunCommands(DocumentCommands):
         ask_text(self.app, title, "Name or path of the file", name, "Save", on_accept, 300)
 
     def saved_text(self, path: Path) -> str:
-        tail = ", with what is behind its end (Ctrl+E takes that out)" if self.session.has_tail else ""
+        session, tail = self.session, ""
+        if session.has_tail:
+            died = session.timeline.end[1] == "dead"
+            tail = ", with what is behind its end (Ctrl+E removes it)" if died else ", without what is behind its exit"
         branches = " and its branches beside it" * branches_path(path).exists()
-        replay = self.session.about.replay
+        replay = session.about.replay
         nobody = "; its player is unknown: your name can be set in the settings"
         return f"Saved{tail}: {path}{branches}{nobody * (not (replay.author or replay.co_authors))}"
 
     def keep(self) -> None:
-        if self.session.has_tail:
-            self.app.notify("Keys are pressed behind the end: take them out first, with Ctrl+E")
+        if self.session.has_tail and self.session.timeline.end[1] == "dead":
+            self.app.notify("Keys are pressed behind the death: take them out first, with Ctrl+E")
             return
         about, track = self.session.about, self.session.track
         self.editor.attempt(lambda: self.app.notify(keep_replay(self.app.player, replay_of_track(about, track))))

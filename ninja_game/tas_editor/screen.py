@@ -73,6 +73,10 @@ class TasScreen(WorkspaceScreen):
             self.redraw = True
         return self.editor.theme
 
+    @property
+    def notice_room(self) -> tuple[float, float]:
+        return 0.0, self.splitters.layout.roll[0]  # not over its rows
+
     def commands(self) -> Commands:
         own = dict(self.files.commands())
         for part in (*self.parts, *self.tabs):
@@ -179,7 +183,8 @@ class Foot(TasPart):
         known = "" if timeline.complete else f", simulated up to {timeline.simulated_until}"
         other = editor.beside if editor.ghosts else None
         beside = f", beside {theme.fit(other.name, 110, 9.5)}" if other else ""
-        text = f"tick {editor.cursor} of {len(editor.track)}{selected}{known}{beside}"
+        behind = ", behind the run's" if editor.cursor >= len(editor.track) else " of"
+        text = f"tick {editor.cursor}{behind} {len(editor.track)}{selected}{known}{beside}"
         theme.text(surface, text, 8, y + 5, size=9.5, colour=palette.on_tile)
         hint = editor.hint or "Click L R J to change keys; Enter: take over; F: search; F1: help"
         room = w - 28 - theme.width(text, 9.5)

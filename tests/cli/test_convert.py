@@ -139,6 +139,18 @@ def test_many_recordings_become_a_folder_of_replays(tmp_path: Path) -> None:
     assert "2 recordings do not fit into one file" in result.stderr
 
 
+def test_recordings_of_several_files_keep_whose_they_were_in_their_names(tmp_path: Path) -> None:
+    runs = tmp_path / "runs"
+    runs.mkdir()
+    for name in ("ann.speedrun", "bob"):
+        write_records(runs / f"{name}.txt", ("Walk", WALK, running(60)), ("Walk", WALK, running(30)))
+    assert convert(runs, tmp_path / "out", "--to", "replay").exit_code == 0
+    assert [path.name for path in sorted((tmp_path / "out").iterdir())] == [
+        "000-ann.speedrun-walk.replay.txt", "001-ann.speedrun-walk.replay.txt",
+        "002-bob-walk.replay.txt", "003-bob-walk.replay.txt",
+    ]  # fmt: skip
+
+
 def test_recordings_are_kept_by_a_level_file_and_told_of_where_they_are_not(tmp_path: Path) -> None:
     source = write_records(tmp_path / "two.txt", ("A", WALK, running(60)), ("B", SPIKED, ""))
     assert convert(source, tmp_path / "copy.txt", "--to", "file").stderr == ""

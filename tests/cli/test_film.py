@@ -148,6 +148,13 @@ def test_runs_stand_beside_each_other_with_their_splits(
     assert (tmp_path / "told" / "00000.png").read_bytes() != files[30].read_bytes()
 
 
+def test_names_of_runs_are_not_cut_within_a_word(tmp_path: Path) -> None:
+    level = parse_level_string(WALK)
+    names = ("04-2.tas.speedrun", "x" * 40)
+    runs = [Recording(level, Replay.of_inputs(b"\0", level), file=f"{name}.txt") for name in names]
+    assert film._called(runs) == ["04-2.tas.speedrun.txt", f"{'x' * 25}..."]
+
+
 def test_splits_say_by_how_much_others_are_later(tmp_path: Path) -> None:
     late = write_demo(Demo(bytes(4) + bytes([2] * 24), 28.0))
     file = write_records(tmp_path / "two.txt", ("First", WALK, running(24)), ("Late", WALK, late))

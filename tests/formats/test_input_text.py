@@ -49,6 +49,12 @@ def test_blocks_are_repeated_with_a_new_press_in_each_pass() -> None:
     assert keys("()*9999999 R") == bytes([2])
 
 
+def test_a_comment_is_a_marker_in_quotation_marks() -> None:
+    read = read_inputs([(1, 'R*3 #"wait; (it) is 40% slower, ü" L ; gone')])
+    assert read.markers == (Marker(3, "wait; (it) is 40% slower, ü"),)
+    assert write_inputs(read.keys, read.markers) == ["R*3", '#"wait; (it) is 40% slower, ü" L']
+
+
 def test_a_marker_names_the_next_tick_in_the_first_pass_of_a_block() -> None:
     read = read_inputs([(1, "#start R*3 (#turn L)*2 #end")], file="a.txt")
     assert read.markers == (Marker(0, "start"), Marker(3, "turn"), Marker(5, "end"))
@@ -74,7 +80,9 @@ def test_inputs_with_markers_read_back_equal(inputs: bytes, data: st.DataObject)
         ("(" * 20 + ")" * 20, "a.txt:1:9: too many blocks in blocks"),
         ("#a R #a", "a.txt:1:6: a marker given twice; found '#a'"),
         ("#", "a.txt:1:1: not a marker"),
-        ("#a,b", "a.txt:1:1: not a marker"),
+        ("#a,b", "a.txt:1:1: not a marker; found '#a,b'"),
+        ('#"a b R*3', "a.txt:1:1: not a marker"),
+        ('R #""', "a.txt:1:3: not a marker"),
         ("include b.txt", "a.txt:1:1: a text that is in no folder takes in no file"),
     ],
 )
@@ -186,7 +194,7 @@ def test_every_reference_recording_comes_back_from_a_text_with_its_frames_and_le
         (back,) = parse_replays(text)
         assert parse_demo(record_of(back).demo) == demo
         assert record_of(back).demo == write_demo(demo)
-        assert (back.name, back.author) == ("a", "b")
+        assert (back.name, back.author, back.level_author) == ("a", "", "b")
         assert back.replay.playback(back.ticks + 3) == recording.replay.playback(recording.ticks + 3)
         count += 1
     assert count == 1108

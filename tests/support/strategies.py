@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.numbers import NAN, parse_number
-from ninja_game.formats.replay.notations import Marker
+from ninja_game.formats.replay.notations import Marker, is_marker_name
 from ninja_game.formats.replay.text import OUTCOMES, Replay
 from ninja_game.sim.inputs import Demo
 from ninja_game.sim.kinds import VALUE_COUNTS
@@ -105,7 +105,7 @@ def mutations_of(draw: st.DrawFn, seeds: tuple[str, ...]) -> str:
     return text
 
 
-names_of_ticks = st.text("abc-_.1", min_size=1, max_size=3)
+names_of_ticks = st.text("abc-_.1 ;(#", min_size=1, max_size=3).filter(is_marker_name)
 
 
 odd_inputs = st.lists(st.integers(0, 15), max_size=30).map(bytes)

@@ -75,13 +75,14 @@ def test_a_run_grows_by_ticks_without_a_key() -> None:
 
 def test_names_of_ticks_are_such_as_texts_can_hold() -> None:
     track = InputTrack(b"\2\2").named(1, " first jump ")
-    assert track.markers == (Marker(1, "first-jump"),)
-    assert track.named(0, "first-jump").markers == (Marker(0, "first-jump"),)
+    assert track.markers == (Marker(1, "first jump"),)
+    assert track.named(0, "first jump").markers == (Marker(0, "first jump"),)
+    assert track.named(1, 'so "high"').markers == (Marker(1, "so 'high'"),)
     assert track.named(1, "b").markers == (Marker(1, "b"),)
     assert track.named(1, "").markers == ()
     far = track.named(5, "far")
-    assert (len(far), far.markers) == (5, (Marker(1, "first-jump"), Marker(5, "far")))
-    for name in ("a\nb", "#a", "ü;", "a" * 101, "\ud800"):
+    assert (len(far), far.markers) == (5, (Marker(1, "first jump"), Marker(5, "far")))
+    for name in ("a\nb", "a" * 101, "\ud800", "\u202ea"):
         with pytest.raises(ReplayError, match="letters, digits"):
             track.named(0, name)
 

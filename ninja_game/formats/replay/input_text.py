@@ -26,7 +26,8 @@ MOST_MARKERS = 100_000  # in a text with all that it takes in
 
 DEEPEST = 8  # how deep files may take in others, and blocks may lie in blocks
 
-_WORD = re.compile(r";.*|\(|\)[^ \t();]*|[^ \t();]+")
+_WORD = re.compile(r';.*|#"[^"]*"|\(|\)[^ \t();]*|[^ \t();]+')
+_MARKER = re.compile(r'#([\w.-]+)|#"([^"]*)"')
 _RUN = re.compile(r"(\.|L?R?J?)([!-]?)(?:\*([1-9][0-9]{0,6}))?")
 _BLOCK_END = re.compile(r"\)(?:\*([1-9][0-9]{0,6}))?")
 _INCLUDE = re.compile(r"[ \t]*include[ \t]+([^;]*)(?:;.*)?")
@@ -56,12 +57,9 @@ def read_inputs(lines: Iterable[Line], *, file: str = "", include: Include | Non
     return _as_inputs(reader.block(lines, [file]).items)
 
 
-def marker_name(name: str, file: str = "", line: int = 0, column: int = 0) -> str:
-    """The name, if it is one for a marker. Raises ReplayError."""
-    if is_marker_name(name):
-        return name
-    expected = "a name of letters, digits, '-', '_' and '.', such as #first-jump"
-    raise ReplayError("not a marker", file, line, column, repr(f"#{name}"[:30]), expected)
+def not_a_marker(found: str, file: str = "", line: int = 0, column: int = 0) -> ReplayError:
+    expected = "a name of letters, digits, '-', '_' and '.', such as #first-jump, or a text, such as #\"wait here\""
+    return ReplayError("not a marker", file, line, column, repr(found[:30]), expected)
 
 
 @dataclass
@@ -117,7 +115,10 @@ class _Reader:
         elif text.startswith(")"):
             _end_block(text, stack, place)
         elif text.startswith("#"):
-            name = marker_name(text[1:], *place)
+            match = _MARKER.fullmatch(text)
+            name = (match[1] or match[2]) if match else ""
+            if not is_marker_name(name):
+                raise not_a_marker(text, *place)
             if name in seen:
                 raise ReplayError("a marker given twice", *place, repr(text), hint="choose another name")
             self._markers += 1

@@ -23,17 +23,23 @@ _WORDS = {
 
 
 class Marker(NamedTuple):
-    """A name for a tick of a run."""
+    """A name for a tick of a run, or a comment there."""
 
     tick: int
     name: str
 
 
-_MARKER_NAME = re.compile(r"[\w.-]{1,100}")
+_PLAIN_NAME = re.compile(r"[\w.-]+")
+_ANY_NAME = re.compile(r'(?! )[^"]{1,100}(?<! )')
 
 
 def is_marker_name(name: str) -> bool:
-    return _MARKER_NAME.fullmatch(name) is not None
+    return _ANY_NAME.fullmatch(name) is not None and name.isprintable()
+
+
+def marker_word(name: str) -> str:
+    """A marker as it stands among inputs, in quotation marks unless its name is plain."""
+    return f"#{name}" if _PLAIN_NAME.fullmatch(name) else f'#"{name}"'
 
 
 def write_inputs(inputs: bytes, markers: Sequence[Marker] = ()) -> list[str]:
@@ -47,7 +53,7 @@ def write_inputs(inputs: bytes, markers: Sequence[Marker] = ()) -> list[str]:
     lines: list[str] = []
     parts = [Marker(0, ""), *sorted(markers), Marker(len(inputs), "")]
     for (start, name), (end, _) in pairwise(parts):
-        lines.append(f"#{name}" if name else "")
+        lines.append(marker_word(name) if name else "")
         for run in _runs(ticks[start:end]):
             if len(lines[-1]) + 1 + len(run) <= _WIDTH:
                 lines[-1] += " " * bool(lines[-1]) + run

@@ -205,27 +205,27 @@ class Hud:
         )  # fmt: skip
         return [frame.union(canvas.rect(x, 2, 8, 20)) if pars else frame, text.inflate(canvas.px(8), 4)]
 
-    def label(self, surface: pygame.Surface, text: str) -> pygame.Rect:
+    def label(self, surface: pygame.Surface, text: str, size: float = 10.0) -> pygame.Rect:
         """A word in the time bar's place."""
-        return self.theme.text(surface, text, 24, 7, size=10, colour=self.theme.palette.on_tile, bold=True)
+        return self.theme.text(surface, text, 24, 7, size=size, colour=self.theme.palette.on_tile, bold=True)
 
-    def foot(self, surface: pygame.Surface, left: str, right: str) -> list[pygame.Rect]:
+    def foot(self, surface: pygame.Surface, left: str, right: str, size: float = _FOOT_SIZE) -> list[pygame.Rect]:
         """A line in the border below the level; where both texts do not fit, the left one is shortened."""
-        return self._border_line(surface, left, right, 582)
+        return self._border_line(surface, left, right, 593 - size, size)
 
-    def _border_line(self, surface: pygame.Surface, left: str, right: str, y: float) -> list[pygame.Rect]:
+    def _border_line(self, surface: pygame.Surface, left: str, right: str, y: float, size: float) -> list[pygame.Rect]:
         theme, colour = self.theme, self.theme.palette.on_tile
         gap = 14 if left and right else 0
         # The right text grows only where that takes nothing from the left one.
-        beside = min(_FOOT_WIDTH / 2, theme.lettering.width(left, _FOOT_SIZE))
-        room = max(min(_FOOT_WIDTH, theme.lettering.width(right, _FOOT_SIZE)), _FOOT_WIDTH - beside - gap)
-        rect = theme.text(surface, right, 768, y, size=_FOOT_SIZE, colour=colour, align="right", width=room)
+        beside = min(_FOOT_WIDTH / 2, theme.lettering.width(left, size))
+        room = max(min(_FOOT_WIDTH, theme.lettering.width(right, size)), _FOOT_WIDTH - beside - gap)
+        rect = theme.text(surface, right, 768, y, size=size, colour=colour, align="right", width=room)
         room = _FOOT_WIDTH - rect.width / theme.canvas.scale - gap
-        return [rect, theme.text(surface, left, 24, y, size=_FOOT_SIZE, colour=colour, width=room)]
+        return [rect, theme.text(surface, left, 24, y, size=size, colour=colour, width=room)]
 
     def head(self, surface: pygame.Surface, left: str, right: str) -> list[pygame.Rect]:
         """A line in the border above the level, like ``foot`` below it."""
-        return self._border_line(surface, left, right, 7)
+        return self._border_line(surface, left, right, 7, _FOOT_SIZE)
 
     def frame_time(self, surface: pygame.Surface, ms: float) -> pygame.Rect:
         """What the last turn of the loop took, in the corner."""

@@ -291,8 +291,12 @@ CANCEL: Row = ("Cancel", nothing, "")
 
 
 class Panel(MenuScreen):
+    """Rows over another screen. ``row_height``: px, with the gap; ``veil``: alpha over what is below."""
+
     see_through = True
     offers_back = False
+    row_height = ROW
+    veil = 130
 
     def __init__(self, app: App, title: str) -> None:
         super().__init__(app)
@@ -312,14 +316,14 @@ class Panel(MenuScreen):
         raise NotImplementedError
 
     @property
-    def _box(self) -> tuple[float, float, float, float]:
-        height = 64 + ROW * len(self.rows())
+    def _box(self) -> Area:
+        height = 64 + self.row_height * len(self.rows())
         return (WIDTH - PANEL_WIDTH) / 2, (HEIGHT - height) / 2, PANEL_WIDTH, height
 
     def build(self) -> Sequence[Widget]:
-        x, y, w, _ = self._box
+        (x, y, w, _), high = self._box, self.row_height
         return [
-            Button((x + 30, y + 48 + ROW * k, w - 60, 32), text, action, hint=hint, size=12)
+            Button((x + 30, y + 48 + high * k, w - 60, 0.8 * high), text, action, hint=hint, size=12)
             for k, (text, action, hint) in enumerate(self.rows())
         ]
 
@@ -327,7 +331,7 @@ class Panel(MenuScreen):
         if not self.redraw:
             return []
         canvas, theme, palette = self.app.canvas, self.theme, self.theme.palette
-        veil = pygame.Color(palette.tile.r, palette.tile.g, palette.tile.b, 130)
+        veil = pygame.Color(palette.tile.r, palette.tile.g, palette.tile.b, self.veil)
         (left, top), (right, bottom) = canvas.logical((0, 0)), canvas.logical(canvas.window)
         canvas.fill_rect(surface, veil, left, top, right - left, bottom - top)
         x, y, w, h = self._box

@@ -41,6 +41,10 @@ MOST_PICTURES = 20_000
 """Pictures of a film whose last tick nobody named: more than eight minutes."""
 
 
+LONGEST_NAME = 28  # letters of a run's name among its splits
+LETTERS = 13.0  # the size of what is written above and below the level, larger than in the game: films are small
+
+
 class _StoppedError(Exception):
     """The film was given up."""
 
@@ -148,7 +152,7 @@ class _Panel:
         if run.episode:
             covered = hud.time_bar(surface, run.lifetime + GOLD_BONUS * world.gold - self.time)
         else:
-            covered = [hud.label(surface, self.title)]
+            covered = [hud.label(surface, self.title, LETTERS)]
         words = [self.title] * bool(run.episode)
         if self.film.splits:
             words += [f"{seconds_text(self.time)} s", *[text for tick, text in self.splits if tick < world.tick][-1:]]
@@ -156,7 +160,7 @@ class _Panel:
             x, y = ghost.place(1.0)
             if is_near(x, y):
                 covered.append(hud.theme.text(surface, name, x, y - 24, size=9, colour=ghost.shade, align="centre"))
-        covered += hud.foot(surface, "; ".join(words), "")
+        covered += hud.foot(surface, "; ".join(words), "", LETTERS)
         if self.film.keys:
             covered.append(hud.keys(surface, self.playback.keys_at(world.tick - 1), 704))
         for each in covered:
@@ -166,7 +170,8 @@ class _Panel:
 def _called(runs: Sequence[Recording]) -> list[str]:
     """The label of each run: its player; of several by one player the file."""
     names = [run.whose for run in runs]
-    return [(run.place or name if names.count(name) > 1 else name)[:20] for run, name in zip(runs, names, strict=True)]
+    called = [run.place or name if names.count(name) > 1 else name for run, name in zip(runs, names, strict=True)]
+    return [name if len(name) <= LONGEST_NAME else f"{name[: LONGEST_NAME - 3]}..." for name in called]
 
 
 def split_texts(own: RunSplits, others: Sequence[RunSplits]) -> list[tuple[int, str]]:

@@ -133,7 +133,7 @@ class LevelPaths:
                 canvas.line(surface, palette.outline, at, (x, y - px(14)), px(_THIN))
                 tips = [(x, y - px(14)), (x + px(7), y - px(11)), (x, y - px(8.5))]
                 self._labels.append(canvas.polygon(surface, palette.good, tips))
-                self._label(surface, name, at, (8.5, -16), palette.text)
+                self._label(surface, self.theme.fit(name, _LONGEST_NAME, LETTERS), at, (8.5, -16), palette.text)
 
     def draw_hover(self, surface: pygame.Surface, positions: Positions, tick: int) -> None:
         at = _point(positions, tick)

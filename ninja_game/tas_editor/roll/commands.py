@@ -33,7 +33,7 @@ class RollCommands:
         return {
             **{name: partial(self._move, to) for name, to in moves.items()},
             **{f"select_{name}": partial(self._move, to, select=True) for name, to in moves.items()},
-            "select_last": partial(self._move, lambda: max(len(editor.track) - 1, self._last()), select=True),
+            "select_last": lambda: editor.go(max(len(editor.track) - 1, editor.session.timeline.end[0]), select=True),
             "select_all": lambda: editor.select(0, len(editor.track)), "go_to": self.ask_where,
             "next_marker": lambda: self._to_marker(1), "previous_marker": lambda: self._to_marker(-1),
             "next_difference": lambda: self._to_difference(1),
@@ -198,18 +198,18 @@ class RollCommands:
         editor, tick = self._editor, self._editor.cursor
         name = next((name for at, name in editor.track.markers if at == tick), "")
         named = partial(self._name, tick)
-        ask_text(editor.app, f"Tick {tick}", "Marker name (empty removes it)", name, "Name it", named)
+        ask_text(editor.app, f"Tick {tick}", "Name or comment (empty removes it)", name, "Name it", named)
 
     def _name(self, tick: int, text: str) -> None:
-        words = "-".join(text.split())
+        moved = [at for at, name in self._editor.track.markers if name == text.strip() and at != tick]
 
         def named(track: InputTrack) -> InputTrack:
-            if words and tick > len(track):
+            if text.strip() and tick > len(track):
                 raise ArgumentError(f"the run has {len(track)} ticks: give this one a key first")
-            return track.named(tick, words)
+            return track.named(tick, text)
 
-        if self._editor.edit(named) and words != text.strip():
-            self._editor.app.notify(f"It is called {words}: names have no blanks")
+        if self._editor.edit(named) and moved:
+            self._editor.app.notify(f"It is moved here from tick {moved[0]}: each name stands once")
 
 
 def _with_pasted(track: InputTrack, first: int, pasted: Inputs, *, between: bool) -> InputTrack:

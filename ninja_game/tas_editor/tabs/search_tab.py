@@ -26,12 +26,16 @@ from ninja_game.tas.timeline import Timeline
 from ninja_game.tas.tracks import InputTrack, first_difference
 from ninja_game.tas_editor.editor import OtherRun, Span, TasEditor
 from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, EntryField, Rows, Tab, what_is_wrong
+from ninja_game.ui.canvas import WIDTH
 from ninja_game.ui.theme import Area, Theme, wrapped
 from ninja_game.ui.widgets import Button, Choice
 
 CLOSING_SECONDS = 0.5  # how long a search that is cancelled is waited for when the TAS editor is left
 
-COMPILING = "The rules are made ready. On a machine that has never searched this takes a minute or two."
+COMPILING = (
+    "Searches are loaded; the first time on a machine they are compiled, a minute or two. Meanwhile you can "
+    "play, look around and edit; only an edit in the ticks that are searched, or before them, ends the search."
+)
 NOT_BEGUN = "Stopped before it began. The rules are still made ready, for the next search."
 NOTHING_YET = "Nothing yet."
 NOTHING = "The goal was not reached. More time, a longer span or another method may reach it."
@@ -76,7 +80,7 @@ class SpanResults:
         # The begins of runs that results fit to, and the first tick that follows a result in each: the run that is
         # searched and those that results were put into.
         whole = len(task.inputs) if task.rest else task.last
-        self._fitting = [(task.inputs[:whole], task.last)]
+        self._fitting = [(task.inputs[:whole], (task.rest and task.behind) or task.last)]
         self.better: tuple[Found, ...] = ()
         self._seen: tuple[Found, ...] = ()
         self._preview: tuple[Found, OtherRun] | None = None
@@ -149,9 +153,9 @@ class SpanResults:
             return InputTrack(inputs, moved_markers(self.editor.session.recording(), inputs))
         if not self.task.rest:
             return track.replaced(first, behind, keys)
-        rest = len(found.inputs) - first - found.ticks
-        made = track.replaced(first, len(track) - rest, keys)
-        return InputTrack(track.inputs[:first] + found.inputs[first:], made.markers)
+        end = int(min(found.score, len(found.inputs)))  # behind the exit, where that is reached, nothing follows
+        made = track.replaced(first, behind, keys)
+        return InputTrack(track.inputs[:first] + found.inputs[first:], made.markers).up_to(end)
 
     def preview(self, found: Found) -> OtherRun:
         if self._preview is None or self._preview[0] is not found:
@@ -222,6 +226,18 @@ class SpanResults:
         return NOTHING_YET if self.running else NOTHING
 
 
+class PresetMenu(Menu):
+    """Its rows are low, and it lies over the roll, so that the run in the level is seen."""
+
+    row_height = 24
+    veil = 40
+
+    @property
+    def _box(self) -> Area:
+        _, y, w, h = super()._box
+        return WIDTH - w - 10, y, w, h
+
+
 class SearchTab(Tab):
     name = "Search"
 
@@ -231,7 +247,6 @@ class SearchTab(Tab):
         self._behind = 0
         self._why = ""
         self._taken: Span = (0, 0)
-        self._filled = False
         self.order = EARLIEST
         self.rest = False
         self.method = "auto"
@@ -302,13 +317,14 @@ class SearchTab(Tab):
             self._fill(self._preset[0] if self.goal.text != "won" else lambda _: SpanGoal())
 
     def propose(self) -> None:
-        """Open a menu of common goals for the selected ticks; a choice fills the fields."""
+        """Open a menu of common goals for the selected ticks; a choice fills the fields and starts."""
         self._follow_selection()
         first, last = self.span
-        rows = [(name, partial(self._fill, make), hint.format(first, last - 1)) for name, hint, make in PRESETS]
-        self.editor.app.push(Menu(self.editor.app, f"Presets for ticks {first} to {last - 1}", rows))
+        fill = partial(self._fill, start=True)
+        rows = [(name, partial(fill, make), hint.format(first, last - 1)) for name, hint, make in PRESETS]
+        self.editor.app.push(PresetMenu(self.editor.app, f"Presets for ticks {first} to {last - 1}", rows))
 
-    def _fill(self, make: Callable[[SearchedSpan], SpanGoal]) -> None:
+    def _fill(self, make: Callable[[SearchedSpan], SpanGoal], *, start: bool = False) -> None:
         try:
             wanted = make(SearchedSpan(self.editor.session, *self.span))
         except NinjaGameError as error:
@@ -319,11 +335,11 @@ class SearchTab(Tab):
         self.measure.show(wanted.measure)
         self.order = EARLIEST if not wanted.measure else SMALLEST if wanted.least else GREATEST
         self.rest = wanted.rest
-        self._filled = True
         self.method = wanted.method or ("auto" if self.method in IMPROVES else self.method)
         first, self._behind = self.span
         self.span, self._why = (0 if wanted.method else first, wanted.last or self._behind), wanted.why
-        self.wants = self.goal
+        if start:
+            self.start()
 
     def _typed(self, _: str) -> None:
         """Leave the methods for the whole run: a goal was typed."""
@@ -368,7 +384,6 @@ class SearchTab(Tab):
     def start(self) -> None:
         """Search; a search that is going on ends. What is wrong is reported."""
         self.close()
-        self._filled = False
         self.list.over = -1
         try:
             whole = self.method in IMPROVES
@@ -422,7 +437,7 @@ class SearchTab(Tab):
         results, state = self.results, tuple[object, ...]()
         if results:
             state = (results.status, results.running, results.behind, self.editor.track, *map(id, self.found))
-        wanted = self.order, self.rest, self.goal.text, self._filled
+        wanted = self.order, self.rest, self.goal.text
         return self.span, self._why, self.editor.selection, *wanted, self.list.over, state
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
@@ -440,8 +455,6 @@ class SearchTab(Tab):
             status, colour = results.status, palette.bad if results.search.problem else palette.text
             if results.behind is None:
                 status, colour = "the run was changed: search again", palette.bad
-        if self._filled:
-            status, colour = "Filled in: Enter starts", palette.text
         theme.text(surface, status, x + 222, y + 72, size=SMALL, colour=colour, width=w - 226)
         if self.found:
             for at, head in zip(self._cells(self.list.row_area(0)), _HEADS, strict=True):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_right
 from functools import lru_cache
 
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 from ninja_game.errors import FormatError
 from ninja_game.files.shown_text import counted
 from ninja_game.formats.replay.input_text import Inputs
-from ninja_game.formats.replay.notations import KEY_NAMES
+from ninja_game.formats.replay.notations import KEY_NAMES, marker_word
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, pressed, with_press_bits
 from ninja_game.tas.files import inputs_of_text
 from ninja_game.tas.tracks import InputTrack
@@ -22,6 +23,7 @@ from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button
 
 LONGEST = 300  # characters of a line that is typed
+_WORD = re.compile(r'#"[^"]*"|\S+')
 
 
 @lru_cache(maxsize=1)
@@ -55,7 +57,7 @@ def text_of(track: InputTrack, first: int, last: int, *, celeste: bool) -> str:
     >>> text_of(InputTrack(bytes([2, 2, 14, 6])), 2, 4, celeste=True)
     '2,R,J'
     """
-    name = next((f"#{name}" for tick, name in track.markers if tick == first), "")
+    name = next((marker_word(name) for tick, name in track.markers if tick == first), "")
     if first == last:
         return name
     keys, held = track.inputs[first], track.keys_at(first - 1) & JUMP_HELD
@@ -78,7 +80,7 @@ class TextTab(Tab):
         self.starts = starts_of(self._track)
         self._seen: tuple[object, ...] = ()
         self.list = Rows(self._draw_row, self._choose, hint="A click selects the ticks of a line")
-        hint = "R*30 RJ*10 or 30,R,J, several with blanks between; #name: a marker; nothing: without these ticks. Enter"
+        hint = "R*30 RJ*10 or 30,R,J, several; #name: a marker; # any text: a comment; nothing: no such ticks. Enter"
         self.field = EntryField("the line of the cursor's tick", self.put, longest=LONGEST, hint=hint)
         self.notation = Button(UNPLACED, "30,R,J", self._turn, hint="The other notation", size=SMALL)
         hint = "Only the lines from the marker before the cursor to the next one"
@@ -107,13 +109,21 @@ class TextTab(Tab):
     def text(self, index: int) -> str:
         first, last = self.span(index)
         if first < last and self._unfolded and not self._unfolded[0] <= first < self._unfolded[1]:
-            name = next((f"#{name}" for tick, name in self._track.markers if tick == first), "the start")
+            name = next((marker_word(name) for tick, name in self._track.markers if tick == first), "the start")
             return f"{name}: {counted(last - first, 'tick')}"
         return text_of(self._track, first, last, celeste=self.celeste)
 
     def put(self) -> None:
-        """Replace the line by the text of the field, with the markers that it names."""
-        words, (first, last) = self.field.text.split(), self.span(self.list.index)
+        """Replace the line by the text of the field. Its marker stays unless the keys come with another one.
+
+        A comment, ``# any text``, is the marker of the same keys.
+        """
+        text, (first, last) = self.field.text.strip(), self.span(self.list.index)
+        if text[:2].strip() == "#":
+            if self.editor.edit_selected(lambda track: track.named(first, text[1:])):
+                self.editor.go(first)
+            return
+        words = _WORD.findall(text)
         try:
             typed = inputs_of_text("\n".join(words), "") if words else Inputs(b"")
         except FormatError as error:
@@ -123,7 +133,8 @@ class TextTab(Tab):
             return
 
         def changed(track: InputTrack) -> InputTrack:
-            others = tuple(each for each in track.markers if not first <= each.tick < max(last, first + 1))
+            left = first + bool(typed.keys and not typed.markers)
+            others = tuple(each for each in track.markers if not left <= each.tick < max(last, first + 1))
             made = InputTrack(track.inputs, others).replaced(first, last, typed.keys)
             for tick, name in typed.markers:
                 made = made.named(first + tick, name)

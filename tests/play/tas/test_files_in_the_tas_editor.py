@@ -14,6 +14,7 @@ from ninja_game.formats.replay.made import Made
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.play.replay.screen import ReplayScreen
+from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.inputs import KEY_LEFT
 from ninja_game.tas.journal import FOLDER, recovered
 from ninja_game.tas_editor.commands import TABLE
@@ -23,7 +24,7 @@ from ninja_game.tas_editor.screen import TasScreen
 from ninja_game.ui.theme import Theme
 from tests.play.tas.conftest import RUN
 from tests.support.own_pack import PACK
-from tests.support.samples import WALK, running, write_records
+from tests.support.samples import SPIKED, WALK, running, write_records
 from tests.support.scripted import scripted_app, tap
 from tests.support.tas_driver import TasDriver
 
@@ -60,6 +61,7 @@ def test_a_run_is_saved_into_its_file(at: TasDriver) -> None:
     change(at)
     at.chord("s", CTRL)
     assert at.app.notice == f"Saved: {path}"
+    assert at.app._draw_notice(at.screen.theme).right <= at.screen.theme.canvas.rect(*at.screen.roll.area).left
     assert at.session.is_saved
     assert load_replays(path)[0].replay.playback(30) == at.editor.track.inputs[:30]
     assert journals(at) == []
@@ -74,13 +76,29 @@ def test_a_run_of_n_is_saved_beside_its_file_under_a_name_that_is_asked_for(tmp_
     first = tmp_path / "a-run.replay.txt"
     assert load_replays(first)[0].author == ""
     assert "its player is unknown: your name can be set in the settings" in at.app.notice
-    assert "Saved, with what is behind its end (Ctrl+E takes that out)" in at.app.notice
-    at.choose_in_menu("Keep as a replay")
-    assert "behind the end" in at.app.notice
-    at.chord("e", CTRL)
-    at.chord("s", CTRL)
-    assert at.app.notice.startswith(f"Saved: {first}")
+    assert at.app.notice.startswith("Saved, without what is behind its exit: ")
+    assert at.session.is_saved
+    assert at.session.has_tail, "here it stays"
+    assert verify_recording(load_replays(first)[0]).good
     assert load_replays(first)[0].replay.outcome == "exit"
+    at.choose_in_menu("Keep as a replay")
+    assert "saved" in at.app.notice
+    assert len(at.player.records.replays()) == 1
+    at.close()
+
+
+def test_keys_behind_a_death_are_saved_without_claims(tmp_path: Path) -> None:
+    at = TasDriver(tmp_path / "player", write_records(tmp_path / "demos.txt", ("a run", SPIKED, running(300))))
+    assert at.session.timeline.end[1] == "dead"
+    at.chord("s", CTRL)
+    at.choose("Save")
+    assert "Saved, with what is behind its end (Ctrl+E removes it)" in at.app.notice
+    path = at.session.file.path
+    assert path is not None
+    assert load_replays(path)[0].replay.inputs == at.editor.track.inputs
+    at.choose_in_menu("Keep as a replay")
+    assert "behind the death" in at.app.notice
+    at.chord("e", CTRL)
     at.choose_in_menu("Keep as a replay")
     assert "saved" in at.app.notice
     assert len(at.player.records.replays()) == 1

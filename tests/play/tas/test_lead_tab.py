@@ -99,4 +99,4 @@ def test_seconds_without_a_row_are_told(at: TasDriver, tab: LeadTab) -> None:
     there = sum(not row.at for row in tab.table.rows)
     seconds = (len(tab.table.comparison.positions[0]) - 1) // 40
     assert 0 < tab.table.apart == seconds - there
-    assert tab.summary.endswith(f"no rows for {tab.table.apart} s more than 24 px apart")
+    assert tab.summary.endswith(f"no rows for {tab.table.apart} s: over 24 px apart there")

@@ -38,6 +38,10 @@ def test_keys_move_and_select(at: TasDriver) -> None:
     assert at.screen.roll.top == editor.last_tick + 1 - rows
     at.press("home")
     assert at.screen.roll.top == editor.cursor == 0
+    last = max(len(editor.track) - 1, at.session.timeline.end[0])
+    for _ in range(2):
+        at.chord("end", SHIFT)
+        assert editor.selection == (0, last + 1), "not beyond the run, again and again"
     at.chord("a", CTRL)
     assert editor.selection == (0, len(editor.track))
 
@@ -133,7 +137,11 @@ def test_markers_are_named_found_and_dropped(at: TasDriver) -> None:
         assert at.editor.cursor == tick
     at.screen.roll.edits.go_to("nowhere")
     assert "nowhere" in at.app.notice
-    at.screen.roll.edits._name(15, "a;b")
+    at.screen.roll.edits._name(15, "door")
+    assert at.editor.track.markers == (Marker(15, "door"),)
+    assert "moved here from tick 40" in at.app.notice
+    at.chord("z", CTRL)
+    at.screen.roll.edits._name(15, "a\tb")
     assert "not a marker" in at.app.notice
     at.screen.roll.edits._name(15, "")
     assert at.editor.track.markers == (Marker(40, "door"),)

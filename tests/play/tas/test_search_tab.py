@@ -55,7 +55,6 @@ def is_in(at: TasDriver, results: SpanResults, found: Found) -> bool:
 
 def searched(at: TasDriver, tab: SearchTab) -> SpanResults:
     """Search until there is something better than the run, then stop."""
-    at.press("return")
     results = results_of(tab)
     at.wait(lambda: bool(tab.found), "something better")
     at.choose("Stop")
@@ -87,6 +86,32 @@ def test_the_key_takes_the_selection_and_the_next_ones_are_typed(at: TasDriver, 
     at.editor.go(50)
     at.choose("Use the selection")
     assert tab.span == (50, 90), "a second, where only one tick is selected"
+
+
+def test_a_click_on_a_preset_starts_it_and_escape_ends_it(at: TasDriver, tab: SearchTab) -> None:
+    """Every phase of the click in a picture of its own: its release comes when the menu is gone."""
+    at.mouse(*tab.goal.centre)
+    at.press("escape")
+    at.choose("Presets")
+    menu = at.shown(Menu)
+    left, _, width, _ = at.screen.level.area
+    assert menu._box[0] > left + width, "the run is seen beside it"
+    place = at.button("Reach the exit sooner").centre
+    at.event(pygame.MOUSEBUTTONDOWN, *place, button=1)
+    at.event(pygame.MOUSEBUTTONUP, *place, button=1)
+    at.frames(2)
+    results = results_of(tab)
+    assert (results.running, tab.goal.text, at.screen.focus) == (True, "won", None)
+    at.press("escape")
+    at.wait(lambda: not results.running, "the end")
+    assert at.top() is at.screen
+    assert tab.goal.text == "won", "it can be changed, and started again"
+
+
+def test_a_release_elsewhere_leaves_a_field_its_focus(at: TasDriver, tab: SearchTab) -> None:
+    at.mouse(*tab.goal.centre)
+    at.event(pygame.MOUSEBUTTONUP, *at.cell(3, "left"), button=1)
+    assert at.screen.focus is tab.goal
 
 
 def test_a_click_into_a_field_starts_nothing(at: TasDriver, tab: SearchTab) -> None:
@@ -141,8 +166,6 @@ def test_a_better_end_is_found_and_put_in_as_one_edit(at: TasDriver, tab: Search
 def test_other_ticks_make_the_goal_of_the_menu_anew_and_end_old_results(at: TasDriver, tab: SearchTab) -> None:
     wish(at, "Be there sooner")
     goal = tab.goal.text
-    tab.start()
-    at.wait(lambda: tab.results is not None, "search")
     results_of(tab).stop()
     at.wait(lambda: not results_of(tab).running, "end of the search")
     at.editor.select(50, 90)
@@ -158,10 +181,7 @@ def test_other_ticks_make_the_goal_of_the_menu_anew_and_end_old_results(at: TasD
 
 def test_results_of_one_way_are_one(at: TasDriver, tab: SearchTab) -> None:
     wish(at, "Greatest speed")
-    at.frames()
-    filled = [tab._filled]
     results = searched(at, tab)
-    assert [*filled, tab._filled] == [True, False], "the status line says what starts it"
     best = tab.found[0]
     elsewhere = replace(best, score=best.score + 0.01, path=best.path + 99)
     results.search.found = best, replace(best, score=best.score + 0.01, path=best.path + 9), elsewhere
@@ -201,7 +221,6 @@ def test_results_that_do_not_fit_any_more_are_refused(at: TasDriver, tab: Search
 
 def test_an_edit_in_front_ends_the_search(at: TasDriver, tab: SearchTab) -> None:
     wish(at, "Stay alive")
-    at.press("return")
     results = results_of(tab)
     at.wait(lambda: results.search.ticks_run, "a search")
     at.editor.edit(lambda track: track.replaced(0, 0, [0]))
@@ -222,8 +241,11 @@ def test_the_same_end_is_found_sooner_and_the_rest_follows(at: TasDriver, tab: S
     assert words == f"exit in tick {tab.found[0].score - 1:.0f}"
     assert 0 <= int(other) < 24
     assert gain in ("1 tick sooner", "2 ticks sooner", "3 ticks sooner")
+    at.editor.edit(lambda track: track.named(end + 3, "last"))
     row(at, tab, 0)
     assert at.session.timeline.end == (int(tab.found[0].score) - 1, "exit")
+    assert len(at.editor.track) == int(tab.found[0].score), "it ends at the exit"
+    assert not at.session.has_tail
     assert at.session.timeline.end[0] < end + 3
     assert tab.found[0].gold == at.session.timeline.column("gold")[at.session.timeline.end[0]]
     own = results.search.own
@@ -254,10 +276,9 @@ def test_a_search_is_cancelled_by_hand_and_when_the_tas_editor_is_left(
     # On a slow machine a round of trials takes longer.
     monkeypatch.setattr(module, "CLOSING_SECONDS", LONGEST)
     wish(at, "Greatest speed")
-    at.press("return")
     first = results_of(tab)
     at.wait(lambda: first.search.ticks_run, "a search")
-    at.press("return")
+    wish(at, "Greatest speed")
     second = results_of(tab)
     assert first is not second
     assert not first.running, "a new search ends the one before"
@@ -270,7 +291,6 @@ def test_the_button_stops_what_still_compiles(at: TasDriver, tab: SearchTab, mon
     compiled = Event()
     monkeypatch.setattr(background, "search_span", lambda *_, **__: compiled.wait(60.0))
     wish(at, "Greatest speed")
-    at.choose("Start")
     assert results_of(tab).note == COMPILING
     at.choose("Stop")
     assert not results_of(tab).running
@@ -383,7 +403,6 @@ def test_the_whole_run_is_shortened_in_the_background_and_keeps_its_markers(at: 
     at.editor.edit(lambda track: track.replaced(0, 0, bytes(40)).named(40, "begins"))
     wish(at, "Whole run")
     assert tab.span == (0, end + 41)
-    at.press("return")
     results = results_of(tab)
     at.wait(lambda: not results.running or (tab.found and tab.found[0].ticks < end + 20), "a shorter run")
     assert results.running, results.search.problem
@@ -405,7 +424,6 @@ def test_a_run_that_ends_before_the_exit_is_led_there_and_shortened(at: TasDrive
     at.editor.edit(lambda track: track.replaced(end - 30, len(track), b""))
     wish(at, "Whole run")
     assert tab.span == (0, end - 30)
-    at.press("return")
     results = results_of(tab)
     at.wait(lambda: bool(tab.found), "a way to the exit")
     at.choose("Stop")
@@ -435,7 +453,6 @@ def test_beside_a_faster_run_the_own_route_stays_in_the_list(at: TasDriver, tab:
     at.screen.level.others.open([theirs])
     at.frames(2)
     wish(at, "Whole run")
-    at.press("return")
     results = results_of(tab)
 
     at.wait(lambda: any(each.own_route for each in tab.found), "a result of the own route")
@@ -459,8 +476,8 @@ def test_beside_a_faster_run_the_own_route_stays_in_the_list(at: TasDriver, tab:
 
 def test_escape_ends_the_search_and_then_opens_the_menu(at: TasDriver, tab: SearchTab) -> None:
     wish(at, "Greatest speed")
-    at.press("return")
     results = results_of(tab)
+    at.mouse(*tab.goal.centre)
     at.press("escape")
     assert at.screen.focus is None
     assert results.running, "the field is left first"
@@ -521,7 +538,8 @@ def test_a_selection_is_searched_whatever_ticks_a_goal_of_the_menu_had(
 def test_a_goal_that_is_typed_leaves_the_whole_run(at: TasDriver, tab: SearchTab) -> None:
     wish(at, "Whole run")
     assert (tab.span[0], tab.method) == (0, IMPROVE)
-    at.press("f")
+    at.mouse(*tab.goal.centre)
+    at.press("end")
     at.write(" and x > 1")
     assert (tab.span, tab.method, tab._why) == ((100, 130), "auto", "")
     assert tab.goal.text == "won and x > 1"

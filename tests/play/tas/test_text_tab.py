@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from itertools import pairwise
 
+import pygame
 import pytest
 
 from ninja_game.formats.replay.notations import Marker
 from ninja_game.sim.inputs import KEY_LEFT
-from ninja_game.tas.files import inputs_of_text
+from ninja_game.tas.files import inputs_of_text, open_run
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.tabs.text_tab import TextTab, starts_of, text_of
 from tests.support.tas_driver import TasDriver
@@ -62,11 +63,14 @@ def test_the_other_notation(at: TasDriver, tab: TextTab) -> None:
     [
         ("#hop R*4", "R*2|#hop R*4 RJ*3|#land .*4"),
         ("#hop 4,R", "R*2|#hop R*4 RJ*3|#land .*4"),
-        ("L*2 J", "R*2 L*2 J RJ*3|#land .*4"),
+        ("L*2 J", "R*2|#hop L*2 J RJ*3|#land .*4"),
+        ("# wait, it's early!", 'R*2|#"wait, it\'s early!" R*3 RJ*3|#land .*4'),
+        ('#"one more" L*2 #two J', 'R*2|#"one more" L*2|#two J RJ*3|#land .*4'),
+        ("#", "R*5 RJ*3|#land .*4"),
         ("#hop R*1 #turn 3", "refused"),
         ("#one R #two L", "R*2|#one R|#two L RJ*3|#land .*4"),
         ("", "R*2 RJ*3|#land .*4"),
-        ("(R L)*2", "R*2 R L R L RJ*3|#land .*4"),
+        ("(R L)*2", "R*2|#hop R L R L RJ*3|#land .*4"),
     ],
 )
 def test_the_roll_follows_what_is_typed(text: str, inputs: str, at: TasDriver, tab: TextTab) -> None:
@@ -82,6 +86,22 @@ def test_the_roll_follows_what_is_typed(text: str, inputs: str, at: TasDriver, t
     assert at.editor.cursor == 2
     at.editor.session.undo()
     assert at.editor.track == RUN
+
+
+def test_a_comment_is_kept_through_edits_saving_and_loading(at: TasDriver, tab: TextTab) -> None:
+    at.editor.go(3)
+    at.frames()
+    typed(at, tab, "# jump late (see 1-2); wait")
+    comment = "jump late (see 1-2); wait"
+    assert texts(tab)[1] == f'#"{comment}" R*3'
+    at.editor.edit(lambda track: track.replaced(0, 0, bytes(3)))
+    assert Marker(5, comment) in at.editor.track.markers
+    at.press("escape")
+    at.chord("s", pygame.KMOD_LCTRL)
+    assert at.session.file.path is not None
+    again = open_run(at.session.file.path)
+    assert Marker(5, comment) in again.track.markers
+    assert again.file.path == at.session.file.path, "it loses nothing by saving"
 
 
 def test_what_is_wrong_is_told_by_its_word(at: TasDriver, tab: TextTab) -> None:
