@@ -22,8 +22,9 @@ from ninja_game.runs.archive import Lost, verify_all
 from ninja_game.runs.chunks import Chunk, Result
 from ninja_game.runs.recording_reader import Unreadable
 from ninja_game.runs.verify import NOT_RUN, Verdict
-from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN
+from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, with_press_bits
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
+from ninja_game.ui.input.bindings import MOVES
 from ninja_game.web.board.collect import RunFolder, Sent, SentFile
 from ninja_game.web.board.copies import without_copies
 from ninja_game.web.board.players import Players, folded
@@ -233,10 +234,29 @@ def _worded(problem: RunProblem, result: Verdict, sent: Sent) -> str:
     """A problem as the sender of a run reads it."""
     if problem.code == "not-strict" and result.practice and str(problem).startswith("practice"):
         return f"it was {result.made}: runs with such help do not count"
+    if problem.code == "not-strict" and str(problem).startswith("possible_by_keyboard"):
+        return _not_by_keyboard(sent.inputs(result.ticks)) or str(problem)
     if problem.code == "other-level" and sent.replay and sent.replay.level_name:
         name, digest = sent.replay.level_name, result.level_digest[:16]
         return f"{name!r} is not one of the levels that count; its level_digest begins with {digest}"
     return str(problem)
+
+
+_NOT_BY_KEYBOARD = {
+    JUMP_HELD: "jump is held and was not pressed: press it in the first tick in which it is down",
+    JUMP_HELD + JUMP_PRESSED: "jump is pressed again while it is held: let it go for a tick before that",
+    JUMP_PRESSED: "jump is pressed and not held: it is down in the tick in which it is pressed",
+}
+"""What is odd about the flags of jump in a tick, and how to mend it."""
+
+
+def _not_by_keyboard(inputs: bytes) -> str:
+    """The first tick with flags of jump that no keyboard makes, with its keys; "" for none."""
+    for tick, (keys, possible) in enumerate(zip(inputs, with_press_bits(inputs), strict=True)):
+        if keys != possible:
+            down = " and ".join(name for name, key in MOVES if keys & key) or "no key"
+            return f"tick {tick}, {down} down: {_NOT_BY_KEYBOARD[keys & (JUMP_HELD + JUMP_PRESSED)]}"
+    return ""
 
 
 def _of_players(runs: list[Run], players: Players) -> list[Run]:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from datetime import datetime
 from hashlib import sha256
-from itertools import compress, pairwise
+from itertools import pairwise
 from operator import itemgetter
 from pathlib import Path
 from typing import Any
@@ -23,7 +23,7 @@ from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, SplitRow, run_split
 from ninja_game.ui.theme import RUN_COLOURS
 from ninja_game.web.board.ranking import Part, Ranked, Ranking
 from ninja_game.web.board.rules import FASTEST, Category
-from ninja_game.web.board.runs import Run
+from ninja_game.web.board.runs import Key, Run
 from ninja_game.web.pages.frame import GAME, REPLAYS, Content, Markup, Pages, joined, page, section, table, tag
 from ninja_game.web.pages.gallery import (
     BOARD,
@@ -57,7 +57,7 @@ MOST_SPLITS = 60  # rows of splits; where there were more, gold is left out
 
 RECORDS = "records"
 SPLITS = "splits"
-NEAR = "A run that is nearly somebody else's is never first, until the keeper of the board confirms it."
+NEAR = "A run that is nearly somebody else's has no place, until the keeper of the board confirms it."
 
 # The chart, px, before it is fitted to the page.
 WIDTH = 480
@@ -87,6 +87,12 @@ class LevelPages:
         self.deeper = [(UP + address, name) for address, name in self.links]
         self.around = digest_of([self.links, self.site])
         self.stems = {run.key: _stem(run) for run in ranking.judged.runs}
+        self.ranks: dict[Key, list[tuple[Part, int, list[Ranked]]]] = defaultdict(list)
+        """By run the tables that have it among the first rows, and in which."""
+        for tables in ranking.tables.values():
+            for part, rows in tables.items():
+                for number, row in enumerate(rows[:FIRST]):
+                    self.ranks[row.run.key].append((part, number, rows))
 
     def list(
         self, name: str, title: str, caption: str, heads: Sequence[str], rows: Sequence[Any], *before: Content,
@@ -122,16 +128,27 @@ class LevelPages:
 
     def run_page(self, run: Run) -> None:
         stem, title = self.stems[run.key], f"{self.name(run.player)} on {run.entry.title}"
+        ranks, links = list[tuple[str, str]](), list[Markup]()
+        for part, number, rows in self.ranks.get(run.key, ()):
+            row, first = rows[number], rows[0].run
+            if row.place:
+                late = f", {part[1].difference(row.behind)} behind" * (row.place > 1)
+                ranks.append((self.part_name(part), f"place {row.place}{late}"))
+            if number and not links:
+                links.append(self.watch([run, first], "", f"Watch with {self.name(first.player)}"))
+            if number < TOGETHER and len(rows) > 1 and part == next(iter(self.ranking.tables[run.level])):
+                links.append(tag("a", "Splits", href=f"{UP}{BOARD}/{page_name(run.level)}#{SPLITS}"))
+        keys = f"{counted(run.presses, 'press', 'presses')}, {counted(run.jumps, 'jump')}"
+        facts = [("Time", f"{seconds_text(run.tick)} s"), *ranks, ("Score", seconds_text(run.score)),
+                 ("Gold", gold_text(run)), ("Medal", run.medal), ("Keys", keys), ("Made", run.made or "unknown"),
+                 ("Date", run.day)]  # fmt: skip
 
         def content() -> str:
-            facts = [("Time", f"{seconds_text(run.tick)} s"), ("Score", seconds_text(run.score)),
-                     ("Gold", str(run.gold)), ("Medal", run.medal), ("Made", run.made or "unknown"),
-                     ("Date", run.day)]  # fmt: skip
             drawn = paths(f"{UP}{BOARD}/{picture_name(run.level)}", [(self.name(run.player), run.path)])
-            return run_page(run.entry, stem, title, facts, BOARD, self.game, self.links, self.site, drawn)
+            more = joined(*(tag("p", each) for each in links))
+            return run_page(run.entry, stem, title, facts, BOARD, self.game, self.links, self.site, drawn, more)
 
-        shown = title, run.tick, run.score, run.gold, run.medal, run.made, run.day
-        self.pages.make_replay(f"{stem}.html", [*shown, self.around], content)
+        self.pages.make_replay(f"{stem}.html", [title, facts, links, self.around], content)
 
     def name(self, player: str) -> str:
         """A player's name in a table, and whose it is not where it looks like one that was there before."""
@@ -143,7 +160,7 @@ class LevelPages:
 
     def run(self, run: Run, *results: Content, timed: bool = True) -> tuple[Content, ...]:
         """Cells of a run, for heads that end in RUN_HEADS. ``timed``: with its medal, which is of the time."""
-        about = medal_mark(run.medal if timed else ""), run.gold, run.made or "unknown", run.day, run.remark
+        about = medal_mark(run.medal if timed else ""), gold_text(run), run.made or "unknown", run.day, run.remark
         others = f" with {shown_text(run.co_authors, LONGEST_NAME)}" if run.co_authors else None
         return (joined(self.player_link(run.player, UP), others), *results, *self.leads(run, UP), *about)
 
@@ -208,20 +225,20 @@ class LevelPages:
         return contents, drawn, joined(*shown, tag("p", NEAR) if near else None, link, first, folded, beside)
 
     def _table(self, parts: Mapping[Part, Sequence[Ranked]], above: set[str], anchor: str) -> Markup:
-        """A table of categories with the same runs in order, of filled columns. ``above``: remarks of tables above."""
+        """A table of categories with the same runs in order. ``above``: remarks of tables above."""
         rows, categories = [], [category for _, category in parts]
         timed = any(category.unit == FASTEST.unit for category in categories)
         for same in zip(*parts.values(), strict=True):
             place, run = same[0].place, same[0].run
             shown = replace(run, remark="as above") if run.remark in above else run
             results = [category.text(each.values[0]) for category, each in zip(categories, same, strict=True)]
-            rows.append((place, *self.run(shown, *results, timed=timed)))
+            late = categories[0].difference(same[0].behind) if place > 1 else ""
+            rows.append((place or "", *self.run(shown, *results, late, timed=timed)))
             above |= {run.remark} - {""}
         names = [category.name if len(parts) > 1 else category.unit for category in categories]
-        heads = ("Place", "Player", *names, *RUN_HEADS)
-        filled = [any(cell != "" for cell in column) for column in zip(*rows, strict=True)]
-        lines, title = [compress(row, filled) for row in rows], "; ".join(map(self.part_name, parts))
-        return section(title, table("Best run of each player", compress(heads, filled), lines), anchor=anchor)
+        heads = ("Place", "Player", *names, "Behind", *RUN_HEADS)
+        title = "; ".join(map(self.part_name, parts))
+        return section(title, table("Best run of each player", heads, rows), anchor=anchor)
 
     def _progression(self, entry: Entry, part: Part, anchor: str) -> Content:
         category, runs = part[1], self.ranking.history[entry.digest, part]
@@ -294,6 +311,10 @@ def player_page(player: str) -> str:
 
 def level_link(entry: Entry, up: str = "") -> Markup:
     return tag("a", shown_text(entry.title, LONGEST_NAME), href=up + page_name(entry.digest))
+
+
+def gold_text(run: Run) -> str:
+    return f"{run.gold} of {run.entry.all_gold}"
 
 
 def signed(ticks: int) -> str:

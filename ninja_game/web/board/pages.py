@@ -18,7 +18,7 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.sim.rules import LIFETIME
-from ninja_game.web.board.level_pages import FIRST, LevelPages, level_link, player_page
+from ninja_game.web.board.level_pages import FIRST, LevelPages, gold_text, level_link, player_page
 from ninja_game.web.board.ranking import Record, Standing
 from ninja_game.web.board.report import summary
 from ninja_game.web.board.rules import HIGHEST
@@ -32,7 +32,7 @@ LEADING = 20
 CONTESTED = 10
 
 FEED = "feed.xml"
-ONE_MOMENT = "Those of one moment go by their files, the last name first."
+ONE_MOMENT = "Of a level's records of one moment only the last is here."
 BY_LEVELS = "By levels led, then by levels passed"
 
 
@@ -128,9 +128,9 @@ class BoardPages(LevelPages):
     def _contested(self) -> Content:
         rows: list[tuple[Content, ...]] = []
         for digest in self.ranking.contested[:CONTESTED]:
-            if ranked := self.ranking.tables[digest].get((PLAYED, self.main), []):
+            if ranked := [each for each in self.ranking.tables[digest].get((PLAYED, self.main), []) if each.place]:
                 first, records = ranked[0], self.ranking.history[digest, (PLAYED, self.main)]
-                spread = [self.main.difference(each.values[0] - first.values[0]) for each in ranked[1:5:3]]
+                spread = [self.main.difference(each.behind) for each in ranked[1:5:3]]
                 leader = self.player_link(first.run.player), self.main.text(first.values[0])
                 counts = len(records), self._counts(digest)[1]
                 rows.append((level_link(first.run.entry), *counts, *leader, *spread, *[""] * (2 - len(spread))))
@@ -164,7 +164,8 @@ class BoardPages(LevelPages):
 
     def _standing(self, each: Standing) -> tuple[Content, ...]:
         firsts = [each.records[category] for category in self.ranking.categories]
-        return (self.player_link(each.player), each.levels, each.runs, *firsts, *each.medals.values())
+        medals = [count or "" for count in each.medals.values()]
+        return (self.player_link(each.player), each.levels, each.runs, *firsts, *medals)
 
     def _players(self) -> None:
         sums: dict[str, list[Content]] = defaultdict(list)
@@ -179,9 +180,9 @@ class BoardPages(LevelPages):
         for run in self.ranking.judged.runs:
             runs[run.player].append(run)
         places = {
-            ranked.run.key: (ranked.place, self.main.difference(ranked.values[0] - table[0].values[0]))
+            ranked.run.key: (ranked.place, self.main.difference(ranked.behind))
             for tables in self.ranking.tables.values() for part, table in tables.items() if part[1] is self.main
-            for ranked in table
+            for ranked in table if ranked.place
         }  # fmt: skip
         held, lost = self._records()
         heads = ("Level", "Record", "Result", "Date", "Lost to", "With", "On")
@@ -215,7 +216,7 @@ class BoardPages(LevelPages):
 
         def cells(row: Sequence[Any]) -> tuple[Content, ...]:
             run = known[row[0]]
-            result = seconds_text(run.tick), medal_mark(run.medal), seconds_text(run.score), run.gold
+            result = seconds_text(run.tick), medal_mark(run.medal), seconds_text(run.score), gold_text(run)
             leads = run.made or "unknown", *self.leads(run, UP), run.day
             return (row[1], level_link(run.entry, UP), *result, *row[3:5], *leads)
 
@@ -232,7 +233,8 @@ class BoardPages(LevelPages):
         rows: list[tuple[Content, ...]] = []
         for digest, entry in self.entries.items():
             ranked = self.ranking.tables.get(digest, {}).get((PLAYED, self.main), [])
-            best = [(self.main.text(each.values[0]), self.player_link(each.run.player)) for each in ranked[:1]]
+            first = [each for each in ranked[:1] if each.place]
+            best = [(self.main.text(each.values[0]), self.player_link(each.run.player)) for each in first]
             rows.append((entry.episode, level_link(entry), *self._counts(digest), *(best or [("", "")])[0]))
         heads = ("No.", "Level", "Runs", "Players", self.main.name, "First")
         self.list("levels", "Levels", "In playing order", heads, rows)

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime, timedelta
 from functools import cached_property
+from itertools import zip_longest
 from operator import itemgetter
 
 from ninja_game.formats.pack.pars import MEDALS
@@ -22,11 +23,15 @@ WEEK = timedelta(days=7)
 
 @dataclass(frozen=True)
 class Ranked:
-    """A run with its place, and what it is ranked by. Equal runs share one; no near copy does, or is first."""
+    """A run with its place, and what it is ranked by. Equal runs share one; a near copy has none, 0.
+
+    ``behind``: by how much its first number is worse than the first run's.
+    """
 
     place: int
     run: Run
     values: tuple[float, ...]
+    behind: float
 
 
 @dataclass(frozen=True)
@@ -44,7 +49,8 @@ class Record:
 class Standing:
     """A player's sums in a ladder. ``medals``: levels by best medal; ``records``: levels led, by category.
 
-    ``ranks``: places of the best runs in the first category; ``behind``: by what share each is slower than the best.
+    ``ranks``: places of the best runs in the first category, but for near copies; ``behind``: by what share each of
+    these is slower than the best.
     """
 
     player: str
@@ -80,22 +86,23 @@ class Ranking:
         return (self.values(category, run) or (0.0,))[0]
 
     def _table(self, runs: Iterable[Run], category: Category) -> list[Ranked]:
-        """The best run of each player, in order; of equal ones of a player the one that came first."""
-        best: dict[str, tuple[tuple[float, ...], Run]] = {}
+        """The best run of each player, in order; of equal ones of a player the one that came first.
+
+        Near copies that nobody has confirmed come after all others, and after the player's own runs.
+        """
+        best: dict[str, tuple[tuple[bool, tuple[float, ...]], Run]] = {}
         for run in runs:
             values = self.values(category, run)
-            if values is not None and (run.player not in best or values < best[run.player][0]):
-                best[run.player] = values, run
+            if values is not None:
+                result = bool(run.near), values
+                if run.player not in best or result < best[run.player][0]:
+                    best[run.player] = result, run
         found: list[Ranked] = []
-        order = sorted(best.values(), key=lambda each: (each[0], bool(each[1].near), each[1].added, each[1].key))
-        # A near copy that nobody has confirmed is never first.
-        first = next((number for number, (_, run) in enumerate(order) if not run.near), 0)
-        if order:
-            order.insert(0, order.pop(first))
-        for number, (values, run) in enumerate(order, 1 + bool(order and order[0][1].near)):
-            shared = found and found[-1].values == values and not run.near
-            place = found[-1].place if shared else number
-            found.append(Ranked(place, run, values))
+        order = sorted(best.values(), key=lambda each: (each[0], each[1].added, each[1].key))
+        for number, ((near, values), run) in enumerate(order, 1):
+            shared = found and found[-1].values == values
+            place = 0 if near else found[-1].place if shared else number
+            found.append(Ranked(place, run, values, values[0] - order[0][0][1][0]))
         return found
 
     @cached_property
@@ -139,9 +146,10 @@ class Ranking:
 
     @cached_property
     def records(self) -> list[Record]:
-        """Every record that was ever set, a run once, the newest first."""
+        """The records that were set, a run once, the newest first; of those of one moment the last of each level."""
         found: dict[tuple[str, int], dict[Category, float | None]] = defaultdict(dict)
-        for (_, (_, category)), runs in self.history.items():
+        for (_, (_, category)), history in self.history.items():
+            runs = [run for run, after in zip_longest(history, history[1:]) if not after or after.added != run.added]
             numbers = [self.number(category, run) for run in runs]
             for number, run in enumerate(runs):
                 found[run.key][category] = numbers[number - 1] - numbers[number] if number else None
@@ -161,8 +169,9 @@ class Ranking:
                     standing.records[category] += ranked.place == 1
                     if category is self.categories[0]:
                         standing.levels += 1
-                        standing.ranks.append(ranked.place)
-                        standing.behind.append(ranked.run.tick / max(1, table[0].run.tick) - 1)
+                        if ranked.place:
+                            standing.ranks.append(ranked.place)
+                            standing.behind.append(ranked.run.tick / max(1, table[0].run.tick) - 1)
                         if ranked.run.medal:
                             standing.medals[ranked.run.medal] += 1
         return {
@@ -208,7 +217,8 @@ class Ranking:
     def level_of_the_week(self) -> tuple[str, int, int] | None:
         """The level that most players sent runs of in the seven days up to the newest run; of equal ones most runs.
 
-        With how many players and runs. None without dates: it depends on the ledger alone, never on a clock.
+        With how many players and runs. None without dates, and where all are one: it depends on the ledger alone, never
+        on a clock.
         """
         dated = [(datetime.fromisoformat(run.added), run) for run in self.judged.runs if run.added]
         week: dict[str, list[Run]] = defaultdict(list)
@@ -217,4 +227,4 @@ class Ranking:
                 week[run.level].append(run)
         counts = {level: (len({run.player for run in runs}), len(runs)) for level, runs in week.items()}
         best = max((level for level in self.shown.entries if level in counts), key=counts.__getitem__, default=None)
-        return (best, *counts[best]) if best else None
+        return (best, *counts[best]) if best and dated[0][0] < dated[-1][0] else None
