@@ -277,10 +277,9 @@ def ask(
 ) -> None:  # fmt: skip
     """Ask the board of a folder about a level, and about players on it (default: the first five).
 
-    LEVEL is a title, the number of an episode and level (03-1), the name of a file, or the beginning of a digest. WHAT
-    is one of: rank, the table; best, its first row; inputs, what the keys do; splits; trace, the paths as a picture;
-    film, the first run with the others as ghosts. Nothing is simulated that an earlier command on the same folder has
-    simulated.
+    LEVEL is a title, a number as 03-1, the name of a file, or the beginning of a digest. WHAT is one of: rank, the
+    table; best, its first row; inputs, what the keys do; splits; trace, the paths as a picture; film, the first run
+    with the others as ghosts. Nothing is simulated that an earlier command on the same folder has simulated.
 
     \b
     Examples:
@@ -302,8 +301,8 @@ def ask(
     table, other = (tables.get((each, chosen), []) for each in sorted((PLAYED, ASSISTED), reverse=not assisted))
     found = [_of_player(table, player) for player in players] or table[: None if what == "rank" else MOST_RUNS]
     if not found:
-        way = f"played: {len(other)}, without --assisted" if assisted else f"assisted: {len(other)}, with --assisted"
-        hint = f"; {way}" if other else ""
+        ladder, way = ("played", "without") if assisted else ("assisted", "with")
+        hint = f"; {ladder}: {len(other)}, {way} --assisted" if other else ""
         raise ArgumentError(f"nobody has a run in {chosen.name!r} on {shown_text(entry.title)} yet{hint}")
     _answer(what, found[:1] if what == "best" else found, chosen, output, as_data=as_data, keep=[folder])
 
@@ -357,11 +356,8 @@ def _film(runs: Sequence[Recording], output: Path) -> None:
 def _level(text: str, entries: Sequence[Entry]) -> Entry:
     """The level of a title, number, file or digest. Raises ArgumentError for an unknown one, and for several."""
     words = text.casefold()
-    exact = [
-        each
-        for each in entries
-        if words in (each.title.casefold(), each.episode, each.digest, Path(each.named.file).stem.casefold())
-    ]
+    stems = {each.digest: Path(each.named.file).stem.casefold() for each in entries}
+    exact = [each for each in entries if words in (each.title.casefold(), each.episode, stems[each.digest])]
     found = exact or [each for each in entries if words in each.title.casefold() or each.digest.startswith(words)]
     if len(found) == 1:
         return found[0]

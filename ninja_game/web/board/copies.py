@@ -242,9 +242,8 @@ def _remarked(runs: list[Run], memo: Memo) -> Iterator[Run]:
         for run in moment:
             said, earlier = compared.near(run)
             compared.add(run)
-            remark = said if earlier or not run.added else f"{said}, of the same moment"
-            shown = replace(run, remark="; ".join(filter(None, (remark, run.remark))), near=said * earlier)
-            yield shown if said else run
+            remarks = said + ", of the same moment" * bool(said and run.added and not earlier), run.remark
+            yield replace(run, remark="; ".join(filter(None, remarks)), near=said * earlier) if said else run
 
 
 class _Compared:

@@ -7,7 +7,7 @@ from collections import defaultdict, deque
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
-from itertools import pairwise
+from itertools import compress, count, pairwise
 from pathlib import Path
 from typing import Any, NamedTuple, get_type_hints
 
@@ -235,28 +235,18 @@ def _worded(problem: RunProblem, result: Verdict, sent: Sent) -> str:
     if problem.code == "not-strict" and result.practice and str(problem).startswith("practice"):
         return f"it was {result.made}: runs with such help do not count"
     if problem.code == "not-strict" and str(problem).startswith("possible_by_keyboard"):
-        return _not_by_keyboard(sent.inputs(result.ticks)) or str(problem)
+        inputs = sent.inputs(result.ticks)
+        odd = (keys != ours for keys, ours in zip(inputs, with_press_bits(inputs), strict=True))
+        tick = next(compress(count(), odd))
+        down = ", ".join(name for name, key in MOVES if inputs[tick] & key) or "no key"
+        what = "pressed" if inputs[tick] & JUMP_PRESSED else "not pressed"
+        return (
+            f"tick {tick}, {down} down: jump is {what}; press it in the first tick in which it is held, and in no other"
+        )
     if problem.code == "other-level" and sent.replay and sent.replay.level_name:
         name, digest = sent.replay.level_name, result.level_digest[:16]
         return f"{name!r} is not one of the levels that count; its level_digest begins with {digest}"
     return str(problem)
-
-
-_NOT_BY_KEYBOARD = {
-    JUMP_HELD: "jump is held and was not pressed: press it in the first tick in which it is down",
-    JUMP_HELD + JUMP_PRESSED: "jump is pressed again while it is held: let it go for a tick before that",
-    JUMP_PRESSED: "jump is pressed and not held: it is down in the tick in which it is pressed",
-}
-"""What is odd about the flags of jump in a tick, and how to mend it."""
-
-
-def _not_by_keyboard(inputs: bytes) -> str:
-    """The first tick with flags of jump that no keyboard makes, with its keys; "" for none."""
-    for tick, (keys, possible) in enumerate(zip(inputs, with_press_bits(inputs), strict=True)):
-        if keys != possible:
-            down = " and ".join(name for name, key in MOVES if keys & key) or "no key"
-            return f"tick {tick}, {down} down: {_NOT_BY_KEYBOARD[keys & (JUMP_HELD + JUMP_PRESSED)]}"
-    return ""
 
 
 def _of_players(runs: list[Run], players: Players) -> list[Run]:

@@ -23,7 +23,7 @@ from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, SplitRow, run_split
 from ninja_game.ui.theme import RUN_COLOURS
 from ninja_game.web.board.ranking import Part, Ranked, Ranking
 from ninja_game.web.board.rules import FASTEST, Category
-from ninja_game.web.board.runs import Key, Run
+from ninja_game.web.board.runs import Run
 from ninja_game.web.pages.frame import GAME, REPLAYS, Content, Markup, Pages, joined, page, section, table, tag
 from ninja_game.web.pages.gallery import (
     BOARD,
@@ -87,12 +87,6 @@ class LevelPages:
         self.deeper = [(UP + address, name) for address, name in self.links]
         self.around = digest_of([self.links, self.site])
         self.stems = {run.key: _stem(run) for run in ranking.judged.runs}
-        self.ranks: dict[Key, list[tuple[Part, int, list[Ranked]]]] = defaultdict(list)
-        """By run the tables that have it among the first rows, and in which."""
-        for tables in ranking.tables.values():
-            for part, rows in tables.items():
-                for number, row in enumerate(rows[:FIRST]):
-                    self.ranks[row.run.key].append((part, number, rows))
 
     def list(
         self, name: str, title: str, caption: str, heads: Sequence[str], rows: Sequence[Any], *before: Content,
@@ -129,8 +123,10 @@ class LevelPages:
     def run_page(self, run: Run) -> None:
         stem, title = self.stems[run.key], f"{self.name(run.player)} on {run.entry.title}"
         ranks, links = list[tuple[str, str]](), list[Markup]()
-        for part, number, rows in self.ranks.get(run.key, ()):
+        for part, rows, number in self.ranking.places.get(run.key, ()):
             row, first = rows[number], rows[0].run
+            if number >= FIRST:
+                continue  # else one new run would change the pages of many
             if row.place:
                 late = f", {part[1].difference(row.behind)} behind" * (row.place > 1)
                 ranks.append((self.part_name(part), f"place {row.place}{late}"))
@@ -139,9 +135,9 @@ class LevelPages:
             if number < TOGETHER and len(rows) > 1 and part == next(iter(self.ranking.tables[run.level])):
                 links.append(tag("a", "Splits", href=f"{UP}{BOARD}/{page_name(run.level)}#{SPLITS}"))
         keys = f"{counted(run.presses, 'press', 'presses')}, {counted(run.jumps, 'jump')}"
-        facts = [("Time", f"{seconds_text(run.tick)} s"), *ranks, ("Score", seconds_text(run.score)),
-                 ("Gold", gold_text(run)), ("Medal", run.medal), ("Keys", keys), ("Made", run.made or "unknown"),
-                 ("Date", run.day)]  # fmt: skip
+        gold, made = f"{run.gold} of {run.entry.all_gold}", run.made or "unknown"
+        facts = [("Time", f"{seconds_text(run.tick)} s"), *ranks, ("Score", seconds_text(run.score)), ("Gold", gold),
+                 ("Medal", run.medal), ("Keys", keys), ("Made", made), ("Date", run.day)]  # fmt: skip
 
         def content() -> str:
             drawn = paths(f"{UP}{BOARD}/{picture_name(run.level)}", [(self.name(run.player), run.path)])
@@ -160,7 +156,8 @@ class LevelPages:
 
     def run(self, run: Run, *results: Content, timed: bool = True) -> tuple[Content, ...]:
         """Cells of a run, for heads that end in RUN_HEADS. ``timed``: with its medal, which is of the time."""
-        about = medal_mark(run.medal if timed else ""), gold_text(run), run.made or "unknown", run.day, run.remark
+        gold = f"{run.gold} of {run.entry.all_gold}"
+        about = medal_mark(run.medal if timed else ""), gold, run.made or "unknown", run.day, run.remark
         others = f" with {shown_text(run.co_authors, LONGEST_NAME)}" if run.co_authors else None
         return (joined(self.player_link(run.player, UP), others), *results, *self.leads(run, UP), *about)
 
@@ -237,8 +234,8 @@ class LevelPages:
             above |= {run.remark} - {""}
         names = [category.name if len(parts) > 1 else category.unit for category in categories]
         heads = ("Place", "Player", *names, "Behind", *RUN_HEADS)
-        title = "; ".join(map(self.part_name, parts))
-        return section(title, table("Best run of each player", heads, rows), anchor=anchor)
+        ranked = table("Best run of each player", heads, rows)
+        return section("; ".join(map(self.part_name, parts)), ranked, anchor=anchor)
 
     def _progression(self, entry: Entry, part: Part, anchor: str) -> Content:
         category, runs = part[1], self.ranking.history[entry.digest, part]
@@ -311,10 +308,6 @@ def player_page(player: str) -> str:
 
 def level_link(entry: Entry, up: str = "") -> Markup:
     return tag("a", shown_text(entry.title, LONGEST_NAME), href=up + page_name(entry.digest))
-
-
-def gold_text(run: Run) -> str:
-    return f"{run.gold} of {run.entry.all_gold}"
 
 
 def signed(ticks: int) -> str:

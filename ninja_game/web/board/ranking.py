@@ -13,7 +13,7 @@ from operator import itemgetter
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.player.catalogue import Episode
 from ninja_game.web.board.rules import USUAL, Category
-from ninja_game.web.board.runs import PLAYED, Run, ValidatedRuns
+from ninja_game.web.board.runs import PLAYED, Key, Run, ValidatedRuns
 from ninja_game.web.pages.gallery import PublishedLevels
 
 Part = tuple[str, Category]  # a ladder and a category: runs are ranked within them
@@ -49,8 +49,7 @@ class Record:
 class Standing:
     """A player's sums in a ladder. ``medals``: levels by best medal; ``records``: levels led, by category.
 
-    ``ranks``: places of the best runs in the first category, but for near copies; ``behind``: by what share each of
-    these is slower than the best.
+    ``ranks``: places of the best runs in the first category; ``behind``: by what share each is slower than the best.
     """
 
     player: str
@@ -90,19 +89,15 @@ class Ranking:
 
         Near copies that nobody has confirmed come after all others, and after the player's own runs.
         """
-        best: dict[str, tuple[tuple[bool, tuple[float, ...]], Run]] = {}
-        for run in runs:
-            values = self.values(category, run)
-            if values is not None:
-                result = bool(run.near), values
-                if run.player not in best or result < best[run.player][0]:
-                    best[run.player] = result, run
+        valued = [(bool(run.near), values, run) for run in runs if (values := self.values(category, run)) is not None]
+        best: dict[str, tuple[bool, tuple[float, ...], Run]] = {}
+        for each in sorted(valued, key=itemgetter(0, 1)):
+            best.setdefault(each[2].player, each)
         found: list[Ranked] = []
-        order = sorted(best.values(), key=lambda each: (each[0], each[1].added, each[1].key))
-        for number, ((near, values), run) in enumerate(order, 1):
+        for number, (near, values, run) in enumerate(best.values(), 1):
             shared = found and found[-1].values == values
             place = 0 if near else found[-1].place if shared else number
-            found.append(Ranked(place, run, values, values[0] - order[0][0][1][0]))
+            found.append(Ranked(place, run, values, values[0] - (found[0].values if found else values)[0]))
         return found
 
     @cached_property
@@ -119,6 +114,16 @@ class Ranking:
                 for each in self.categories
             }
             found[level] = {part: table for part, table in parts.items() if table}
+        return found
+
+    @cached_property
+    def places(self) -> dict[Key, list[tuple[Part, list[Ranked], int]]]:
+        """By run the tables that it is in, and in which row."""
+        found: dict[Key, list[tuple[Part, list[Ranked], int]]] = defaultdict(list)
+        for tables in self.tables.values():
+            for part, table in tables.items():
+                for number, ranked in enumerate(table):
+                    found[ranked.run.key].append((part, table, number))
         return found
 
     @cached_property
@@ -217,8 +222,7 @@ class Ranking:
     def level_of_the_week(self) -> tuple[str, int, int] | None:
         """The level that most players sent runs of in the seven days up to the newest run; of equal ones most runs.
 
-        With how many players and runs. None without dates, and where all are one: it depends on the ledger alone, never
-        on a clock.
+        With how many players and runs. None without two dates: it depends on the ledger alone, never on a clock.
         """
         dated = [(datetime.fromisoformat(run.added), run) for run in self.judged.runs if run.added]
         week: dict[str, list[Run]] = defaultdict(list)
