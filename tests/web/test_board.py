@@ -158,9 +158,10 @@ def test_who_has_only_assisted_runs_is_among_the_players_too(runs: Path, levels:
 
 
 def test_a_better_time_goes_down_and_a_better_score_up(runs: Path, levels: Path, tmp_path: Path) -> None:
-    put(runs, "a.txt", slow_walk(author="Ann"))
-    put(runs, "b.txt", replay(author="Ann"))
-    page = (board_of(runs, levels, tmp_path / "site") / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
+    put(runs, "a.txt", slow_walk(author="Ann"), day=1)
+    put(runs, "b.txt", replay(author="Ann"), day=2)
+    BoardPages(tmp_path / "site", Ranking(with_demands(runs, levels), published_levels(levels))).write()
+    page = (tmp_path / "site" / "board" / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
     for title, better in (("fell: Fastest", 1), ("rose: Highest score", -1)):
         chart = page.partition(f"How the record {title}")[2].partition("</svg>")[0]
         first, last = map(float, re.findall('cy="([0-9.]+)"', chart))
@@ -169,15 +170,15 @@ def test_a_better_time_goes_down_and_a_better_score_up(runs: Path, levels: Path,
 
 def test_tables_of_a_level_have_no_empty_column_and_say_a_remark_once(runs: Path, levels: Path, tmp_path: Path) -> None:
     put(runs, "ann.txt", slow_walk(40, author="Ann"))
-    put(runs, "bob.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Bob"))
-    put(runs, "cid.txt", slow_walk(90, author="Cid"))
+    put(runs, "bob.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Bob"), day=1)
+    put(runs, "cid.txt", slow_walk(90, author="Cid"), day=2)
     shown, slowest = published_levels(levels), Category("Slowest", ("-ticks",))
-    ranking = Ranking(judge(runs, shown, jobs=1), shown, (FASTEST, HIGHEST, slowest))
+    ranking = Ranking(with_demands(runs, levels), shown, (FASTEST, HIGHEST, slowest))
     BoardPages(tmp_path / "site", ranking).write()
     page = (tmp_path / "site" / "board" / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
     tables = page.split("<caption>Best run of each player</caption>")[1:]
     heads = [re.findall("<th [^>]*>([^<]+)", each.partition("</thead>")[0]) for each in tables]
-    others = ["Watch", "Share", "Gold", "Made", "Remark"]
+    others = ["Watch", "Share", "Gold", "Made", "Date", "Remark"]
     assert heads == [
         ["Place", "Player", *units, "Behind", *others] for units in (["Fastest", "Highest score"], ["Time"])
     ], "same order, once"
@@ -457,11 +458,17 @@ def test_medals_stand_where_the_time_ranks_and_every_record_that_fell_is_told(
     monkeypatch.setattr("ninja_game.web.board.copies._near_to_another", lambda *_: None)
     (recording,) = load_replays(PACK / "certificates" / "00-2-the-chimney.exit.replay.txt")
     for number, inputs in enumerate((b"\0" + recording.inputs, recording.inputs)):
-        put(runs, f"{number}.txt", write_replay(record_replay(recording.level, inputs, author=f"Ann {number}")))
-    pages = [path.read_text("utf-8") for path in board_of(runs, PACK, tmp_path / "site").glob("levels/*.html")]
+        put(
+            runs,
+            f"{number}.txt",
+            write_replay(record_replay(recording.level, inputs, author=f"Ann {number}")),
+            day=1 + number,
+        )
+    judged, shown = with_demands(runs, PACK), published_levels(PACK)
+    BoardPages(tmp_path / "site", Ranking(judged, shown)).write()
+    pages = [path.read_text("utf-8") for path in (tmp_path / "site" / "board" / "levels").glob("*.html")]
     (page,) = (each for each in pages if "The first 2 runs" in each)
-    shown = published_levels(PACK)
-    BoardPages(tmp_path / "other", Ranking(judge(runs, shown, jobs=1), shown, (HIGHEST,))).write()
+    BoardPages(tmp_path / "other", Ranking(judged, shown, (HIGHEST,))).write()
     texts = page, (tmp_path / "other" / "board" / page_name(level_digest(recording.level))).read_text("utf-8")
     names = "Fastest; Highest score", "Highest score"
     both, highest = (
@@ -530,6 +537,8 @@ def test_of_the_records_of_one_moment_the_first_page_has_the_last_of_a_level(
         "Highest score: 91.375 points, first",
     ]
     assert "Level of the week" not in page
+    level = (tmp_path / "site" / "board" / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
+    assert level.partition("How the record fell")[2].partition("</table>")[0].count("<tr>") == 2
     assert re.findall("<th[^>]*>([^<]+)", page.partition("<h2>Players</h2>")[2].partition("</thead>")[0])[3:] == [
         "Fastest", "Highest score",
     ], "no medals: these levels have no par times"  # fmt: skip

@@ -239,10 +239,10 @@ def _worded(problem: RunProblem, result: Verdict, sent: Sent) -> str:
         odd = (keys != ours for keys, ours in zip(inputs, with_press_bits(inputs), strict=True))
         tick = next(compress(count(), odd))
         down = ", ".join(name for name, key in MOVES if inputs[tick] & key) or "no key"
-        what = "pressed" if inputs[tick] & JUMP_PRESSED else "not pressed"
-        return (
-            f"tick {tick}, {down} down: jump is {what}; press it in the first tick in which it is held, and in no other"
-        )
+        pressed = "pressed again while it is held" if inputs[tick] & JUMP_HELD else "pressed and not held"
+        what = pressed if inputs[tick] & JUMP_PRESSED else "held and was not pressed"
+        how = "press it in the first tick in which it is held, and in no other"
+        return f"tick {tick}, {down} down: jump is {what}; {how}"
     if problem.code == "other-level" and sent.replay and sent.replay.level_name:
         name, digest = sent.replay.level_name, result.level_digest[:16]
         return f"{name!r} is not one of the levels that count; its level_digest begins with {digest}"

@@ -7,7 +7,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime, timedelta
 from functools import cached_property
-from itertools import zip_longest
 from operator import itemgetter
 
 from ninja_game.formats.pack.pars import MEDALS
@@ -138,7 +137,7 @@ class Ranking:
 
     @cached_property
     def history(self) -> dict[tuple[str, Part], list[Run]]:
-        """By level, ladder and category the runs that were its record, the first one first."""
+        """By level, ladder and category the runs that were its record, the first one first; of one moment the last."""
         found: dict[tuple[str, Part], list[Run]] = defaultdict(list)
         for run in self.judged.runs:
             for category in self.categories:
@@ -146,15 +145,14 @@ class Ranking:
                 records = found[run.level, (run.ladder, category)] if values else []
                 best = self.values(category, records[-1]) if records else None
                 if values and not run.near and (best is None or values[0] < best[0]):
-                    records.append(run)
+                    records[-1:] = [run] if best and records[-1].added == run.added else [*records[-1:], run]
         return found
 
     @cached_property
     def records(self) -> list[Record]:
-        """The records that were set, a run once, the newest first; of those of one moment the last of each level."""
+        """Every record that was ever set, a run once, the newest first."""
         found: dict[tuple[str, int], dict[Category, float | None]] = defaultdict(dict)
-        for (_, (_, category)), history in self.history.items():
-            runs = [run for run, after in zip_longest(history, history[1:]) if not after or after.added != run.added]
+        for (_, (_, category)), runs in self.history.items():
             numbers = [self.number(category, run) for run in runs]
             for number, run in enumerate(runs):
                 found[run.key][category] = numbers[number - 1] - numbers[number] if number else None
