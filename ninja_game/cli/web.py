@@ -264,7 +264,7 @@ def ask(
 ) -> None:  # fmt: skip
     """Ask the board of a folder about a level, and about players on it (default: the first five).
 
-    LEVEL is a title, the number of an episode and level (03-1), or the beginning of a digest. WHAT is one of: rank, the
+    LEVEL is a title, a number as 03-1, the name of a file, or the beginning of a digest. WHAT is one of: rank, the
     table; best, its first row; inputs, what the keys do; splits; trace, the paths as a picture; film, the first run
     with the others as ghosts. Nothing is simulated that an earlier command on the same folder has simulated.
 
@@ -283,10 +283,13 @@ def ask(
     entry = _level(level, list(shown.entries.values()))
     ranking, _ = _ranking(folder, shown, rules, ledger, jobs=jobs)
     chosen = _category(ranking, category)
-    table = ranking.tables.get(entry.digest, {}).get((ASSISTED if assisted else PLAYED, chosen), [])
+    tables = ranking.tables.get(entry.digest, {})
+    table, other = (tables.get((each, chosen), []) for each in sorted((PLAYED, ASSISTED), reverse=not assisted))
     found = [_of_player(table, player) for player in players] or table[: None if what == "rank" else MOST_RUNS]
     if not found:
-        raise ArgumentError(f"nobody has a run in {chosen.name!r} on {shown_text(entry.title)} yet")
+        ladder, way = ("played", "without") if assisted else ("assisted", "with")
+        hint = f"; {ladder}: {len(other)}, {way} --assisted" if other else ""
+        raise ArgumentError(f"nobody has a run in {chosen.name!r} on {shown_text(entry.title)} yet{hint}")
     _answer(what, found[:1] if what == "best" else found, chosen, output, as_data=as_data, keep=[folder])
 
 
@@ -324,7 +327,7 @@ def _answer(
 
 def _line(form: str, row: Mapping[str, Any]) -> str:
     note = f"; note: {row['remark']}" if row["remark"] else ""
-    return shown_text(form.format(**row).rstrip() + note, LONGEST)
+    return shown_text(form.format(**{**row, "place": row["place"] or "-"}).rstrip() + note, LONGEST)
 
 
 def _film(runs: Sequence[Recording], output: Path) -> None:
@@ -335,18 +338,20 @@ def _film(runs: Sequence[Recording], output: Path) -> None:
 
 
 def _level(text: str, entries: Sequence[Entry]) -> Entry:
-    """The level of a title, number or digest. Raises ArgumentError for an unknown one, and for several."""
+    """The level of a title, number, file or digest. Raises ArgumentError for an unknown one, and for several."""
     words = text.casefold()
-    exact = [each for each in entries if words in (each.title.casefold(), each.episode, each.digest)]
+    stems = {each.digest: Path(each.named.file).stem.casefold() for each in entries}
+    exact = [each for each in entries if words in (each.title.casefold(), each.episode, stems[each.digest])]
     found = exact or [each for each in entries if words in each.title.casefold() or each.digest.startswith(words)]
     if len(found) == 1:
         return found[0]
-    named = ", ".join(f"{each.episode} {shown_text(each.title)}".strip() for each in found[:5])
+    named = ", ".join(f"{each.episode} {shown_text(each.title)}".strip() for each in (found or entries)[:5])
     if found:
         raise ArgumentError(f"{text!a} is several levels: {named}")
     titles = {each.title.casefold(): each.title for each in entries}
-    near = [f"; do you mean {shown_text(titles[each])}?" for each in get_close_matches(words, titles, 1)]
-    raise ArgumentError("".join([f"{text!a} is no level of the board", *near]))
+    near = [f"do you mean {shown_text(titles[each])}?" for each in get_close_matches(words, titles, 1)]
+    hint = near[0] if near else f"it has {len(entries)}: {named}{', ...' * (len(entries) > 5)}"
+    raise ArgumentError(f"{text!a} is no level of the board; {hint}")
 
 
 def _category(ranking: Ranking, name: str | None) -> Category:
@@ -379,10 +384,10 @@ def _row(ranked: Ranked, category: Category) -> dict[str, Any]:
 
 def _inputs(inputs: bytes) -> dict[str, int]:
     """Ticks with each key down, and spans of the same keys."""
-    from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, KEYS_DOWN
+    from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, KEYS_DOWN
+    from ninja_game.ui.input.bindings import MOVES
 
-    keys = {"left": KEY_LEFT, "right": KEY_RIGHT, "jump": JUMP_HELD}
-    counts = {name: sum(bool(each & key) for each in inputs) for name, key in keys.items()}
+    counts = {name: sum(bool(each & key) for each in inputs) for name, key in MOVES}
     spans = [len(list(span)) for _, span in groupby(each & KEYS_DOWN for each in inputs)]
     neither = sum(not each & (KEY_LEFT + KEY_RIGHT) for each in inputs)
     return {**counts, "neither": neither, "strokes": len(spans), "longest": max(spans)}

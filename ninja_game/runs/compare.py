@@ -163,14 +163,14 @@ def sum_of_best(rows: Sequence[SplitRow]) -> int:
 
     A hint, not a lower bound: the speed with which a run leaves a segment is part of the next one.
     """
-    return sum(row.best_segment for row in rows if row.best_segment is not None) - 1
+    return sum(row.best_segment for row in rows if row.best_segment is not None)
 
 
 def _shortest_segments(runs: Sequence[RunSplits]) -> dict[tuple[Key | None, Key], int]:
-    """The fewest ticks between each two splits that follow one another in some run; None is the start."""
+    """The fewest ticks between each two splits that follow one another in some run; None is the start: tick 0."""
     shortest: dict[tuple[Key | None, Key], int] = {}
     for run in runs:
-        points = [(None, -1), *((split.key, split.tick) for split in run.splits)]
+        points = [(None, 0), *((split.key, split.tick) for split in run.splits)]
         for (before, start), (key, end) in pairwise(points):
             assert key is not None  # noqa: S101 - only the start has none
             shortest[before, key] = min(end - start, shortest.get((before, key), end - start))

@@ -61,17 +61,18 @@ def test_table_measures_every_run_against_the_best_one() -> None:
     rows = split_table(runs[:2], best)
     assert [row.ticks[0] - row.ticks[1] for row in rows if row.ticks[0] and row.ticks[1]] == [7, 7, 7]
     assert sum_of_best(rows) == best.splits[-1].tick
+    assert rows[0].best_segment == rows[0].ticks[1], "a segment is never slower than the run itself"
 
 
 def test_sum_of_best_takes_every_segment_from_the_run_that_is_fastest_there() -> None:
     early, late = run_splits(walk(5)), run_splits(walk(4, at=17))
     rows = split_table([early, late], late)
     segments = [row.best_segment or 0 for row in rows]
-    points = [-1, *(split.tick for split in late.splits)]
-    others = [-1, *(split.tick for split in early.splits)]
+    points = [0, *(split.tick for split in late.splits)]
+    others = [0, *(split.tick for split in early.splits)]
     expected = [min(points[k + 1] - points[k], others[k + 1] - others[k]) for k in range(len(rows))]
     assert segments == expected
-    assert sum_of_best(rows) == sum(expected) - 1 < min(early.ticks, late.ticks) - 1
+    assert sum_of_best(rows) == sum(expected) < min(early.ticks, late.ticks) - 1
 
 
 def test_splits_that_only_another_run_reaches_come_last_and_have_no_segment() -> None:

@@ -11,6 +11,7 @@ from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
 from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.formats.replay.made import Made
 from ninja_game.play.replay.paths import paths_picture
 from ninja_game.ui.theme import PALETTES, RUN_COLOURS
 from tests.support.forgeries import WALKING, replay
@@ -38,7 +39,13 @@ def answer(folder: Path, pack: Path, *words: str) -> list[dict[str, object]]:
     return found
 
 
-@pytest.mark.parametrize("level", ["Walk", "walk", "00-0", "wal"])
+def test_a_level_with_assisted_runs_alone_says_so(runs: Path, levels: Path) -> None:  # noqa: F811
+    put(runs, "bot.txt", replay(author="Bot", made=Made(edits=3)))
+    code, text = ask(runs, levels, "rank", "Walk")
+    assert (code, "on Walk yet; assisted: 1, with --assisted" in text) == (2, True), text
+
+
+@pytest.mark.parametrize("level", ["Walk", "walk", "00-0", "wal", "00-0-LEVEL"])
 def test_a_level_is_ranked(level: str, folder: Path, levels: Path) -> None:  # noqa: F811
     code, text = ask(folder, levels, "rank", level)
     assert code == 0
@@ -98,11 +105,12 @@ def test_the_first_path_is_on_top() -> None:
 @pytest.mark.parametrize(
     "words, told",
     [
-        (["rank", "nothing"], "is no level"), (["rank", "wlak"], "; do you mean Walk?"),
+        (["rank", "nothing"], "is no level of the board; it has 3: 00-0 Walk, Spiked, <script>"),
+        (["rank", "wlak"], "; do you mean Walk?"),
         (["rank", "a"], "is several levels"),
         (["rank", "Spiked"], "nobody has a run"), (["rank", "Walk", "Zed"], "has no run there; players: Ann"),
         (["rank", "Walk", "--category", "x"], "there are Fastest"),
-        (["rank", "Walk", "--assisted"], "nobody has a run"),
+        (["rank", "Walk", "--assisted"], "on Walk yet; played: 3, without --assisted"),
     ],
 )  # fmt: skip
 def test_what_there_is_not_is_named(words: list[str], told: str, folder: Path, levels: Path) -> None:  # noqa: F811

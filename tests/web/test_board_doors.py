@@ -491,8 +491,8 @@ def test_runs_by_two_in_turn_are_compared_once_and_the_fastest_only() -> None:
         for number in range(200):
             places = frozenset(map(float, range(750 + number)))
             courses.add(number, number, partial(replace, course, places=places))
-        assert _near_to_another("Ann", course, courses, players) is None
-        near = _near_to_another("Cid", course, courses, players)
+        assert _near_to_another("Ann", course, courses, players, 0) is None
+        near = _near_to_another("Cid", course, courses, players, 200)
         assert near == (nearest, f"{750 + nearest} of the 1000 places on its way are those of")
 
 

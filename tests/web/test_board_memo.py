@@ -80,7 +80,9 @@ def test_only_what_is_new_is_simulated_and_written(
     put(runs, "bea.txt", slow_walk(author="Bea"))
     board(runs, levels, "--site", site)
     assert simulated == ["bea.txt"]
-    assert len([name for name in drawn if name.startswith("replays/")]) == 2, "the run and its page"
+    assert len([name for name in drawn if name.startswith("replays/")]) == 3, (
+        "the run, its page, and that of the first, with splits now"
+    )
     assert len([name for name in drawn if name.startswith("board/levels/")]) == 2
     simulated.clear()
     board(runs, levels / "00-0-level.txt", "--site", site)
@@ -169,7 +171,7 @@ def test_the_command_after_the_first_compares_nothing(
         said.append((told, data.read_text("utf-8"), tree(site)))
         assert (compared.call_count, simulated.call_count) == (4, 4)
     assert said[0] == said[1] == said[2]
-    assert [bool(row.get("near")) for row in json.loads(data.read_text("utf-8"))["runs"]] == [False, True, False, True]
+    assert said[0][2][f"board/levels/{DIGEST[:16]}-runs.html"].count(b", of the same moment") == 2
     put(runs, "e.txt", slow_walk(42, author="Eve"))
     board(runs, levels, "--json", str(data), "--site", str(site))
     assert (compared.call_count, simulated.call_count) == (5, 9), "and the earlier ones are what it is compared with"

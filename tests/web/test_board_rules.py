@@ -168,7 +168,7 @@ def test_the_feed_says_who_a_name_is_not(runs: Path, levels: Path, tmp_path: Pat
     assert newest is not None
     name = newest.findtext(f"{atom}author/{atom}name")
     assert name == "\u0410nn (not Ann)"
-    result = "Fastest: 0.625 s, better by 0.075; Highest score: 91.375 points, better by 0.075"
+    result = "Fastest: 0.625 s, first; Highest score: 91.375 points, first"
     assert newest.findtext(f"{atom}title") == f"{name}, Walk, {result}"
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from hashlib import sha256
 from heapq import heappop, heappush, nlargest, nsmallest
-from itertools import chain, groupby, pairwise
+from itertools import groupby, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -223,29 +223,26 @@ def without_copies(runs: list[Run], memo: Memo, owners: Rows) -> tuple[list[Run]
             what = f"a copy of the run by {first.player} in" if stolen else "the same run as"
             why, kind = f"{what} {first.file}", OWN if run.episode and first.player == run.player else "copy"
             copies.append(Rejected(*run.key, kind, why, run.player, run.entry.title, run.way, run.added, first.key))
-    kept = [run for level in on_level.values() for run in _remarked(level, memo, owners)]
+    kept = [run for level in on_level.values() for run in _remarked(level, memo)]
     return sorted(kept, key=lambda run: run.order), copies
 
 
-def _remarked(runs: list[Run], memo: Memo, owners: Rows) -> Iterator[Run]:
+def _remarked(runs: list[Run], memo: Memo) -> Iterator[Run]:
     """The runs of a level, in order, with a remark on each that is near to earlier ones of others alone.
 
-    One that is near as its row says, and to none before it, waits until the others of its moment are compared: what it
-    is near to may have come back since, in a file with a later name.
+    Of two of one moment nobody knows which was first: the second has the remark, and is no near copy.
     """
     if len({run.player for run in runs}) == 1:
         yield from runs
         return
     compared = _Compared(runs[0].level, memo)
     for _, moment in groupby(runs, key=lambda run: run.added):
-        waiting: list[Run] = []
-        for run, waits in chain(((run, True) for run in moment), ((run, False) for run in waiting)):
-            said = compared.near(run)
-            if waits and not said and owners.get((run.level, run.way), {}).get("near"):
-                waiting.append(run)
-                continue
+        compared.begin_moment()
+        for run in moment:
+            said, earlier = compared.near(run)
             compared.add(run)
-            yield replace(run, remark="; ".join(filter(None, (said, run.remark))), near=said) if said else run
+            remarks = said + ", of the same moment" * bool(said and run.added and not earlier), run.remark
+            yield replace(run, remark="; ".join(filter(None, remarks)), near=said * earlier) if said else run
 
 
 class _Compared:
@@ -255,30 +252,35 @@ class _Compared:
         self._memo = memo
         self._key = digest_of([program(), level])
         self._runs: list[Run] = []
-        self._courses, self._known = Courses(MOST_COMPARED), 0
+        self._courses, self._known, self._earlier = Courses(MOST_COMPARED), 0, 0
         self._last: tuple[Key, Course] | None = None
 
     def _key_of(self, run: Run) -> str:
-        """A remark depends on the run, on all earlier runs of the level, and on nothing else."""
+        """A remark depends on the run, on all earlier runs of the level and their moments, and on nothing else."""
         return sha256(f"{self._key} {run.digest} {run.record} {run.player}".encode("utf-8", "replace")).hexdigest()
+
+    def begin_moment(self) -> None:
+        """All runs that were added are of earlier moments."""
+        self._key, self._earlier = digest_of([self._key]), len(self._runs)
 
     def add(self, run: Run) -> None:
         self._key = self._key_of(run)
         self._runs.append(run)
 
-    def near(self, run: Run) -> str:
-        """Which earlier run of another player a run is nearly, as a sentence; "" for none."""
-        said = self._memo.recall(key := self._key_of(run))
-        if not isinstance(said, str):
+    def near(self, run: Run) -> tuple[str, bool]:
+        """Which run by another player a run is nearly, as a sentence, "" for none; if that is of an earlier moment."""
+        noted = self._memo.recall(key := self._key_of(run))
+        if not (isinstance(noted, list) and [*map(type, noted)] == [str, bool]):
             before = range(self._known, len(self._runs))
             for number in sorted(nsmallest(MOST_COMPARED, before, key=lambda each: self._runs[each].tick)):
                 self._courses.add(number, self._runs[number].tick, partial(self._course, self._runs[number]))
             self._known = len(self._runs)
             course = self._course(run, new=True)
-            near = _near_to_another(run.player, course, self._courses, [each.player for each in self._runs])
+            players = [each.player for each in self._runs]
+            near = _near_to_another(run.player, course, self._courses, players, self._earlier)
             said = f"{near[1]} the run by {self._runs[near[0]].player} in {self._runs[near[0]].file}" if near else ""
-            self._memo.note(key, said)
-        return said
+            self._memo.note(key, noted := [said, bool(near and near[0] < self._earlier)])
+        return noted[0], noted[1]
 
     def _course(self, run: Run, *, new: bool = False) -> Course:
         """What tells whether a run is near to others. ``new``: its page is made, and shows its path."""
@@ -291,15 +293,20 @@ class _Compared:
         return self._last[1]
 
 
-def _near_to_another(player: str, course: Course, earlier: Courses, players: Sequence[str]) -> tuple[int, str] | None:
+def _near_to_another(
+    player: str, course: Course, earlier: Courses, players: Sequence[str], until_moment: int
+) -> tuple[int, str] | None:
     """Which run by another player a run is nearest to, and how, of those before the player's own first near one.
 
-    ``players``: of the earlier runs.
+    ``players``: of the earlier runs; the first ``until_moment`` of these, of earlier moments, go before the others.
     """
     numbers = earlier.numbers
     own = np.array([players[number] == player for number in numbers.tolist()], bool)
     near, until = earlier.near(course), len(players)
     for _ in range(2):  # inputs are aligned only where nothing else is near
         until = min(near(own & (numbers < until))[0], default=until)
-    others, said = near(~own & (numbers < until))
-    return (others[0], said) if others else None
+    for last in sorted({min(until, until_moment), until}):
+        others, said = near(~own & (numbers < last))
+        if others:
+            return others[0], said
+    return None

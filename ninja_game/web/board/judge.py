@@ -7,7 +7,7 @@ from collections import defaultdict, deque
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
-from itertools import pairwise
+from itertools import compress, count, pairwise
 from pathlib import Path
 from typing import Any, NamedTuple, get_type_hints
 
@@ -22,8 +22,9 @@ from ninja_game.runs.archive import Lost, verify_all
 from ninja_game.runs.chunks import Chunk, Result
 from ninja_game.runs.recording_reader import Unreadable
 from ninja_game.runs.verify import NOT_RUN, Verdict
-from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN
+from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, with_press_bits
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
+from ninja_game.ui.input.bindings import MOVES
 from ninja_game.web.board.collect import RunFolder, Sent, SentFile
 from ninja_game.web.board.copies import without_copies
 from ninja_game.web.board.players import Players, folded
@@ -232,6 +233,15 @@ def _worded(problem: RunProblem, result: Verdict, sent: Sent) -> str:
     """A problem as the sender of a run reads it."""
     if problem.code == "not-strict" and result.practice and str(problem).startswith("practice"):
         return f"it was {result.made}: runs with such help do not count"
+    if problem.code == "not-strict" and str(problem).startswith("possible_by_keyboard"):
+        inputs = sent.inputs(result.ticks)
+        odd = (keys != ours for keys, ours in zip(inputs, with_press_bits(inputs), strict=True))
+        tick = next(compress(count(), odd))
+        down = ", ".join(name for name, key in MOVES if inputs[tick] & key) or "no key"
+        pressed = "pressed again while it is held" if inputs[tick] & JUMP_HELD else "pressed and not held"
+        what = pressed if inputs[tick] & JUMP_PRESSED else "held and was not pressed"
+        how = "press it in the first tick in which it is held, and in no other"
+        return f"tick {tick}, {down} down: jump is {what}; {how}"
     if problem.code == "other-level" and sent.replay and sent.replay.level_name:
         name, digest = sent.replay.level_name, result.level_digest[:16]
         return f"{name!r} is not one of the levels that count; its level_digest begins with {digest}"

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from datetime import datetime
 from hashlib import sha256
-from itertools import compress, pairwise
+from itertools import pairwise
 from operator import itemgetter
 from pathlib import Path
 from typing import Any
@@ -57,7 +57,7 @@ MOST_SPLITS = 60  # rows of splits; where there were more, gold is left out
 
 RECORDS = "records"
 SPLITS = "splits"
-NEAR = "A run that is nearly somebody else's is never first, until the keeper of the board confirms it."
+NEAR = "A run that is nearly somebody else's has no place, until the keeper of the board confirms it."
 
 # The chart, px, before it is fitted to the page.
 WIDTH = 480
@@ -122,16 +122,29 @@ class LevelPages:
 
     def run_page(self, run: Run) -> None:
         stem, title = self.stems[run.key], f"{self.name(run.player)} on {run.entry.title}"
+        ranks, links = list[tuple[str, str]](), list[Markup]()
+        for part, rows, number in self.ranking.places.get(run.key, ()):
+            row, first = rows[number], rows[0].run
+            if number >= FIRST:
+                continue  # else one new run would change the pages of many
+            if row.place:
+                late = f", {part[1].difference(row.behind)} behind" * (row.place > 1)
+                ranks.append((self.part_name(part), f"place {row.place}{late}"))
+            if number and not links:
+                links.append(self.watch([run, first], "", f"Watch with {self.name(first.player)}"))
+            if number < TOGETHER and len(rows) > 1 and part == next(iter(self.ranking.tables[run.level])):
+                links.append(tag("a", "Splits", href=f"{UP}{BOARD}/{page_name(run.level)}#{SPLITS}"))
+        keys = f"{counted(run.presses, 'press', 'presses')}, {counted(run.jumps, 'jump')}"
+        gold, made = f"{run.gold} of {run.entry.all_gold}", run.made or "unknown"
+        facts = [("Time", f"{seconds_text(run.tick)} s"), *ranks, ("Score", seconds_text(run.score)), ("Gold", gold),
+                 ("Medal", run.medal), ("Keys", keys), ("Made", made), ("Date", run.day)]  # fmt: skip
 
         def content() -> str:
-            facts = [("Time", f"{seconds_text(run.tick)} s"), ("Score", seconds_text(run.score)),
-                     ("Gold", str(run.gold)), ("Medal", run.medal), ("Made", run.made or "unknown"),
-                     ("Date", run.day)]  # fmt: skip
             drawn = paths(f"{UP}{BOARD}/{picture_name(run.level)}", [(self.name(run.player), run.path)])
-            return run_page(run.entry, stem, title, facts, BOARD, self.game, self.links, self.site, drawn)
+            more = joined(*(tag("p", each) for each in links))
+            return run_page(run.entry, stem, title, facts, BOARD, self.game, self.links, self.site, drawn, more)
 
-        shown = title, run.tick, run.score, run.gold, run.medal, run.made, run.day
-        self.pages.make_replay(f"{stem}.html", [*shown, self.around], content)
+        self.pages.make_replay(f"{stem}.html", [title, facts, links, self.around], content)
 
     def name(self, player: str) -> str:
         """A player's name in a table, and whose it is not where it looks like one that was there before."""
@@ -143,7 +156,8 @@ class LevelPages:
 
     def run(self, run: Run, *results: Content, timed: bool = True) -> tuple[Content, ...]:
         """Cells of a run, for heads that end in RUN_HEADS. ``timed``: with its medal, which is of the time."""
-        about = medal_mark(run.medal if timed else ""), run.gold, run.made or "unknown", run.day, run.remark
+        gold = f"{run.gold} of {run.entry.all_gold}"
+        about = medal_mark(run.medal if timed else ""), gold, run.made or "unknown", run.day, run.remark
         others = f" with {shown_text(run.co_authors, LONGEST_NAME)}" if run.co_authors else None
         return (joined(self.player_link(run.player, UP), others), *results, *self.leads(run, UP), *about)
 
@@ -208,20 +222,20 @@ class LevelPages:
         return contents, drawn, joined(*shown, tag("p", NEAR) if near else None, link, first, folded, beside)
 
     def _table(self, parts: Mapping[Part, Sequence[Ranked]], above: set[str], anchor: str) -> Markup:
-        """A table of categories with the same runs in order, of filled columns. ``above``: remarks of tables above."""
+        """A table of categories with the same runs in order. ``above``: remarks of tables above."""
         rows, categories = [], [category for _, category in parts]
         timed = any(category.unit == FASTEST.unit for category in categories)
         for same in zip(*parts.values(), strict=True):
             place, run = same[0].place, same[0].run
             shown = replace(run, remark="as above") if run.remark in above else run
             results = [category.text(each.values[0]) for category, each in zip(categories, same, strict=True)]
-            rows.append((place, *self.run(shown, *results, timed=timed)))
+            late = categories[0].difference(same[0].behind) if place > 1 else ""
+            rows.append((place or "", *self.run(shown, *results, late, timed=timed)))
             above |= {run.remark} - {""}
         names = [category.name if len(parts) > 1 else category.unit for category in categories]
-        heads = ("Place", "Player", *names, *RUN_HEADS)
-        filled = [any(cell != "" for cell in column) for column in zip(*rows, strict=True)]
-        lines, title = [compress(row, filled) for row in rows], "; ".join(map(self.part_name, parts))
-        return section(title, table("Best run of each player", compress(heads, filled), lines), anchor=anchor)
+        heads = ("Place", "Player", *names, "Behind", *RUN_HEADS)
+        ranked = table("Best run of each player", heads, rows)
+        return section("; ".join(map(self.part_name, parts)), ranked, anchor=anchor)
 
     def _progression(self, entry: Entry, part: Part, anchor: str) -> Content:
         category, runs = part[1], self.ranking.history[entry.digest, part]

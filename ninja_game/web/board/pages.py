@@ -19,7 +19,7 @@ from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.web.board.level_pages import FIRST, LevelPages, level_link, player_page
-from ninja_game.web.board.ranking import Record, Standing
+from ninja_game.web.board.ranking import Ranked, Record, Standing
 from ninja_game.web.board.report import summary
 from ninja_game.web.board.rules import HIGHEST
 from ninja_game.web.board.runs import KINDS, PLAYED, Key, Run
@@ -32,7 +32,7 @@ LEADING = 20
 CONTESTED = 10
 
 FEED = "feed.xml"
-ONE_MOMENT = "Those of one moment go by their files, the last name first."
+ONE_MOMENT = "Of a level's records of one moment only the last is here."
 BY_LEVELS = "By levels led, then by levels passed"
 
 
@@ -128,9 +128,9 @@ class BoardPages(LevelPages):
     def _contested(self) -> Content:
         rows: list[tuple[Content, ...]] = []
         for digest in self.ranking.contested[:CONTESTED]:
-            if ranked := self.ranking.tables[digest].get((PLAYED, self.main), []):
+            if ranked := self._placed(digest):
                 first, records = ranked[0], self.ranking.history[digest, (PLAYED, self.main)]
-                spread = [self.main.difference(each.values[0] - first.values[0]) for each in ranked[1:5:3]]
+                spread = [self.main.difference(each.behind) for each in ranked[1:5:3]]
                 leader = self.player_link(first.run.player), self.main.text(first.values[0])
                 counts = len(records), self._counts(digest)[1]
                 rows.append((level_link(first.run.entry), *counts, *leader, *spread, *[""] * (2 - len(spread))))
@@ -155,8 +155,8 @@ class BoardPages(LevelPages):
     # --- players ---
 
     def _heads(self) -> list[str]:
-        firsts = [category.name for category in self.ranking.categories]
-        return ["Player", "Levels", "Runs", *firsts, *map(str.capitalize, MEDALS)]
+        names = [each.name for each in self.ranking.categories]
+        return ["Player", "Levels", "Runs", *names, *map(str.capitalize, MEDALS)]
 
     def _players_of(self, ladder: str) -> str:
         """The title of a list of players; the ladder only where there are two."""
@@ -164,7 +164,7 @@ class BoardPages(LevelPages):
 
     def _standing(self, each: Standing) -> tuple[Content, ...]:
         firsts = [each.records[category] for category in self.ranking.categories]
-        return (self.player_link(each.player), each.levels, each.runs, *firsts, *each.medals.values())
+        return self.player_link(each.player), each.levels, each.runs, *firsts, *(n or "" for n in each.medals.values())
 
     def _players(self) -> None:
         sums: dict[str, list[Content]] = defaultdict(list)
@@ -178,18 +178,13 @@ class BoardPages(LevelPages):
         runs: dict[str, list[Run]] = defaultdict(list)
         for run in self.ranking.judged.runs:
             runs[run.player].append(run)
-        places = {
-            ranked.run.key: (ranked.place, self.main.difference(ranked.values[0] - table[0].values[0]))
-            for tables in self.ranking.tables.values() for part, table in tables.items() if part[1] is self.main
-            for ranked in table
-        }  # fmt: skip
         held, lost = self._records()
         heads = ("Level", "Record", "Result", "Date", "Lost to", "With", "On")
         for player, own in runs.items():
             name, records = player_page(player), held[player] + lost[player]
             said = f"Records: {len(held[player])} held, {len(lost[player])} lost"
             link = tag("p", tag("a", said, href=f"{UP}{name}-records.html")) if records else None
-            self._runs_of(player, own, places, [*sums[player], link])
+            self._runs_of(player, own, [*sums[player], link])
             if records:
                 self.list(f"{name}-records", player, "Records held, then those lost", heads, records)
 
@@ -206,36 +201,45 @@ class BoardPages(LevelPages):
                 (lost if by else held)[player].append((*about, *loss))
         return held, lost
 
-    def _runs_of(
-        self, player: str, runs: Sequence[Run], places: dict[tuple[str, int], tuple[int, str]], lead: Sequence[Content]
-    ) -> None:
+    def _runs_of(self, player: str, runs: Sequence[Run], lead: Sequence[Content]) -> None:
         """A player's page: the sums, and all runs in playing order."""
         order = {level: number for number, level in enumerate(self.entries)}
         known = {self.stems[run.key]: run for run in runs}
 
         def cells(row: Sequence[Any]) -> tuple[Content, ...]:
             run = known[row[0]]
-            result = seconds_text(run.tick), medal_mark(run.medal), seconds_text(run.score), run.gold
+            gold = f"{run.gold} of {run.entry.all_gold}"
+            result = seconds_text(run.tick), medal_mark(run.medal), seconds_text(run.score), gold
             leads = run.made or "unknown", *self.leads(run, UP), run.day
             return (row[1], level_link(run.entry, UP), *result, *row[3:5], *leads)
 
         rows = [
-            [self.stems[run.key], run.entry.episode, run.medal, *places.get(run.key, ("", "")), run.day]
+            [self.stems[run.key], run.entry.episode, run.medal, *self._place(run), run.day]
             for run in sorted(runs, key=lambda run: (order[run.level], run.added, run.key))
         ]
         heads = ("No.", "Level", "Time", "Medal", "Score", "Gold", "Place", "Behind", "Made", "Watch", "Share", "Date")
         self.list(player_page(player), player, "All runs", heads, rows, *lead, cells=cells)
+
+    def _place(self, run: Run) -> tuple[int | str, str]:
+        """Its place in the first category, and how far behind it is; both "" where it has none."""
+        rows = (rows[number] for part, rows, number in self.ranking.places.get(run.key, ()) if part[1] is self.main)
+        return next(((row.place, self.main.difference(row.behind)) for row in rows if row.place), ("", ""))
 
     # --- levels, episodes, and what does not count ---
 
     def _levels(self) -> None:
         rows: list[tuple[Content, ...]] = []
         for digest, entry in self.entries.items():
-            ranked = self.ranking.tables.get(digest, {}).get((PLAYED, self.main), [])
-            best = [(self.main.text(each.values[0]), self.player_link(each.run.player)) for each in ranked[:1]]
+            ranked = self._placed(digest)
+            best = [(self.main.text(first.values[0]), self.player_link(first.run.player)) for first in ranked[:1]]
             rows.append((entry.episode, level_link(entry), *self._counts(digest), *(best or [("", "")])[0]))
         heads = ("No.", "Level", "Runs", "Players", self.main.name, "First")
         self.list("levels", "Levels", "In playing order", heads, rows)
+
+    def _placed(self, digest: str) -> list[Ranked]:
+        """The runs with a place in the first category."""
+        table = self.ranking.tables.get(digest, {}).get((PLAYED, self.main), [])
+        return [each for each in table if each.place]
 
     def _counts(self, digest: str) -> tuple[int, int]:
         """How many runs a level has, and of how many players, in all ladders and categories."""
@@ -255,7 +259,7 @@ class BoardPages(LevelPages):
                     (
                         place,
                         self.player_link(player),
-                        *([] if ranks_score else [part[1].text(total)]),
+                        "" if ranks_score else part[1].text(total),
                         seconds_text(LIFETIME + sum(run.score - LIFETIME for run in runs)),
                         ", ".join(self.value(part[1], run) for run in runs),
                         self.watch(runs, ""),
@@ -263,8 +267,7 @@ class BoardPages(LevelPages):
                     for place, (player, total, runs) in enumerate(ranked(episode, part)[:FIRST], 1)
                 ]
                 caption = f"Episode {number:02d}, {self.part_name(part)}: {what}"
-                heads = [each for each in EPISODE_HEADS if not (ranks_score and each == "Sum")]
-                tables += [table(caption, heads, rows)] if rows else []
+                tables += [table(caption, EPISODE_HEADS, rows)] if rows else []
             levels = [tag("li", level_link(each)) for each in episode.levels]
             nobody = tag("p", "No player yet.")
             listed = tag("ul", *levels, class_="facts")

@@ -12,7 +12,7 @@ from operator import itemgetter
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.levels.episodes import Episode
 from ninja_game.web.board.rules import USUAL, Category
-from ninja_game.web.board.runs import PLAYED, Run, ValidatedRuns
+from ninja_game.web.board.runs import PLAYED, Key, Run, ValidatedRuns
 from ninja_game.web.pages.gallery import PublishedLevels
 
 Part = tuple[str, Category]  # a ladder and a category: runs are ranked within them
@@ -22,11 +22,15 @@ WEEK = timedelta(days=7)
 
 @dataclass(frozen=True)
 class Ranked:
-    """A run with its place, and what it is ranked by. Equal runs share one; no near copy does, or is first."""
+    """A run with its place, and what it is ranked by. Equal runs share one; a near copy has none, 0.
+
+    ``behind``: by how much its first number is worse than the first run's.
+    """
 
     place: int
     run: Run
     values: tuple[float, ...]
+    behind: float
 
 
 @dataclass(frozen=True)
@@ -80,22 +84,19 @@ class Ranking:
         return (self.values(category, run) or (0.0,))[0]
 
     def _table(self, runs: Iterable[Run], category: Category) -> list[Ranked]:
-        """The best run of each player, in order; of equal ones of a player the one that came first."""
-        best: dict[str, tuple[tuple[float, ...], Run]] = {}
-        for run in runs:
-            values = self.values(category, run)
-            if values is not None and (run.player not in best or values < best[run.player][0]):
-                best[run.player] = values, run
+        """The best run of each player, in order; of equal ones of a player the one that came first.
+
+        Near copies that nobody has confirmed come after all others, and after the player's own runs.
+        """
+        valued = [(bool(run.near), values, run) for run in runs if (values := self.values(category, run)) is not None]
+        best: dict[str, tuple[bool, tuple[float, ...], Run]] = {}
+        for each in sorted(valued, key=itemgetter(0, 1)):
+            best.setdefault(each[2].player, each)
         found: list[Ranked] = []
-        order = sorted(best.values(), key=lambda each: (each[0], bool(each[1].near), each[1].added, each[1].key))
-        # A near copy that nobody has confirmed is never first.
-        first = next((number for number, (_, run) in enumerate(order) if not run.near), 0)
-        if order:
-            order.insert(0, order.pop(first))
-        for number, (values, run) in enumerate(order, 1 + bool(order and order[0][1].near)):
-            shared = found and found[-1].values == values and not run.near
-            place = found[-1].place if shared else number
-            found.append(Ranked(place, run, values))
+        for number, (near, values, run) in enumerate(best.values(), 1):
+            shared = found and found[-1].values == values
+            place = 0 if near else found[-1].place if shared else number
+            found.append(Ranked(place, run, values, values[0] - (found[0].values if found else values)[0]))
         return found
 
     @cached_property
@@ -115,6 +116,16 @@ class Ranking:
         return found
 
     @cached_property
+    def places(self) -> dict[Key, list[tuple[Part, list[Ranked], int]]]:
+        """By run the tables that it is in, and in which row."""
+        found: dict[Key, list[tuple[Part, list[Ranked], int]]] = defaultdict(list)
+        for tables in self.tables.values():
+            for part, table in tables.items():
+                for number, ranked in enumerate(table):
+                    found[ranked.run.key].append((part, table, number))
+        return found
+
+    @cached_property
     def ladders(self) -> list[str]:
         """The ladders that have runs, the one of played runs first, and always there."""
         return sorted({PLAYED} | {run.ladder for run in self.judged.runs}, key=lambda ladder: ladder != PLAYED)
@@ -126,7 +137,7 @@ class Ranking:
 
     @cached_property
     def history(self) -> dict[tuple[str, Part], list[Run]]:
-        """By level, ladder and category the runs that were its record, the first one first."""
+        """By level, ladder and category the runs that were its record, the first one first; of one moment the last."""
         found: dict[tuple[str, Part], list[Run]] = defaultdict(list)
         for run in self.judged.runs:
             for category in self.categories:
@@ -134,7 +145,7 @@ class Ranking:
                 records = found[run.level, (run.ladder, category)] if values else []
                 best = self.values(category, records[-1]) if records else None
                 if values and not run.near and (best is None or values[0] < best[0]):
-                    records.append(run)
+                    records[-1:] = [run] if best and records[-1].added == run.added else [*records[-1:], run]
         return found
 
     @cached_property
@@ -161,8 +172,9 @@ class Ranking:
                     standing.records[category] += ranked.place == 1
                     if category is self.categories[0]:
                         standing.levels += 1
-                        standing.ranks.append(ranked.place)
-                        standing.behind.append(ranked.run.tick / max(1, table[0].run.tick) - 1)
+                        if ranked.place:
+                            standing.ranks.append(ranked.place)
+                            standing.behind.append(ranked.run.tick / max(1, table[0].run.tick) - 1)
                         if ranked.run.medal:
                             standing.medals[ranked.run.medal] += 1
         return {
@@ -208,7 +220,7 @@ class Ranking:
     def level_of_the_week(self) -> tuple[str, int, int] | None:
         """The level that most players sent runs of in the seven days up to the newest run; of equal ones most runs.
 
-        With how many players and runs. None without dates: it depends on the ledger alone, never on a clock.
+        With how many players and runs. None without two dates: it depends on the ledger alone, never on a clock.
         """
         dated = [(datetime.fromisoformat(run.added), run) for run in self.judged.runs if run.added]
         week: dict[str, list[Run]] = defaultdict(list)
@@ -217,4 +229,4 @@ class Ranking:
                 week[run.level].append(run)
         counts = {level: (len({run.player for run in runs}), len(runs)) for level, runs in week.items()}
         best = max((level for level in self.shown.entries if level in counts), key=counts.__getitem__, default=None)
-        return (best, *counts[best]) if best else None
+        return (best, *counts[best]) if best and dated[0][0] < dated[-1][0] else None

@@ -159,9 +159,8 @@ def gone(ranking: Ranking, before: Ledger) -> Iterator[str]:
 def _achieved(ranking: Ranking, run: Run) -> str:
     """Time, gold, places, medal and remark of a run in a line."""
     text = f"{plain(run.player)} passes {plain(run.entry.title)} in {seconds_text(run.tick)} s with {run.gold} gold"
-    for (ladder, category), table in ranking.tables[run.level].items():
-        place = next((each.place for each in table if each.run is run), 0) if ladder == run.ladder else 0
-        if place:
+    for (ladder, category), table, number in ranking.places.get(run.key, ()):
+        if place := table[number].place:
             text += f"; {'assisted, ' * (ladder != PLAYED)}{category.name}: place {place} of {len(table)}"
     if run.medal:
         text += f"; {run.medal} medal"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable
 from html import escape
+from itertools import compress, repeat
 from pathlib import Path
 from typing import TypeAlias
 
@@ -271,9 +272,11 @@ def definitions(pairs: Iterable[tuple[str, Content]]) -> Markup:
 
 
 def table(caption: str, heads: Iterable[str], rows: Iterable[Iterable[Content]]) -> Markup:
-    """A table with its caption; it scrolls by itself where it is too wide."""
-    head = tag("tr", *(tag("th", each, scope="col") for each in heads))
-    lines = [tag("tr", *(tag("td", _wrapping(cell)) for cell in row)) for row in rows]
+    """A table with its caption, of the columns with something in them; it scrolls by itself where it is too wide."""
+    cells = [list(row) for row in rows]
+    filled = [any(cell not in ("", None) for cell in column) for column in zip(*cells, strict=True)] or repeat(True)
+    head = tag("tr", *(tag("th", each, scope="col") for each in compress(heads, filled)))
+    lines = [tag("tr", *(tag("td", _wrapping(cell)) for cell in compress(row, filled))) for row in cells]
     whole = tag("table", tag("caption", caption), tag("thead", head), tag("tbody", *lines))
     return tag("div", whole, class_="wide", tabindex="0", role="region", aria_label=caption)
 

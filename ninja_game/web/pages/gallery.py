@@ -186,18 +186,19 @@ def level_page(
 
 def run_page(
     entry: Entry, stem: str, title: str, facts: Links, folder: str, game: str, links: Links, site: str,
-    drawn: Content = None,
+    drawn: Content = None, more: Content = None,
 ) -> str:  # fmt: skip
     """The small page of a run, beside it in ``replays``: what a link to it shows in a chat, and what leads to it.
 
     ``folder``: of the pages with the level's; ``game``, ``links``: as seen from their first one; ``site``: as above;
-    ``drawn``: its path over the level.
+    ``drawn``: its path over the level; ``more``: what stands below the facts.
     """
     place = f"../{folder}/"
     facts = [*((name, text) for name, text in facts if text), ("Author of the level", entry.named.author or "unknown")]
     leads = (
         tag("p", tag("a", "Watch this run", href=watch_address(game, stem), class_="button")),
         definitions(facts),
+        more,
         tag("p", tag("a", "The level", href=place + page_name(entry.digest))),
         tag("p", tag("a", "The replay as a file", href=f"{stem}.txt", download=True)),
     )
