@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import time
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -188,7 +187,7 @@ def test_every_reference_recording_comes_back_from_a_text_with_its_frames_and_le
     count = 0
     for row in reference.recordings():
         demo = parse_demo(row.demo)
-        record = replace(record_of(parse_replays(f"$a#b##{row.data}#{row.demo}#")[0]))
+        record = record_of(parse_replays(f"$a#b##{row.data}#{row.demo}#")[0])
         (recording,) = parse_replays(f"$a#b##{record.level}#{row.demo}#")
         (text,) = input_texts([recording], "inputs")
         (back,) = parse_replays(text)

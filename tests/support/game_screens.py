@@ -260,6 +260,7 @@ def _replays(driver: MenuDriver) -> None:
     assert isinstance(screen, ReplaysScreen)
     screen._read_files(LONGEST)
     screen._arrange()
+    screen.redraw = True  # what a busy machine reads only now is as new as what it reads for a picture
     driver.frames()
 
 

@@ -15,6 +15,8 @@ from pathlib import Path
 import pygame
 import pytest
 
+from tests.support.menu_driver import MenuDriver
+
 TIMEOUT = 240.0
 """Seconds that each step may take on a busy machine."""
 
@@ -157,3 +159,43 @@ class Player:
                 time.sleep(0.12)
         self.tool("mouseup", "1")
         time.sleep(0.12)
+
+
+class GuidedPlayer(Player):
+    """Someone to whom a guide shows the buttons: the same program without a window, led through the same screens."""
+
+    def __init__(self, display: str, home: Path, root: Path) -> None:
+        super().__init__(display, home, root)
+        self.guide = MenuDriver(home / "guide")
+
+    def click(self, place: tuple[float, float]) -> None:
+        """Click a logical point in both."""
+        self.drag(place)
+        self.guide.mouse(*place)
+
+    def choose(self, *texts: str) -> None:
+        """Click the button with each text, one after the other, in both."""
+        for text in texts:
+            self.click(self.guide.button(text).centre)
+
+    def press_both(self, *keys: str) -> None:
+        """Press keys that lead to another screen, named as xdotool names them."""
+        self.press(*keys)
+        for key in keys:
+            if key.startswith("ctrl+"):
+                self.guide.chord(key.removeprefix("ctrl+"), pygame.KMOD_CTRL)
+            else:
+                self.guide.press(key.lower())
+
+
+@contextmanager
+def guided_player(home: Path, root: Path) -> Iterator[GuidedPlayer]:
+    """One at a window of its own, which is closed in the end."""
+    with virtual_screen() as display:
+        player = GuidedPlayer(display, home, root)
+        try:
+            yield player
+        finally:
+            player.game.kill()
+            player.game.wait(TIMEOUT)
+            player.guide.close()

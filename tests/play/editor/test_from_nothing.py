@@ -9,8 +9,9 @@ import pytest
 from ninja_game.backend.memories import compiled_available
 from ninja_game.formats.load import load_levels
 from ninja_game.play.editor.view import LAYOUT
+from ninja_game.play.menus.packs import PackScreen
 from ninja_game.sim.kinds import DOOR
-from tests.support.real_window import NEEDS_WINDOW, TIMEOUT, Player, difference, virtual_screen
+from tests.support.real_window import NEEDS_WINDOW, GuidedPlayer, Player, difference, guided_player
 from tests.support.waiting import LONGEST
 
 pytestmark = NEEDS_WINDOW
@@ -40,40 +41,38 @@ def draw(maker: Player) -> None:
 
 @pytest.mark.slow
 def test_a_level_from_nothing(tmp_path: Path, root: Path) -> None:
-    with virtual_screen() as display:
-        maker = Player(display, tmp_path, root)
-        try:
-            maker.press("Down", "Down", "Down", "Down", "Return")  # Editor
-            maker.press("ctrl+n", "Down", "Return")  # Empty, instead of the room
-            empty = maker.picture()
-            draw(maker)
-            assert maker.differs_from(empty) > 5000
-            drawn = maker.picture()
-            maker.press("F5", "space")
-            standing = maker.still_picture()
-            assert difference(standing, drawn) > 50_000
-            maker.tool("keydown", "Right")
-            maker.wait_for(lambda: maker.differs_from(standing) > 400, "ninja that is far away")
-            maker.tool("keyup", "Right")
-            maker.press("Escape")
-            maker.catch_up()
-            assert 50 < maker.differs_from(drawn) < 5000  # only the way of the try is new
-            if compiled_available():
-                before = maker.count("replay")
-                maker.press("F7")
-                maker.wait_for(lambda: kept_certificate(maker, before), "certificate", seconds=LONGEST)
-            maker.press("ctrl+s", "Return")
-            path = tmp_path / "levels" / "my-level.txt"
-            maker.wait_for(path.exists, "saved level")
-            maker.press("Escape", "Escape", "Up", "Return")  # leave the editor
-            maker.press("Up", "Up", "Up", "Right", "Return", "Return")  # Levels, its own one, play
-            maker.press("space")
-            maker.tool("keydown", "Right")
-            maker.wait_for(lambda: maker.count("level_best") == 1, "pass")
-            maker.tool("keyup", "Right")
-        finally:
-            maker.game.kill()
-            maker.game.wait(TIMEOUT)
+    with guided_player(tmp_path, root) as maker:
+        maker.choose("Editor")
+        maker.press_both("ctrl+n")
+        maker.choose("Empty")  # instead of the room
+        empty = maker.picture()
+        draw(maker)
+        assert maker.differs_from(empty) > 5000
+        drawn = maker.picture()
+        maker.press("F5", "space")
+        standing = maker.still_picture()
+        assert difference(standing, drawn) > 50_000
+        maker.tool("keydown", "Right")
+        maker.wait_for(lambda: maker.differs_from(standing) > 400, "ninja that is far away")
+        maker.tool("keyup", "Right")
+        maker.press("Escape")
+        maker.catch_up()
+        assert 50 < maker.differs_from(drawn) < 5000  # only the way of the try is new
+        if compiled_available():
+            before = maker.count("replay")
+            maker.press("F7")
+            maker.wait_for(lambda: kept_certificate(maker, before), "certificate", seconds=LONGEST)
+        maker.press_both("ctrl+s")
+        maker.choose("Save")
+        path = tmp_path / "levels" / "my-level.txt"
+        maker.wait_for(path.exists, "saved level")
+        maker.choose("File", "Leave the editor", "Levels")
+        maker.tool("type", "my level")  # is searched for
+        maker.choose("Play")
+        maker.press("space")
+        maker.tool("keydown", "Right")
+        maker.wait_for(lambda: maker.count("level_best") == 1, "pass")
+        maker.tool("keyup", "Right")
     level = load_levels(path)[0].level
     assert sum(tile > 0 for tile in level.tiles) >= 30
     assert len(level.objects) >= 10
@@ -83,46 +82,41 @@ def test_a_level_from_nothing(tmp_path: Path, root: Path) -> None:
 @pytest.mark.slow
 def test_a_pack_from_nothing(tmp_path: Path, root: Path) -> None:
     """A pack, an episode, a level drawn with a line of gold, a copy of it, and the copy dragged before it."""
-    with virtual_screen() as display:
-        maker = Player(display, tmp_path, root)
-        try:
-            maker.drag((227, 273))  # Levels
-            maker.drag((394, 82))  # Packs
-            maker.drag((256, 74))  # New pack...
-            maker.press("Return")
-            folder = tmp_path / "levels" / "my-pack"
-            maker.wait_for((folder / "pack.toml").exists, "pack")
-            maker.press("Return", "Return", "Return")  # its episode, a new level, the proposed name
-            level = folder / "new-level.txt"
-            maker.wait_for(level.exists, "level")
-            for _ in range(2):
-                maker.drag((175, 150))  # the level on its shelf: choose it, then what can be done with it
-            maker.press("Return")  # Edit
-            maker.drag(at(1, 23), at(16, 23), at(31, 23))
-            maker.press("grave", "9")
-            maker.drag(at(3, 22))
-            maker.press("bracketright")
-            maker.drag(at(28, 22))
-            maker.drag(at(22, 22))
-            maker.press("0")
-            maker.drag((218, 14))  # the button Line
-            maker.drag(at(5, 20), at(10, 20), at(15, 20))
-            maker.press("ctrl+s", "Escape", "Escape", "Escape", "Up", "Return")  # the tool, then the menu
-            maker.wait_for(lambda: len(load_levels(level)[0].level.objects) == 13, "saved level")
-            maker.drag((175, 150))
-            maker.press("Return", "Down", "Down", "Down", "Return")  # Copy
-            copy = folder / "new-level-copy.txt"
-            maker.wait_for(copy.exists, "copy")
-            maker.drag((268, 140), (260, 145), (180, 150), (140, 150))  # its left half
-            index = folder / "pack.toml"
-            maker.wait_for(lambda: 0 < index.read_text().find(copy.name) < index.read_text().find(level.name), "order")
-        finally:
-            maker.game.kill()
-            maker.game.wait(TIMEOUT)
+    with guided_player(tmp_path, root) as maker:
+        maker.choose("Levels", "Packs", "New pack...", "OK")
+        folder = tmp_path / "levels" / "my-pack"
+        maker.wait_for((folder / "pack.toml").exists, "pack")
+        maker.press_both("Return")  # its episode
+        maker.choose("New level...", "OK")
+        level = folder / "new-level.txt"
+        maker.wait_for(level.exists, "level")
+        maker.drag(at(1, 23), at(16, 23), at(31, 23))
+        maker.press("grave", "9")
+        maker.drag(at(3, 22))
+        maker.press("bracketright")
+        maker.drag(at(28, 22))
+        maker.drag(at(22, 22))
+        maker.press("0")
+        maker.choose("Line")
+        maker.drag(at(5, 20), at(10, 20), at(15, 20))
+        maker.press_both("ctrl+s")
+        maker.choose("File", "Leave the editor")
+        maker.wait_for(lambda: len(load_levels(level)[0].level.objects) == 13, "saved level")
+        shelves = maker.guide.shown(PackScreen)
+        left, top, width, height = shelves.shelves.row_area(1)
+        while maker.guide.top() is shelves:
+            maker.click((left + width / 2, top + height / 2))  # choose it, then what can be done with it
+        maker.choose("Copy")
+        copy = folder / "new-level-copy.txt"
+        maker.wait_for(copy.exists, "copy")
+        goal = (left + 0.2 * width, top + height / 2)  # its left half
+        maker.drag((left + 1.5 * width, goal[1]), (left + 1.4 * width, goal[1]), (left + width / 2, goal[1]), goal)
+        index = folder / "pack.toml"
+        maker.wait_for(lambda: 0 < index.read_text().find(copy.name) < index.read_text().find(level.name), "order")
 
 
-def kept_certificate(maker: Player, before: int) -> bool:
+def kept_certificate(maker: GuidedPlayer, before: int) -> bool:
     """Ask the file menu to keep the solver's run; whether there is one more replay than before."""
-    maker.press("Escape", "Escape", "Up", "Up", "Return")  # the last but one of the file menu
+    maker.choose("File", "Save the run that was found")
     maker.catch_up()
     return maker.count("replay") > before
