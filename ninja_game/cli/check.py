@@ -155,7 +155,8 @@ def _files(levels: Sequence[NamedLevel], goals: Iterable[str], folder: Path | No
         given.add(name_key(name))
         files = {goal: folder / f"{name}.{goal}{REPLAY_SUFFIX}" for goal in goals} if folder else {}
         for file in files.values():
-            check_output(file, keep=[Path(level.file)])
+            if file.parent.is_dir():  # else it is made
+                check_output(file, keep=[Path(level.file)])
             Tree(file.parent).check(file.name)
         yield files
 

@@ -7,7 +7,6 @@ import shlex
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from functools import cache
 from itertools import count
 from pathlib import Path
 
@@ -156,7 +155,6 @@ def bundled_levels() -> list[Path]:
     return sorted(data_folder("levels").glob("*.txt"))
 
 
-@cache
 def own_levels() -> dict[str, Path]:
     """Those files by their names without a suffix, by which commands and agents know them."""
     return {path.stem: path for path in bundled_levels()}
