@@ -11,6 +11,8 @@ from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL
 
 MOST_SAYINGS, MOST_LETTERS = 4, 120
+NEAR = 2.5 * CELL
+"""px from the middle of its cell, along both axes, within which a text with a place is shown."""
 BAR = "|"
 """Between two texts."""
 
