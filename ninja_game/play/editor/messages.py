@@ -334,16 +334,13 @@ class MessagesScreen(MenuScreen):
             text = named_keys(message.text.strip(), lambda name: controls.name(name) if name in KEYS else f"{{{name}}}")
             where = draft.level.tiles, self._things(stage, texts), self._eye(message), when == "start", when == "at"
             said = Said(text, *where) if text else None
+            if when == "at" and (eye := self._eye(message)):
+                corner, size = (eye[0] - NEAR, eye[1] - NEAR), 2 * NEAR
+                stage.hud.theme.canvas.frame_rect(picture, palette.accent, *corner, size, size, 2)
         foot = draft.name, f"gold 0 / {draft.level.gold}"
         labels = named_in(stage.world, named_things(texts)) if stage.world else ()
         stage.hud.draw(picture, HudView(LIFETIME, "", foot, name=draft.name, said=said, named=labels))
         surface.blit(picture, place)
-        if message and message.when == "at" and (eye := self._eye(message)):
-            surface.set_clip(place)
-            share = PICTURE[2] / WIDTH
-            left, top = (start + (at - NEAR) * share for start, at in zip(PICTURE, eye, strict=False))
-            theme.canvas.frame_rect(surface, palette.accent, left, top, 2 * NEAR * share, 2 * NEAR * share, 1.5)
-            surface.set_clip(None)
         for number, each in enumerate(self.messages, 1):
             if each is not message and each.when == "at" and (eye := self._eye(each)):
                 x, y = (start + at * PICTURE[2] / WIDTH for start, at in zip(PICTURE, eye, strict=False))
