@@ -124,8 +124,20 @@ class Ground:
             there, here = 4 * cell + side, 4 * (cell + step) + (side ^ 2)
             if tiles.EXISTS[cell + step] and not self.is_full(cell + step):
                 tiles_open = self.edges[there] != rules.SOLID and self.edges[here] != rules.SOLID
-                if tiles_open and there not in closed and here not in closed:
+                if tiles_open and there not in closed and here not in closed and self._gap(cell, cell + step):
                     yield cell + step
+
+    def _gap(self, here: int, there: int) -> bool:
+        """Whether what is solid on both sides of a border leaves any of it open: two full faces are no edge."""
+        if tiles.EMPTY in (tiles.SHAPE[self.level.tiles[here]], tiles.SHAPE[self.level.tiles[there]]):
+            return True
+        x, y = ((at[here] + at[there]) / 2 for at in (tiles.CENTRE_X, tiles.CENTRE_Y))
+        dx, dy = ((at[there] - at[here]) / rules.CELL for at in (tiles.CENTRE_X, tiles.CENTRE_Y))
+        for k in _ALONG:
+            sides = ((x + dy * k + dx * by, y + dx * k + dy * by) for by in (-_BESIDE, _BESIDE))
+            if not any(solid_at(self.level, *place) for place in sides):
+                return True
+        return False
 
 
 def _around(cell: int) -> list[int]:
@@ -141,6 +153,9 @@ def _touches(cell: int, x: float, y: float, radius: float) -> bool:
 _BETWEEN = sqrt(2.0)
 """As far, px, may the nearest of the places of ``is_in_wall`` be from where the ninja is."""
 _ROOM = rules.RADIUS - _BETWEEN
+_BESIDE = 0.01
+"""How far on both sides of a border its places are looked at, px."""
+_ALONG = [k - 11.5 for k in range(24)]
 _RIM = [(0.0, 0.0), *((_ROOM * cos(pi * k / 8), _ROOM * sin(pi * k / 8)) for k in range(16))]
 MANY_OBJECTS = 2000
 MANY_THINKERS = 30

@@ -105,6 +105,12 @@ def test_a_ninja_in_a_wall() -> None:
     assert found == ["ninja at 1,1 (object 0): it starts inside a tile"]
 
 
+def test_a_line_of_slopes_shuts_the_ninja_in_unless_it_has_a_hole() -> None:
+    rows = {19: "Dd", 20: "##Dd", 21: "..rRDd", 22: "....rRDd", 23: "@.....##Dd....x...X"}
+    assert len([each for each in warnings_of(rows=rows) if "cannot reach" in each]) == 2
+    assert warnings_of(rows=rows | {23: "@.............x...X"}) == []
+
+
 UNSEEN = [
     ("gold: G", {}, "there is no gold"),
     ("gold: G", {5: "o"}, ""),
