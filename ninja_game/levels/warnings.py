@@ -197,7 +197,7 @@ def level_findings(level: Level, says: str = "") -> list[Finding]:
         of_objects.append(finding._replace(records=tuple(numbers[id_] for id_ in ids), names=names))
     whole = _level_oddities(level, objects)
     of_level = [each._replace(records=tuple(numbers[id_] for id_ in each.records)) for each in whole]
-    return [*of_level, *_unseen_messages(says, ground), *_odd_tiles(level), *of_objects]
+    return [*of_level, *unseen_messages(says, ground), *_odd_tiles(level), *of_objects]
 
 
 def object_name(record: ObjectSpec, number: int) -> str:
@@ -223,8 +223,8 @@ def _some(names: Sequence[str], count: int) -> str:
     return ", ".join(names[:_NAMES_SHOWN]) + (f" and {more} more" if more > 0 else "")
 
 
-def _unseen_messages(says: str, ground: Ground) -> Iterator[Finding]:
-    """The messages whose moment never comes."""
+def unseen_messages(says: str, ground: Ground) -> Iterator[Finding]:
+    """The messages of a header's value whose moment never comes. Raises LevelError where they cannot be read."""
     doors = {door.mechanism for door in ground.doors.values()}
     kinds_here = {record.kind for record in ground.objects if well_formed(record)}
     missing = {

@@ -25,6 +25,7 @@ from ninja_game.formats.sayings import (
     read_sayings,
 )
 from ninja_game.levels.episodes import Mood
+from ninja_game.levels.warnings import Ground, unseen_messages
 from ninja_game.play.app import App
 from ninja_game.play.level.hud import Hud, HudView, Said
 from ninja_game.play.level.hud_view import named_in
@@ -67,7 +68,7 @@ _SAID_AT = {
 
 _HELP = (
     f"{', '.join(f'{{{key}}}' for key in KEYS)} become the key or button of whoever plays;",
-    f"{' and '.join(f'{{{thing}}}' for thing in THINGS)} lose their braces; an arrow shows where each named one is.",
+    f"Write {' or '.join(f'{{{thing}}}' for thing in THINGS)}: an arrow in the level then points at it.",
 )
 
 
@@ -166,6 +167,7 @@ class MessagesScreen(MenuScreen):
         self._selected = 0
         self._stages: dict[tuple[object, ...], _Stage] = {}
         self._kept: dict[bool, Things] = {}
+        self._ground = Ground(draft.level)
         self._look, self._way = mood, way
         self._before = self.source
         self._wanted = "{},{}".format(*at) if at else ""
@@ -315,6 +317,8 @@ class MessagesScreen(MenuScreen):
         self._draw_level(surface, selected)
         name, when = _WHEN[selected.when] if selected else ("", "")
         about = [f"{name}: {when[0].lower()}{when[1:]}."] if selected else []
+        if selected and not selected.problem[1]:
+            about += [finding.advice for finding in unseen_messages(selected.source, self._ground)]
         x, y, w, h = PICTURE
         below = x, y + h + 10, w, TOP + ROW * MOST_SAYINGS - y - h - 10
         theme.paragraph(surface, (*about, *_HELP), below, 11, 15, colour=theme.palette.faint)
@@ -335,8 +339,8 @@ class MessagesScreen(MenuScreen):
             where = draft.level.tiles, self._things(stage, texts), self._eye(message), when == "start", when == "at"
             said = Said(text, *where) if text else None
             if when == "at" and (eye := self._eye(message)):
-                corner, size = (eye[0] - NEAR, eye[1] - NEAR), 2 * NEAR
-                stage.hud.theme.canvas.frame_rect(picture, palette.accent, *corner, size, size, 2)
+                frame = eye[0] - NEAR, eye[1] - NEAR, 2 * NEAR, 2 * NEAR
+                stage.hud.theme.canvas.frame_rect(picture, palette.accent, *frame, 2)
         foot = draft.name, f"gold 0 / {draft.level.gold}"
         labels = named_in(stage.world, named_things(texts)) if stage.world else ()
         stage.hud.draw(picture, HudView(LIFETIME, "", foot, name=draft.name, said=said, named=labels))

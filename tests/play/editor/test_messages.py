@@ -350,6 +350,14 @@ def test_the_preview_has_the_colours_of_the_levels_place_in_its_pack(
     assert look != app.palette_in(Mood()).name
 
 
+def test_a_message_that_is_never_shown_is_said_to_be_so(room: Maker) -> None:
+    screen = opened(room)
+    for when, never in (("lock", True), ("start", False), ("gold", True)):
+        screen.messages = [Message(when, "", "x")]
+        screen.enter()
+        assert ("is never shown: there is no" in drawn(room.app)) is never
+
+
 def test_a_long_text_is_seen_whole_and_up_and_down_go_through_its_lines(room: Maker) -> None:
     text = "This text has many words and all of them are seen, since the field has three lines for its 110 letters"
     screen = opened(room)
