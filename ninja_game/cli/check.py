@@ -206,7 +206,7 @@ def _warnings(level: NamedLevel, run: Replay | None) -> list[str]:
     from ninja_game.sim.level import makes_object, well_formed
     from ninja_game.simulation import Simulation
 
-    warnings = level_warnings(level.level)
+    warnings = level_warnings(level.level, level.says)
     specs = enumerate(filter(makes_object, level.level.objects))
     locked = {id_: spec for id_, spec in specs if spec.kind == DOOR and well_formed(spec) and is_set(spec.values[6])}
     if run and locked:

@@ -107,7 +107,7 @@ def _facts(level: NamedLevel, run: Recording | None) -> dict[str, Any]:
         "file": level.file, "record": level.record, "line": level.line, "form": level.form, "name": level.name,
         "author": level.author, "comment": level.comment, "teaches": level.teaches, "says": level.says,
         "objects": dict(_counts(level)),
-        "level_digest": level_digest(level.level), "warnings": level_warnings(level.level),
+        "level_digest": level_digest(level.level), "warnings": level_warnings(level.level, level.says),
     }  # fmt: skip
     if not run:
         return facts
@@ -145,7 +145,7 @@ def _show(console: Console, level: NamedLevel, run: Recording | None, picture: b
     if run and not run.replay.unclaimed:
         replay = run.replay
         console.print(Text(f"claims: {replay.outcome}, gold {replay.gold}, body {replay.body}, rules {replay.rules}"))
-    for warning in level_warnings(level.level):
+    for warning in level_warnings(level.level, level.says):
         console.print(Text.assemble(("warning: ", "yellow"), warning))
 
 
@@ -165,7 +165,7 @@ def _show_table(console: Console, levels: Sequence[NamedLevel], recordings: dict
     for level in levels:
         counts = _counts(level)
         run = recordings.get((level.file, level.record))
-        warnings = len(level_warnings(level.level))
+        warnings = len(level_warnings(level.level, level.says))
         place = f":{level.record}" if sizes[level.file] > 1 else ""
         table.add_row(
             escape(shown_text(Path(level.file).name)) + place if len(sizes) > 1 else str(level.record),

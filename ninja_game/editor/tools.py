@@ -6,6 +6,7 @@ They know no window: points are px of the level.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from math import ceil
 
 from ninja_game.document import History
@@ -13,6 +14,7 @@ from ninja_game.editor import brush, stamp as stamps
 from ninja_game.editor.draft import Cell, Draft, Tiles, cell_of, changed_cells, is_inside
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.specs import BODY, has_switch, points, properties, with_word, word
+from ninja_game.formats.sayings import moved_saying, read_sayings
 from ninja_game.sim.kinds import DOOR, EXIT, GOLD, LAUNCH_PAD, MINE, NINJA
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import CELL, HALF, WORLD_HEIGHT, WORLD_WIDTH
@@ -32,6 +34,11 @@ REACH = 17.32
 
 OTHER_KINDS = tuple(each.name for each in brush.OBJECT_TYPES if each.spec.kind not in (NINJA, EXIT, DOOR))
 """Types that an object can become: not those of which there is one, or which have a side or a switch."""
+
+
+def said_cells(says: str) -> list[Cell | None]:
+    """The cell near which each message of a level is said; None for one without a place."""
+    return [each.cell if each.place else None for each in read_sayings(says)]
 
 
 def can_be_remade(spec: ObjectSpec) -> bool:
@@ -127,6 +134,10 @@ class EditorTools:
             self._draw_shape()
         elif self._doing == "drag":
             self._drag()
+        elif self._doing == "message" and is_inside(self.cell):
+            began = self.history.began
+            place = said_cells(began.says).index(cell_of(*self._pressed_at))
+            self.history.change(replace(began, says=moved_saying(began.says, place, self.cell)))
         elif self._doing == "choose":
             self.marquee = cell_of(*self._pressed_at), self.cell
             self.selection = self._joined(stamps.chosen_in(self.draft, stamps.area_between(*self.marquee)))
@@ -304,7 +315,10 @@ class EditorTools:
             self._begin_drag()
             return
         self._chosen_before = self.selection if add else stamps.Selection()
-        if found is None:
+        if found is None and not add and self.cell in said_cells(self.draft.says):
+            self.history.begin()
+            self._doing = "message"
+        elif found is None:
             self._doing = "choose"
         elif add and found in self.selection.parts:
             self.selection = stamps.Selection(self.selection.area, self.selection.parts - {found})
@@ -334,15 +348,20 @@ class EditorTools:
         """Give up what hangs at the pointer, else the newest change; whether there was any."""
         hung = self.ghost is not None
         self.finish()
-        if hung:
-            return True
-        self.selection = stamps.Selection()
-        return self.history.undo()
+        return hung or self._step(self.history.undo)
 
     def redo(self) -> bool:
         self.finish()
-        self.selection = stamps.Selection()
-        return self.history.redo()
+        return self._step(self.history.redo)
+
+    def _step(self, step: Callable[[], bool]) -> bool:
+        """Undo or redo. What is selected stays so where there are as many objects as before."""
+        before, parts = len(self.draft.objects), self.selection.parts
+        done = step()
+        objects = self.draft.objects
+        kept = (each for each in parts if len(objects) == before and each[1] in points(objects[each[0]]))
+        self.selection = stamps.Selection(parts=frozenset(kept))
+        return done
 
     # --- what is chosen ---
 
@@ -358,10 +377,13 @@ class EditorTools:
             self.history.change(draft)
 
     def turn(self, motion: Motion) -> bool:
-        """Flip or turn what is chosen, in its place; without a selection what the brush draws.
+        """Flip or turn what is pasted, or what is chosen, in its place; without a selection what the brush draws.
 
         False, and nothing is done, where something would leave the level.
         """
+        if self.ghost is not None:
+            self.ghost = self.ghost.carried(motion.about(WORLD_WIDTH / 2, WORLD_HEIGHT / 2))
+            return True
         self.finish()
         if self.selection:
             about = motion.about(*stamps.middle_of(self.draft, self.selection, quarter=bool(motion.xy)))

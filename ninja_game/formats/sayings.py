@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
 from ninja_game.errors import LevelError
@@ -11,6 +11,8 @@ from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL
 
 MOST_SAYINGS, MOST_LETTERS = 4, 120
+NEAR = 2.5 * CELL
+"""px from the middle of its cell, along both axes, within which a text with a place is shown."""
 BAR = "|"
 """Between two texts."""
 
@@ -18,7 +20,7 @@ KEYS = ("left", "right", "jump", "retry", "suicide", "pause", "replay")
 """Actions whose key a text may name: {jump} becomes the key or button of whoever plays."""
 
 THINGS = ("switch", "exit")
-"""What a text may name in the same way. A level with texts has an arrow to each of them."""
+"""What a text may name in the same way: an arrow leads to it."""
 
 _KEY = re.compile(r"\{([^{}]*)\}")
 _DEATH = re.compile(r"death ([1-9][0-9]?)")
@@ -51,6 +53,27 @@ def read_sayings(value: str) -> tuple[Saying, ...]:
     if len(parts) > MOST_SAYINGS:
         raise LevelError("too many texts in 'says'", found=str(len(parts)), expected=f"at most {MOST_SAYINGS}")
     return tuple(map(_read, parts))
+
+
+def named_things(texts: Iterable[str]) -> list[str]:
+    """Of THINGS those that any of a level's texts names.
+
+    >>> named_things(["Go", "Now the {exit} is open"])
+    ['exit']
+    """
+    named = {name for text in texts for name in _KEY.findall(text)}
+    return [name for name in THINGS if name in named]
+
+
+def moved_saying(says: str, number: int, cell: tuple[int, int]) -> str:
+    """A header's value with the place of one of its texts, by its number from 0, in another cell.
+
+    >>> moved_saying("start: Go | at 12,5: Jump: here", 1, (3, 4))
+    'start: Go | at 3,4: Jump: here'
+    """
+    parts = [part.strip() for part in says.split(BAR)]
+    parts[number] = f"at {cell[0]},{cell[1]}:{parts[number].partition(':')[2]}"
+    return f" {BAR} ".join(parts)
 
 
 def _read(part: str) -> Saying:

@@ -36,7 +36,7 @@ DESIGN_RULES = _RULES["design"]
 
 
 class Finding(NamedTuple):
-    """Something odd. ``text``: what; ``records``: numbers of the records that it is about; ``cells``: of odd tiles.
+    """Something odd. ``text``: what; ``records``: numbers of the records that it is about; ``cells``: of tiles, places.
 
     ``names``: how a text calls what it is about, '' where ``text`` says it.
     """

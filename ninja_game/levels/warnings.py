@@ -11,6 +11,7 @@ from math import cos, dist, isnan, pi, sin, sqrt
 
 from ninja_game.formats.ascii.places import place_text
 from ninja_game.formats.ascii.writer import best_form
+from ninja_game.formats.sayings import NEAR, read_sayings
 from ninja_game.levels.findings import Finding, found
 from ninja_game.sim import kinds, rules
 from ninja_game.sim.arithmetic import is_set
@@ -52,7 +53,8 @@ class Ground:
         world = World()
         tiles.set_edges(self.level, world)
         self.edges: list[int] = list(world.edges)
-        specs = [spec for spec in level.objects if spec.kind == kinds.DOOR and well_formed(spec)]
+        self.objects = level.objects
+        specs = [spec for spec in self.objects if spec.kind == kinds.DOOR and well_formed(spec)]
         self.doors = {spec: _made_door(world, spec) for spec in set(specs)}
         self.doors_on_side = Counter(edges_of(self.doors[spec]) for spec in specs)
         self.closed_edges = {edge for door in self.doors.values() if door.mechanism != TRAP for edge in edges_of(door)}
@@ -71,6 +73,12 @@ class Ground:
         """Whether a ninja in a reached cell could touch a disc (radius at most 14 px); True if nothing is certain."""
         near = (cell for cell in _around(cell_at(x, y)) if cell in self.cells)
         return not self.certain or any(_touches(cell, x, y, radius) for cell in near)
+
+    def comes_near(self, x: float, y: float, reach: float) -> bool:
+        """Whether a ninja in a reached cell could be so near to a point, px, along both axes, as messages count it."""
+        far = reach + rules.CELL / 2
+        centres = ((tiles.CENTRE_X[cell], tiles.CENTRE_Y[cell]) for cell in self.cells)
+        return not self.certain or any(max(abs(x - a), abs(y - b)) < far for a, b in centres)
 
     def is_in_wall(self, x: float, y: float, radius: float) -> bool:
         """Whether only a ninja that sinks into tiles, a fast one, could touch a disc. Looks each 2 px, generously."""
@@ -116,8 +124,20 @@ class Ground:
             there, here = 4 * cell + side, 4 * (cell + step) + (side ^ 2)
             if tiles.EXISTS[cell + step] and not self.is_full(cell + step):
                 tiles_open = self.edges[there] != rules.SOLID and self.edges[here] != rules.SOLID
-                if tiles_open and there not in closed and here not in closed:
+                if tiles_open and there not in closed and here not in closed and self._gap(cell, cell + step):
                     yield cell + step
+
+    def _gap(self, here: int, there: int) -> bool:
+        """Whether what is solid on both sides of a border leaves any of it open: two full faces are no edge."""
+        if tiles.EMPTY in (tiles.SHAPE[self.level.tiles[here]], tiles.SHAPE[self.level.tiles[there]]):
+            return True
+        x, y = ((at[here] + at[there]) / 2 for at in (tiles.CENTRE_X, tiles.CENTRE_Y))
+        dx, dy = ((at[there] - at[here]) / rules.CELL for at in (tiles.CENTRE_X, tiles.CENTRE_Y))
+        for k in _ALONG:
+            sides = ((x + dy * k + dx * by, y + dx * k + dy * by) for by in (-_BESIDE, _BESIDE))
+            if not any(solid_at(self.level, *place) for place in sides):
+                return True
+        return False
 
 
 def _around(cell: int) -> list[int]:
@@ -133,6 +153,9 @@ def _touches(cell: int, x: float, y: float, radius: float) -> bool:
 _BETWEEN = sqrt(2.0)
 """As far, px, may the nearest of the places of ``is_in_wall`` be from where the ninja is."""
 _ROOM = rules.RADIUS - _BETWEEN
+_BESIDE = 0.01
+"""How far on both sides of a border its places are looked at, px."""
+_ALONG = [k - 11.5 for k in range(24)]
 _RIM = [(0.0, 0.0), *((_ROOM * cos(pi * k / 8), _ROOM * sin(pi * k / 8)) for k in range(16))]
 MANY_OBJECTS = 2000
 MANY_THINKERS = 30
@@ -142,16 +165,19 @@ _OVER = 8.0
 """Nearer than this, px, a mine covers a piece of gold."""
 
 
-def level_warnings(level: Level) -> list[str]:
-    """What is legal but odd in a level, in words for its maker; empty for a proper level.
+def level_warnings(level: Level, says: str = "") -> list[str]:
+    """What is legal but odd in a level and its messages, in words for its maker; empty for a proper level.
 
     "Cannot be reached" is said only where it is certain: by cells and closed sides, whatever the ninja could jump.
     """
-    return [finding.sentence for finding in level_findings(level)]
+    return [finding.sentence for finding in level_findings(level, says)]
 
 
-def level_findings(level: Level) -> list[Finding]:
-    """What is odd about a level, with the places: first the level as a whole, then tiles, then objects."""
+def level_findings(level: Level, says: str = "") -> list[Finding]:
+    """What is odd about a level, with the places: the level as a whole, its messages, then tiles, then objects.
+
+    ``says``: as its file has it. Raises LevelError where that cannot be read.
+    """
     numbers = [number for number, record in enumerate(level.objects) if makes_object(record)]
     objects = [level.objects[number] for number in numbers]
     if len(objects) >= CAPACITY:
@@ -171,7 +197,7 @@ def level_findings(level: Level) -> list[Finding]:
         of_objects.append(finding._replace(records=tuple(numbers[id_] for id_ in ids), names=names))
     whole = _level_oddities(level, objects)
     of_level = [each._replace(records=tuple(numbers[id_] for id_ in each.records)) for each in whole]
-    return [*of_level, *_odd_tiles(level), *of_objects]
+    return [*of_level, *unseen_messages(says, ground), *_odd_tiles(level), *of_objects]
 
 
 def object_name(record: ObjectSpec, number: int) -> str:
@@ -195,6 +221,22 @@ def _some(names: Sequence[str], count: int) -> str:
     """The first names of a list of ``count``."""
     more = count - _NAMES_SHOWN
     return ", ".join(names[:_NAMES_SHOWN]) + (f" and {more} more" if more > 0 else "")
+
+
+def unseen_messages(says: str, ground: Ground) -> Iterator[Finding]:
+    """The messages of a header's value whose moment never comes. Raises LevelError where they cannot be read."""
+    doors = {door.mechanism for door in ground.doors.values()}
+    kinds_here = {record.kind for record in ground.objects if well_formed(record)}
+    missing = {
+        "switch": "exit" * (kinds.EXIT not in kinds_here), "gold": "gold" * (kinds.GOLD not in kinds_here),
+        "lock": "locked door" * (LOCKED not in doors), "trap": "trap door" * (TRAP not in doors),
+    }  # fmt: skip
+    for each in read_sayings(says):
+        if lacks := missing.get(each.when):
+            yield found("unseen-message", text=each.text, why=f"there is no {lacks}")
+        elif each.place and not ground.comes_near(*each.place, NEAR):
+            why = "the ninja never comes near its place"
+            yield found("unseen-message", cells=(each.cell,), text=each.text, why=why)
 
 
 def _odd_tiles(level: Level) -> Iterator[Finding]:

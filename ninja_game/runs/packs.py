@@ -201,7 +201,7 @@ def _about_levels(pack: Pack) -> Iterator[PackFinding]:
             if file[:4] in places:
                 yield in_pack("same-place", place, number=file[:4], other=places[file[:4]])
             places.setdefault(file[:4], file)
-        for finding in level_findings(named.level):
+        for finding in level_findings(named.level, named.says):
             yield PackFinding(place, finding.code, finding.sentence)
 
 

@@ -416,6 +416,54 @@ def test_what_is_pasted_stays_in_the_level(tools: EditorTools, corner: tuple[flo
         tools.cancel()
 
 
+def test_undo_keeps_selected_what_is_still_there(tools: EditorTools) -> None:
+    tools.pick_up(object_of_type("gold"))
+    for x in (100, 200, 300):
+        drag(tools, (x, 100))
+    chosen = frozenset({(0, 0), (2, 0)})
+    tools.choose(chosen)
+    tools.arrange(1, 0.0)
+    tools.nudge(0, 1)
+    assert tools.undo()
+    assert tools.selection.parts == chosen
+    assert tools.redo()
+    assert tools.selection.parts == chosen
+    tools.delete()
+    tools.choose(frozenset({(0, 0)}))
+    assert tools.undo()
+    assert not tools.selection, "other objects have the numbers now"
+
+
+def test_what_is_pasted_can_be_mirrored_and_turned_in_hand(tools: EditorTools) -> None:
+    drag(tools, (36, 36), (60, 36))
+    tools.pick_up(object_of_type("gold"))
+    drag(tools, (84, 36))
+    tools.selection = Selection((1, 1, 3, 1), frozenset({(0, 0)}))
+    tools.copy()
+    for motion, tiles, gold in ((MIRROR, {(11, 10), (12, 10)}, (10, 10)), (CLOCKWISE, {(11, 9), (11, 10)}, (11, 11))):
+        tools.move(11 * 24 + 12, 10 * 24 + 12)
+        tools.paste()
+        assert tools.turn(motion)
+        assert tools.ghost, "it still hangs at the pointer"
+        drag(tools, tools.pointer)
+        drawn = {(x, y) for x in range(2, 32) for y in range(2, 24) if tools.draft.tile((x, y))}
+        assert drawn == tiles
+        assert cell_of(*tools.draft.objects[-1].values[:2]) == gold
+        tools.undo()
+
+
+def test_the_tool_select_drags_a_message_in_one_edit(tools: EditorTools) -> None:
+    tools.load(Draft(Level(), says="start: Go | at 12,5: Jump: here"))
+    tools.tool = "select"
+    drag(tools, (12 * 24 + 3, 5 * 24 + 3), (400, 300), (20 * 24 + 3, 6 * 24 + 3), (2, 2))
+    assert tools.draft.says == "start: Go | at 20,6: Jump: here", "the border is no place for it"
+    tools.undo()
+    assert tools.draft.says == "start: Go | at 12,5: Jump: here"
+    tools.tool = "brush"
+    drag(tools, (12 * 24 + 3, 5 * 24 + 3), (400, 300))
+    assert tools.draft.says == "start: Go | at 12,5: Jump: here"
+
+
 def test_a_chosen_side_of_a_door_wins_over_the_pointer(tools: EditorTools) -> None:
     tools.pick_up(object_of_type("automatic door"))
     tools.put_word("side", "bottom")

@@ -43,7 +43,7 @@ def test_a_level_of_ours_is_proper(file: str) -> None:
     assert read.name
     assert read.author
     assert read.comment
-    assert level_warnings(read.level) == []
+    assert level_warnings(read.level, read.says) == []
     assert any(record.kind == GOLD for record in read.level.objects)
     assert parse_ascii_level(write_ascii_level(read.level)).level == read.level
 

@@ -105,6 +105,42 @@ def test_a_ninja_in_a_wall() -> None:
     assert found == ["ninja at 1,1 (object 0): it starts inside a tile"]
 
 
+def test_a_line_of_slopes_shuts_the_ninja_in_unless_it_has_a_hole() -> None:
+    rows = {19: "Dd", 20: "##Dd", 21: "..rRDd", 22: "....rRDd", 23: "@.....##Dd....x...X"}
+    assert len([each for each in warnings_of(rows=rows) if "cannot reach" in each]) == 2
+    assert warnings_of(rows=rows | {23: "@.............x...X"}) == []
+
+
+UNSEEN = [
+    ("gold: G", {}, "there is no gold"),
+    ("gold: G", {5: "o"}, ""),
+    ("lock: G", {}, "there is no locked door"),
+    ("trap: G", {}, "there is no trap door"),
+    ("switch: G", {}, ""),
+    ("at 9,9: G", {}, ""),
+    ("at 3,3: G", {}, "the ninja never comes near its place"),
+    ("at 3,4: G", {}, ""),
+    ("start: G | death 3: H", {}, ""),
+]
+
+
+@pytest.mark.parametrize("says, rows, why", UNSEEN)
+def test_a_message_whose_moment_never_comes_is_named(says: str, rows: dict[int, str], why: str) -> None:
+    # A roof in row 5 leaves all above it out of reach, but for messages less than three cells above it.
+    picture = ["|" + ({5: "#" * 31, 23: "@...x...X"} | {6: rows.get(5, "")}).get(row, "").ljust(31, ".") + "|"
+               for row in range(1, 24)]  # fmt: skip
+    level = parse_ascii_level("\n".join(["ninja-game level 1", *picture])).level
+    assert level_warnings(level, says) == ([f"the message 'G' is never shown: {why}"] if why else [])
+    places = [finding.cells for finding in level_findings(level, says)]
+    assert places == ([((3, 3),) if "at" in says else ()] if why else [])
+
+
+def test_a_message_about_an_exit_is_never_shown_without_one() -> None:
+    assert level_warnings(Level(objects=PROPER[:1]), "switch: Out")[1:] == [
+        "the message 'Out' is never shown: there is no exit"
+    ]
+
+
 def test_objects_that_share_an_oddity_share_a_line() -> None:
     assert warnings_of("gold 900,1px 901,1px 902,1px 903,1px 904,1px")[0] == (
         "gold at 900,1px (object 2), gold at 901,1px (object 3), gold at 902,1px (object 4) and 2 more: "

@@ -19,7 +19,7 @@ from ninja_game.files.user_folder import LEVELS, free_path
 from ninja_game.formats.ascii.writer import headers_of
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.sayings import Saying, read_sayings
-from ninja_game.levels.episodes import Entry
+from ninja_game.levels.episodes import Entry, Mood
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
 from ninja_game.play.editor.messages import MessagesScreen
@@ -340,7 +340,18 @@ class EditorCommands(DocumentCommands):
         def put(says: str) -> None:
             tools.history.change(replace(tools.draft, says=says))
 
-        self.app.push(MessagesScreen(self.app, tools.draft, here, put, self.test, at))
+        catalogue, entry = self.app.player.catalogue, self._entry()
+        run = catalogue.author_run(entry) if entry else None
+        way = run.inputs if run and run.level == tools.draft.level else b""
+        mood = entry.mood if entry else Mood()
+        self.app.push(MessagesScreen(self.app, tools.draft, here, put, self.test, mood, way, at))
+
+    def _entry(self) -> Entry | None:
+        """The level's file as it is played: in its place in a pack, or alone; None without a file."""
+        path, draft = str(self.session.source.path or ""), self.session.draft
+        levels = [each for pack in self.app.player.catalogue.packs() for each in pack.levels] if path else []
+        alone = Entry(NamedLevel(draft.name, "", "", draft.level, path), "yours") if path else None
+        return next((each for each in levels if each.named.file == path), alone)
 
     def open(self) -> None:
         self.unless_unsaved(lambda: self.app.push(LevelChoice(self.app, self.edit_entry)))

@@ -13,13 +13,27 @@ from ninja_game.editor.brush import EMPTY
 from ninja_game.editor.draft import Cell, Draft, cell_of, is_inside
 from ninja_game.editor.specs import BODY, SWITCH, object_type_name, points
 from ninja_game.errors import LevelError
-from ninja_game.formats.sayings import BAR, KEYS, MOST_LETTERS, MOST_SAYINGS, THINGS, named_keys, read_sayings
+from ninja_game.formats.sayings import (
+    BAR,
+    KEYS,
+    MOST_LETTERS,
+    MOST_SAYINGS,
+    NEAR,
+    THINGS,
+    named_keys,
+    named_things,
+    read_sayings,
+)
+from ninja_game.levels.episodes import Mood
+from ninja_game.levels.warnings import Ground, unseen_messages
 from ninja_game.play.app import App
 from ninja_game.play.level.hud import Hud, HudView, Said
 from ninja_game.play.level.hud_view import named_in
-from ninja_game.play.level.places import Things, things_in
+from ninja_game.play.level.places import Things
+from ninja_game.play.level.play import things_at_start
 from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuScreen, Row
 from ninja_game.sim.level import Level
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL, HALF, LIFETIME
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas, Point
@@ -27,7 +41,7 @@ from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.text_entry import TextArea, TextEntry
 from ninja_game.ui.theme import Area, Palette, Theme, inside
 from ninja_game.ui.widgets import Button, Choice, Widget
-from ninja_game.view.sprites.thumbnail import thumbnail
+from ninja_game.view.sprites.thumbnail import open_exit, thumbnail
 
 ROW, TOP, WIDE = 112, 60, 294
 PICTURE: Area = (342, TOP, 422, 422 * HEIGHT / WIDTH)
@@ -40,7 +54,10 @@ _WHEN = {
     "death": ("After deaths", "At the start, after so many deaths"),
     "lock": ("A door unlocks", "Once, when a locked door opens"),
     "trap": ("A trap closes", "Once, when a trap door closes"),
-    "at": ("Near a place", "Beside its place, when the ninja first comes near; a click in the picture moves it"),
+    "at": (
+        "Near a place",
+        "Beside its place, when the ninja first comes into its frame; a click in the picture moves it",
+    ),
 }
 """What each moment is called, and when that is."""
 
@@ -51,7 +68,7 @@ _SAID_AT = {
 
 _HELP = (
     f"{', '.join(f'{{{key}}}' for key in KEYS)} become the key or button of whoever plays;",
-    f"{' and '.join(f'{{{thing}}}' for thing in THINGS)} become these words; arrows lead to both where messages are.",
+    f"Write {' or '.join(f'{{{thing}}}' for thing in THINGS)}: an arrow in the level then points at it.",
 )
 
 
@@ -106,16 +123,16 @@ class _Moment(Choice[str]):
 
 
 class _Stage:
-    """The level's picture, and what is written over it and around what."""
+    """The level's picture, and its world; ``opened``: with an open exit."""
 
-    def __init__(self, level: Level, palette: Palette, width: int, text_size: int) -> None:
-        self.picture = thumbnail(level, palette, width)
+    def __init__(self, level: Level, palette: Palette, width: int, text_size: int, *, opened: bool) -> None:
+        self.picture = thumbnail(level, palette, width, opened=opened)
         self.hud = Hud(Theme(palette, Canvas(self.picture.get_size()), text_size))
-        self.things: Things = ()
-        self.named: Sequence[tuple[str, float, float]] = ()
+        self.world: World | None = None
         with suppress(LevelError):
-            world = Simulation(level).world
-            self.things, self.named = things_in(world, tagged=True), named_in(world)
+            self.world = Simulation(level).world
+        if self.world and opened:
+            open_exit(self.world)
 
 
 def _cells_before(draft: Draft, place: Point) -> Point:
@@ -134,7 +151,7 @@ class MessagesScreen(MenuScreen):
     """``here``: the cell that a message near a place begins with. ``put``: takes the header's value.
 
     ``test``: plays the level from a point, or from its start, with such a value. ``at``: the message of this cell gets
-    the focus.
+    the focus. ``mood``: in which the level is played. ``way``: the inputs of its author's run, if there is one.
     """
 
     title = "Messages to the player"
@@ -142,13 +159,16 @@ class MessagesScreen(MenuScreen):
 
     def __init__(
         self, app: App, draft: Draft, here: Cell, put: Callable[[str], object],
-        test: Callable[[Point | None, str], object], at: Cell | None = None,
+        test: Callable[[Point | None, str], object], mood: Mood, way: bytes, at: Cell | None = None,
     ) -> None:  # fmt: skip
         super().__init__(app)
         self.messages = messages_of(draft.says)
         self._draft = draft
         self._selected = 0
-        self._stage: dict[tuple[str, int, int], _Stage] = {}
+        self._stages: dict[tuple[object, ...], _Stage] = {}
+        self._kept: dict[bool, Things] = {}
+        self._ground = Ground(draft.level)
+        self._look, self._way = mood, way
         self._before = self.source
         self._wanted = "{},{}".format(*at) if at else ""
         self._here, self._put, self._test = here, put, test
@@ -169,7 +189,7 @@ class MessagesScreen(MenuScreen):
         rows = [widget for row in self._row_widgets for widget in row]
         y = TOP + ROW * MOST_SAYINGS + 14
         full = len(self.messages) >= MOST_SAYINGS
-        words = f"{MOST_SAYINGS} of {MOST_SAYINGS}: remove one first" if full else "Add a message"
+        words = "Remove one first" if full else "Add a message"
         add = Button((36, y, 160, 28), words, None if full else self._add)
         hint = "Play from just before the selected message; Esc comes back"
         test = Button((342, y, 132, 28), "Test", self._try, hint=hint)
@@ -291,10 +311,14 @@ class MessagesScreen(MenuScreen):
             theme.text(surface, count, 36 + WIDE, row + 95, size=8.5, colour=colour, align="right")
             if self.focus in self._row_widgets[number]:
                 self._selected = number
+        count = f"{len(self.messages)} of {MOST_SAYINGS}"
+        theme.text(surface, count, 208, TOP + ROW * MOST_SAYINGS + 21, size=11, colour=theme.palette.faint)
         selected = self.selected
         self._draw_level(surface, selected)
         name, when = _WHEN[selected.when] if selected else ("", "")
         about = [f"{name}: {when[0].lower()}{when[1:]}."] if selected else []
+        if selected and not selected.problem[1]:
+            about += [finding.advice for finding in unseen_messages(selected.source, self._ground)]
         x, y, w, h = PICTURE
         below = x, y + h + 10, w, TOP + ROW * MOST_SAYINGS - y - h - 10
         theme.paragraph(surface, (*about, *_HELP), below, 11, 15, colour=theme.palette.faint)
@@ -302,25 +326,36 @@ class MessagesScreen(MenuScreen):
     def _draw_level(self, surface: pygame.Surface, message: Message | None) -> None:
         """The level with a message as in play. The level is drawn once, the message each time."""
         theme, draft, place = self.theme, self._draft, self.theme.canvas.rect(*PICTURE)
-        key = theme.palette.name, place.width, self.app.settings.text_size
-        if key not in self._stage:
-            self._stage = {key: _Stage(draft.level, theme.palette, *key[1:])}
-        stage, said = self._stage[key], None
+        size, opened = (place.width, self.app.settings.text_size), bool(message and message.when == "switch")
+        palette = self.app.palette_in(self._look)
+        key = palette.name, size, opened
+        if key not in self._stages:
+            self._stages[key] = _Stage(draft.level, palette, *size, opened=opened)
+        stage, said, texts = self._stages[key], None, [each.text for each in self.messages]
         picture = stage.picture.copy()
         if message:
             controls, when = self.app.controls, message.when
             text = named_keys(message.text.strip(), lambda name: controls.name(name) if name in KEYS else f"{{{name}}}")
-            where = draft.level.tiles, stage.things, self._eye(message), when == "start", when == "at"
+            where = draft.level.tiles, self._things(stage, texts), self._eye(message), when == "start", when == "at"
             said = Said(text, *where) if text else None
+            if when == "at" and (eye := self._eye(message)):
+                frame = eye[0] - NEAR, eye[1] - NEAR, 2 * NEAR, 2 * NEAR
+                stage.hud.theme.canvas.frame_rect(picture, palette.accent, *frame, 2)
         foot = draft.name, f"gold 0 / {draft.level.gold}"
-        named = stage.named if said else ()
-        stage.hud.draw(picture, HudView(LIFETIME, "", foot, name=draft.name, said=said, named=named))
+        labels = named_in(stage.world, named_things(texts)) if stage.world else ()
+        stage.hud.draw(picture, HudView(LIFETIME, "", foot, name=draft.name, said=said, named=labels))
         surface.blit(picture, place)
         for number, each in enumerate(self.messages, 1):
             if each is not message and each.when == "at" and (eye := self._eye(each)):
                 x, y = (start + at * PICTURE[2] / WIDTH for start, at in zip(PICTURE, eye, strict=False))
                 theme.canvas.circle(surface, theme.palette.accent, (x, y), 6)
                 theme.text(surface, str(number), x, y - 4.5, size=9, align="centre", colour=theme.palette.background)
+
+    def _things(self, stage: _Stage, texts: Sequence[str]) -> Things:
+        tagged = bool(named_things(texts))
+        if stage.world and tagged not in self._kept:
+            self._kept[tagged] = things_at_start(self._draft.level, stage.world, texts, self._way)
+        return self._kept.get(tagged, ())
 
     def _eye(self, message: Message) -> Point | None:
         """Where the ninja is when a message is said, px; None at the start, or where that is not known."""

@@ -12,7 +12,16 @@ from ninja_game.editor.brush import tile_name
 from ninja_game.editor.draft import cell_of
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, Motion
 from ninja_game.editor.specs import SWITCH, carried, has_switch, object_type_name, points, properties, word
-from ninja_game.editor.tools import CURVES, NEAREST, OTHER_KINDS, SPACINGS, EditorTools, can_be_remade, remade
+from ninja_game.editor.tools import (
+    CURVES,
+    NEAREST,
+    OTHER_KINDS,
+    SPACINGS,
+    EditorTools,
+    can_be_remade,
+    remade,
+    said_cells,
+)
 from ninja_game.errors import LevelError
 from ninja_game.files.user_folder import short_path
 from ninja_game.formats.ascii.places import place_text, read_place
@@ -409,7 +418,9 @@ class StatusLine(EditorPart):
         if tools.placing_switch:
             return "Click where the switch is; Esc gives up"
         if tools.ghost:
-            return "Click where it is pasted; Esc gives up"
+            return "Click where it is pasted; H, J, U mirror, flip and turn it; Esc gives up"
+        if self.view.hovering and tools.draft.says and tools.cell in said_cells(tools.draft.says):
+            return "A message near this place: a double click opens it, dragging it with Select moves it"
         return self.view.hint or _TOOL_HINTS[tools.effective_tool]
 
     def render_key(self) -> tuple[object, ...]:

@@ -64,14 +64,14 @@ CHECK_SPACING = 0.1
 
 PICTURE_WIDTH = 1584
 
-Question = tuple[Level, tuple[Finding, ...]]
-"""A level to examine, and what the solver has found of it."""
+Question = tuple[Level, tuple[Finding, ...], str]
+"""A level to examine, what the solver has found of it, and what it says."""
 Examined = tuple[Level, list[Finding]]
 
 
 def _examine(question: Question) -> Examined:
-    level, found = question
-    odd = level_findings(level)
+    level, found, says = question
+    odd = level_findings(level, says)
     # What the ninja cannot reach at all need not be told of the solver too.
     out_of_reach = {number for each in odd if each.code in UNREACHABLE for number in each.records}
     return level, [*(each for each in found if not out_of_reach.intersection(each.records)), *odd]
@@ -192,13 +192,13 @@ class EditorSession:
         if self._checks.problem:
             self.app.notify(f"The level could not be examined: {self._checks.problem}")
             self._checks.problem = ""
-        level = self.draft.level
+        level, says = self.draft.level, self.draft.says
         found = () if self.certifier.is_stale(level) else self.certifier.search.obstacles
         before = self._asked
-        news = before is None or level is not before[0] or found is not before[1]
+        news = before is None or level is not before[0] or found is not before[1] or says != before[2]
         due = news and monotonic() - self._asked_at >= CHECK_SPACING
         if due and not self.tools.dragging:
-            self._asked, self._asked_at = (level, found), monotonic()
+            self._asked, self._asked_at = (level, found, says), monotonic()
             self._checks.ask(self._asked)
         if not self.tools.history.in_stroke and self.draft.objects is not self._objects:
             self._tell_of_exits()

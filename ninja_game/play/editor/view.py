@@ -8,11 +8,11 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.editor.certify import NO_TESTS, SQUARE, Reach, Route
-from ninja_game.editor.draft import Cell, Draft, cell_of, is_inside
+from ninja_game.editor.draft import Cell, Draft, is_inside
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.specs import BODY, SWITCH, carried, points
 from ninja_game.editor.stamp import CellArea, Stamp, area_between, nearest
-from ninja_game.editor.tools import PICK_REACH, EditorTools
+from ninja_game.editor.tools import PICK_REACH, EditorTools, said_cells
 from ninja_game.play.app import App
 from ninja_game.play.editor.palette_view import tile_icon
 from ninja_game.play.editor.session import EditorSession
@@ -150,6 +150,10 @@ class Overlay:
         motions = (Motion(), *(SYMMETRIES[tools.symmetry] if draws else ()))
         if not draws:
             found = nearest(tools.draft, *tools.pointer, PICK_REACH)
+            if tools.draft.says and tools.cell in said_cells(tools.draft.says):
+                # As far as NEAR: the message is said to who comes in there.
+                column, row = tools.cell
+                self._frame((column - 2, row - 2, 5, 5), self.sheet.palette.accent)
             if found:
                 self.target.sprite(_ring("faint"), *points(tools.draft.objects[found[0]])[found[1]])
                 return
@@ -243,7 +247,7 @@ class EditorView(Part):
         before, now = None if erase or pick else self._pressed, pygame.time.get_ticks()
         self._pressed = cell, now, self.session.draft
         twice = before and before[0] == cell and now - before[1] < DOUBLE_MS
-        if before and twice and cell in (cell_of(*place) for place in said_places(before[2].says)):
+        if before and twice and cell in said_cells(before[2].says):
             # The first click has drawn what nobody meant.
             self.session.tools.finish()
             if self.session.draft is not before[2]:

@@ -7,7 +7,7 @@ from math import hypot
 
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.run_time import rounded_text, seconds_text
-from ninja_game.formats.sayings import THINGS, named_keys
+from ninja_game.formats.sayings import named_keys
 from ninja_game.play.level.hud import EndPanel, HudView, Said
 from ninja_game.play.level.places import MUST, Things
 from ninja_game.play.level.play import STAMP_TICKS, LevelPlay, Phase
@@ -120,7 +120,7 @@ def _reached(play: LevelPlay) -> list[str]:
     return [*medal, *following, "    ".join([gold, *news]), *clock]
 
 
-def named_in(world: World, names: Sequence[str] = THINGS) -> list[tuple[str, float, float]]:
+def named_in(world: World, names: Sequence[str]) -> list[tuple[str, float, float]]:
     """What a level names, and where it is until it is used: never over the ninja."""
     return [
         (name, o.x, o.y)

@@ -76,7 +76,8 @@ def solid_place(
         covered += (_ALONG - 1) * sum((cells & area).bit_count() for cells in ways[columns])
         hidden = sum(hidden_by(things, x, y, w, h))
         far = hypot(x + w / 2 - about[0], y + h / 2 - about[1]) if about else 0.0
-        return covered + hidden, far or abs(x + w / 2 - WIDTH / 2) + y, hidden
+        # Rounded: else the last bit of a width would choose between left and right.
+        return covered + hidden, round(far or abs(x + w / 2 - WIDTH / 2) + y, 3), hidden
 
     edge = CELL + 4
     lefts = [edge + k * (WIDTH - 2 * edge - w) / 8 for k in range(0, 9, 4 if rows else 1)]

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Iterable
 from enum import Enum
 from random import Random
 
+from ninja_game.formats.sayings import named_things
 from ninja_game.play.app import App
 from ninja_game.play.level.places import MAY, Things, things_in
 from ninja_game.play.level.sayings import Sayings
@@ -14,6 +16,8 @@ from ninja_game.player.attempt import Attempt, Moment
 from ninja_game.player.playthrough import LevelContext
 from ninja_game.player.progress import HELPED
 from ninja_game.player.records import cause_of
+from ninja_game.sim.level import Level
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.states import CRUSHED
 from ninja_game.simulation import Simulation
@@ -63,6 +67,18 @@ def followed(shown: float, true: float) -> float:
     return shown + (true - shown) * min(1.0, share)
 
 
+def things_at_start(level: Level, world: World, texts: Iterable[str], inputs: bytes) -> Things:
+    """What a player looks for at the start of a level with these texts: what there is, and the author's way."""
+    places = list(things_in(world, tagged=bool(named_things(texts))))
+    if inputs:
+        way = Simulation(level)
+        for keys in inputs:
+            way.step_keys(keys)
+            if way.tick % 4 == 0:
+                places.append((way.world.ninja.x, way.world.ninja.y, MAY))
+    return tuple(places)
+
+
 class Phase(Enum):
     READY = "ready"
     PLAY = "play"
@@ -94,7 +110,9 @@ class LevelPlay:
         self.attempt = Attempt(
             context.level, body=context.body, lifetime=context.lifetime, practice_mode=context.practice_mode
         )
-        self.things = self._things()
+        run = context.data.catalogue.author_run(context.entry) if context.sayings() else None
+        world, texts = self.attempt.simulation.world, [each.text for each in context.sayings()]
+        self.things = things_at_start(context.level, world, texts, run.inputs if run else b"")
         self.tools = PracticeTools(self.attempt)
         self.view = LevelView(app, self.attempt.simulation, seed=self.rng.randrange(1 << 30))
         self.all_gold = context.level.gold
@@ -126,18 +144,6 @@ class LevelPlay:
     def ninja_place(self) -> tuple[float, float]:
         ninja = self.attempt.simulation.world.ninja
         return ninja.x, ninja.y
-
-    def _things(self) -> Things:
-        """What a player looks for at the start: what there is, and, where the level has texts, the author's way."""
-        run = self.context.data.catalogue.author_run(self.context.entry) if self.context.sayings() else None
-        places = list(things_in(self.attempt.simulation.world, tagged=bool(self.context.sayings())))
-        if run:
-            way = Simulation(self.context.level)
-            for keys in run.inputs:
-                way.step_keys(keys)
-                if way.tick % 4 == 0:
-                    places.append((way.world.ninja.x, way.world.ninja.y, MAY))
-        return tuple(places)
 
     # --- from phase to phase ---
 

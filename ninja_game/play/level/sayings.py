@@ -5,15 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import hypot
 
-from ninja_game.formats.sayings import THINGS, Saying
+from ninja_game.formats.sayings import NEAR, Saying, named_things
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL
 from ninja_game.sim.states import SLIDING
 from ninja_game.ui.canvas import Point
-
-NEAR = 2.5 * CELL
-"""px from the middle of its cell within which a text with a place is said."""
 
 SHOWN_TICKS = 240  # for which a text stays after its event
 START_TICKS = 480  # likewise, in play those of the start and of the switch, which tell the way
@@ -33,6 +30,11 @@ CLIMB = (
 )
 SLIPS, CLIMBED = 2, 4 * CELL
 """CLIMB is said after so many slips from a wall back to where the jump began, until the ninja is so many px higher."""
+
+_Text = tuple[str, int, Point | None]
+"""What is said, for how many ticks, and near which place, px."""
+
+_NOTHING: _Text = "", 0, None
 
 _WHEN = {EXIT_OPENED: "switch", GOLD_TAKEN: "gold", LOCK_OPENED: "lock", TRAP_CLOSED: "trap"}
 
@@ -54,8 +56,9 @@ FALL_HELP = "Slide down a wall to slow a fall, or land on a downhill slope."
 class Sayings:
     """The texts of one level. Each event's text is said once; those of the start at each start until the exit is open.
 
-    ``text``: what is to be read now, or "", ``place``: near which place, px. ``helps``: the game itself says what helps
-    too: to try again, to climb.
+    Several of one moment are said one after the other; what happens meanwhile is said first. ``text``: what is to be
+    read now, or "", ``place``: near which place, px. ``helps``: the game itself says what helps too: to try again, to
+    climb.
     """
 
     def __init__(self, sayings: Sequence[Saying], *, helps: bool = False) -> None:
@@ -71,25 +74,25 @@ class Sayings:
     def at_start(self) -> None:
         """To be called when the level waits at its start."""
         due = [each for each in self._sayings if each.when == "death" and each.deaths == self._deaths]
-        self._say(*((due[0].text, SHOWN_TICKS, self._start()) if due else (self._start(), START_TICKS)))
+        self._say(*_in_turn([*due, *self._starts()]))
         self._still = self._quiet = 0
         self._jumped_at = self._wall = 0.0
 
-    def _say(self, text: str, ticks: int, then: str = "", place: Point | None = None) -> None:
-        self.text, self._left, self._then, self.place = text, ticks, then, place
+    def _say(self, *texts: _Text) -> None:
+        (self.text, self._left, self.place), *self._next = texts or (_NOTHING,)
 
-    def _start(self) -> str:
-        return next((each.text for each in self._sayings if each.when == "start" and each not in self._said), "")
+    def _starts(self) -> list[Saying]:
+        return [each for each in self._sayings if each.when == "start" and each not in self._said]
 
     @property
     def named(self) -> Sequence[str]:
-        """The things with a name and an arrow: the goal, as long as the level shows texts."""
-        return THINGS if self._sayings else ()
+        """The things with a name and an arrow: those that its texts name, as long as the level shows texts."""
+        return named_things(each.text for each in self._sayings)
 
     @property
     def is_start(self) -> bool:
-        """Whether the present text is that of the start."""
-        return self.text == self._start()
+        """Whether the present text is one of the start."""
+        return self.text in [each.text for each in self._starts()]
 
     def say_again(self) -> None:
         """All of it is said again, from the start on: another has shown how, which is not to have done it."""
@@ -105,22 +108,23 @@ class Sayings:
         before = self.text
         self._left -= 1
         if self._left <= 0:
-            self._say(self._then, START_TICKS - SHOWN_TICKS)
+            self._say(*self._next)
         happened = {_WHEN.get(event.kind) for event in world.events[: world.event_count]}
         if "switch" in happened:
             # The goal is understood: no need to say how it begins again.
             self._said.update(each for each in self._sayings if each.when == "start")
-        for each in self._sayings:
-            if each not in self._said and (each.when in happened or _is_near(world, each.place)):
-                self._said.add(each)
-                self._say(each.text, START_TICKS if each.when == "switch" else SHOWN_TICKS, place=each.place)
+        new = [each for each in self._sayings if each.when in happened or _is_near(world, each.place)]
+        if new := [each for each in new if each not in self._said]:
+            self._said.update(new)
+            starts = [each.text for each in self._sayings if each.when == "start"]
+            self._say(*_in_turn(new), *(text for text in self._next if text[0] not in starts))
         if self._again and self._is_stuck(world):
             self._again = False
-            self._say(AGAIN, SHOWN_TICKS)
+            self._say((AGAIN, SHOWN_TICKS, None))
         if self.helps and (wall := self._slipped(world)):
             towards, away = ("{right}", "{left}") if wall < 0 else ("{left}", "{right}")
             self._climb, self._foot = CLIMB % (towards, away), world.ninja.y
-            self._say(self._climb, START_TICKS)
+            self._say((self._climb, START_TICKS, None), *self._next)
         elif self.text == self._climb and self._foot - world.ninja.y > CLIMBED:
             self.text = ""
         return self.text != before
@@ -145,6 +149,12 @@ class Sayings:
         away = hypot(ninja.x - self._began[0], ninja.y - self._began[1]) > AWAY
         self._quiet = 0 if self.text else self._quiet + 1
         return away and self._still >= STILL_TICKS and self._quiet >= QUIET_TICKS
+
+
+def _in_turn(sayings: Sequence[Saying]) -> list[_Text]:
+    """One after the other; one alone that tells the way stays longer."""
+    longer = len(sayings) == 1 and sayings[0].when in {"start", "switch"}
+    return [(each.text, START_TICKS if longer else SHOWN_TICKS, each.place) for each in sayings]
 
 
 def _is_near(world: World, place: Point | None) -> bool:

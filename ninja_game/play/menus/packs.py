@@ -425,7 +425,8 @@ class PackScreen(ThumbnailScreen):
         if finding.code == "no-author":
             go = partial(self._form, 1)
         elif entry:
-            odd = (each for each in level_findings(entry.named.level) if each.sentence == finding.text)
+            named = entry.named
+            odd = (each for each in level_findings(named.level, named.says) if each.sentence == finding.text)
             known = why or next(odd, None)
             go, text = partial(self._edit, entry, known), f"{entry.title}: {finding.text}"
             for other, named in pack.levels.items():

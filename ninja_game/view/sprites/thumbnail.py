@@ -5,9 +5,10 @@ from __future__ import annotations
 import pygame
 
 from ninja_game.errors import LevelError
+from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import Level
 from ninja_game.sim.loader import grid_tiles
-from ninja_game.sim.memory.schema import TileMap
+from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.ui.theme import Palette
@@ -18,8 +19,17 @@ from ninja_game.view.sprites.moving_sprites import draw_moving
 from ninja_game.view.sprites.object_animation import ObjectAnimation
 
 
-def thumbnail(level: Level, palette: Palette, width: int) -> pygame.Surface:
-    """The level at its start, ``width`` px wide; only the tiles of one that cannot be played."""
+def open_exit(world: World) -> None:
+    """Open the first exit of a world that is only looked at."""
+    for exit_ in [each for each in world.objects[1:] if each.kind == EXIT][:1]:
+        exit_.is_open = True
+
+
+def thumbnail(level: Level, palette: Palette, width: int, *, opened: bool = False) -> pygame.Surface:
+    """The level at its start, ``width`` px wide; only the tiles of one that cannot be played.
+
+    ``opened``: with its first exit open.
+    """
     canvas = Canvas((width, max(1, round(width * HEIGHT / WIDTH))))
     book = shared_book(canvas.scale, palette.base)
     try:
@@ -30,6 +40,8 @@ def thumbnail(level: Level, palette: Palette, width: int) -> pygame.Surface:
         backdrop = Backdrop(canvas, palette, book, static)
         backdrop.ground.blit(backdrop.tiles, (0, 0), special_flags=pygame.BLEND_PREMULTIPLIED)
         return backdrop.ground
+    if opened:
+        open_exit(run.world)
     animation = ObjectAnimation(run.world)
     backdrop = Backdrop(canvas, palette, book, run.tiles)
     backdrop.reset(run.world, animation)

@@ -8,8 +8,10 @@ from types import SimpleNamespace
 import pygame
 import pytest
 
+from ninja_game.editor import packs
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.formats.sayings import MOST_LETTERS, MOST_SAYINGS, read_sayings
+from ninja_game.levels.episodes import Mood
 from ninja_game.play.editor import messages as messages_module
 from ninja_game.play.editor.commands import TryScreen
 from ninja_game.play.editor.messages import _WHEN, PICTURE, Message, MessagesScreen, messages_of
@@ -82,7 +84,7 @@ def test_every_message_comes_back_as_it_was(room: Maker) -> None:
     room.frames()
     screen = opened(room)
     assert len(screen.messages) == MOST_SAYINGS
-    assert not room.button("4 of 4: remove one first").enabled
+    assert not room.button("Remove one first").enabled
     room.choose("OK")
     assert room.draft.says == ALL
     opened(room)
@@ -294,21 +296,66 @@ def test_each_moment_is_explained_by_its_row(room: Maker) -> None:
 def test_the_preview_is_the_games_picture_painted_once_with_its_labels(
     room: Maker, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    painted: list[int] = []
+    painted: list[str] = []
 
-    def paint(level: Level, palette: Palette, width: int) -> pygame.Surface:
-        painted.append(width)
-        return thumbnail(level, palette, width)
+    def paint(level: Level, palette: Palette, width: int, *, opened: bool) -> pygame.Surface:
+        painted.append(palette.name)
+        return thumbnail(level, palette, width, opened=opened)
 
     monkeypatch.setattr(messages_module, "thumbnail", paint)
     opened(room)
     room.choose("Add a message")
     room.type("all of it")
     shown = drawn(room.app)
+    assert "text 'switch'" not in shown, "only what a text names"
+    assert shown.count("text 'all of it'") == 2, "in its field and in the level"
+    assert "text '1 of 4'" in shown
+    assert len(painted) == 1
+    screen = room.shown(MessagesScreen)
+    screen.messages[0].text = "to the {switch} and the {exit}"
+    shown = drawn(room.app)
     assert "text 'switch'" in shown
     assert "text 'exit'" in shown
-    assert shown.count("text 'all of it'") == 2, "in its field and in the level"
     assert len(painted) == 1
+    screen.messages[0].when = "switch"
+    shown = drawn(room.app)
+    assert "text 'switch'" not in shown, "the exit is open by then"
+    assert "text 'exit'" in shown
+    assert len(painted) == 2
+
+
+def test_the_preview_has_the_colours_of_the_levels_place_in_its_pack(
+    maker: Maker, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    painted: list[str] = []
+
+    def paint(level: Level, palette: Palette, width: int, *, opened: bool) -> pygame.Surface:
+        painted.append(palette.name)
+        return thumbnail(level, palette, width, opened=opened)
+
+    monkeypatch.setattr(messages_module, "thumbnail", paint)
+    app = maker.app
+    app.change_settings(palette="by-column")
+    folder = packs.new_pack(app.player.folder / "levels", "Hills", "Ann")
+    file = packs.new_level(folder, "Hill", "Ann")
+    number = packs.new_episode(folder, "First", 1)
+    packs.place(folder, file, number)
+    (path,) = folder.glob("*hill.txt")
+    maker.open("Editor")
+    maker.editor.commands.open_file(path)
+    maker.frames(2)
+    opened(maker)
+    look = app.palette_in(Mood(1, 0)).name
+    assert painted == [look]
+    assert look != app.palette_in(Mood()).name
+
+
+def test_a_message_that_is_never_shown_is_said_to_be_so(room: Maker) -> None:
+    screen = opened(room)
+    for when, never in (("lock", True), ("start", False), ("gold", True)):
+        screen.messages = [Message(when, "", "x")]
+        screen.enter()
+        assert ("is never shown: there is no" in drawn(room.app)) is never
 
 
 def test_a_long_text_is_seen_whole_and_up_and_down_go_through_its_lines(room: Maker) -> None:

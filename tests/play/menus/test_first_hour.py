@@ -25,6 +25,7 @@ from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.rooms import room_level
 from ninja_game.player.playthrough import EpisodeRun, LevelRun
 from ninja_game.player.records import SELF
+from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.level import ROWS
 from ninja_game.sim.rules import CELL
@@ -183,6 +184,31 @@ def test_goal_is_not_read_again_after_a_text_of_the_first_seconds_but_after_that
     assert [sayings.text for _ in range(START_TICKS) if sayings.on_tick(simulation.world)] == ["go", ""]
 
 
+def test_several_texts_of_one_moment_are_said_one_after_the_other() -> None:
+    says = "start: one | start: two | switch: three | switch: four"
+    simulation = Simulation(parse_level_string("0" * 713 + "|5^100,566!0^120,566!11^400,564,700,564"))
+    sayings = Sayings(read_sayings(says))
+    heard = [(0, sayings.text)]
+    simulation.step_keys(0)
+    ticks = range(1, START_TICKS + 9)
+    heard += [(tick, sayings.text) for tick in ticks if sayings.on_tick(simulation.world)]
+    assert heard == [(0, "one"), (START_TICKS // 2, "two"), (START_TICKS, "")]
+    sayings.at_start()
+    simulation.world.events[0].kind, simulation.world.event_count = EXIT_OPENED, 1
+    assert sayings.on_tick(simulation.world)
+    simulation.world.event_count = 0
+    heard = [(tick, sayings.text) for tick in range(START_TICKS) if sayings.on_tick(simulation.world)]
+    assert sayings.text == ""
+    assert [text for _, text in heard] == ["four", ""], "and no more of the start, which is understood"
+    quick = Sayings(read_sayings("switch: one | switch: two | gold: three"))
+    texts = []
+    for kind in (EXIT_OPENED, GOLD_TAKEN, None):
+        simulation.world.event_count = int(kind is not None)
+        simulation.world.events[0].kind = kind or 0
+        texts += [quick.text for _ in range(1 if kind else 2 * START_TICKS) if quick.on_tick(simulation.world)]
+    assert texts == ["one", "three", "two", ""], "what happens is said first, and takes nothing away"
+
+
 def test_text_at_a_place_is_said_there_once() -> None:
     simulation = Simulation(short_level())
     column = int(simulation.world.ninja.x // 24)
@@ -258,7 +284,7 @@ def test_a_text_under_which_the_ninja_comes_fades_while_it_is_there(driver: Menu
 
 def test_texts_of_a_level_come_back_after_its_author_was_watched(driver: MenuDriver) -> None:
     level = stuck_level(driver)
-    first = level.play.sayings._start()
+    first = level.play.sayings._starts()[0].text
     level.play.sayings._said.update(level.context.sayings())
     driver.press("n")
     driver.choose("Watch how")
@@ -501,7 +527,7 @@ def test_what_is_said_of_a_place_lies_beside_it_and_points_to_it(
     driver: MenuDriver, place: tuple[float, float], words: int
 ) -> None:
     level, text = LevelScreen(driver.app, LevelRun(driver.player, entry(short_level()))), " ".join(["word"] * words)
-    level.play.sayings._say(text, 99, place=place)
+    level.play.sayings._say((text, 99, place))
     level.play.about = (10.0, 10.0)
     view = hud_view(level.play)
     assert view.said
@@ -631,10 +657,12 @@ def test_last_level_of_an_episode_left_out_leads_to_the_next_episode(driver: Men
 
 
 def test_climbing_as_the_hint_says_works_and_away_from_the_wall_first_does_not() -> None:
-    _, once = climb("40 r12 rj20 r20")
-    assert climb("40 r12 rj20 r18 " + "RJ*20 R*8 " * 6)[1] > once + 100, "towards the wall, jump held at each touch"
-    assert climb("40 r12 rj20 r18 " + "l3 lj20 l30 ")[1] <= once, "away first: no jump at all"
-    assert climb("40 r12 rj20 r18 j20 l20")[1] > once + 10, "jump alone"
+    _, once = climb(".*40 R*12 RJ*20 R*20")
+    assert climb(".*40 R*12 RJ*20 R*18 " + "RJ*20 R*8 " * 6)[1] > once + 100, (
+        "towards the wall, jump held at each touch"
+    )
+    assert climb(".*40 R*12 RJ*20 R*18 " + "L*3 LJ*20 L*30 ")[1] <= once, "away first: no jump at all"
+    assert climb(".*40 R*12 RJ*20 R*18 J*20 L*20")[1] > once + 10, "jump alone"
 
 
 @pytest.mark.parametrize("near", [False, True])
