@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
 
 from ninja_game.errors import LevelError
@@ -55,14 +55,15 @@ def read_sayings(value: str) -> tuple[Saying, ...]:
     return tuple(map(_read, parts))
 
 
-def named_things(texts: Iterable[str]) -> list[str]:
-    """Of THINGS those that any of a level's texts names.
+def named_things(texts: Iterable[str]) -> Sequence[str]:
+    """What the arrows in a level with these texts lead to: both THINGS where any text names one, else nothing.
 
-    >>> named_things(["Go", "Now the {exit} is open"])
-    ['exit']
+    Both, for a newcomer who is told of the exit alone looks for its switch.
+
+    >>> named_things(["Go", "Now the {exit} is open"]), named_things(["Go"])
+    (('switch', 'exit'), ())
     """
-    named = {name for text in texts for name in _KEY.findall(text)}
-    return [name for name in THINGS if name in named]
+    return THINGS if any(name in THINGS for text in texts for name in _KEY.findall(text)) else ()
 
 
 def moved_saying(says: str, number: int, cell: tuple[int, int]) -> str:

@@ -68,7 +68,7 @@ _SAID_AT = {
 
 _HELP = (
     f"{', '.join(f'{{{key}}}' for key in KEYS)} become the key or button of whoever plays;",
-    f"Write {' or '.join(f'{{{thing}}}' for thing in THINGS)}: an arrow in the level then points at it.",
+    f"Write {' or '.join(f'{{{thing}}}' for thing in THINGS)}: arrows in the level then point at both.",
 )
 
 
