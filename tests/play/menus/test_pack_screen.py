@@ -505,6 +505,60 @@ def test_a_pack_that_is_deleted_can_be_found_again(driver: MenuDriver, path: Pat
     assert "in the folder deleted/laundry now" in driver.app.notice.replace("\\", "/")
 
 
+def folder_texts(folder: Path) -> dict[str, bytes]:
+    return {str(each.relative_to(folder)): each.read_bytes() for each in folder.rglob("*") if each.is_file()}
+
+
+def test_what_is_done_at_the_desk_is_undone_step_by_step(driver: MenuDriver, path: Path) -> None:
+    levels = path.parent
+    (levels / "mine.txt").write_text((path / "00-0-first-steps.txt").read_text("utf-8"), "utf-8")
+    screen = opened(driver)
+    states = [folder_texts(levels)]
+    assert not driver.button("Undo").enabled
+
+    def done() -> None:
+        driver.frames(2)
+        states.append(folder_texts(levels))
+        assert states[-1] != states[-2]
+
+    driver.carry(screen.shelves.row_area(2), half(screen, 8))
+    done()
+    screen._choose_tray("yours")
+    driver.carry(screen.tray.row_area(0), screen.shelves.row_area(11))
+    done()
+    screen._level_menu(screen.shelves.cells[1])
+    driver.choose("Rename...")
+    typed(driver, "Early steps")
+    done()
+    screen._choose(screen.shelves.cells[6])
+    driver.choose("Remove the episode")
+    done()
+    driver.choose("New pack...")
+    typed(driver, "Other")
+    done()
+    screen._read(path)
+    driver.choose("About it...")
+    driver.choose("Delete the pack...")
+    assert driver.shown(MenuScreen).title == "Delete Laundry with its 9 levels?"
+    assert "All goes to the folder deleted; Undo brings it back" in drawn(driver.app)
+    driver.choose("Delete it")
+    said = ["deleted Laundry", "made a pack", "removed Things that hum", "renamed First Steps", "moved First Steps"]
+    for what in [*said, "moved Mind the Gap"]:
+        assert driver.button("Undo").hint == f"Ctrl+Z: {what}"
+        driver.chord("z", pygame.KMOD_LCTRL)
+        assert driver.app.notice == f"Undone: {what}"
+        assert folder_texts(levels) == states.pop()
+    assert not (levels / "other").exists()
+    driver.chord("z", pygame.KMOD_LCTRL)
+    assert driver.app.notice == "there is nothing to undo"
+    screen._choose(screen.shelves.cells[0])
+    driver.choose("Remove the episode")
+    packs.describe(path, {"version": "3"})
+    driver.choose("Undo")
+    assert driver.app.notice == "removed Learning to fall: not undone, as pack.toml was changed since"
+    assert list(layout(path)) == [1]
+
+
 def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path) -> None:
     screen = opened(driver)
     clipboard = [""]
