@@ -14,11 +14,12 @@ from time import monotonic
 from typing import TYPE_CHECKING, Any
 
 from ninja_game.backend.memories import compiled_available
+from ninja_game.editor.certify import COMPILING
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import SUFFIX, ascii_text, draft_of, open_source, save
 from ninja_game.errors import LinkError, NinjaGameError, PackError
 from ninja_game.files.reading import read_bytes, read_utf8
-from ninja_game.files.shown_text import file_stem, name_problem, shown_text
+from ninja_game.files.shown_text import counted, file_stem, name_problem, shown_text
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import free_path, how_to_install
 from ninja_game.formats.links import whole_certificate
@@ -290,7 +291,8 @@ def make_ready(path: Path, *, seconds: float, jobs: int, say: Say, obstacles: Ob
     try:
         for file, pars in make_pars(pack):
             made[file] = pars
-            say(f"Par times: {len(made)} of {len(pack.levels)} levels", len(made) / len(pack.levels))
+            measured = f"Measuring medal times: {len(made)} of {counted(len(pack.levels), 'level')}"
+            say(measured, len(made) / len(pack.levels))
         Tree(path).write(PARS, write_pars(made))
     except NinjaGameError as error:
         notes.append(f"No par times: {error}")
@@ -348,16 +350,20 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstac
     levels = {file: pack.levels[file] for file in in_order if any(is_open(file, kind) for kind in KINDS)}
     wanted = Wanted({"exit": 0, "gold": -1}, {"seconds": seconds})
     files = [{kind: path / certificate_name(file, kind) for kind in KINDS} for file in levels]
-    names = {Path(file).stem: shown_text(named.name) for file, named in levels.items()}
+    sought = {"exit": "a run to the exit", "gold": "a run with all gold"}
+    goals = {file: " and ".join(sought[kind] for kind in KINDS if is_open(file, kind)) for file in levels}
+    names = {Path(file).stem: f"{goals[file]} of {shown_text(named.name)}" for file, named in levels.items()}
+    total = counted(len(files), "level")
     done, longest = 0, max(1.0, -(-len(files) // jobs) * len(KINDS) * seconds)
 
     def report(name: str, progress: Progress) -> None:
         over = monotonic() - began
-        left = f"{names[name]}: {progress.seconds:.0f} s; at most {max(0.0, longest - over):.0f} s left"
-        say(f"Certifying, {done} of {len(files)} levels done. {left}", min(1.0, max(done / len(files), over / longest)))
+        so_far, left = f"{progress.seconds:.0f} s; {done} of {total} done", max(0.0, longest - over)
+        text = f"Looking for {names[name]}: {so_far}, at most {left:.0f} s left"
+        say(text, min(1.0, max(done / len(files), over / longest)))
 
     if levels:
-        say("Getting the solver ready, which takes a minute or two the first time", None)
+        say(f"{COMPILING}. You can go on with something else meanwhile", None)
         compile_solver()
     began = monotonic()
     all_found = certify_all(list(levels.values()), files, wanted, jobs=jobs, report=report)
@@ -366,4 +372,4 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstac
             if not each.run and each.progress:
                 obstacles[named.level, kind] = obstacle(named.level, each.gold, each.progress)
         done += 1
-        say(f"Certifying, {done} of {len(files)} levels done", done / len(files))
+        say(f"Looking for runs: {done} of {total} done", done / len(files))

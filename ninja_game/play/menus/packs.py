@@ -108,6 +108,8 @@ class PackScreen(ThumbnailScreen):
     def _show(self, pack: EpisodeSet | None) -> None:
         self.pack = pack = pack or next(iter(self.mine), None)
         self.status.show(pack)
+        if not self.packer.busy:
+            self.packer.follow(next((each.pack for each in self.mine if each.path == self.packer.path), None))
         cells: list[Cell] = []
         if pack and pack.pack:
             for episode in pack.pack.index.episodes:
@@ -501,8 +503,8 @@ class PackScreen(ThumbnailScreen):
     def leave(self) -> None:
         super().leave()
         self.held = self.pointer = None
-        if not (self.packer.busy or self.packer.saved):
-            self.packer.text = ""
+        if not self.packer.busy:
+            self.packer.left()
 
     # --- picture ---
 
@@ -517,7 +519,7 @@ class PackScreen(ThumbnailScreen):
         texts += [self.status.counts()] * bool(packer.text and not (whose or packer.busy))
         place = (36, 524, 720 if packer.busy else 516, 41)
         theme.paragraph(surface, texts, place, 10, 13.5, colour=faint)
-        if packer.busy:
+        if packer.busy and packer.share is not None:
             theme.panel(surface, 36, 546, 720, 7)
             theme.canvas.fill_rect(surface, theme.palette.accent, 36, 546, max(1.0, 720 * packer.share), 7, 3)
 
