@@ -532,7 +532,7 @@ def test_a_pack_that_is_deleted_can_be_found_again(driver: MenuDriver, path: Pat
         driver.choose(answer)
         assert (path.exists(), bool(screen.mine)) == (there, there)
     assert Pack(driver.player.folder / "deleted" / "laundry").name == "Laundry"
-    assert (screen.packer.text, screen.packer.saved) == ("", None), "nothing is said of what is gone"
+    assert not (screen.packer.text or screen.packer.saved), "nothing is said of what is gone"
     assert "in the folder deleted/laundry now" in driver.app.notice.replace("\\", "/")
 
 
