@@ -6,26 +6,27 @@ what order, is written into the index.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import count
 from pathlib import Path
 from time import monotonic
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ninja_game.backend.memories import compiled_available
 from ninja_game.editor.certify import COMPILING
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import SUFFIX, ascii_text, draft_of, open_source, save
 from ninja_game.errors import LinkError, NinjaGameError, PackError
-from ninja_game.files.reading import read_bytes, read_utf8
+from ninja_game.files.reading import SUFFIXES, read_bytes, read_utf8
 from ninja_game.files.shown_text import counted, file_stem, name_problem, shown_text
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import free_path, how_to_install
 from ninja_game.formats.links import whole_certificate
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, MOST_EPISODES, parse_index
-from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, MOST_FILES, PARS, Pack, certificate_name
+from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, MOST_BYTES, MOST_FILES, PARS, Pack, certificate_name
 from ninja_game.formats.pack.pars import write_pars
 from ninja_game.levels.episodes import episode_set
 from ninja_game.levels.findings import Finding, PackFinding
@@ -373,3 +374,66 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstac
                 obstacles[named.level, kind] = obstacle(named.level, each.gold, each.progress)
         done += 1
         say(f"Looking for runs: {done} of {total} done", done / len(files))
+
+
+# --- undo ---
+
+
+class Step(NamedTuple):
+    """``texts``: of each file that was changed, before and after; None where there was none. ``moved``: from, to."""
+
+    what: str
+    texts: Mapping[Path, tuple[bytes | None, bytes | None]] = {}
+    moved: tuple[Path, Path] | None = None
+
+
+class Steps(list[Step]):
+    """The last dozen steps, in memory; files over 4 MiB are not among them."""
+
+    def do(self, what: str, action: Callable[[], object], folders: Iterable[Path]) -> None:
+        """Do something to the texts in folders. Raises what ``action`` raises; what it has done by then is a step."""
+        before = _texts(folders)
+        try:
+            action()
+        finally:
+            after = _texts(folders)
+            pairs = {path: (before.get(path), after.get(path)) for path in before | after}
+            if texts := {path: (old, new) for path, (old, new) in pairs.items() if old != new}:
+                self[:] = [*self, Step(what, texts)][-12:]
+
+    def undo(self) -> str:
+        """Take the newest step back; what it was. Nothing is done where its files were changed since.
+
+        Raises NinjaGameError then, OSError.
+        """
+        if not self:
+            raise NinjaGameError("there is nothing to undo")
+        what, texts, moved = self.pop()
+        changed = [path.name for path, (_, new) in texts.items() if _text(path) != new]
+        changed += [moved[0].name] if moved and moved[0].exists() else []
+        if changed:
+            raise NinjaGameError(f"{what}: not undone, as {changed[0]} was changed since")
+        if moved:
+            moved[1].rename(moved[0])
+        for path, (old, _) in texts.items():
+            if old is not None:
+                Tree(path.parent).write(path.name, old)
+                continue
+            Tree(path.parent).remove(path.name)
+            with suppress(OSError):
+                path.parent.rmdir()  # if it is empty
+                path.parent.parent.rmdir()
+        return what
+
+
+def _texts(folders: Iterable[Path]) -> dict[Path, bytes | None]:
+    suffixes = (*SUFFIXES, ".toml")
+    paths = {path for folder in folders for path in folder.rglob("*") if path.suffix.lower() in suffixes}
+    return {path: _text(path) for path in paths}
+
+
+def _text(path: Path) -> bytes | None:
+    try:
+        return read_bytes(path, MOST_BYTES)
+    except (NinjaGameError, OSError):
+        return None

@@ -9,7 +9,7 @@ import pygame
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.run_time import seconds_text
-from ninja_game.levels.episodes import Episode, EpisodeSet, author_name
+from ninja_game.levels.episodes import Episode, EpisodeSet
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.level.screen import LevelScreen, play_level
@@ -44,12 +44,12 @@ class Cells(ListView):
     numbers: list[int]
     heads: list[int]
 
-    def arrange(self, episodes: Iterable[int], most_high: float = MOST_HIGH) -> None:
+    def arrange(self, episodes: Iterable[int]) -> None:
         numbers = set(episodes)
         self.heads = sorted({number // EPISODES_PER_COLUMN for number in numbers})
         lines = max((number % EPISODES_PER_COLUMN for number in numbers), default=0) + 1
         self.columns = max(1, len(self.heads))
-        self.cell_height = min(LARGEST, WIDE / self.columns, most_high / lines)
+        self.cell_height = min(LARGEST, WIDE / self.columns, MOST_HIGH / lines)
         self.area = LEFT, TOP, self.cell_height * self.columns + BAR + 4, self.cell_height * lines
         places = [column * EPISODES_PER_COLUMN + line for line in range(lines) for column in self.heads]
         self.numbers = [number if number in numbers else -1 for number in places]
@@ -131,7 +131,7 @@ class EpisodeGrid(ThumbnailScreen):
         self.rows = ListView((SIDE, 132, 364, ROW * 5), ROW, self._draw_row, self._trial, opens=True)
         self.rows.hint = "Enter, or click twice: play just this level"
         self._look_for_packs(pack)
-        self._arrange()
+        self.grid.arrange(self.pack.episodes)
 
     def _look_for_packs(self, key: str) -> None:
         catalogue = self.player.catalogue
@@ -139,17 +139,6 @@ class EpisodeGrid(ThumbnailScreen):
         self.packs = [pack for pack in catalogue.packs() if pack.episodes]
         self.problems = of_files(catalogue.shown_problems)
         self.pack = next((pack for pack in self.packs if pack.key == key), catalogue.ours)
-
-    def _arrange(self) -> None:
-        """The grid of the pack, with room below for who made it."""
-        self.grid.arrange(self.pack.episodes, MOST_HIGH - 44 * bool(self._about))
-
-    @property
-    def _about(self) -> list[str]:
-        """Who made a pack that the player has put there, and what they say about it."""
-        index = self.pack.pack.index if self.pack.key and self.pack.pack else None
-        texts = [f"by {author_name(index.author)}" * bool(index.author), index.comment] if index else []
-        return [shown_text(text, 200) for text in texts if text]
 
     @property
     def number(self) -> int:
@@ -189,7 +178,7 @@ class EpisodeGrid(ThumbnailScreen):
         before = self.pack
         self._look_for_packs(before.key)
         if self.pack is not before:
-            self._arrange()
+            self.grid.arrange(self.pack.episodes)
         self.marks = self.player.marks.all()
         self.passed = self.marks.keys() | self.player.marks.all(WITH_HELP).keys()
         self._selected(self.grid.index)
@@ -213,7 +202,7 @@ class EpisodeGrid(ThumbnailScreen):
 
     def _set_pack(self, key: object) -> None:
         self._look_for_packs(str(key))
-        self._arrange()
+        self.grid.arrange(self.pack.episodes)
         self.practice.area = LEFT, self._below, WIDE, 30
 
     def handle(self, event: InputEvent) -> None:
@@ -258,7 +247,10 @@ class EpisodeGrid(ThumbnailScreen):
             draw_look(surface, theme, look, (x, y, 18, 18))
             theme.text(surface, text, x + 25, y + 4, size=9.5)
         self._draw_total(surface, theme, self._below + 92)
-        theme.paragraph(surface, self._about, (LEFT, self._below + 136, WIDE, 40), 10, 13, colour=palette.faint)
+        if self.pack.key and self.pack.pack:
+            index = self.pack.pack.index
+            said = f"{index.title}. {index.comment}" if index.comment else index.title
+            theme.text(surface, shown_text(said, 200), SIDE, 114, size=10, colour=palette.faint, width=364)
         episode = self.episode
         if episode is None:
             theme.text(surface, "No episodes", SIDE, 66, size=16, colour=palette.faint, bold=True)

@@ -116,7 +116,7 @@ class Packer(Aside):
     def left(self) -> None:
         """Nobody looks any more: what was said of that moment, such as of the clipboard, is not said again."""
         self._made = f"Saved: {short_path(self.saved)}" if self.saved else ""
-        self.text = self.text if self.saved and self.text.startswith("Changed") else self._made
+        self.text, self._seen = self._made, None
 
 
 class Checked(NamedTuple):

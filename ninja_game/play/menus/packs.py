@@ -11,7 +11,6 @@ from pathlib import Path
 import pygame
 
 from ninja_game.editor import packs
-from ninja_game.editor.pack_undo import Step, Steps
 from ninja_game.editor.packs import missing_run, obstacle_of
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.shown_text import counted, shown_text
@@ -76,7 +75,7 @@ class PackScreen(ThumbnailScreen):
         self.beside = "none"
         self.held: Cell | None = None
         self.pointer: tuple[float, float] | None = None
-        self.steps = Steps()
+        self.steps = packs.Steps()
         self.packer = packer_of(app)
         self.packer.desk = self
         self.status = PackStatus(self.packer, self.player.catalogue)
@@ -140,16 +139,12 @@ class PackScreen(ThumbnailScreen):
         self.shelves.hint = self.tray.hint = "Drag a level or an episode; Enter or a second click: what can be done"
         ready, end = partial(self.packer.start, self.path), self.packer.end
         hint = "Certify all, measure par times, look for problems; zip and link. Only what changed is done again"
-        undo = Button((216, 60, 50, 28), "Undo", partial(self.do, self._undo) if self.steps else None, size=10)
-        undo.hint = (
-            f"Ctrl+Z: {self.steps[-1].what}" if self.steps else "Ctrl+Z: nothing was changed since you came here"
-        )
+        undo = Button((216, 60, 50, 28), "Undo", lambda: self.do(self._undo), size=10)
+        undo.enabled, undo.hint = bool(self.steps), f"Ctrl+Z: {self.steps[-1].what}" if self.steps else ""
         new = Button((272, 60, 82, 28), "New pack...", self._new_pack, size=10)
         paste = Button((360, 60, 76, 28), "Paste link", self._paste, size=10)
         paste.hint = "Ctrl+V: the pack whose link is in the clipboard becomes one of yours"
-        about = Button(
-            (442, 60, 78, 28), "About it...", self._about, size=10, hint="Play it, name it, copy it, delete it"
-        )
+        about = Button((442, 60, 78, 28), "About it...", self._about, size=10, hint="Play, name, copy or delete it")
         show = partial(ProblemsScreen, self.app, self.problems)
         problems = Button((526, 60, 78, 28), "Problems", lambda: self.app.push(show()), size=10)
         make = Button((610, 60, 146, 28), *(("Stop", end) if self.packer.busy else ("Make ready", ready)), hint=hint)
@@ -182,7 +177,7 @@ class PackScreen(ThumbnailScreen):
     # --- what can be done ---
 
     def do(self, action: Callable[[], object], what: str = "") -> None:
-        """Change something on the disk, and show all as it is then. ``what``: how undo calls it, "": it has its own."""
+        """Change something on the disk, and show all as it is then. ``what``: how undo calls it; "" is no step."""
         try:
             if what:
                 self.steps.do(what, action, {self.folder, *(each.path for each in self.mine if each.path)})
@@ -196,7 +191,8 @@ class PackScreen(ThumbnailScreen):
     def _undo(self) -> None:
         self.app.notify(f"Undone: {self.steps.undo()}")
 
-    def ask(self, title: str, text: str, what: str, action: Callable[[str], object]) -> None:
+    def ask(self, title: str, text: str, action: Callable[[str], object]) -> None:
+        what = shown_text(title.partition(":")[0])
         ask_text(self.app, title, "", text, "OK", lambda typed: self.do(lambda: action(typed), what), 60)
 
     def _new_pack(self) -> None:
@@ -205,7 +201,7 @@ class PackScreen(ThumbnailScreen):
             self.beside = "yours" if self.player.catalogue.own() else "none"
             self._read(path)
 
-        self.ask("Name of the pack", "My pack", "made a pack", make)
+        self.ask("New pack: its name", "My pack", make)
 
     def _paste(self) -> None:
         def take() -> None:
@@ -219,7 +215,7 @@ class PackScreen(ThumbnailScreen):
             self._read(packs.copy_pack(pack, self.folder, pack.name))
             self.app.notify(f"{shown_text(pack.name)} is among your packs now: Episodes plays it")
 
-        self.do(take, "pasted a pack")
+        self.do(take, "Paste link")
 
     def handle(self, event: InputEvent) -> None:
         if event.raw.type == pygame.KEYDOWN and chord(event.raw) == "ctrl+v":
@@ -237,7 +233,7 @@ class PackScreen(ThumbnailScreen):
 
         def describe(texts: list[str]) -> None:
             self.app.know_author(index.author, texts[1])
-            self.do(lambda: packs.describe(self.path, dict(zip(keys, texts, strict=True))), "described the pack")
+            self.do(lambda: packs.describe(self.path, dict(zip(keys, texts, strict=True))), "About the pack")
 
         form = FormPanel(self.app, "About the pack", fields, "OK", describe)
         self.app.push(form)
@@ -253,11 +249,7 @@ class PackScreen(ThumbnailScreen):
         rows: list[Row] = [
             ("Play it", None if empty else lambda: self.app.push(grid()), "No episode has levels" * empty),
             ("Name, author, version...", self._form, ""),
-            (
-                "Copy of the pack...",
-                lambda: self.ask("Name of the copy", f"{index.name} copy", "copied the pack", copy),
-                "",
-            ),
+            ("Copy of the pack...", lambda: self.ask("Copy: its name", f"{index.name} copy", copy), ""),
             ("Delete the pack...", None if busy else self._delete, gone),
             CANCEL,
         ]
@@ -268,7 +260,7 @@ class PackScreen(ThumbnailScreen):
 
         def delete() -> None:
             there = packs.bin_pack(path, self.player.folder / DELETED)
-            self.steps.append(Step(f"deleted {shown_text(name)}", moved=(path, there)))
+            self.steps.append(packs.Step(f"Delete {shown_text(name)}", moved=(path, there)))
             self.app.notify(f"{shown_text(name)} is in the folder {there.relative_to(self.player.folder)} now")
 
         title = f"Delete {shown_text(name)} with its {counted(len(Pack(path).files.levels), 'level')}?"
@@ -281,8 +273,7 @@ class PackScreen(ThumbnailScreen):
         elif cell.level:
             self._level_menu(cell)
         elif cell.episode is None:
-            new = partial(packs.new_episode, self.path, column=self._column())
-            self.ask("Name of the episode", "New episode", "made an episode", new)
+            self.ask("New episode: name", "New episode", partial(packs.new_episode, self.path, column=self._column()))
         else:
             self._episode_menu(cell.episode)
 
@@ -294,10 +285,10 @@ class PackScreen(ThumbnailScreen):
         level, episode = cell.level, cell.episode
         if level is None:
             return
-        file, name = Path(level.named.file), shown_text(level.title)
+        file = Path(level.named.file)
         rename, take_out = partial(packs.rename_level, file), partial(packs.place, self.path, file.name, None)
 
-        run = self.player.catalogue.author_run(level)
+        run, title = self.player.catalogue.author_run(level), shown_text(level.title)
 
         def copy() -> None:
             packs.place(self.path, packs.duplicate(self.path, level.named), episode.number if episode else None)
@@ -309,16 +300,13 @@ class PackScreen(ThumbnailScreen):
             ("Move...", lambda: self._hold(cell), ""),
         ]
         if file.parent == self.path:
-            rows += [("Rename...", lambda: self.ask("Another name", level.named.name, f"renamed {name}", rename), "")]
-            rows += [("Copy", lambda: self.do(copy, f"copied {name}"), "Another level like it")]
-            rows += [("Take out", lambda: self._set_aside(take_out, f"took out {name}"), "Into no episode")] * bool(
-                episode
-            )
+            rows += [("Rename...", lambda: self.ask(f"Rename {level.named.name}", level.named.name, rename), "")]
+            rows += [("Copy", lambda: self.do(copy, f"Copy {title}"), "Another level like it")]
+            rows += [("Take out", lambda: self._set_aside(take_out, title), "Into no episode")] * bool(episode)
         self.app.push(Menu(self.app, level.title, [*rows, CANCEL]))
 
     def _episode_menu(self, episode: EpisodeIndex) -> None:
         number, path, title = episode.number, self.path, episode.name or f"Episode {episode.number + 1}"
-        name, called = shown_text(title), "named a column"
         column = number // EPISODES_PER_COLUMN
         columns = list(self.pack.columns if self.pack else ())
         columns += [""] * (column + 1 - len(columns))
@@ -336,24 +324,12 @@ class PackScreen(ThumbnailScreen):
         rename, remove = partial(packs.rename_episode, path, number), partial(packs.remove_episode, path, number)
         begin = partial(packs.new_episode, path, column=self._column() + 1)
         rows: list[Row] = [
-            (
-                "New level...",
-                lambda: self.ask("Name of the level", "New level", "made a level", level),
-                "Made, and opened",
-            ),
-            ("Rename...", lambda: self.ask("Another name", episode.name, f"renamed {name}", rename), ""),
+            ("New level...", lambda: self.ask("New level: its name", "New level", level), "Made, and opened"),
+            ("Rename...", lambda: self.ask(f"Rename {episode.name}", episode.name, rename), ""),
             ("Move...", lambda: self._hold(Cell(episode, head=True)), ""),
-            ("Name of the column...", lambda: self.ask("Name of the column", columns[column], called, name_column), ""),
-            (
-                "Begin a column...",
-                lambda: self.ask("Its first episode", "New episode", "began a column", begin),
-                "Beside the others",
-            ),
-            (
-                "Remove the episode",
-                lambda: self._set_aside(remove, f"removed {name}"),
-                "Its levels stay, beside the others",
-            ),
+            ("Name of the column...", lambda: self.ask("Name of the column", columns[column], name_column), ""),
+            ("Begin a column...", lambda: self.ask("Column: first episode", "New episode", begin), "Beside the others"),
+            ("Remove the episode", lambda: self._set_aside(remove, title), "Its levels stay, beside the others"),
             CANCEL,
         ]
         self.app.push(Menu(self.app, title, rows))
@@ -361,7 +337,7 @@ class PackScreen(ThumbnailScreen):
     def _set_aside(self, action: Callable[[], object], what: str) -> None:
         """Take levels out of their episode, and show where they are then."""
         self.beside = "none"
-        self.do(action, what)
+        self.do(action, f"Take out {shown_text(what)}")
 
     # --- moving ---
 
@@ -386,10 +362,10 @@ class PackScreen(ThumbnailScreen):
     def _drop(self, goal: Cell | None, *, after: bool = False) -> None:
         held, self.held, self.pointer = self.held, None, None
         if held and held.level and not (goal and goal.level is held.level):
-            self.do(partial(self._put_level, held.level, goal, after=after), f"moved {shown_text(held.level.title)}")
+            self.do(partial(self._put_level, held.level, goal, after=after), f"Move {shown_text(held.level.title)}")
         elif held and held.episode and goal and goal.episode:
             numbers = held.episode.number, goal.episode.number
-            self.do(partial(packs.move_episode, self.path, *numbers), f"moved episode {numbers[0] + 1}")
+            self.do(partial(packs.move_episode, self.path, *numbers), f"Move episode {numbers[0] + 1}")
 
     def _is_after(self, index: int) -> bool:
         """Whether the mouse is over the right half of a cell: what it has lands behind what is there."""
@@ -477,7 +453,7 @@ class PackScreen(ThumbnailScreen):
             packs.accept(self.path, file, finding.code, why)
 
         may = bool(file) and finding.code not in NEVER_ACCEPTED
-        asked = partial(self.ask, "Accept this warning: why?", "", "accepted a warning", accept) if may else None
+        asked = partial(self.ask, "Accept this warning: why?", "", accept) if may else None
         missing = missing_run(pack, finding) if why and not self.packer.busy else None
         longer = partial(self.packer.search_longer, self.path, missing) if missing else None
         return Problem(text, why.hint if why else finding.hint, go, asked, search=longer)
@@ -487,7 +463,7 @@ class PackScreen(ThumbnailScreen):
         take_back = partial(packs.take_back, self.path, accepted.file, accepted.code)
         text = f"{entry.title if entry else accepted.file}: {code}. Accepted: {accepted.reason}"
         go = partial(self._edit, entry, None) if entry else None
-        return Problem(text, "", go, lambda: self.do(take_back, "made a warning count again"), accepted=True)
+        return Problem(text, "", go, lambda: self.do(take_back, "Take it back"), accepted=True)
 
     def update(self, real_ms: int) -> None:
         super().update(real_ms)

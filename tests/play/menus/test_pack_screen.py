@@ -532,7 +532,7 @@ def test_a_pack_that_is_deleted_can_be_found_again(driver: MenuDriver, path: Pat
         driver.choose(answer)
         assert (path.exists(), bool(screen.mine)) == (there, there)
     assert Pack(driver.player.folder / "deleted" / "laundry").name == "Laundry"
-    assert not (screen.packer.text or screen.packer.saved), "nothing is said of what is gone"
+    assert not any((screen.packer.text, screen.packer.saved)), "nothing is said of what is gone"
     assert "in the folder deleted/laundry now" in driver.app.notice.replace("\\", "/")
 
 
@@ -573,8 +573,8 @@ def test_what_is_done_at_the_desk_is_undone_step_by_step(driver: MenuDriver, pat
     assert driver.shown(MenuScreen).title == "Delete Laundry with its 9 levels?"
     assert "All goes to the folder deleted; Undo brings it back" in drawn(driver.app)
     driver.choose("Delete it")
-    said = ["deleted Laundry", "made a pack", "removed Things that hum", "renamed First Steps", "moved First Steps"]
-    for what in [*said, "moved Mind the Gap"]:
+    said = ["Delete Laundry", "New pack", "Take out Things that hum", "Rename First Steps", "Move First Steps"]
+    for what in [*said, "Move Mind the Gap"]:
         assert driver.button("Undo").hint == f"Ctrl+Z: {what}"
         driver.chord("z", pygame.KMOD_LCTRL)
         assert driver.app.notice == f"Undone: {what}"
@@ -586,7 +586,7 @@ def test_what_is_done_at_the_desk_is_undone_step_by_step(driver: MenuDriver, pat
     driver.choose("Remove the episode")
     packs.describe(path, {"version": "3"})
     driver.choose("Undo")
-    assert driver.app.notice == "removed Learning to fall: not undone, as pack.toml was changed since"
+    assert driver.app.notice == "Take out Learning to fall: not undone, as pack.toml was changed since"
     assert list(layout(path)) == [1]
 
 

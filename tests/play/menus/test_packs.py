@@ -126,8 +126,7 @@ def test_a_pack_says_who_made_it_and_where_more_come_from(driver: MenuDriver) ->
     driver.open("Episodes")
     assert "Ida" not in drawn(driver.app)
     driver.press("up", "right")
-    assert "'by Ida'" in drawn(driver.app)
-    assert "'Small rooms, one idea each.'" in drawn(driver.app)
+    assert "'Other by Ida. Small rooms, one idea each.'" in drawn(driver.app)
     assert "Levels > Packs > Paste link takes in more" in drawn(driver.app)
 
 
