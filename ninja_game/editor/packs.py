@@ -416,13 +416,14 @@ class Steps(list[Step]):
         if moved:
             moved[1].rename(moved[0])
         for path, (old, _) in texts.items():
-            if old is not None:
+            if old is None:
+                Tree(path.parent).remove(path.name)
+            else:
                 Tree(path.parent).write(path.name, old)
-                continue
-            Tree(path.parent).remove(path.name)
+        made = [path.parent for path, (old, _) in texts.items() if path.name == INDEX and old is None]
+        for folder in [each for path in made for each in (path / CERTIFICATES, path)]:
             with suppress(OSError):
-                path.parent.rmdir()  # if it is empty
-                path.parent.parent.rmdir()
+                folder.rmdir()  # if it is empty
         return what
 
 

@@ -105,6 +105,23 @@ def test_a_pack_is_made_described_and_copied(pack: Path, tmp_path: Path) -> None
     assert Pack(made).name == "Wände"
 
 
+def test_a_dozen_steps_are_taken_back_and_folders_stay(pack: Path, tmp_path: Path) -> None:
+    steps, folder = packs.Steps(), tmp_path / "levels"
+    folder.mkdir()
+    steps.do("Copy", lambda: packs.copy_pack(Pack(pack), folder, "copy"), [folder])
+    assert (folder / "copy" / RUN).is_file()
+    assert steps.undo() == "Copy"
+    assert list(folder.iterdir()) == [], "no empty folder is left, but the one of all"
+    steps.do("Nothing", lambda: None, [pack])
+    assert not steps
+    for number in range(14):
+        steps.do(str(number), lambda text=str(number): packs.describe(pack, {"version": text}), [pack])  # type: ignore[misc]
+    assert [steps.undo() for _ in range(12)] == [str(number) for number in range(13, 1, -1)]
+    assert Pack(pack).index.version == "1"
+    with pytest.raises(NinjaGameError, match="nothing to undo"):
+        steps.undo()
+
+
 def test_levels_go_to_another_pack_with_their_certificates(pack: Path, tmp_path: Path) -> None:
     other = packs.new_pack(tmp_path, "Other", "me")
     level = Pack(pack).levels[LAST]
