@@ -32,6 +32,8 @@ if TYPE_CHECKING:
     from ninja_game.formats.replay.text import Replay
     from ninja_game.search.task import Progress
 
+COMPILING = "The solver is compiled, the first time on a machine a minute or more"
+
 SECONDS, STOPPED = 20.0, "Stopped"
 """How long the solver looks for better runs; the end of a search that nobody wants any more."""
 
@@ -156,8 +158,7 @@ class Certifier:
         if search.progress is None:
             if search is not self._at_work and not self._at_work.end:
                 return "Another level's search comes first. Go on editing, or save and leave: it goes on"
-            waited = f"{monotonic() - search.began:.0f} s"
-            return f"Getting ready, {waited}: minutes the first time. Go on editing, or save and leave: it goes on"
+            return f"{monotonic() - search.began:.0f} s. {COMPILING}. Go on editing, or save and leave"
         ticks = search.progress.ticks
         tried = f"{ticks / 1e6:.1f} million" if ticks >= 1e6 else f"{ticks // 1000} thousand"
         return f"Looking for a run: {tried} ticks tried"

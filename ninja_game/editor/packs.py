@@ -6,25 +6,27 @@ what order, is written into the index.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import count
 from pathlib import Path
 from time import monotonic
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ninja_game.backend.memories import compiled_available
+from ninja_game.editor.certify import COMPILING
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import SUFFIX, ascii_text, draft_of, open_source, save
 from ninja_game.errors import LinkError, NinjaGameError, PackError
-from ninja_game.files.reading import read_bytes, read_utf8
-from ninja_game.files.shown_text import file_stem, name_problem, shown_text
+from ninja_game.files.reading import SUFFIXES, read_bytes, read_utf8
+from ninja_game.files.shown_text import counted, file_stem, name_problem, shown_text
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import free_path, how_to_install
 from ninja_game.formats.links import whole_certificate
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, MOST_EPISODES, parse_index
-from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, MOST_FILES, PARS, Pack, certificate_name
+from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, MOST_BYTES, MOST_FILES, PARS, Pack, certificate_name
 from ninja_game.formats.pack.pars import write_pars
 from ninja_game.levels.episodes import episode_set
 from ninja_game.levels.findings import Finding, PackFinding
@@ -290,7 +292,8 @@ def make_ready(path: Path, *, seconds: float, jobs: int, say: Say, obstacles: Ob
     try:
         for file, pars in make_pars(pack):
             made[file] = pars
-            say(f"Par times: {len(made)} of {len(pack.levels)} levels", len(made) / len(pack.levels))
+            measured = f"Measuring medal times: {len(made)} of {counted(len(pack.levels), 'level')}"
+            say(measured, len(made) / len(pack.levels))
         Tree(path).write(PARS, write_pars(made))
     except NinjaGameError as error:
         notes.append(f"No par times: {error}")
@@ -348,16 +351,20 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstac
     levels = {file: pack.levels[file] for file in in_order if any(is_open(file, kind) for kind in KINDS)}
     wanted = Wanted({"exit": 0, "gold": -1}, {"seconds": seconds})
     files = [{kind: path / certificate_name(file, kind) for kind in KINDS} for file in levels]
-    names = {Path(file).stem: shown_text(named.name) for file, named in levels.items()}
+    sought = {"exit": "a run to the exit", "gold": "a run with all gold"}
+    goals = {file: " and ".join(sought[kind] for kind in KINDS if is_open(file, kind)) for file in levels}
+    names = {Path(file).stem: f"{goals[file]} of {shown_text(named.name)}" for file, named in levels.items()}
+    total = counted(len(files), "level")
     done, longest = 0, max(1.0, -(-len(files) // jobs) * len(KINDS) * seconds)
 
     def report(name: str, progress: Progress) -> None:
         over = monotonic() - began
-        left = f"{names[name]}: {progress.seconds:.0f} s; at most {max(0.0, longest - over):.0f} s left"
-        say(f"Certifying, {done} of {len(files)} levels done. {left}", min(1.0, max(done / len(files), over / longest)))
+        so_far, left = f"{progress.seconds:.0f} s; {done} of {total} done", max(0.0, longest - over)
+        text = f"Looking for {names[name]}: {so_far}, at most {left:.0f} s left"
+        say(text, min(1.0, max(done / len(files), over / longest)))
 
     if levels:
-        say("Getting the solver ready, which takes a minute or two the first time", None)
+        say(f"{COMPILING}. You can go on with something else meanwhile", None)
         compile_solver()
     began = monotonic()
     all_found = certify_all(list(levels.values()), files, wanted, jobs=jobs, report=report)
@@ -366,4 +373,68 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstac
             if not each.run and each.progress:
                 obstacles[named.level, kind] = obstacle(named.level, each.gold, each.progress)
         done += 1
-        say(f"Certifying, {done} of {len(files)} levels done", done / len(files))
+        say(f"Looking for runs: {done} of {total} done", done / len(files))
+
+
+# --- undo ---
+
+
+class Step(NamedTuple):
+    """``texts``: of each file that was changed, before and after; None where there was none. ``moved``: from, to."""
+
+    what: str
+    texts: Mapping[Path, tuple[bytes | None, bytes | None]] = {}
+    moved: tuple[Path, Path] | None = None
+
+
+class Steps(list[Step]):
+    """The last dozen steps, in memory; files over 4 MiB are not among them."""
+
+    def do(self, what: str, action: Callable[[], object], folders: Iterable[Path]) -> None:
+        """Do something to the texts in folders. Raises what ``action`` raises; what it has done by then is a step."""
+        before = _texts(folders)
+        try:
+            action()
+        finally:
+            after = _texts(folders)
+            pairs = {path: (before.get(path), after.get(path)) for path in before | after}
+            if texts := {path: (old, new) for path, (old, new) in pairs.items() if old != new}:
+                self[:] = [*self, Step(what, texts)][-12:]
+
+    def undo(self) -> str:
+        """Take the newest step back; what it was. Nothing is done where its files were changed since.
+
+        Raises NinjaGameError then, OSError.
+        """
+        if not self:
+            raise NinjaGameError("there is nothing to undo")
+        what, texts, moved = self.pop()
+        changed = [path.name for path, (_, new) in texts.items() if _text(path) != new]
+        changed += [moved[0].name] if moved and moved[0].exists() else []
+        if changed:
+            raise NinjaGameError(f"{what}: not undone, as {changed[0]} was changed since")
+        if moved:
+            moved[1].rename(moved[0])
+        for path, (old, _) in texts.items():
+            if old is None:
+                Tree(path.parent).remove(path.name)
+            else:
+                Tree(path.parent).write(path.name, old)
+        made = [path.parent for path, (old, _) in texts.items() if path.name == INDEX and old is None]
+        for folder in [each for path in made for each in (path / CERTIFICATES, path)]:
+            with suppress(OSError):
+                folder.rmdir()  # if it is empty
+        return what
+
+
+def _texts(folders: Iterable[Path]) -> dict[Path, bytes | None]:
+    suffixes = (*SUFFIXES, ".toml")
+    paths = {path for folder in folders for path in folder.rglob("*") if path.suffix.lower() in suffixes}
+    return {path: _text(path) for path in paths}
+
+
+def _text(path: Path) -> bytes | None:
+    try:
+        return read_bytes(path, MOST_BYTES)
+    except (NinjaGameError, OSError):
+        return None

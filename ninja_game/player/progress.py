@@ -232,7 +232,8 @@ def reached(entry: Entry, mark: Mark | None) -> str:
     """The player's fastest time in a level and the most gold of a pass, as a sentence; "" without a mark."""
     if mark is None:
         return ""
-    return f"Time {seconds_text(mark.fastest)} s, gold {mark.most_gold} of {entry.all_gold}"
+    gold = f", gold {mark.most_gold} of {entry.all_gold}" if entry.all_gold else ""
+    return f"Time {seconds_text(mark.fastest)} s{gold}"
 
 
 def has_all_gold(entry: Entry, mark: Mark | None) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from itertools import pairwise
 from pathlib import PurePath
 
 from ninja_game.batch.difficulty import TRIES, difficulty
@@ -146,6 +147,7 @@ def _findings(pack: Pack, *, with_design: bool, with_gold: bool) -> Iterator[Pac
         if named.file not in in_episodes:
             yield in_pack("single-level", pack.files.place(file))
     yield from _about_levels(pack)
+    yield from _about_order(pack)
     for file, named in pack.levels.items() if with_gold else ():
         rich = pack.certificate(file, "gold") or not named.level.gold
         if not rich and is_certified(pack, file, "exit"):
@@ -185,7 +187,7 @@ def _about_index(pack: Pack) -> Iterator[PackFinding]:
 
 
 def _about_levels(pack: Pack) -> Iterator[PackFinding]:
-    names: dict[str, str] = {}
+    names: dict[str, str] = {}  # as people tell them apart
     levels: dict[str, str] = {}
     places: dict[str, str] = {}
     for file, named in pack.levels.items():
@@ -193,7 +195,7 @@ def _about_levels(pack: Pack) -> Iterator[PackFinding]:
         if named.form == "ascii" and named.name == PurePath(file).stem:
             yield in_pack("no-name", place)
         digest = level_digest(named.level)
-        for code, key, seen in (("same-name", named.name, names), ("same-content", digest, levels)):
+        for code, key, seen in (("same-name", named.name.casefold().strip(), names), ("same-content", digest, levels)):
             if key in seen:
                 yield in_pack(code, place, other=seen[key])
             seen.setdefault(key, file)
@@ -220,6 +222,20 @@ def _about_certificates(pack: Pack) -> Iterator[PackFinding]:
                     yield in_pack("no-certificate", pack.files.place(file))
             except NinjaGameError as error:
                 yield in_pack("unreadable", why=error)
+
+
+def _about_order(pack: Pack) -> Iterator[PackFinding]:
+    pars = {named.file: pack.pars[file] for file, named in pack.levels.items() if file in pack.pars}
+    for levels in pack.episodes.values():
+        for one, other in pairwise(levels):
+            hard, easy = pars.get(one.file), pars.get(other.file)
+            if hard and easy and hard.grade not in ("", "easy", "medium") and easy.grade == "easy":
+                yield in_pack("hard-before-easy", one.file, grade=hard.grade, other=PurePath(other.file).name)
+    first, *later = [pars.get(level.file) for levels in pack.episodes.values() for level in levels] or [None]
+    known = [each.difficulty for each in later if each and each.difficulty is not None]
+    if first and first.grade not in ("", "easy") and len(known) > 1 and (first.difficulty or 0.0) > max(known):
+        place = next(iter(pack.episodes.values()))[0].file
+        yield in_pack("hardest-first", place, grade=first.grade)
 
 
 def _about_pars(pack: Pack) -> Iterator[PackFinding]:

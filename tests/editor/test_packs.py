@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from click.testing import CliRunner
@@ -17,6 +19,7 @@ from ninja_game.formats.pack.pack import Pack, PackFiles
 from ninja_game.levels.findings import found
 from ninja_game.runs.packs import lint
 from ninja_game.search.certificate import kept_run
+from ninja_game.search.task import Progress
 from tests.support.own_pack import PACK
 
 FIRST, LAST = "00-0-first-steps.txt", "01-2-the-works.txt"
@@ -102,6 +105,23 @@ def test_a_pack_is_made_described_and_copied(pack: Path, tmp_path: Path) -> None
     assert Pack(made).name == "Wände"
 
 
+def test_a_dozen_steps_are_taken_back_and_folders_stay(pack: Path, tmp_path: Path) -> None:
+    steps, folder = packs.Steps(), tmp_path / "levels"
+    folder.mkdir()
+    steps.do("Copy", lambda: packs.copy_pack(Pack(pack), folder, "copy"), [folder])
+    assert (folder / "copy" / RUN).is_file()
+    assert steps.undo() == "Copy"
+    assert list(folder.iterdir()) == [], "no empty folder is left, but the one of all"
+    steps.do("Nothing", lambda: None, [pack])
+    assert not steps
+    for number in range(14):
+        steps.do(str(number), lambda text=str(number): packs.describe(pack, {"version": text}), [pack])  # type: ignore[misc]
+    assert [steps.undo() for _ in range(12)] == [str(number) for number in range(13, 1, -1)]
+    assert Pack(pack).index.version == "1"
+    with pytest.raises(NinjaGameError, match="nothing to undo"):
+        steps.undo()
+
+
 def test_levels_go_to_another_pack_with_their_certificates(pack: Path, tmp_path: Path) -> None:
     other = packs.new_pack(tmp_path, "Other", "me")
     level = Pack(pack).levels[LAST]
@@ -129,7 +149,7 @@ def test_a_pack_is_made_ready_and_only_what_changed_is_done_again(pack: Path, tm
     ready = make_ready(pack, seconds=1.0, jobs=1, say=lambda text, _: said.append(text))
     assert certificate.exists()
     assert other.stat().st_mtime_ns == kept
-    assert "Par times: 8 of 8 levels" in said
+    assert "Measuring medal times: 8 of 8 levels" in said
     # Whether all gold is found in a second depends on the machine.
     findings = [finding for finding in ready.findings if finding.code != "no-gold-run"]
     assert (findings, ready.notes, ready.link[:6]) == ([], [], "#pack=")
@@ -176,6 +196,30 @@ def test_what_was_searched_in_vain_or_is_accepted_is_not_searched_again(
     assert "accept" not in (pack / "pack.toml").read_text("utf-8")
     make_ready(pack, seconds=1.0, jobs=1, say=_quiet, obstacles=obstacles)
     assert searched == ["First Steps"]
+
+
+def test_what_is_looked_for_is_said(pack: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (pack / RUN).unlink()
+    other = "01-0-springtime.txt"
+    for file in Pack(pack).levels:
+        if file not in (FIRST, other):
+            packs.accept(pack, file, "no-gold-run", "a joke")
+
+    def search(
+        levels: list[NamedLevel], *_: object, report: Callable[[str, Progress], None], **__: object
+    ) -> list[Any]:
+        for each in levels:
+            report(Path(each.file).stem, Progress(seconds=2.0))
+        return [{} for _ in levels]
+
+    monkeypatch.setattr("ninja_game.search.certify.certify_all", search)
+    said: list[str] = []
+    make_ready(pack, seconds=1.0, jobs=1, say=lambda text, _: said.append(text))
+    assert said[0].startswith("The solver is compiled, the first time on a machine a minute or more. You can go on")
+    assert said[1].startswith(
+        "Looking for a run to the exit and a run with all gold of First Steps: 2 s; 0 of 2 levels"
+    )
+    assert said[2].startswith("Looking for a run with all gold of Springtime: 2 s; ")
 
 
 def test_a_broken_certificate_is_a_missing_run_of_its_own_kind(pack: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -10,6 +10,7 @@ import pytest
 from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
+from ninja_game.editor.packs import accept
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.pack.pars import Pars
@@ -97,6 +98,19 @@ def test_findings_are_accepted_with_a_reason(pack: Path) -> None:
     assert findings(pack) == ["pack.toml:20: accepts no-name of 00-0-first-steps.txt, which is not found there"]
     result = CliRunner().invoke(cli, ["levels", "lint", str(pack)])
     assert "2 episodes, 8 levels, 1 finding, 2 accepted" in result.output
+
+
+def test_the_order_of_levels_is_looked_at(pack: Path) -> None:
+    change(pack / "pars.toml", "difficulty = 0.39", "difficulty = 5.00")
+    before = "00-0-first-steps.txt: hard, and not as easy as 00-1-mind-the-gap.txt, which comes right after it"
+    assert findings(pack) == [before, "00-0-first-steps.txt: hard: the first level is the hardest of the pack"]
+    for code in ("hard-before-easy", "hardest-first"):
+        accept(pack, f"{FIRST}.txt", code, "a wall to begin with")
+    assert findings(pack) == []
+    change(pack / "pars.toml", "difficulty = 2.48", "difficulty = 6.00")
+    assert "accepts hardest-first" in findings(pack)[0]
+    change(pack / "01-0-springtime.txt", "name: Springtime", "name: night shift")
+    assert "01-1-night-shift.txt: the same name as 01-0-springtime.txt" in findings(pack)
 
 
 def test_two_levels_of_one_place_are_named(pack: Path) -> None:

@@ -405,7 +405,7 @@ class FilePart(EditorPart):
         for number, line in enumerate(wrapped(theme, text, w, 9)[:3]):
             colour = palette.good if run and not stale else palette.text
             theme.text(surface, line, x, y + 36 + 12 * number, size=9, colour=colour)
-        if certifier.busy:
+        if certifier.busy and certifier.search.progress:
             canvas.fill_rect(surface, palette.panel_edge, x, y + h - 9, w, 5, 2)
             canvas.fill_rect(surface, palette.accent, x, y + h - 9, max(1.0, w * certifier.search.share), 5, 2)
 

@@ -117,7 +117,8 @@ def _reached(play: LevelPlay) -> list[str]:
     # Of a first pass all is new, and the medal and the gold are said already.
     first = FIRST_PASS in play.notices
     news = [each for each in play.notices if each != NEW_ALL_GOLD and not (first and each in OF_A_LEVEL)]
-    return [*medal, *following, "    ".join([gold, *news]), *clock]
+    brought = "    ".join([*[gold] * bool(play.all_gold), *news])
+    return [*medal, *following, *[brought] * bool(brought), *clock]
 
 
 def named_in(world: World, names: Sequence[str]) -> list[tuple[str, float, float]]:

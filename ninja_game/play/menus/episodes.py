@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 
 import pygame
 
+from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Episode, EpisodeSet
@@ -192,7 +193,7 @@ class EpisodeGrid(ThumbnailScreen):
         names = [("This game's levels" if not pack.key else pack.name, pack.key) for pack in self.packs]
         choice = Choice(
             (LEFT, 62, WIDE, 26), "", names, lambda: self.pack.key, self._set_pack,
-            hint="Level pack. Put more packs into the folder shown in Settings > Play",
+            hint="Level pack. Levels > Packs > Paste link takes in more, as does the folder in Settings > Play",
         )  # fmt: skip
         return [self.grid, self.play, choice, self.practice, self.rows, *problems]
 
@@ -246,6 +247,10 @@ class EpisodeGrid(ThumbnailScreen):
             draw_look(surface, theme, look, (x, y, 18, 18))
             theme.text(surface, text, x + 25, y + 4, size=9.5)
         self._draw_total(surface, theme, self._below + 92)
+        if self.pack.key and self.pack.pack:
+            index = self.pack.pack.index
+            said = f"{index.title}. {index.comment}" if index.comment else index.title
+            theme.text(surface, shown_text(said, 200), SIDE, 114, size=10, colour=palette.faint, width=364)
         episode = self.episode
         if episode is None:
             theme.text(surface, "No episodes", SIDE, 66, size=16, colour=palette.faint, bold=True)

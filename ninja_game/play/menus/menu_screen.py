@@ -373,12 +373,12 @@ class Menu(Panel):
 
 
 class Question(Menu):
-    """Asks before something is done that cannot be undone. No first, and up stays there: a hasty key does no harm."""
+    """Asks before something is done that is hard to undo. No first, and up stays there: a hasty key does no harm."""
 
     wraps = False
 
-    def __init__(self, app: App, title: str, yes: str, action: Callable[[], object]) -> None:
-        super().__init__(app, title, [CANCEL, (yes, action, "")])
+    def __init__(self, app: App, title: str, yes: str, action: Callable[[], object], hint: str = "") -> None:
+        super().__init__(app, title, [(CANCEL[0], nothing, hint), (yes, action, hint)])
 
 
 class FormPanel(Menu):

@@ -10,6 +10,7 @@ from typing import NamedTuple
 from ninja_game.editor.packs import MADE_READY, Obstacles, ReadyPack, make_ready, obstacle_of, problems_of
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import counted, shown_text
+from ninja_game.files.user_folder import short_path
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.pack.pack import Pack, certificate_name
 from ninja_game.formats.run_time import seconds_text
@@ -25,10 +26,6 @@ from ninja_game.sim.level import Level
 SECONDS, LONGER = 20.0, 300.0
 """For each search of a run; for one that found none before."""
 
-HALF_SECONDS = 30.0
-"""After so long half of a bar is full where nobody knows how long something takes, then half of the rest."""
-
-
 NOT_FOUND = "no run found"
 """The state of a level that was searched in vain."""
 
@@ -37,9 +34,10 @@ NOT_CERTIFIED = ("changed", "no run yet")
 
 
 class Packer(Aside):
-    """``path``: the pack that is, or was, made ready; ``text``: how that stands or ended, ``share``: of its step.
+    """``path``: the pack that is, or was, made ready; ``text``: how that stands or ended.
 
-    ``saved``: the zip that came of it. ``desk``: the screen at which a link is waited for.
+    ``share``: of its step, None where nobody knows. ``saved``: the zip that came of it. ``desk``: the screen at which a
+    link is waited for.
     """
 
     def __init__(self, app: App) -> None:
@@ -50,7 +48,10 @@ class Packer(Aside):
         self.desk: Screen | None = None
         self.obstacles: Obstacles = {}
         self.busy = self._stopped = False
-        self.text, self.share = "", 0.0
+        self.text, self._made = "", ""
+        self.share: float | None = None
+        self._zipped = b""
+        self._seen: Pack | None = None
         self._step: tuple[str, float | None, float] = "", None, 0.0
         self._job: NewestJob[Path, ReadyPack] = NewestJob(self._make_ready)
 
@@ -84,16 +85,17 @@ class Packer(Aside):
         text, share, began = self._step
         seconds = monotonic() - began
         self.text = "Stopping" if self._stopped else text if share is not None else f"{text}: {seconds:.0f} s"
-        self.share = 1 - 0.5 ** (seconds / HALF_SECONDS) if share is None else share
+        self.share = share
         if self._job.idle:
             self.busy, self.text = False, self._job.problem
             if self._job.result and not self.text:
-                self.text = self._share(self._job.result)
+                self.text = self._made = self._share(self._job.result)
 
     def _share(self, ready: ReadyPack) -> str:
         """Write the zip, and put the link into the clipboard of who waits for it; all that is to be said."""
         app, name, waited_for = self.app, ready.pack.name, self.app.top is self.desk
         self.saved = app.write_export(name, ".zip", lambda path: write_atomically(path, ready.zipped))
+        self._zipped, self._seen = ready.zipped, None
         said = [app.notice]
         if ready.link and waited_for:
             copy_link(app, lambda: ready.link, title=name)
@@ -102,6 +104,19 @@ class Packer(Aside):
         if codes := dict.fromkeys(each.code.replace("-", " ") for each in ready.findings):
             said[0] += f", with {counted(len(ready.findings), 'open problem')} ({', '.join(codes)})"
         return "; ".join([*said, *ready.notes])
+
+    def follow(self, pack: Pack | None) -> None:
+        """Say of the zip what is true of it. ``pack``: as its files are now, None where it is gone."""
+        if pack is None:
+            self.text, self.saved = "", None
+        elif self.saved and pack is not self._seen:
+            self._seen = pack
+            self.text = self._made if pack.files.zipped() == self._zipped else f"Changed since {self.saved.name}"
+
+    def left(self) -> None:
+        """Nobody looks any more: what was said of that moment, such as of the clipboard, is not said again."""
+        self._made = f"Saved: {short_path(self.saved)}" if self.saved else ""
+        self.text, self._seen = self._made, None
 
 
 class Checked(NamedTuple):

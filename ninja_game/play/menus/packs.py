@@ -13,7 +13,7 @@ import pygame
 from ninja_game.editor import packs
 from ninja_game.editor.packs import missing_run, obstacle_of
 from ninja_game.errors import NinjaGameError, reason
-from ninja_game.files.shown_text import shown_text
+from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import short_path
 from ninja_game.formats.links import link_kind
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, Accepted, EpisodeIndex
@@ -75,6 +75,7 @@ class PackScreen(ThumbnailScreen):
         self.beside = "none"
         self.held: Cell | None = None
         self.pointer: tuple[float, float] | None = None
+        self.steps = packs.Steps()
         self.packer = packer_of(app)
         self.packer.desk = self
         self.status = PackStatus(self.packer, self.player.catalogue)
@@ -106,6 +107,8 @@ class PackScreen(ThumbnailScreen):
     def _show(self, pack: EpisodeSet | None) -> None:
         self.pack = pack = pack or next(iter(self.mine), None)
         self.status.show(pack)
+        if not self.packer.busy:
+            self.packer.follow(next((each.pack for each in self.mine if each.path == self.packer.path), None))
         cells: list[Cell] = []
         if pack and pack.pack:
             for episode in pack.pack.index.episodes:
@@ -128,7 +131,7 @@ class PackScreen(ThumbnailScreen):
 
     def build(self) -> Sequence[Widget]:
         names, have = [(each.name, each.key) for each in self.mine], self.pack and self.pack.pack
-        chosen = Choice((36, 60, 228, 28), "", names, lambda: self.pack.key if self.pack else "", self._choose_pack)
+        chosen = Choice((36, 60, 174, 28), "", names, lambda: self.pack.key if self.pack else "", self._choose_pack)
         chosen.hint = f"{have.index.title}, in the folder {self.path.name}" if have else ""
         tray = [("In no episode", "none"), ("Your folder", "yours")]
         tray += [(each.name if each.key else "The game's own", each.key) for each in self.sets if each is not self.pack]
@@ -136,10 +139,12 @@ class PackScreen(ThumbnailScreen):
         self.shelves.hint = self.tray.hint = "Drag a level or an episode; Enter or a second click: what can be done"
         ready, end = partial(self.packer.start, self.path), self.packer.end
         hint = "Certify all, measure par times, look for problems; zip and link. Only what changed is done again"
+        undo = Button((216, 60, 50, 28), "Undo", lambda: self.do(self._undo), size=10)
+        undo.enabled, undo.hint = bool(self.steps), f"Ctrl+Z: {self.steps[-1].what}" if self.steps else ""
         new = Button((272, 60, 82, 28), "New pack...", self._new_pack, size=10)
         paste = Button((360, 60, 76, 28), "Paste link", self._paste, size=10)
         paste.hint = "Ctrl+V: the pack whose link is in the clipboard becomes one of yours"
-        about = Button((442, 60, 78, 28), "About it...", self._about, size=10, hint="Name, author, version, link")
+        about = Button((442, 60, 78, 28), "About it...", self._about, size=10, hint="Play, name, copy or delete it")
         show = partial(ProblemsScreen, self.app, self.problems)
         problems = Button((526, 60, 78, 28), "Problems", lambda: self.app.push(show()), size=10)
         make = Button((610, 60, 146, 28), *(("Stop", end) if self.packer.busy else ("Make ready", ready)), hint=hint)
@@ -147,8 +152,8 @@ class PackScreen(ThumbnailScreen):
         link.hint = "Whoever opens it, or pastes it in Levels > Packs, gets the pack"
         folder = Button((562, 525, 94, 24), "Open the folder", self._open_folder, size=10, hint="Where the zip is")
         share = [] if self.packer.busy else [*[folder] * bool(self._saved), link]
-        first = [self.shelves, chosen, new, paste, about, problems, make, beside, self.tray]
-        return [*first, *share] if have else [new, paste]
+        first = [self.shelves, chosen, undo, new, paste, about, problems, make, beside, self.tray]
+        return [*first, *share] if have else [new, paste, *[undo] * bool(self.steps)]
 
     @property
     def _saved(self) -> Path | None:
@@ -171,17 +176,24 @@ class PackScreen(ThumbnailScreen):
 
     # --- what can be done ---
 
-    def do(self, action: Callable[[], object]) -> None:
-        """Change something on the disk, and show all as it is then."""
+    def do(self, action: Callable[[], object], what: str = "") -> None:
+        """Change something on the disk, and show all as it is then. ``what``: how undo calls it; "" is no step."""
         try:
-            action()
+            if what:
+                self.steps.do(what, action, {self.folder, *(each.path for each in self.mine if each.path)})
+            else:
+                action()
         except (NinjaGameError, OSError) as error:
             self.app.notify(reason(error))
         self._read()
         self.app.top.enter()
 
+    def _undo(self) -> None:
+        self.app.notify(f"Undone: {self.steps.undo()}")
+
     def ask(self, title: str, text: str, action: Callable[[str], object]) -> None:
-        ask_text(self.app, title, "", text, "OK", lambda typed: self.do(lambda: action(typed)), 60)
+        what = shown_text(title.partition(":")[0])
+        ask_text(self.app, title, "", text, "OK", lambda typed: self.do(lambda: action(typed), what), 60)
 
     def _new_pack(self) -> None:
         def make(name: str) -> None:
@@ -189,7 +201,7 @@ class PackScreen(ThumbnailScreen):
             self.beside = "yours" if self.player.catalogue.own() else "none"
             self._read(path)
 
-        self.ask("Name of the pack", "My pack", make)
+        self.ask("New pack: its name", "My pack", make)
 
     def _paste(self) -> None:
         def take() -> None:
@@ -203,11 +215,13 @@ class PackScreen(ThumbnailScreen):
             self._read(packs.copy_pack(pack, self.folder, pack.name))
             self.app.notify(f"{shown_text(pack.name)} is among your packs now: Episodes plays it")
 
-        self.do(take)
+        self.do(take, "Paste link")
 
     def handle(self, event: InputEvent) -> None:
         if event.raw.type == pygame.KEYDOWN and chord(event.raw) == "ctrl+v":
             self._paste()
+        elif event.raw.type == pygame.KEYDOWN and chord(event.raw) == "ctrl+z":
+            self.do(self._undo)
         else:
             super().handle(event)
 
@@ -219,7 +233,7 @@ class PackScreen(ThumbnailScreen):
 
         def describe(texts: list[str]) -> None:
             self.app.know_author(index.author, texts[1])
-            self.do(lambda: packs.describe(self.path, dict(zip(keys, texts, strict=True))))
+            self.do(lambda: packs.describe(self.path, dict(zip(keys, texts, strict=True))), "About the pack")
 
         form = FormPanel(self.app, "About the pack", fields, "OK", describe)
         self.app.push(form)
@@ -230,12 +244,12 @@ class PackScreen(ThumbnailScreen):
         index, empty = copied.index, not copied.episodes
         copy = partial(packs.copy_pack, copied, self.folder)
         busy = self.packer.busy and self.packer.path == self.path
-        gone = "It is being made ready" if busy else "It goes to a folder beside your levels"
+        gone = "It is being made ready" if busy else "It goes to the folder deleted, and Undo brings it back"
         grid = partial(EpisodeGrid, self.app, self.pack.key if self.pack else "")
         rows: list[Row] = [
             ("Play it", None if empty else lambda: self.app.push(grid()), "No episode has levels" * empty),
             ("Name, author, version...", self._form, ""),
-            ("Copy of the pack...", lambda: self.ask("Name of the copy", f"{index.name} copy", copy), ""),
+            ("Copy of the pack...", lambda: self.ask("Copy: its name", f"{index.name} copy", copy), ""),
             ("Delete the pack...", None if busy else self._delete, gone),
             CANCEL,
         ]
@@ -246,9 +260,12 @@ class PackScreen(ThumbnailScreen):
 
         def delete() -> None:
             there = packs.bin_pack(path, self.player.folder / DELETED)
+            self.steps.append(packs.Step(f"Delete {shown_text(name)}", moved=(path, there)))
             self.app.notify(f"{shown_text(name)} is in the folder {there.relative_to(self.player.folder)} now")
 
-        self.app.push(Question(self.app, f"Delete {shown_text(name)}?", "Delete it", lambda: self.do(delete)))
+        title = f"Delete {shown_text(name)} with its {counted(len(Pack(path).files.levels), 'level')}?"
+        hint = f"All goes to the folder {DELETED}; Undo brings it back"
+        self.app.push(Question(self.app, title, "Delete it", lambda: self.do(delete), hint))
 
     def _choose(self, cell: Cell) -> None:
         if self.held:
@@ -256,7 +273,7 @@ class PackScreen(ThumbnailScreen):
         elif cell.level:
             self._level_menu(cell)
         elif cell.episode is None:
-            self.ask("Name of the episode", "New episode", partial(packs.new_episode, self.path, column=self._column()))
+            self.ask("New episode: name", "New episode", partial(packs.new_episode, self.path, column=self._column()))
         else:
             self._episode_menu(cell.episode)
 
@@ -271,7 +288,7 @@ class PackScreen(ThumbnailScreen):
         file = Path(level.named.file)
         rename, take_out = partial(packs.rename_level, file), partial(packs.place, self.path, file.name, None)
 
-        run = self.player.catalogue.author_run(level)
+        run, title = self.player.catalogue.author_run(level), shown_text(level.title)
 
         def copy() -> None:
             packs.place(self.path, packs.duplicate(self.path, level.named), episode.number if episode else None)
@@ -283,13 +300,13 @@ class PackScreen(ThumbnailScreen):
             ("Move...", lambda: self._hold(cell), ""),
         ]
         if file.parent == self.path:
-            rows += [("Rename...", lambda: self.ask("Another name", level.named.name, rename), "")]
-            rows += [("Copy", lambda: self.do(copy), "Another level like it")]
-            rows += [("Take out", lambda: self._set_aside(take_out), "Into no episode")] * bool(episode)
+            rows += [("Rename...", lambda: self.ask(f"Rename {level.named.name}", level.named.name, rename), "")]
+            rows += [("Copy", lambda: self.do(copy, f"Copy {title}"), "Another level like it")]
+            rows += [("Take out", lambda: self._set_aside(take_out, title), "Into no episode")] * bool(episode)
         self.app.push(Menu(self.app, level.title, [*rows, CANCEL]))
 
     def _episode_menu(self, episode: EpisodeIndex) -> None:
-        number, path = episode.number, self.path
+        number, path, title = episode.number, self.path, episode.name or f"Episode {episode.number + 1}"
         column = number // EPISODES_PER_COLUMN
         columns = list(self.pack.columns if self.pack else ())
         columns += [""] * (column + 1 - len(columns))
@@ -307,20 +324,20 @@ class PackScreen(ThumbnailScreen):
         rename, remove = partial(packs.rename_episode, path, number), partial(packs.remove_episode, path, number)
         begin = partial(packs.new_episode, path, column=self._column() + 1)
         rows: list[Row] = [
-            ("New level...", lambda: self.ask("Name of the level", "New level", level), "Made, and opened"),
-            ("Rename...", lambda: self.ask("Another name", episode.name, rename), ""),
+            ("New level...", lambda: self.ask("New level: its name", "New level", level), "Made, and opened"),
+            ("Rename...", lambda: self.ask(f"Rename {episode.name}", episode.name, rename), ""),
             ("Move...", lambda: self._hold(Cell(episode, head=True)), ""),
             ("Name of the column...", lambda: self.ask("Name of the column", columns[column], name_column), ""),
-            ("Begin a column...", lambda: self.ask("Its first episode", "New episode", begin), "Beside the others"),
-            ("Remove the episode", lambda: self._set_aside(remove), "Its levels stay, beside the others"),
+            ("Begin a column...", lambda: self.ask("Column: first episode", "New episode", begin), "Beside the others"),
+            ("Remove the episode", lambda: self._set_aside(remove, title), "Its levels stay, beside the others"),
             CANCEL,
         ]
-        self.app.push(Menu(self.app, episode.name or f"Episode {number + 1}", rows))
+        self.app.push(Menu(self.app, title, rows))
 
-    def _set_aside(self, action: Callable[[], object]) -> None:
+    def _set_aside(self, action: Callable[[], object], what: str) -> None:
         """Take levels out of their episode, and show where they are then."""
         self.beside = "none"
-        self.do(action)
+        self.do(action, f"Take out {shown_text(what)}")
 
     # --- moving ---
 
@@ -345,9 +362,10 @@ class PackScreen(ThumbnailScreen):
     def _drop(self, goal: Cell | None, *, after: bool = False) -> None:
         held, self.held, self.pointer = self.held, None, None
         if held and held.level and not (goal and goal.level is held.level):
-            self.do(partial(self._put_level, held.level, goal, after=after))
+            self.do(partial(self._put_level, held.level, goal, after=after), f"Move {shown_text(held.level.title)}")
         elif held and held.episode and goal and goal.episode:
-            self.do(partial(packs.move_episode, self.path, held.episode.number, goal.episode.number))
+            numbers = held.episode.number, goal.episode.number
+            self.do(partial(packs.move_episode, self.path, *numbers), f"Move episode {numbers[0] + 1}")
 
     def _is_after(self, index: int) -> bool:
         """Whether the mouse is over the right half of a cell: what it has lands behind what is there."""
@@ -446,7 +464,7 @@ class PackScreen(ThumbnailScreen):
         take_back = partial(packs.take_back, self.path, accepted.file, accepted.code)
         text = f"{entry.title if entry else accepted.file}: {code}. Accepted: {accepted.reason}"
         go = partial(self._edit, entry, None) if entry else None
-        return Problem(text, "", go, lambda: self.do(take_back), accepted=True)
+        return Problem(text, "", go, lambda: self.do(take_back, "Take it back"), accepted=True)
 
     def update(self, real_ms: int) -> None:
         super().update(real_ms)
@@ -462,8 +480,8 @@ class PackScreen(ThumbnailScreen):
     def leave(self) -> None:
         super().leave()
         self.held = self.pointer = None
-        if not (self.packer.busy or self.packer.saved):
-            self.packer.text = ""
+        if not self.packer.busy:
+            self.packer.left()
 
     # --- picture ---
 
@@ -478,7 +496,7 @@ class PackScreen(ThumbnailScreen):
         texts += [self.status.counts()] * bool(packer.text and not (whose or packer.busy))
         place = (36, 524, 720 if packer.busy else 516, 41)
         theme.paragraph(surface, texts, place, 10, 13.5, colour=faint)
-        if packer.busy:
+        if packer.busy and packer.share is not None:
             theme.panel(surface, 36, 546, 720, 7)
             theme.canvas.fill_rect(surface, theme.palette.accent, 36, 546, max(1.0, 720 * packer.share), 7, 3)
 

@@ -51,7 +51,7 @@ def test_searches_of_levels_that_were_left_go_on_one_after_the_other(
     session, levels = room.editor.session, tmp_path / "levels"
     room.chord("s", pygame.KMOD_LCTRL)
     room.press("f7")
-    assert session.certifier.text.startswith("Getting ready, ")
+    assert session.certifier.text.startswith("0 s. The solver is compiled, ")
     room.chord("n", pygame.KMOD_LCTRL)
     room.choose("A room")
     assert session.certifier.text == "", "nothing is asked, and the new level has no search"
@@ -93,7 +93,7 @@ def test_a_search_that_fails_ends_and_says_so_of_its_own_level_alone(
     room.press("f7")
     room.wait(lambda: failed.end)
     assert (failed.end, certifier.busy) == ("there is not enough memory", True)
-    assert certifier.text.startswith("Getting ready, ")
+    assert certifier.text.startswith("0 s. The solver is compiled, ")
 
 
 def test_a_search_of_what_no_file_holds_ends_with_the_level(room: Maker) -> None:

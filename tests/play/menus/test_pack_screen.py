@@ -129,6 +129,18 @@ def test_the_authors_run_of_ones_own_level_needs_no_medal(driver: MenuDriver, pa
     assert seen == [True, certify, "earn a gold medal to watch it", "none is known"]
 
 
+def test_ones_own_level_with_its_certificate_is_certified(driver: MenuDriver, path: Path) -> None:
+    driver.app.change_settings(name="the ninja-game team")
+    gap = path / "00-1-mind-the-gap.txt"
+    gap.write_text(gap.read_text("utf-8").replace("@", ".", 1), "utf-8")
+    driver.open("Levels")
+    for index, said in enumerate(("Certified: 3.900 s", "Not passed yet")):
+        driver.shown(Browser).list.index = index
+        assert said in re.findall("text '(.*?)' at 436,408", drawn(driver.app))
+    driver.app.change_settings(name="Ida")
+    assert driver.player.reached(driver.shown(Browser).shown[0], None) == "Not passed yet"
+
+
 def test_a_full_episode_says_so(driver: MenuDriver, path: Path) -> None:
     screen = opened(driver)
     driver.carry(screen.shelves.row_area(7), screen.shelves.row_area(2))
@@ -259,8 +271,8 @@ def test_a_pack_is_made_ready_in_the_background(
     screen = opened(driver)
     driver.choose("Make ready")
     driver.wait(lambda: re.fullmatch(r"Making the solver ready: \d+ s", screen.packer.text))
-    driver.wait(lambda: 0 < screen.packer.share < 1)
-    assert "Making the solver ready" in drawn(driver.app)
+    driver.wait(lambda: "Making the solver ready" in drawn(driver.app))
+    assert "fill accent 36,546" not in drawn(driver.app), "no bar where nobody knows how long it takes"
     go_on.set()
     driver.wait(lambda: "the link is in the clipboard" in driver.app.notice, "the pack is ready")
     zipped = driver.player.folder / "exports" / "laundry-1.zip"
@@ -285,6 +297,11 @@ def test_a_pack_is_made_ready_in_the_background(
     monkeypatch.setattr("webbrowser.open", opened_folders.append)
     driver.choose("Open the folder")
     assert opened_folders == [zipped.parent.as_uri()]
+    assert screen.packer.text == saved, "the clipboard may hold something else by now"
+    driver.carry(screen.shelves.row_area(2), half(screen, 8))
+    assert screen.packer.text == "Changed since laundry-1.zip"
+    driver.choose("Undo")
+    assert screen.packer.text == saved
     copied: list[str] = []
     with patch("pygame.scrap.put_text", copied.append):
         driver.choose("Copy the link")
@@ -319,6 +336,7 @@ def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
     screen = driver.shown(PackScreen)
     assert screen is not first
     driver.wait(lambda: screen.packer.text == "Certifying, 0 of 1 levels done")
+    assert "fill accent 36,546" in drawn(driver.app)
     assert driver.button("Stop")
     [entry] = [cell.level for cell in screen.shelves.cells if cell.level and cell.level.title == "First Steps"]
     assert screen.status.state(entry) == "no run yet", "though its time is measured"
@@ -385,6 +403,17 @@ def test_problems_speak_of_what_is_seen_not_of_files(driver: MenuDriver, path: P
     texts = [problem.text for problem in screen.problems() if not problem.to_do]
     assert texts == ["The pack has no author", "Episode 3 has no name", "Episode 3 has no levels"]
     assert "medal times" in screen.status.to_do()
+
+
+def test_a_remark_about_the_order_names_levels_and_can_be_accepted(driver: MenuDriver, path: Path) -> None:
+    table = path / "pars.toml"
+    table.write_text(table.read_text("utf-8").replace("difficulty = 0.39", "difficulty = 5.00"), "utf-8")
+    screen = opened(driver)
+    remarks = [problem for problem in screen.problems() if problem.accept]
+    assert [problem.text for problem in remarks] == [
+        "First Steps: hard, and not as easy as Mind the Gap, which comes right after it",
+        "First Steps: hard: the first level is the hardest of the pack",
+    ]
 
 
 def test_making_ready_is_stopped(driver: MenuDriver, path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -496,13 +525,69 @@ def test_a_run_follows_its_level_into_a_pack_and_a_lost_one_is_told_of(
 
 def test_a_pack_that_is_deleted_can_be_found_again(driver: MenuDriver, path: Path) -> None:
     screen = opened(driver)
+    screen.packer.path, screen.packer.saved, screen.packer.text = path, path.with_suffix(".zip"), "Saved: laundry.zip"
     for answer, there in (("Cancel", True), ("Delete it", False)):
         driver.choose("About it...")
         driver.choose("Delete the pack...")
         driver.choose(answer)
         assert (path.exists(), bool(screen.mine)) == (there, there)
     assert Pack(driver.player.folder / "deleted" / "laundry").name == "Laundry"
+    assert not any((screen.packer.text, screen.packer.saved)), "nothing is said of what is gone"
     assert "in the folder deleted/laundry now" in driver.app.notice.replace("\\", "/")
+
+
+def folder_texts(folder: Path) -> dict[str, bytes]:
+    return {str(each.relative_to(folder)): each.read_bytes() for each in folder.rglob("*") if each.is_file()}
+
+
+def test_what_is_done_at_the_desk_is_undone_step_by_step(driver: MenuDriver, path: Path) -> None:
+    levels = path.parent
+    (levels / "mine.txt").write_text((path / "00-0-first-steps.txt").read_text("utf-8"), "utf-8")
+    screen = opened(driver)
+    states = [folder_texts(levels)]
+    assert not driver.button("Undo").enabled
+
+    def done() -> None:
+        driver.frames(2)
+        states.append(folder_texts(levels))
+        assert states[-1] != states[-2]
+
+    driver.carry(screen.shelves.row_area(2), half(screen, 8))
+    done()
+    screen._choose_tray("yours")
+    driver.carry(screen.tray.row_area(0), screen.shelves.row_area(11))
+    done()
+    screen._level_menu(screen.shelves.cells[1])
+    driver.choose("Rename...")
+    typed(driver, "Early steps")
+    done()
+    screen._choose(screen.shelves.cells[6])
+    driver.choose("Remove the episode")
+    done()
+    driver.choose("New pack...")
+    typed(driver, "Other")
+    done()
+    screen._read(path)
+    driver.choose("About it...")
+    driver.choose("Delete the pack...")
+    assert driver.shown(MenuScreen).title == "Delete Laundry with its 9 levels?"
+    assert "All goes to the folder deleted; Undo brings it back" in drawn(driver.app)
+    driver.choose("Delete it")
+    said = ["Delete Laundry", "New pack", "Take out Things that hum", "Rename First Steps", "Move First Steps"]
+    for what in [*said, "Move Mind the Gap"]:
+        assert driver.button("Undo").hint == f"Ctrl+Z: {what}"
+        driver.chord("z", pygame.KMOD_LCTRL)
+        assert driver.app.notice == f"Undone: {what}"
+        assert folder_texts(levels) == states.pop()
+    assert not (levels / "other").exists()
+    driver.chord("z", pygame.KMOD_LCTRL)
+    assert driver.app.notice == "there is nothing to undo"
+    screen._choose(screen.shelves.cells[0])
+    driver.choose("Remove the episode")
+    packs.describe(path, {"version": "3"})
+    driver.choose("Undo")
+    assert driver.app.notice == "Take out Learning to fall: not undone, as pack.toml was changed since"
+    assert list(layout(path)) == [1]
 
 
 def test_a_pack_comes_by_its_link_and_by_ctrl_v(driver: MenuDriver, path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from dataclasses import replace
 from datetime import date
 from pathlib import Path
 
@@ -119,6 +120,16 @@ def test_browser_sorts_by_difficulty(driver: MenuDriver) -> None:
     assert "difficulty" not in drawn(driver.app)
 
 
+def test_a_pack_says_who_made_it_and_where_more_come_from(driver: MenuDriver) -> None:
+    index = other_pack(driver.player.folder / "levels" / "other", tuple(range(7))) / "pack.toml"
+    index.write_text('author = "Ida"\ncomment = "Small rooms, one idea each."\n' + index.read_text("utf-8"), "utf-8")
+    driver.open("Episodes")
+    assert "Ida" not in drawn(driver.app)
+    driver.press("up", "right")
+    assert "'Other by Ida. Small rooms, one idea each.'" in drawn(driver.app)
+    assert "Levels > Packs > Paste link takes in more" in drawn(driver.app)
+
+
 def test_levels_of_days_are_not_counted_among_those_of_the_game(driver: MenuDriver) -> None:
     browser = driver.open("Levels")
     assert isinstance(browser, Browser)
@@ -137,6 +148,8 @@ def test_card_says_time_and_gold_and_the_next_par(driver: MenuDriver) -> None:
     assert entry.pars is not None
     assert driver.player.reached(entry, None) == "Not passed yet"
     assert reached(entry, Mark(197, 3)) == f"Time 4.925 s, gold 3 of {entry.all_gold}"
+    bare = replace(entry, named=replace(entry.named, level=replace(entry.named.level, objects=())))
+    assert reached(bare, Mark(197, 0)) == "Time 4.925 s"
     assert next_par(entry.pars, Mark(200, 0)) == f"Gold medal: {seconds_text(196)} s, 0.100 s to go"
     author = entry.pars.par("author")
     following = next_par(entry.pars, Mark(author + 4, 0))

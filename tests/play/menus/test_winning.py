@@ -94,6 +94,10 @@ def test_card_says_one_thing_large_one_next_and_the_rest_short(driver: MenuDrive
     assert clock == f"{rounded_text(level.attempt.lifetime)} s left on the clock, for the next level"
     level.play.notices = ["New medal", "All gold"]
     assert "1 of 5 gold    New medal" in hud_view(level.play).end.lines  # type: ignore[union-attr]
+    level.play.all_gold = 0
+    assert "New medal" in hud_view(level.play).end.lines  # type: ignore[union-attr]
+    level.play.notices = []
+    assert len(hud_view(level.play).end.lines) == 4, "without gold nothing is said of it"  # type: ignore[union-attr]
 
 
 def test_panel_of_an_end_has_one_place_unless_it_would_hide_that_end_or_an_exit(driver: MenuDriver) -> None:
