@@ -21,7 +21,7 @@ from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.replay.text import Replay, lifetimes, parse_replay, write_replay
 from ninja_game.formats.sayings import Saying, read_sayings
-from ninja_game.levels.episodes import Entry, Episode
+from ninja_game.levels.episodes import YOURS, Entry, Episode
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.player_data import EPISODE_BEST, PlayerData, count_of, replay_of, save_best, save_work
 from ninja_game.player.progress import LOCKED, UNLOCKED, new_unlocks, next_par
@@ -251,7 +251,7 @@ class FileRun(LevelRun):
     def __init__(
         self, data: PlayerData, levels: Sequence[NamedLevel], *, body: Body = "circle", practice_mode: bool = False
     ) -> None:
-        super().__init__(data, Entry(levels[0], "yours"), body=body, practice_mode=practice_mode)
+        super().__init__(data, Entry(levels[0], YOURS), body=body, practice_mode=practice_mode)
         self._levels = levels
 
     @property
@@ -261,7 +261,7 @@ class FileRun(LevelRun):
     def advance(self) -> Navigation:
         """The next level of the file that can be played."""
         place = [each.record for each in self._levels].index(self.entry.named.record)
-        self._following = [Entry(each, "yours") for each in (*self._levels[place + 1 :], *self._levels[:place])]
+        self._following = [Entry(each, YOURS) for each in (*self._levels[place + 1 :], *self._levels[:place])]
         return super().advance()
 
 

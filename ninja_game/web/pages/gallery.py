@@ -26,7 +26,7 @@ from ninja_game.formats.pack.pars import MARGINS, MEDALS, Pars
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.formats.run_time import seconds_text
-from ninja_game.levels.episodes import Entry, EpisodeSet, episode_set
+from ninja_game.levels.episodes import YOURS, Entry, EpisodeSet, episode_set
 from ninja_game.sim.kinds import KIND_NAMES
 from ninja_game.sim.level import Level, makes_object
 from ninja_game.ui.theme import CLASSIC
@@ -75,7 +75,7 @@ class PublishedLevels:
 def published_levels(path: Path) -> PublishedLevels:
     """The levels of a pack, or of any file or folder. Raises NinjaGameError, OSError."""
     if not is_pack(path):
-        entries = tuple(Entry(level, "yours") for level in load_levels(path))
+        entries = tuple(Entry(level, YOURS) for level in load_levels(path))
         return PublishedLevels(path.stem, "", "", EpisodeSet("", path.stem, (), {}, entries))
     pack = Pack(path)
     return PublishedLevels(pack.name, pack.index.author, pack.index.comment, episode_set(pack, ""), pack)
