@@ -15,10 +15,11 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from ninja_game.backend.memories import compiled_available, open_worlds
 from ninja_game.editor.brush import object_of_type, placed
-from ninja_game.editor.draft import Cell, Draft, cell_of, is_inside
+from ninja_game.editor.draft import Draft
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.errors import BudgetError, LevelError, NinjaGameError, reason
 from ninja_game.files.user_folder import how_to_install
+from ninja_game.formats.ascii.places import Cell, cell_of, is_inside
 from ninja_game.levels.findings import Finding
 from ninja_game.runs.run import RunResult, run_level
 from ninja_game.runtime import NewestJob

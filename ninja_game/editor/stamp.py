@@ -11,9 +11,10 @@ from math import cos, dist, hypot, pi, sin
 from typing import NamedTuple
 
 from ninja_game.editor.brush import EMPTY, FAMILIES, FULL, QUARTERS, cells_between
-from ninja_game.editor.draft import Cell, Draft, Tiles, cell_of, changed_cells, is_inside
+from ninja_game.editor.draft import Draft, Tiles, changed_cells
 from ninja_game.editor.motion import FLIP, MIRROR, Motion
 from ninja_game.editor.specs import Point, carried, points
+from ninja_game.formats.ascii.places import Cell, cell_of, is_inside
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec
@@ -115,7 +116,7 @@ def chosen_in(draft: Draft, area: CellArea) -> Selection:
         (number, part)
         for number, spec in enumerate(draft.objects)
         for part, (x, y) in points(spec).items()
-        if 24 * column <= x <= 24 * (column + columns) and 24 * row <= y <= 24 * (row + rows)
+        if CELL * column <= x <= CELL * (column + columns) and CELL * row <= y <= CELL * (row + rows)
     }
     return Selection(area, frozenset(inside))
 

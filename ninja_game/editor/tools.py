@@ -10,9 +10,10 @@ from math import ceil
 
 from ninja_game.document import History
 from ninja_game.editor import brush, stamp as stamps
-from ninja_game.editor.draft import Cell, Draft, Tiles, cell_of, changed_cells, is_inside
+from ninja_game.editor.draft import Draft, Tiles, changed_cells
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.specs import BODY, has_switch, points, properties, with_word, word
+from ninja_game.formats.ascii.places import Cell, cell_of, is_inside
 from ninja_game.sim.kinds import DOOR, EXIT, GOLD, LAUNCH_PAD, MINE, NINJA
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import CELL, HALF, WORLD_HEIGHT, WORLD_WIDTH

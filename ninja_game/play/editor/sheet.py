@@ -14,8 +14,9 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.editor.certify import Route, TestMap
-from ninja_game.editor.draft import Cell, Draft, changed_cells
+from ninja_game.editor.draft import Draft, changed_cells
 from ninja_game.editor.specs import BODY, SWITCH, has_switch, points
+from ninja_game.formats.ascii.places import Cell
 from ninja_game.formats.sayings import read_sayings
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.palette_view import ObjectPictures, ObjectSprites
