@@ -717,7 +717,7 @@ def test_what_a_search_has_found_is_kept_when_its_level_is_left(room: Maker, tmp
     certifier = session.certifier
     room.chord("s", pygame.KMOD_LCTRL)
     kept = tmp_path / "levels" / "certificates" / "room.exit.replay.txt"
-    with patch.object(type(certifier._job), "idle", False):
+    with patch.object(type(certifier.solver.job), "idle", False):
         certifier.search = Search(session.draft.level)
         certifier.search.run = verified_run(session.draft.level, with_press_bits(bytes([2]) * 100))
         room.frames()
@@ -732,8 +732,8 @@ def test_f7_after_a_change_looks_at_the_level_as_it_is(room: Maker) -> None:
     certifier = room.editor.session.certifier
     asked: list[Search] = []
     with (
-        patch.object(type(certifier._job), "idle", False),
-        patch.object(certifier._job, "ask", asked.append),
+        patch.object(type(certifier.solver.job), "idle", False),
+        patch.object(certifier.solver.job, "ask", asked.append),
         patch("ninja_game.editor.certify.compiled_available", lambda: True),
     ):
         room.press("f7")
