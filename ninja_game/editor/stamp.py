@@ -204,8 +204,8 @@ def middle_of(draft: Draft, selection: Selection, *, quarter: bool) -> tuple[flo
         places = [points(draft.objects[number])[part] for number, part in selection.parts]
         xs, ys = zip(*places, strict=True)
         x, y = (HALF * round((min(along) + max(along)) / CELL) for along in (xs, ys))
-    aside = (x + y) % CELL * quarter
-    return x + (aside if x % CELL == 0.0 else -aside), y
+    sideways = (x + y) % CELL * quarter
+    return x + (sideways if x % CELL == 0.0 else -sideways), y
 
 
 def nearest(draft: Draft, x: float, y: float, reach: float) -> ObjectPart | None:
@@ -258,8 +258,8 @@ def curve(shape: str, a: Point, b: Point, bend: float = 0.0) -> list[Point]:
     shares = [k / _PIECES for k in range(_PIECES + 1)] if bend else [0.0, 1.0]
     bends = [4 * bend * share * (1 - share) for share in shares]
     return [
-        (ax + (bx - ax) * share + across[0] * aside, ay + (by - ay) * share + across[1] * aside)
-        for share, aside in zip(shares, bends, strict=True)
+        (ax + (bx - ax) * share + across[0] * sideways, ay + (by - ay) * share + across[1] * sideways)
+        for share, sideways in zip(shares, bends, strict=True)
     ]
 
 

@@ -69,8 +69,8 @@ SAFE = [palette for palette in PALETTES.values() if palette.danger_by_shape]
 def test_safe_palettes_mark_danger_by_shape(palette: Palette, key: SpriteKey) -> None:
     """In one ink the drawing with marks differs from the drawing without."""
     ink = {role: pygame.Color("black") for role in ROLES}
-    plain = SpriteBook(4.0, Palette("plain", danger_by_shape=False, scenery="", **ink)).sprite(key).surface
-    marked = SpriteBook(4.0, Palette("marked", danger_by_shape=True, scenery="", **ink)).sprite(key).surface
+    plain = SpriteBook(4.0, Palette("plain", danger_by_shape=False, scenery="", mood=None, **ink)).sprite(key).surface
+    marked = SpriteBook(4.0, Palette("marked", danger_by_shape=True, scenery="", mood=None, **ink)).sprite(key).surface
     assert pygame.mask.from_surface(plain).count() != pygame.mask.from_surface(marked).count()
 
 

@@ -89,7 +89,7 @@ def test_damage_is_told_also_where_python_leaves_out_assertions(tmp_path: Path) 
         "import pathlib, sys; from ninja_game.player.player_data import PlayerData\n"
         "data = PlayerData(pathlib.Path(sys.argv[1])); data.open_records(); print(data.messages)"
     )
-    words = [sys.executable, "-O", "-c", code, tmp_path]
+    words = [sys.executable, "-O", "-c", code, str(tmp_path)]
     done = subprocess.run(words, capture_output=True, text=True, check=True)
     assert "records.damaged-1.sqlite" in done.stdout
 
