@@ -272,18 +272,17 @@ SORT_ORDERS = (("", "in playing order"), ("name", "by name"), ("difficulty", "by
 LONGEST_NAME = 60  # characters of a name in the list
 
 
-def write_gallery(out: Path, shown: PublishedLevels, *, game: str = GAME, address: str = "") -> Path:
+def write_gallery(out: Path, shown: PublishedLevels, *, address: str = "") -> Path:
     """Write ``out/gallery/`` and the certificates into ``out/replays/``; the gallery's first page.
 
-    ``game``: name of the page with the game in ``out``; ``address``: where ``out`` will be, if that is known.
-    Raises FileError where ``out/gallery`` holds something else.
+    ``address``: where ``out`` will be, if that is known. Raises FileError where ``out/gallery`` holds something else.
     """
     pages = Pages(out, FOLDER)
     whole = (out / HOME).is_file()
-    links = [(f"../{address}", title) for address, title in NAVIGATION] if whole else [(f"../{game}", "Play")]
+    links = [(f"../{address}", title) for address, title in NAVIGATION] if whole else [(f"../{GAME}", "Play")]
     if (out / BOARD / "index.html").is_file():
         links.append((f"../{BOARD}/index.html", "Board"))
-    write_levels(pages, shown, f"../{game}", "index.html", links, address and f"{address}{FOLDER}/")
+    write_levels(pages, shown, f"../{GAME}", "index.html", links, address and f"{address}{FOLDER}/")
     return pages.folder / "index.html"
 
 
@@ -303,8 +302,9 @@ def write_levels(pages: Pages, shown: PublishedLevels, game: str, name: str, lin
             stem, title = shared_name(text), f"{entry.title} {KINDS[kind].lower()}"
             certificates[KINDS[kind]] = stem, tick
             facts = [("Time", f"{seconds_text(tick)} s"), ("Made", str(recording.replay.made))]
-            pages.write_replay(f"{stem}.txt", text)
-            pages.write_replay(f"{stem}.html", run_page(entry, stem, title, facts, pages.folder.name, game, near, site))
+            pages.write(f"{stem}.txt", text, replay=True)
+            run = run_page(entry, stem, title, facts, pages.folder.name, game, near, site)
+            pages.write(f"{stem}.html", run, replay=True)
         pages.write(page_name(digest), level_page(entry, certificates, f"../{game}", deeper, site=site))
     pages.write(name, page("Levels", *_list(shown), links=links))
     # Last of all: where the disk is full, the pages of an earlier time are all there.
