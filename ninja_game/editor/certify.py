@@ -170,9 +170,8 @@ SOLVER = Solver()
 class Certifier:
     """What is known of the level under edit. ``search``: the newest one of it."""
 
-    def __init__(self, seconds: float = SECONDS, solver: Solver = SOLVER) -> None:
-        self.seconds, self.solver = seconds, solver
-        self.search = Search()
+    def __init__(self) -> None:
+        self.seconds, self.solver, self.search = SECONDS, SOLVER, Search()
 
     @property
     def text(self) -> str:

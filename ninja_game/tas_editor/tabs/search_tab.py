@@ -74,10 +74,10 @@ class SpanResults:
     def __init__(self, editor: TasEditor, task: SpanTask, method: str, every: int | None) -> None:
         self.editor = editor
         self.task = task
-        memory, jobs = editor.session.timeline.asked_memory, max(1, cores() - 1)
+        asked, jobs = editor.session.timeline.asked_memory, max(1, cores() - 1)
         self._others = tuple(editor.others) if every is None else ()
         self.search = (
-            self._whole(method, jobs) if every is None else SpanSearch(task, method, jobs, every=every, memory=memory)
+            self._whole(method, jobs) if every is None else SpanSearch(task, method, jobs, every=every, memory=asked)
         )
         # The begins of runs that results fit to, and the first tick that follows a result in each: the run that is
         # searched and those that results were put into.
