@@ -43,28 +43,15 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     items.sort(key=lambda item: [name not in getattr(item, "fixturenames", ()) for name in COSTLY])
 
 
-CRASHED: list[str] = []
-"""What is to be said of workers that a library ended."""
-
-
 @pytest.hookimpl(optionalhook=True)
 def pytest_handlecrashitem(crashitem: str, report: pytest.TestReport) -> None:
-    """Run the test in which a worker died once more, alone: only if it fails there too it has failed."""
+    """The test in which a worker died has failed; how it ends alone says whether the fault is its own."""
     worker = report.node
     words = [sys.executable, "-m", "pytest", "-p", "no:xdist", "-q", crashitem]
     again = subprocess.run(words, cwd=worker.config.rootpath, capture_output=True, text=True, check=False)
     code = worker.gateway._io.popen.poll()
     told = "passed" if again.returncode == 0 else f"did NOT pass:\n{again.stdout}{again.stderr}"
-    CRASHED.append(f"{report.longrepr} (exit code {code}). Alone it {told}")
-    if again.returncode == 0:
-        report.outcome, report.longrepr = "passed", None
-
-
-def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    """Loudly: a crash is a fault of some test before, or of a library, also where everything passes."""
-    if CRASHED:
-        terminalreporter.section("WORKERS CRASHED: look for the fault, Python's traces of it stand above", red=True)
-        terminalreporter.write("\n".join(CRASHED) + "\n")
+    report.longrepr = f"{report.longrepr} (exit code {code}; Python's trace of it stands above). Alone it {told}"
 
 
 @pytest.fixture

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
-from functools import reduce
 from pathlib import Path
 
 import click
@@ -87,7 +85,7 @@ def film(
     if any(len(runs) != most for runs in beside_of):
         raise click.UsageError("--beside: as many runs for each level of the episode; another whole episode has them")
     draw_unseen()
-    from ninja_game.play.replay.film import Film, section_of, write_film
+    from ninja_game.play.replay.film import Film, length_of, section_of, write_film
 
     alone = len(parts) == 1
     films = [
@@ -96,18 +94,16 @@ def film(
     ]
     if not alone and (first or last is not None):
         films = section_of(films, first, last)
-    film = reduce(lambda after, each: replace(each, then=after), films[::-1])
     progress = "looking for the end of the run"
 
-    def report(made: int) -> bool:
+    def report(made: int, count: int) -> bool:
         nonlocal progress
         progress = f"{made:,} of {count:,} pictures"
         return True
 
     try:
         with heartbeat(lambda: progress):
-            count = film.length
-            write_film(film, path, report)
+            write_film(films, path, report)
     except OSError as error:
         raise NinjaGameError(f"{path}: the film cannot be written: {error.strerror}") from None
-    click.echo(f"{shown_text(str(path))}: {count} ticks")
+    click.echo(f"{shown_text(str(path))}: {length_of(films)} ticks")

@@ -334,7 +334,7 @@ def _film(runs: Sequence[Recording], output: Path) -> None:
     draw_unseen()
     from ninja_game.play.replay.film import Film, write_film
 
-    write_film(Film(runs[0], ghosts=tuple(runs[1:]), keys=True), output, lambda _: True)
+    write_film([Film(runs[0], ghosts=tuple(runs[1:]), keys=True)], output)
 
 
 def _level(text: str, entries: Sequence[Entry]) -> Entry:

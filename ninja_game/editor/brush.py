@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from math import floor
 from typing import NamedTuple
 
-from ninja_game.editor.draft import Cell, cell_of
 from ninja_game.editor.motion import TILE_IDS, Motion
 from ninja_game.editor.specs import SWITCH, carried, has_switch, object_type_name, points, settled, with_word, word
 from ninja_game.formats.ascii.legend import TILE_CHARS
 from ninja_game.formats.ascii.object_lines import Listed, natural_offset, read_object_line
+from ninja_game.formats.ascii.places import Cell, cell_of, middle_of
 from ninja_game.sim import kinds
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import CELL, HALF
@@ -109,7 +108,7 @@ def snapped(x: float, y: float, snap: str) -> tuple[float, float]:
     """The nearest place of a snap; with "cell" the middle of the cell."""
     step = SNAPS[snap]
     if snap == "cell":
-        return step * floor(x / step) + 12.0, step * floor(y / step) + 12.0
+        return middle_of(cell_of(x, y))
     return step * round(x / step), step * round(y / step)
 
 

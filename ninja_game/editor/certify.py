@@ -11,14 +11,15 @@ from math import isfinite
 from struct import iter_unpack
 from threading import Event
 from time import monotonic
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ninja_game.backend.memories import compiled_available, open_worlds
 from ninja_game.editor.brush import object_of_type, placed
-from ninja_game.editor.draft import Cell, Draft, cell_of, is_inside
+from ninja_game.editor.draft import Draft
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.errors import BudgetError, LevelError, NinjaGameError, reason
 from ninja_game.files.user_folder import how_to_install
+from ninja_game.formats.ascii.places import Cell, cell_of, is_inside
 from ninja_game.levels.findings import Finding
 from ninja_game.runs.run import RunResult, run_level
 from ninja_game.runtime import NewestJob
@@ -132,18 +133,47 @@ def search_of(level: Level, run: Replay) -> Search:
     return search
 
 
-class Certifier:
-    """The solver in its own thread, the same for all editors: what it has made ready once stays so.
+class Solver:
+    """The solver in its own thread: searches one after the other. What it has made ready once stays so.
 
-    ``search``: the newest one of the level under edit. Those of levels that were left go on, one after the other.
+    ``left``: searches of levels that were left, which go on. ``at_work``: the one that was begun last.
     """
 
-    _left: ClassVar[list[Search]] = []
-    _at_work: ClassVar[Search] = Search(end=STOPPED)
+    def __init__(self) -> None:
+        self.left: list[Search] = []
+        self.at_work = Search(end=STOPPED)
+        self.job: NewestJob[Search, None] = NewestJob(self._work, every=True)
 
-    def __init__(self, seconds: float = SECONDS) -> None:
-        self.seconds = seconds
-        self.search = Search()
+    def _work(self, search: Search) -> None:
+        if search.end or search.level is None:
+            return
+        self.at_work = search
+        try:
+            from ninja_game.search.solve import Task, solve
+            from ninja_game.search.task import obstacle
+
+            task, report = Task(search.level, seconds=search.seconds), partial(setattr, search, "progress")
+            found = solve(task, report=report, on_better=search.take, stop=search.stopping)
+            if not (found or search.run or search.end) and search.progress:
+                search.obstacles = (obstacle(search.level, 0, search.progress),)
+        except BaseException as error:
+            search.end, search.failed = reason(error), True
+            raise
+        nothing = f"No run in {search.seconds:.0f} s: the first problem says why. F7 looks twice as long"
+        search.end = search.end or ("Done" if search.run else nothing)
+        if search.then and search.end != STOPPED:
+            search.then(search)
+
+
+SOLVER = Solver()
+"""The same for all editors."""
+
+
+class Certifier:
+    """What is known of the level under edit. ``search``: the newest one of it."""
+
+    def __init__(self) -> None:
+        self.seconds, self.solver, self.search = SECONDS, SOLVER, Search()
 
     @property
     def text(self) -> str:
@@ -156,7 +186,7 @@ class Certifier:
         if search.end or search.level is None:
             return search.end
         if search.progress is None:
-            if search is not self._at_work and not self._at_work.end:
+            if search is not self.solver.at_work and not self.solver.at_work.end:
                 return "Another level's search comes first. Go on editing, or save and leave: it goes on"
             return f"{monotonic() - search.began:.0f} s. {COMPILING}. Go on editing, or save and leave"
         ticks = search.progress.ticks
@@ -183,7 +213,7 @@ class Certifier:
         for run in (before.run, before.full) if before.level == level else ():
             if run:
                 self.search.take(run)
-        self._job.ask(self.search)
+        self.solver.job.ask(self.search)
 
     def adopt(self, found: Search) -> None:
         """What is known of a level counts, until the solver has better; a search without a run changes nothing."""
@@ -204,35 +234,12 @@ class Certifier:
         self.search.then = then
         if then is None:
             self.stop()
-        self._left[:] = [each for each in (*self._left, self.search) if each.then and not each.end]
+        self.solver.left = [each for each in (*self.solver.left, self.search) if each.then and not each.end]
 
     def edit(self, level: Level) -> None:
         """Another level is under edit, perhaps one whose search goes on."""
-        self.search = next((each for each in self._left if each.level == level and not each.end), Search())
+        self.search = next((each for each in self.solver.left if each.level == level and not each.end), Search())
         self.search.then = None
-
-    @staticmethod
-    def _work(search: Search) -> None:
-        if search.end or search.level is None:
-            return
-        Certifier._at_work = search
-        try:
-            from ninja_game.search.solve import Task, solve
-            from ninja_game.search.task import obstacle
-
-            task, report = Task(search.level, seconds=search.seconds), partial(setattr, search, "progress")
-            found = solve(task, report=report, on_better=search.take, stop=search.stopping)
-            if not (found or search.run or search.end) and search.progress:
-                search.obstacles = (obstacle(search.level, 0, search.progress),)
-        except BaseException as error:
-            search.end, search.failed = reason(error), True
-            raise
-        nothing = f"No run in {search.seconds:.0f} s: the first problem says why. F7 looks twice as long"
-        search.end = search.end or ("Done" if search.run else nothing)
-        if search.then and search.end != STOPPED:
-            search.then(search)
-
-    _job: ClassVar[NewestJob[Search, None]] = NewestJob(_work, every=True)
 
 
 TICKS = TICKS_PER_SECOND

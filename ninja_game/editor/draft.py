@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from ninja_game.formats.ascii.places import Cell, is_inside
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
-
-Cell = tuple[int, int]
-"""Column 1…31, row 1…23."""
 
 Tiles = dict[Cell, int]
 
@@ -47,17 +45,3 @@ def changed_cells(before: Draft, after: Draft) -> list[Cell]:
     old, new = before.level.tiles, after.level.tiles
     changed = (index for index in range(COLUMNS * ROWS) if old[index] != new[index]) if old != new else ()
     return [(index // ROWS + 1, index % ROWS + 1) for index in changed]
-
-
-def is_inside(cell: Cell) -> bool:
-    """Whether a cell has a tile of the level's own: the border has not."""
-    return 1 <= cell[0] <= COLUMNS and 1 <= cell[1] <= ROWS
-
-
-def cell_of(x: float, y: float) -> Cell:
-    """Column and row of the cell that holds a point, the border's 0 and 32, 24 included.
-
-    >>> cell_of(24, 47.5)
-    (1, 1)
-    """
-    return int(x // 24), int(y // 24)

@@ -6,7 +6,7 @@ from functools import cache
 from itertools import product
 from typing import NamedTuple
 
-from ninja_game.editor.draft import Cell, cell_of
+from ninja_game.formats.ascii.places import Cell, cell_of
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.collision.tiles import UNIT_X, UNIT_Y
 from ninja_game.sim.memory.schema import TileMap

@@ -11,9 +11,10 @@ from math import cos, dist, hypot, pi, sin
 from typing import NamedTuple
 
 from ninja_game.editor.brush import EMPTY, FAMILIES, FULL, QUARTERS, cells_between
-from ninja_game.editor.draft import Cell, Draft, Tiles, cell_of, changed_cells, is_inside
+from ninja_game.editor.draft import Draft, Tiles, changed_cells
 from ninja_game.editor.motion import FLIP, MIRROR, Motion
 from ninja_game.editor.specs import Point, carried, points
+from ninja_game.formats.ascii.places import Cell, cell_of, is_inside
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec
@@ -115,7 +116,7 @@ def chosen_in(draft: Draft, area: CellArea) -> Selection:
         (number, part)
         for number, spec in enumerate(draft.objects)
         for part, (x, y) in points(spec).items()
-        if 24 * column <= x <= 24 * (column + columns) and 24 * row <= y <= 24 * (row + rows)
+        if CELL * column <= x <= CELL * (column + columns) and CELL * row <= y <= CELL * (row + rows)
     }
     return Selection(area, frozenset(inside))
 
@@ -203,8 +204,8 @@ def middle_of(draft: Draft, selection: Selection, *, quarter: bool) -> tuple[flo
         places = [points(draft.objects[number])[part] for number, part in selection.parts]
         xs, ys = zip(*places, strict=True)
         x, y = (HALF * round((min(along) + max(along)) / CELL) for along in (xs, ys))
-    aside = (x + y) % CELL * quarter
-    return x + (aside if x % CELL == 0.0 else -aside), y
+    sideways = (x + y) % CELL * quarter
+    return x + (sideways if x % CELL == 0.0 else -sideways), y
 
 
 def nearest(draft: Draft, x: float, y: float, reach: float) -> ObjectPart | None:
@@ -257,8 +258,8 @@ def curve(shape: str, a: Point, b: Point, bend: float = 0.0) -> list[Point]:
     shares = [k / _PIECES for k in range(_PIECES + 1)] if bend else [0.0, 1.0]
     bends = [4 * bend * share * (1 - share) for share in shares]
     return [
-        (ax + (bx - ax) * share + across[0] * aside, ay + (by - ay) * share + across[1] * aside)
-        for share, aside in zip(shares, bends, strict=True)
+        (ax + (bx - ax) * share + across[0] * sideways, ay + (by - ay) * share + across[1] * sideways)
+        for share, sideways in zip(shares, bends, strict=True)
     ]
 
 

@@ -11,13 +11,14 @@ from math import ceil
 
 from ninja_game.document import History
 from ninja_game.editor import brush, stamp as stamps
-from ninja_game.editor.draft import Cell, Draft, Tiles, cell_of, changed_cells, is_inside
+from ninja_game.editor.draft import Draft, Tiles, changed_cells
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.specs import BODY, has_switch, points, properties, with_word, word
+from ninja_game.formats.ascii.places import Cell, cell_of, is_inside, middle_of
 from ninja_game.formats.sayings import moved_saying, read_sayings
 from ninja_game.sim.kinds import DOOR, EXIT, GOLD, LAUNCH_PAD, MINE, NINJA
 from ninja_game.sim.level import ObjectSpec
-from ninja_game.sim.rules import CELL, HALF, WORLD_HEIGHT, WORLD_WIDTH
+from ninja_game.sim.rules import CELL, WORLD_HEIGHT, WORLD_WIDTH
 
 CURVES = ("line", "ellipse")
 SHAPES = ("rectangle", *CURVES)
@@ -170,7 +171,7 @@ class EditorTools:
     def _begin_to_draw(self, *, erase: bool) -> None:
         if self.effective_tool == "fill" and not erase:
             cells = stamps.filled(self.draft, self.cell)
-            middles = [(CELL * column + HALF, CELL * row + HALF) for column, row in cells if self.objects]
+            middles = [middle_of(cell) for cell in cells if self.objects]
             objects = tuple(self.placed(*middle, "cell") for middle in middles)
             self._change(stamps.Stamp({} if self.objects else dict.fromkeys(cells, self.tile), objects))
             return

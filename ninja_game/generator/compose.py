@@ -8,10 +8,11 @@ from itertools import pairwise
 from math import dist
 from random import Random
 
+from ninja_game.formats.ascii.places import Cell
 from ninja_game.generator.gold import lay_gold
 from ninja_game.generator.layouts import LAYOUTS
 from ninja_game.generator.obstacles import MOST_OBJECTS, fill_voids, place_enemies, place_fixtures, place_mines
-from ninja_game.generator.scene import Cell, RockBoard, Scene, flood, mirrored, object_of, steps_from
+from ninja_game.generator.scene import RockBoard, Scene, flood, mirrored, object_of, steps_from
 from ninja_game.generator.shaping import shaped
 from ninja_game.levels.warnings import level_findings
 from ninja_game.runs.run import run_level

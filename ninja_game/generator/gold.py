@@ -7,7 +7,8 @@ from itertools import pairwise
 from math import cos, dist, sin, tau
 from random import Random
 
-from ninja_game.generator.scene import Point, Scene, cell_of, middle, object_of
+from ninja_game.formats.ascii.places import cell_of, middle_of
+from ninja_game.generator.scene import Point, Scene, object_of
 from ninja_game.sim.rules import CELL
 
 LEAST = 26  # pieces in a level
@@ -24,7 +25,7 @@ def round_stones(scene: Scene, _: Random) -> Iterator[list[Point]]:
     """Round a small stone, or over and beside it."""
     small = [stone for stone in scene.stones() if len(stone) <= 25]
     for chain in scene.surfaces:
-        inside = {cell_of(face.off(-4.0)) for face in chain}
+        inside = {cell_of(*face.off(-4.0)) for face in chain}
         if len(chain) <= 20 and any(inside <= piece for piece in small):
             yield along([face.off(OFF) for face in chain], 30.0)
 
@@ -41,7 +42,7 @@ def along_walls(scene: Scene, rng: Random) -> Iterator[list[Point]]:
 
 def bows(scene: Scene, rng: Random) -> Iterator[list[Point]]:
     """The flight from one ledge to another."""
-    ends = [middle((run.column + k, run.row)) for run in scene.runs() for k in {0, run.length - 1}]
+    ends = [middle_of((run.column + k, run.row)) for run in scene.runs() for k in {0, run.length - 1}]
     rng.shuffle(ends)
     for x0, y0 in ends[:12]:
         for x1, y1 in ends:
@@ -61,7 +62,7 @@ def falls(scene: Scene, _: Random) -> Iterator[list[Point]]:
     for column, row in sorted(scene.steps):
         shaft = [(column, row + k) for k in range(5)]
         if all(cell in scene.steps and _walled(scene, *cell) for cell in shaft):
-            x, y = middle((column, row))
+            x, y = middle_of((column, row))
             yield [(x, y + 22.0 * k) for k in range(5)]
 
 
@@ -71,7 +72,7 @@ def _walled(scene: Scene, column: int, row: int) -> bool:
 
 def hoard(scene: Scene, rng: Random) -> list[Point]:
     """A row or an arch on the floor of the vault, or nothing: the exit or the switch there is enough."""
-    (left, y), (right, _) = (middle(cell) for cell in sorted({scene.board.heart[0], scene.board.heart[-1]}))
+    (left, y), (right, _) = (middle_of(cell) for cell in sorted({scene.board.heart[0], scene.board.heart[-1]}))
     count, high = rng.choice((0, 0, 5, 6, 7)), rng.choice((0, 0, 34))
     wide = min((right - left) / 2, 12.0 * count)
     row = [((left + right) / 2 + wide * (2 * k / (count - 1) - 1), k / (count - 1)) for k in range(count)]
@@ -90,21 +91,21 @@ def rows(scene: Scene, rng: Random) -> Iterator[list[Point]]:
 
 def dangers(scene: Scene, rng: Random) -> Iterator[list[Point]]:
     """At the spots of the plan, then in open air out of sight of the start, round a danger in the middle."""
-    size, start = rng.choice((34, 40, 46)), middle(scene.start)
+    size, start = rng.choice((34, 40, 46)), middle_of(scene.start)
     form = rng.choice((ring, bowl, bowl, cross, sides, sides))
     reach = range(-2, 3)
     air = [
         cell
         for cell in sorted(scene.steps)
         if all((cell[0] + i, cell[1] + j) in scene.steps for i in reach for j in reach)
-        and scene.clear_of(middle(cell), key=60.0, other=30.0)
+        and scene.clear_of(middle_of(cell), key=60.0, other=30.0)
     ]
     rng.shuffle(air)
     for x, y in (
         spot for spot in scene.board.spots if scene.clear_of((CELL * spot[0], CELL * spot[1]), key=9, other=30)
     ):
         yield from (form(CELL * x, CELL * y, far) for far in (size, 28, 22))
-    for x, y in sorted(map(middle, air), key=lambda at: scene.sees(at, start)):
+    for x, y in sorted(map(middle_of, air), key=lambda at: scene.sees(at, start)):
         yield form(x, y, size)
 
 
@@ -190,7 +191,7 @@ def lay_trails(scene: Scene, run: Sequence[Point], rng: Random) -> None:
     for _ in range(20):
         first = rng.randrange(40, max(41, len(run) - 60))
         points = along(list(run[first : first + rng.randint(30, 50)]), 23.0)
-        in_air = all(not scene.stands(cell_of(point)) for point in points[1:-1])
+        in_air = all(not scene.stands(cell_of(*point)) for point in points[1:-1])
         if in_air and _lay(scene, points[:7], MOST + 8) and len(scene.baits) > 10:
             break
 

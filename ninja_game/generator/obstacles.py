@@ -10,8 +10,9 @@ from random import Random
 import numpy as np
 
 from ninja_game.formats.ascii.object_lines import WEAPONS
+from ninja_game.formats.ascii.places import Cell, middle_of
 from ninja_game.generator.gold import along, lay_about
-from ninja_game.generator.scene import MIDDLE, Cell, Point, Scene, middle, mirrored, object_of, places
+from ninja_game.generator.scene import MIDDLE, Point, Scene, mirrored, object_of, places
 from ninja_game.sim import kinds
 from ninja_game.sim.kinds import ENEMIES
 from ninja_game.sim.level import ObjectSpec
@@ -135,12 +136,12 @@ def _guards_nothing(scene: Scene, enemy: ObjectSpec) -> bool:
 
 
 def _from_hoard(scene: Scene, enemy: ObjectSpec) -> float:
-    return dist(enemy.values[:2], middle(scene.board.heart[len(scene.board.heart) // 2]))
+    return dist(enemy.values[:2], middle_of(scene.board.heart[len(scene.board.heart) // 2]))
 
 
 def _enemy(scene: Scene, spec: ObjectSpec, apart: float) -> ObjectSpec | None:
     """An enemy, if it has room, ``apart`` px to others, and does not close on the start."""
-    start = middle(scene.start)
+    start = middle_of(scene.start)
     point = (spec.values[0], spec.values[1])
     enemies = [other for other in scene.objects if other.kind in ENEMIES]
     clear = scene.clear_of(point, key=60.0, other=14.0) and dist(point, start) >= SAFE
@@ -161,7 +162,7 @@ def _beside_tiles(scene: Scene) -> Iterator[Cell]:
 
 def fill_voids(scene: Scene, rng: Random, difficulty: int) -> None:
     """Where nothing is far around: a few pieces of gold about a drone that goes to and fro, a turret or a mine."""
-    air = [middle(cell) for cell in sorted(scene.steps)]
+    air = [middle_of(cell) for cell in sorted(scene.steps)]
     for _ in range(MOST_VOIDS):
         taken = np.array([point for spec in scene.objects for point in places(spec)])
         away = np.hypot(*(np.array(air)[:, None] - taken[None]).transpose(2, 0, 1)).min(1)
@@ -218,7 +219,7 @@ def _surface_lines(scene: Scene, rng: Random, *, floors: bool = False) -> list[l
 
 def _mines(scene: Scene, points: Sequence[Point]) -> list[ObjectSpec]:
     """Mines at those of the points that have room."""
-    start = middle(scene.start)
+    start = middle_of(scene.start)
     fit = [p for p in points if scene.clear_of(p, key=44.0, other=14.0) and dist(p, start) >= SAFE / 2]
     return [object_of(f"mine {round(x)},{round(y)}px") for x, y in dict.fromkeys(fit)]
 

@@ -14,12 +14,12 @@ from numpy.lib.stride_tricks import sliding_window_view
 
 from ninja_game.formats.ascii.legend import TILE_OF_CHAR
 from ninja_game.formats.ascii.object_lines import Listed, read_object_line
+from ninja_game.formats.ascii.places import Cell, cell_of, is_inside, middle_of
 from ninja_game.generator.shaping import FINE, Ink
 from ninja_game.sim import kinds
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 from ninja_game.sim.rules import CELL
 
-Cell = tuple[int, int]  # column 1…31, row 1…23
 Point = tuple[float, float]  # px; where a board is painted, cells
 
 MIDDLE = (COLUMNS + 1) // 2
@@ -27,11 +27,6 @@ MIDDLE = (COLUMNS + 1) // 2
 
 def mirrored(cell: Cell) -> Cell:
     return COLUMNS + 1 - cell[0], cell[1]
-
-
-def is_inside(cell: Cell) -> bool:
-    """Whether a cell is one of the level, not of its border."""
-    return 1 <= cell[0] <= COLUMNS and 1 <= cell[1] <= ROWS
 
 
 Y, X = (1 + (np.indices((ROWS * FINE, COLUMNS * FINE)) + 0.5) / FINE).astype(float)
@@ -229,15 +224,6 @@ def object_of(line: str) -> ObjectSpec:
     return listed.record
 
 
-def middle(cell: Cell) -> Point:
-    """A cell's middle, px."""
-    return CELL * (cell[0] + 0.5), CELL * (cell[1] + 0.5)
-
-
-def cell_of(point: Point) -> Cell:
-    return int(point[0] // CELL), int(point[1] // CELL)
-
-
 class Scene:
     """A level in the making.
 
@@ -307,13 +293,13 @@ class Scene:
         faces = list[Face]()
         for cell in sorted(self.steps):
             for there in neighbours(cell):
-                (x, y), dx, dy = middle(cell), there[0] - cell[0], there[1] - cell[1]
+                (x, y), dx, dy = middle_of(cell), there[0] - cell[0], there[1] - cell[1]
                 if self.full(there):
                     faces.append(Face(x + CELL / 2 * dx, y + CELL / 2 * dy, -dx, -dy))
         for cell, tile in sorted(self.tiles.items()):
             if tile in _LEANS and any(there in self.steps for there in neighbours(cell)):
                 dx, dy = _LEANS[tile]
-                faces.append(Face(*middle(cell), dx * 0.7, dy * 0.7))
+                faces.append(Face(*middle_of(cell), dx * 0.7, dy * 0.7))
         chains, left = list[list[Face]](), dict.fromkeys(faces)
         for first in faces:
             if first in left:
@@ -333,11 +319,11 @@ class Scene:
 
     def twin(self, points: list[Point]) -> list[Point]:
         """The same points on the other side of the middle column."""
-        return [(2 * middle((MIDDLE, 0))[0] - x, y) for x, y in points]
+        return [(2 * middle_of((MIDDLE, 0))[0] - x, y) for x, y in points]
 
     def clear_of(self, point: Point, *, key: float, other: float) -> bool:
         """Whether a point is in a cell that can be reached, and this many px from all that is there."""
-        ok = cell_of(point) in self.steps
+        ok = cell_of(*point) in self.steps
         return ok and all(
             dist(point, place) >= (key if spec.kind in _KEY else max(other, _ROOM.get(spec.kind, 0.0)))
             for spec in self.objects
@@ -348,7 +334,7 @@ class Scene:
         """Whether no tile is between two points, as far as cells can tell."""
         count = int(hypot(b[0] - a[0], b[1] - a[1]) // 8) + 1
         line = ((a[0] + (b[0] - a[0]) * k / count, a[1] + (b[1] - a[1]) * k / count) for k in range(count + 1))
-        return all(cell_of(point) not in self.tiles for point in line)
+        return all(cell_of(*point) not in self.tiles for point in line)
 
 
 _KEY = (kinds.NINJA, kinds.EXIT, kinds.DOOR)

@@ -45,7 +45,8 @@ from ninja_game.simulation import Body, SaveState, Simulation, is_box
 
 PAID_EXIT, PAID_DEATH, PAID_PIECE, PAID_TICK = range(4)  # columns of what is paid
 OUTCOME, TICKS, GOLD, EVENTS, ENDED, PLAYED, WAIT, RANDOM = range(8)
-"""Columns of the facts about each world; the last three are the keys of its last step, and of `protocol.py`."""
+"""Columns of the facts about each world. PLAYED: the keys of its last tick. WAIT, RANDOM: of `protocol.py`, for how
+many steps nothing is pressed yet, and the random number that decides whether keys are repeated."""
 TERMINATED, TRUNCATED = 1, 2  # how an episode has ended; 0: it goes on
 CHANGES = (1 << GOLD_TAKEN) | (1 << MINE_EXPLODED) | (1 << EXIT_OPENED)
 """Events after which objects that stay where they are look another way."""

@@ -14,6 +14,9 @@ from ninja_game.formats.pack.pack import Pack, PackFiles
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.replay.text import episode_key
 
+GAME, YOURS = "game", "yours"
+"""Sources of levels that are no names of packs: the game's own pack, files in the player's folder."""
+
 OURS = "ninja-game"  # in the name of every author that is part of the project
 
 
@@ -26,7 +29,7 @@ class Mood(NamedTuple):
 
 @dataclass(frozen=True)
 class Entry:
-    """A level that can be played. ``source``: "game", "yours" or the name of a pack; ``episode``: "03-1" if any.
+    """A level that can be played. ``source``: GAME, YOURS or the key of a pack; ``episode``: "03-1" if any.
 
     ``pars``: its par times and difficulty, where its pack has them.
     """
@@ -149,7 +152,7 @@ def episode_set(pack: Pack, key: str, name: str = "") -> EpisodeSet:
 
     A level without an author is by that of the pack.
     """
-    source = key or "game"
+    source = key or GAME
 
     def entry(level: NamedLevel, place: str = "") -> Entry:
         named = level if level.author else replace(level, author=pack.index.author)

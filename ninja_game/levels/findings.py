@@ -6,9 +6,7 @@ import tomllib
 from typing import NamedTuple
 
 from ninja_game.files.user_folder import asset_text
-
-Cell = tuple[int, int]
-"""Column 1…31, row 1…23."""
+from ninja_game.formats.ascii.places import Cell
 
 
 class Rule(NamedTuple):

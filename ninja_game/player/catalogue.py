@@ -6,8 +6,7 @@ Levels of a pack that no episode has are single levels.
 from __future__ import annotations
 
 import os
-from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
@@ -17,9 +16,10 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.files.reading import LeftOut, files_below, files_in, stamp_of
 from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.load import load_levels
+from ninja_game.formats.pack.index import PackIndex
 from ninja_game.formats.pack.pack import CERTIFICATES, Pack, PackFiles, certificate_name, is_pack
 from ninja_game.formats.replay.text import Replay, parse_replay
-from ninja_game.levels.episodes import Entry, Episode, EpisodeSet, Mood, episode_set
+from ninja_game.levels.episodes import GAME, YOURS, Entry, Episode, EpisodeSet, Mood, episode_set
 from ninja_game.sim.level import Level
 
 
@@ -55,29 +55,25 @@ class Catalogue:
     def packs(self) -> list[EpisodeSet]:
         """The game's own pack, then the player's as they are now; what is wrong with them becomes ``problems``.
 
-        Of several packs of one name the first has the key that it would have alone; each is called by what tells it
-        from the others too: author, version, else its file.
+        Of several packs of one name the first has the key that it would have alone, its name; but no key is GAME or
+        YOURS. Each is called by what tells it from the others too: author, version, else its file.
         """
         read = {os.path.realpath(path): path for path in [*self.more, *self._pack_paths()]}
         packs = [(path, pack) for path in read.values() if (pack := self._pack_at(path))]
-        titles = Counter(pack.index.title for _, pack in packs)
+        indexes = [pack.index for _, pack in packs]
         found = {"": self.ours}
         for path, pack in packs:
-            alike = [each.index for _, each in packs if each.name == pack.name]
-            author, version = (len({getattr(each, key) for each in alike}) > 1 for key in ("author", "version"))
-            index = replace(pack.index, author=pack.index.author * author, version=pack.index.version * version)
-            name = index.title + f" ({path.name})" * (len(alike) > 1 < titles[pack.index.title])
-            key = f"{pack.name} ({path.name})" if pack.name in found else pack.name
-            found[key] = self._set_of(path, pack, key, name)
+            key = f"{pack.name} ({path.name})" if pack.name in {GAME, YOURS, *found} else pack.name
+            found[key] = self._set_of(path, pack, key, _name_among(indexes, pack.index, path.name))
         self._known = found
         return list(found.values())
 
     def author_run(self, entry: Entry) -> Replay | None:
         """The certificate to the exit beside a level; None without one for exactly this level."""
-        pack, file = self.ours if entry.source == "game" else self._known.get(entry.source), Path(entry.named.file)
+        pack, file = self._pack_of(entry), Path(entry.named.file)
         name = certificate_name(file.name, "exit")
         try:
-            files = PackFiles(file.parent) if entry.source == "yours" and file.is_file() else pack and pack.files
+            files = PackFiles(file.parent) if entry.source == YOURS and file.is_file() else pack and pack.files
             replay = parse_replay(files.text(name)) if files and name in files.names else None
         except (NinjaGameError, OSError):
             return None
@@ -85,8 +81,11 @@ class Catalogue:
         return replace(replay, level=entry.named.level) if replay and own else None
 
     def episode_of(self, entry: Entry) -> Episode | None:
-        pack = self.ours if entry.source == "game" else self._known.get(entry.source)
+        pack = self._pack_of(entry)
         return pack.episodes.get(entry.position[0]) if pack and entry.position else None
+
+    def _pack_of(self, entry: Entry) -> EpisodeSet | None:
+        return self.ours if entry.source == GAME else self._known.get(entry.source)
 
     def mood_of(self, level: Level) -> Mood | None:
         """The mood of a level of the game's own pack; None for any other."""
@@ -164,6 +163,17 @@ class Catalogue:
         return known.entries
 
 
+def _name_among(packs: Sequence[PackIndex], index: PackIndex, file: str) -> str:
+    """What a pack is called: its title, with author, version or ``file`` where that tells it from its namesakes."""
+    alike = [each for each in packs if each.name == index.name]
+    authors, versions = {each.author for each in alike}, {each.version for each in alike}
+    told = replace(
+        index, author=index.author if len(authors) > 1 else "", version=index.version if len(versions) > 1 else ""
+    )
+    same_title = len(alike) > 1 and [each.title for each in packs].count(index.title) > 1
+    return f"{told.title} ({file})" if same_title else told.title
+
+
 class _ReadFile(NamedTuple):
     """What was found in a file, and when it had been changed last."""
 
@@ -174,7 +184,7 @@ class _ReadFile(NamedTuple):
 
 def _read(file: Path, stamp: list[int]) -> _ReadFile:
     try:
-        return _ReadFile(stamp, [Entry(level, "yours") for level in load_levels(file)], [])
+        return _ReadFile(stamp, [Entry(level, YOURS) for level in load_levels(file)], [])
     except NinjaGameError as error:
         return _ReadFile(stamp, [], [str(error)])
     except OSError as error:

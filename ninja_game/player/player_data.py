@@ -71,7 +71,7 @@ class PlayerData:
 
     def open_records(self) -> None:
         """Open the database now, so that ``messages`` says what is wrong with it before anyone needs it."""
-        assert self.store  # noqa: S101 - opening is what asking does
+        _ = self.store
 
     @cached_property
     def records(self) -> Records:

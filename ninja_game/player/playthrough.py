@@ -21,7 +21,7 @@ from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.replay.text import Replay, lifetimes, parse_replay, write_replay
 from ninja_game.formats.sayings import Saying, read_sayings
-from ninja_game.levels.episodes import Entry, Episode
+from ninja_game.levels.episodes import YOURS, Entry, Episode
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.player_data import EPISODE_BEST, PlayerData, count_of, replay_of, save_best, save_work
 from ninja_game.player.progress import LOCKED, UNLOCKED, new_unlocks, next_par
@@ -239,7 +239,7 @@ class LevelRun(LevelContext):
             return
         position = entry.position[1]
         while True:
-            move_on(data, episode, position, kept=kept_place(data.store)[0] in {"", episode.key})
+            note_progress(data, episode, position, kept=noted_unfinished(data.store)[0] in {"", episode.key})
             position += 1
             if position == len(episode.levels) or not data.marks.is_passed(episode.levels[position].digest):
                 return
@@ -251,7 +251,7 @@ class FileRun(LevelRun):
     def __init__(
         self, data: PlayerData, levels: Sequence[NamedLevel], *, body: Body = "circle", practice_mode: bool = False
     ) -> None:
-        super().__init__(data, Entry(levels[0], "yours"), body=body, practice_mode=practice_mode)
+        super().__init__(data, Entry(levels[0], YOURS), body=body, practice_mode=practice_mode)
         self._levels = levels
 
     @property
@@ -261,7 +261,7 @@ class FileRun(LevelRun):
     def advance(self) -> Navigation:
         """The next level of the file that can be played."""
         place = [each.record for each in self._levels].index(self.entry.named.record)
-        self._following = [Entry(each, "yours") for each in (*self._levels[place + 1 :], *self._levels[:place])]
+        self._following = [Entry(each, YOURS) for each in (*self._levels[place + 1 :], *self._levels[:place])]
         return super().advance()
 
 
@@ -283,7 +283,7 @@ class EpisodeRun(LevelContext):
         self.replays: list[Replay] = []
         self._passed: Attempt | None = None
 
-    def go_on(self, replays: Sequence[Replay]) -> None:
+    def resume(self, replays: Sequence[Replay]) -> None:
         """Go on after the first levels of the episode, which these runs have passed."""
         self.replays = list(replays)
         self.position = len(replays)
@@ -291,7 +291,7 @@ class EpisodeRun(LevelContext):
         self.lifetime = lifetimes(replays)[-1]
         self.score = self.lifetime
 
-    def go_behind(self) -> None:
+    def skip_to_furthest(self) -> None:
         """Go to where a run that skipped levels had come, if that is in this episode."""
         beaten = self.data.progress_in(self.episode.pack).columns[self.episode.column].beaten
         if beaten[0] == self.episode.number and 0 < beaten[1] < len(self.episode.levels) and not self.practice_mode:
@@ -335,7 +335,7 @@ class EpisodeRun(LevelContext):
     ) -> list[str]:
         count()
         levels = len(self.episode.levels)
-        move_on(self.data, self.episode, position, replays if whole else (), legitimate=legitimate)
+        note_progress(self.data, self.episode, position, replays if whole else (), legitimate=legitimate)
         if not replays:
             return []
         notices = save_best(self.data, self.episode.levels[position], replays[-1])
@@ -375,13 +375,13 @@ class EpisodeRun(LevelContext):
         position, legitimate = self.position, self.legitimate
 
         def work() -> list[str]:
-            move_on(self.data, self.episode, position, legitimate=legitimate)
+            note_progress(self.data, self.episode, position, legitimate=legitimate)
             return []
 
         self.notices = save_work(self.data, work)
 
 
-def move_on(
+def note_progress(
     data: PlayerData, episode: Episode, position: int, replays: Sequence[Replay] = (), *,
     legitimate: bool = True, kept: bool = True,
 ) -> None:  # fmt: skip
@@ -394,9 +394,9 @@ def move_on(
     progress, goal = data.progress_in(episode.pack), following.number if following else None
     progress.level_passed((episode.number, position), levels=levels, following=goal, legitimate=legitimate)
     if legitimate and kept and position < levels - 1:
-        keep_place(data.store, episode.key, replays)
+        note_unfinished(data.store, episode.key, replays)
     elif legitimate and kept:
-        keep_place(data.store, following.key if following else "")
+        note_unfinished(data.store, following.key if following else "")
 
 
 def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodeRun | None:
@@ -404,7 +404,7 @@ def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodeRun | N
 
     None where there are no episodes.
     """
-    if not practice_mode and (run := left_half_way(data)):
+    if not practice_mode and (run := unfinished_run(data)):
         return run
     episodes = [data.catalogue.episodes[number] for number in sorted(data.catalogue.episodes)]
     ahead = [each for each in episodes if not data.progress.is_beaten(each.number)]
@@ -413,13 +413,13 @@ def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodeRun | N
     if chosen is None:
         return None
     run = EpisodeRun(data, chosen, practice_mode=practice_mode)
-    run.go_behind()
+    run.skip_to_furthest()
     return run
 
 
-def left_half_way(data: PlayerData, asked: Episode | None = None) -> EpisodeRun | None:
+def unfinished_run(data: PlayerData, asked: Episode | None = None) -> EpisodeRun | None:
     """The run of an episode, or of that played last, where it was left; None where it has not been begun or is over."""
-    key, replays = kept_place(data.store)
+    key, replays = noted_unfinished(data.store)
     if asked is None:
         episodes = (episode for pack in data.catalogue.packs() for episode in pack.episodes.values())
         asked = next((episode for episode in episodes if key and episode.key == key), None)
@@ -429,23 +429,23 @@ def left_half_way(data: PlayerData, asked: Episode | None = None) -> EpisodeRun 
         return None
     run = EpisodeRun(data, asked)
     if replays:
-        run.go_on(replays)
+        run.resume(replays)
     else:
-        run.go_behind()
+        run.skip_to_furthest()
     return run if run.position or not data.progress_in(asked.pack).is_beaten(asked.number) else None
 
 
 _PLACE = "episode left half-way"
 
 
-def keep_place(store: Store, key: str, replays: Sequence[Replay] = ()) -> None:
+def note_unfinished(store: Store, key: str, replays: Sequence[Replay] = ()) -> None:
     """Note the episode with which play goes on, "" for none, and its runs. Raises sqlite3.Error."""
     with store.change() as db:
         value = json.dumps([key, *map(write_replay, replays)])
         db.execute("REPLACE INTO fact (name, value) VALUES (?, ?)", (_PLACE, value))
 
 
-def kept_place(store: Store) -> tuple[str, list[Replay]]:
+def noted_unfinished(store: Store) -> tuple[str, list[Replay]]:
     """The key of the episode that play goes on with, and its runs; ("", []) without one, or for a damaged one."""
     for (value,) in store.rows("SELECT value FROM fact WHERE name = ?", (_PLACE,), [str]):
         try:

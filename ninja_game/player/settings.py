@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Callable, Iterator, Mapping, MutableMapping
+from collections.abc import Callable, Iterator, Mapping, MutableMapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
@@ -43,7 +43,7 @@ InputNames = Mapping[str, tuple[str, ...]]  # action to the names of its inputs 
 class SettingRule(NamedTuple):
     """Where a setting stands in the file, what it may be, and what it means.
 
-    ``span``: of a number, the lowest, the highest and a slider's step.
+    ``span``: of a number, the lowest, the highest and a slider's step. ``convert``: what becomes of a value in a file.
     """
 
     table: str
@@ -51,6 +51,7 @@ class SettingRule(NamedTuple):
     expected: str
     meaning: str
     span: tuple[float, float, float] = (0, 0, 0)
+    convert: Callable[[Any], Any] = lambda found: found
 
 
 def _setting(default: Any, table: str, fits: Callable[[Any], bool], expected: str, meaning: str) -> Any:
@@ -68,7 +69,7 @@ def _number(default: float, table: str, low: float, high: float, meaning: str, s
     def fits(value: Any) -> bool:
         return isinstance(value, kind) and not isinstance(value, bool) and low <= value <= high
 
-    rule = SettingRule(table, fits, f"{sort} from {low} to {high}", meaning, (low, high, step))
+    rule = SettingRule(table, fits, f"{sort} from {low} to {high}", meaning, (low, high, step), type(default))
     return field(default=default, metadata={"rule": rule})
 
 
@@ -91,10 +92,14 @@ def _is_bindings(value: Any) -> bool:
     )
 
 
+def _bindings_of(found: Mapping[str, Sequence[str]]) -> InputNames:
+    return {action: tuple(inputs) for action, inputs in found.items()}
+
+
 def _bindings(what: str, example: str) -> dict[str, SettingRule]:
     expected = f"lists of names of {what}, such as jump = {example}"
     meaning = f"{what} of each action that has others than the default ones"
-    return {"rule": SettingRule("", _is_bindings, expected, meaning)}
+    return {"rule": SettingRule("", _is_bindings, expected, meaning, convert=_bindings_of)}
 
 
 @dataclass(frozen=True)
@@ -228,27 +233,23 @@ def _put_aside(path: Path, why: str) -> str:
 
 def _settings_of(data: Mapping[str, Any]) -> tuple[Settings, list[str]]:
     values: dict[str, Any] = {}
-    messages = []
+    wrong: dict[str, tuple[Any, str]] = {}  # by place: what was found, and what is expected
     for name, rule in RULES.items():
         place = BINDING_TABLES.get(name, rule.table)
         found = data.get(place)
-        expected = rule.expected
-        if name not in BINDING_TABLES:
-            if isinstance(found, Mapping):
-                place = f"{place}.{key_of(name)}"
-                found = found.get(key_of(name))
-            else:
-                expected = f"the table [{place}]"
-        if found is None:
-            continue
-        if expected != rule.expected or not rule.fits(found):
-            text = f"settings.toml: {place} is {_shown(found)}; expected {expected}; the default is used."
-            messages += [text] * (text not in messages)
-        elif name in BINDING_TABLES:
-            values[name] = {action: tuple(inputs) for action, inputs in found.items()}
-        else:
-            values[name] = float(found) if name == "dead_zone" else found
-    return Settings(**values), messages
+        if found is not None and name not in BINDING_TABLES:
+            if not isinstance(found, Mapping):
+                wrong[place] = found, f"the table [{place}]"
+                continue
+            place, found = f"{place}.{key_of(name)}", found.get(key_of(name))
+        if found is not None and rule.fits(found):
+            values[name] = rule.convert(found)
+        elif found is not None:
+            wrong[place] = found, rule.expected
+    return Settings(**values), [
+        f"settings.toml: {place} is {_shown(found)}; expected {expected}; the default is used."
+        for place, (found, expected) in wrong.items()
+    ]
 
 
 def _shown(value: object) -> str:

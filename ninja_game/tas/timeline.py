@@ -11,17 +11,17 @@ from numpy.typing import NDArray
 
 from ninja_game.backend.memories import go_on, open_worlds
 from ninja_game.budget import tick_cost
-from ninja_game.errors import ArgumentError, FormatError
+from ninja_game.errors import FormatError
 from ninja_game.runs.save_states import SaveStates
 from ninja_game.runs.trace import OBJECT_RECORD, event_names, ninja_columns, object_rows, switched_doors
 from ninja_game.search.formula.language import Formula, Values, parse_number, parse_truth
-from ninja_game.search.formula.names import FACTS, FLAGS, NAMES, id_of
+from ninja_game.search.formula.names import FACTS, NAMES, flag_field, id_of, ninja_view, no_object
 from ninja_game.sim.inputs import MAX_TICKS, fitted_inputs
-from ninja_game.sim.kinds import DOOR, EXIT, KIND_NAMES, KIND_OF
+from ninja_game.sim.kinds import EXIT, KIND_OF
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import TRACED_NUMBERS, TRACED_PLACES, MemoryName
 from ninja_game.sim.rules import EXIT_RADIUS, RADIUS
-from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_EXIT, OUTCOME_NAMES
+from ninja_game.sim.states import OUTCOME_NAMES
 from ninja_game.simulation import Body, SaveState, is_box
 from ninja_game.tas.tracks import first_difference
 
@@ -214,7 +214,7 @@ class Timeline:
     def at_start(self, id_: float) -> tuple[int, float, float, int]:
         """Kind, x, y (px) and status of an object at the start. Raises ArgumentError for an unknown one."""
         if not 0 <= id_ < len(self._seen) or id_ != int(id_) or not KIND_OF[self._seen[int(id_)][0]].traced:
-            raise ArgumentError(f"there is no object {id_:g}; ids are those that `ninja-game splits` shows")
+            raise no_object(id_)
         return self._seen[int(id_)]
 
     @property
@@ -304,21 +304,16 @@ def timeline_view(timeline: Timeline) -> dict[str, Callable[..., NDArray[np.floa
     """What the names of a formula mean after each simulated tick of a timeline."""
     column = timeline.column
 
-    def velocity(axis: str) -> Values:
-        moved: Values = column(axis) - column(f"prev_{axis}")
-        return moved
+    def of(name: str) -> Values:
+        if name == "tick":
+            return np.arange(0.0, timeline.simulated_until)
+        found: Values = column(name[1]) - column(f"prev_{name[1]}") if name in {"vx", "vy"} else column(name)
+        return found
 
     def of_object(name: str) -> Callable[..., Values]:
         return lambda number: _object_column(timeline, id_of(number), name)
 
-    return {
-        "x": lambda: column("x"), "y": lambda: column("y"), "vx": lambda: velocity("x"), "vy": lambda: velocity("y"),
-        "speed": lambda: np.hypot(velocity("x"), velocity("y")),
-        "tick": lambda: np.arange(0.0, timeline.simulated_until), "gold": lambda: column("gold"),
-        "state": lambda: column("state"), "jump_timer": lambda: column("jump_timer"),
-        "dead": lambda: column("outcome") == OUTCOME_DEAD, "won": lambda: column("outcome") == OUTCOME_EXIT,
-        "in_air": lambda: column("in_air"), "near_wall": lambda: column("near_wall"),
-        "distance": lambda x, y: np.hypot(column("x") - x, column("y") - y),
+    return ninja_view(of) | {
         "object_x": of_object("x"), "object_y": of_object("y"), "status": of_object("s"),
         "taken": lambda number: _flag(timeline, id_of(number), "taken"),
         "opened": lambda number: _flag(timeline, id_of(number), "opened"),
@@ -336,9 +331,6 @@ def _object_column(timeline: Timeline, id_: float, name: str) -> Values:
 def _flag(timeline: Timeline, id_: float, what: str) -> Values:
     """Whether an object is taken, or opened: its status is not the one that it has at the start."""
     kind, _, _, status = timeline.at_start(id_)
-    if kind not in FLAGS[what]:
-        kinds = " and ".join(KIND_NAMES[each] for each in FLAGS[what])
-        raise ArgumentError(f"object {id_:g} is of kind {KIND_NAMES[kind]}; '{what}' is for {kinds}")
-    if kind == DOOR:
+    if flag_field(what, kind, id_) == "switched":
         return _object_column(timeline, id_, "switched")
     return np.where(_object_column(timeline, id_, "s") != status, 1.0, 0.0)

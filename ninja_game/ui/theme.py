@@ -149,7 +149,8 @@ class Theme:
 class Palette:
     """Colours by role. ``danger_by_shape``: danger is marked by spikes and bars too, not only by colour.
 
-    ``scenery``: what lies behind levels, one of ``scenery.SCENERIES``; "": nothing but the background.
+    ``scenery``: what lies behind levels, one of ``scenery.SCENERIES``; "": nothing but the background. ``mood``: the
+    palette of which this is a tone, or None.
     """
 
     name: str
@@ -158,7 +159,7 @@ class Palette:
     @property
     def base(self) -> Palette:
         """The mood of a tone, whose colours are the same but for rock and scenery; of any other palette itself."""
-        return PALETTES.get(self.name.partition(" ")[0], self)
+        return self.mood or self
 
     # The stage and the interface.
     background: pygame.Color
@@ -212,9 +213,10 @@ class Palette:
     near: pygame.Color
 
     scenery: str = ""
+    mood: Palette | None = None
 
 
-ROLES = tuple(entry.name for entry in fields(Palette) if entry.name not in {"name", "danger_by_shape", "scenery"})
+ROLES = tuple(entry.name for entry in fields(Palette) if entry.type == "pygame.Color")
 
 
 def _read_palettes() -> dict[str, Palette]:
@@ -224,7 +226,11 @@ def _read_palettes() -> dict[str, Palette]:
     columns = zip(table["palette"], table["danger-by-shape"], sceneries, *(table[role] for role in ROLES), strict=True)
     return {
         name: Palette(
-            name, danger == "yes", **dict(zip(ROLES, map(pygame.Color, colours), strict=True)), scenery=scenery
+            name,
+            danger == "yes",
+            **dict(zip(ROLES, map(pygame.Color, colours), strict=True)),
+            scenery=scenery,
+            mood=None,
         )
         for name, danger, scenery, *colours in columns
     }
@@ -264,7 +270,7 @@ def _tone(column: int, level: int) -> Palette:
         turned = complex(i, q) * (rect(1, radians(rock)) if role == "tile" else rect(colourful, radians(scenery)))
         channels = yiq_to_rgb(y, turned.real, turned.imag)
         colours[role] = pygame.Color(*(round(255 * min(1.0, max(0.0, channel))) for channel in channels))
-    return replace(mood, name=f"{mood.name} {level}", **colours) if level else mood
+    return replace(mood, name=f"{mood.name} {level}", mood=mood, **colours) if level else mood
 
 
 NINJA_COLOURS = ("", "#d9127f", "#7d7700", "#1a6488", "#765484", "#6a2424", "#f7f7f7", "#c79400", "#787887", "#bfbfc6")

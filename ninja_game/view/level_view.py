@@ -125,14 +125,14 @@ class LevelView:
         world = self.simulation.world
         self._follow_options()
         self.object_animation.on_tick(world)
-        self.on_death()
+        self.follow_ninja()
         self._follow_blasts(world)
         self._follow_win(world)
         for ghost in self.ghosts:
             ghost.on_tick()
 
-    def on_death(self) -> None:
-        """Take note of what happened to the ninja; between two ticks: out of time, or by the player's own hand."""
+    def follow_ninja(self) -> None:
+        """Take note of what happened to the ninja, in a tick, or between two: out of time, by the player's own hand."""
         world = self.simulation.world
         self.ninja_animation.on_tick(world)
         self.effects.on_tick(self.simulation.tiles, world)

@@ -250,7 +250,7 @@ def test_failed_film_leaves_nothing(replay: Path, tmp_path: Path, monkeypatch: p
     from ninja_game.play.replay.film import Film, write_film
 
     run = load_replays(replay)[0]
-    assert not write_film(Film(run), tmp_path / "film.gif", lambda done: done < 20)
+    assert not write_film([Film(run)], tmp_path / "film.gif", lambda made, count: made < 20 < count)
     assert not (tmp_path / "film.gif").exists()
 
 

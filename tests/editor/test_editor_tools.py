@@ -17,13 +17,14 @@ from ninja_game.editor.brush import (
     tile_key,
     tile_name,
 )
-from ninja_game.editor.draft import Draft, cell_of, changed_cells, is_inside
+from ninja_game.editor.draft import Draft, changed_cells
 from ninja_game.editor.files import open_source
 from ninja_game.editor.motion import CLOCKWISE, MIRROR
 from ninja_game.editor.specs import points, word
 from ninja_game.editor.stamp import Selection, chosen_in, covered, rounded
 from ninja_game.editor.tools import EditorTools
 from ninja_game.formats.ascii.legend import TILE_CHARS
+from ninja_game.formats.ascii.places import cell_of, is_inside
 from ninja_game.formats.ascii.writer import best_form
 from ninja_game.sim import kinds
 from ninja_game.sim.level import Level

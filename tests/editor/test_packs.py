@@ -166,7 +166,7 @@ def test_what_keeps_a_level_from_a_certificate_is_a_problem_of_the_pack(pack: Pa
     text = (pack / FIRST).read_text("utf-8")
     (pack / FIRST).write_text(text.replace("ox...", "o....").replace("22 |##", "22 |x#"), "utf-8")
     obstacles: Obstacles = {}
-    ready = make_ready(pack, seconds=1.0, jobs=1, say=_quiet, obstacles=obstacles)
+    ready = make_ready(pack, seconds=4.0, jobs=1, say=_quiet, obstacles=obstacles)
     told = "The search found none: exit at 30,18 (object 6): the solver never touched its switch"
     assert [finding.code for finding in ready.findings if finding.text.endswith(told)] == ["certificate"]
     level = Pack(pack).levels[FIRST].level

@@ -5,6 +5,8 @@ from __future__ import annotations
 import hashlib
 import pickle
 import re
+import subprocess
+import sys
 from typing import Any
 
 import gymnasium
@@ -32,6 +34,12 @@ RIGHT = 2
 
 def made(**settings: Any) -> gymnasium.Env[Any, Any]:
     return gymnasium.make("ninja_game:Ninja-v0", level=NEAR, memory="plain", **settings)
+
+
+def test_the_id_in_its_own_package_needs_no_order_of_imports() -> None:
+    code = "import ninja_game, gymnasium; print(gymnasium.make('ninja_game.learn:Ninja-v0').unwrapped)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert "NinjaEnv" in done.stdout
 
 
 def test_wrappers_work() -> None:

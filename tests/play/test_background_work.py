@@ -180,12 +180,12 @@ def test_a_search_that_was_stopped_changes_nothing_and_nobody_waits_for_it(monke
         assert (certifier.busy, certifier.text) == (False, "Stopped")
         certifier.start(new)
     ready.set()
-    certifier._job.finish(LONGEST)
+    certifier.solver.job.finish(LONGEST)
     assert (certifier.search.level is new, certifier.search.run) == (True, None)
     assert certifier.text == "No run in 20 s: the first problem says why. F7 looks twice as long"
     assert [finding.code for finding in certifier.search.obstacles] == ["unreached-exit"]
     certifier.start(new)
-    certifier._job.finish(LONGEST)
+    certifier.solver.job.finish(LONGEST)
     assert times[-2:] == [20.0, 40.0]
 
 

@@ -53,7 +53,8 @@ def busy(music: Music) -> list[bool]:
 
 @pytest.fixture
 def player(folder: Path) -> AudioPlayer:
-    sound = AudioPlayer(folder, music_volume=99)
+    sound = AudioPlayer(folder)
+    sound.set_volumes(99, 99, 99, 99)
     pygame.mixer.stop()
     return sound
 
@@ -116,7 +117,8 @@ def test_no_volume_is_no_music(player: AudioPlayer) -> None:
 
 
 def test_missing_music_is_silent(tmp_path: Path) -> None:
-    sound = AudioPlayer(tmp_path, music_volume=99)
+    sound = AudioPlayer(tmp_path)
+    sound.set_volumes(99, 99, 99, 99)
     begin(sound, "ground")
     sound.music(MENU, 1000)
 

@@ -43,7 +43,7 @@ def test_it_is_drawn(name: str) -> None:
         if tick % 4 == 0:
             view.draw(surface, 0.5)
     kill(run.world, EXPLOSIVE, 0, 3.0, -2.0, 100.0, 100.0)
-    view.on_death()
+    view.follow_ninja()
     for _ in range(30):
         run.step_keys(0)
         view.on_tick()

@@ -59,7 +59,7 @@ def scene(
     if fatal >= 0:
         n = run.world.ninja
         kill(run.world, fatal, 0, 4.0, -3.0, n.x, n.y - 4)
-        view.on_death()
+        view.follow_ninja()
         for _ in range(5):
             run.step_keys(0)
             view.on_tick()

@@ -138,7 +138,7 @@ def test_the_mouse_drags_the_bar() -> None:
 
 def test_a_folder_of_pictures_has_one_a_tick(tmp_path: Path) -> None:
     short = recording("short", RUN.level, RUN.inputs[:5])
-    write_film(Film(short), tmp_path / "film")
+    write_film([Film(short)], tmp_path / "film")
     names = sorted(path.name for path in (tmp_path / "film").iterdir())
     assert len(names) == len(Film(short).moments)
     assert names[0] == "00000.png"
@@ -147,7 +147,7 @@ def test_a_folder_of_pictures_has_one_a_tick(tmp_path: Path) -> None:
 def test_a_gif_has_as_many_pictures(tmp_path: Path) -> None:
     image = pytest.importorskip("PIL.Image")
     short = recording("short", RUN.level, RUN.inputs[:5])
-    write_film(Film(short), tmp_path / "film.gif")
+    write_film([Film(short)], tmp_path / "film.gif")
     with image.open(tmp_path / "film.gif") as film:
         ms = 0
         for frame in range(film.n_frames):

@@ -16,7 +16,7 @@ from ninja_game.sim import states
 from ninja_game.sim.events import DIED, EVENT_NAMES, LANDED
 from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER
 from ninja_game.simulation import Simulation
-from ninja_game.ui.audio.player import CHAIN_TICKS, LOUDEST, STRIDE, AudioPlayer, Footsteps, GoldLadder, Variants
+from ninja_game.ui.audio.player import CHAIN_TICKS, LOUDEST, STRIDE, AudioPlayer, Footsteps, GoldPitches, Variants
 from ninja_game.ui.audio.table import (
     BY_DEATH,
     BY_EVENT,
@@ -152,7 +152,8 @@ def test_nothing_is_read_once_the_device_is_closed(tmp_path: Path, monkeypatch: 
     for number in range(50):
         (tmp_path / f"{number}.ogg").touch()
     monkeypatch.setattr(pygame.mixer, "Sound", slow)
-    sound = AudioPlayer(tmp_path, music_volume=LOUDEST)
+    sound = AudioPlayer(tmp_path)
+    sound.set_volumes(LOUDEST, LOUDEST, LOUDEST, LOUDEST)
     sound.music("menu", 1000)
     pygame.quit()
     before = len(read)
@@ -175,14 +176,14 @@ def test_a_variant_never_sounds_twice_in_a_row() -> None:
 
 
 def test_gold_climbs_in_a_chain_and_falls_back_after_a_pause_or_a_restart() -> None:
-    ladder = GoldLadder(4)
-    assert [ladder.climb(tick) for tick in (5, 5, 5 + CHAIN_TICKS, 100, 101)] == [0, 1, 2, 3, 3]
-    assert ladder.climb(102 + CHAIN_TICKS) == 0
-    assert ladder.climb(103 + CHAIN_TICKS) == 1
-    assert ladder.climb(20) == 0
+    pitches = GoldPitches(4)
+    assert [pitches.next(tick) for tick in (5, 5, 5 + CHAIN_TICKS, 100, 101)] == [0, 1, 2, 3, 3]
+    assert pitches.next(102 + CHAIN_TICKS) == 0
+    assert pitches.next(103 + CHAIN_TICKS) == 1
+    assert pitches.next(20) == 0
 
 
-def test_gold_of_a_run_is_heard_as_a_ladder(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_gold_of_a_run_is_heard_in_rising_pitches(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     row = "!".join(f"0^{x},566" for x in range(120, 260, 24))
     run, sound, heard = (
         Simulation(parse_level_string("0" * 713 + f"|5^100,566!{row}")),

@@ -176,3 +176,14 @@ def test_progress_of_packs_is_kept_apart_and_passes_over_gaps(tmp_path: Path) ->
     again = PlayerData(tmp_path)
     assert again.progress_in("My pack").state(3) == UNLOCKED
     again.close()
+
+
+def test_a_pack_that_is_called_as_a_source_is_none(tmp_path: Path) -> None:
+    for name in ("game", "yours"):
+        pack_of(tmp_path / name, name)
+    catalogue = Catalogue(tmp_path)
+    packs = catalogue.packs()[1:]
+    assert [(pack.key, pack.name) for pack in packs] == [("game (game)", "game"), ("yours (yours)", "yours")]
+    assert [entry.source for pack in packs for entry in pack.levels[:1]] == ["game (game)", "yours (yours)"]
+    for pack in packs:
+        assert catalogue.episode_of(pack.levels[0]) is pack.episodes[min(pack.episodes)]

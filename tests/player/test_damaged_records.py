@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import sqlite3
+import subprocess
+import sys
 from contextlib import closing, suppress
 from dataclasses import replace
 from pathlib import Path
@@ -79,6 +81,17 @@ def assert_a_replay_can_be_kept(folder: Path, word: str = "") -> None:
     there = [data.records.replay(saved.id) for saved in data.records.replays() if saved.kept]
     assert kept in [replace(replay, name="kept", author="me") for replay in there if replay is not None]
     data.close()
+
+
+def test_damage_is_told_also_where_python_leaves_out_assertions(tmp_path: Path) -> None:
+    (tmp_path / "records.sqlite").write_bytes(b"damaged" * 1000)
+    code = (
+        "import pathlib, sys; from ninja_game.player.player_data import PlayerData\n"
+        "data = PlayerData(pathlib.Path(sys.argv[1])); data.open_records(); print(data.messages)"
+    )
+    words = [sys.executable, "-O", "-c", code, str(tmp_path)]
+    done = subprocess.run(words, capture_output=True, text=True, check=True)
+    assert "records.damaged-1.sqlite" in done.stdout
 
 
 def test_torn_pages_in_the_middle_are_noticed(tmp_path: Path) -> None:

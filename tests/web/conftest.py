@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
@@ -14,9 +15,36 @@ import pytest
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.locking import locked
+from ninja_game.formats.ascii.writer import write_ascii_level
+from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.web.pages import documents
+from tests.support.board import HOSTILE
+from tests.support.forgeries import GOLD_LATER
+from tests.support.samples import SPIKED, WALK
 from tests.support.visitor import Visitor
 from tests.support.web_page import browser, built_site, missing, python_page, served
+
+
+@pytest.fixture
+def levels(tmp_path: Path) -> Path:
+    """Three levels that count, as a pack with an episode, one of them with a hostile name."""
+    folder = tmp_path / "levels"
+    folder.mkdir()
+    for number, (string, name) in enumerate(((WALK, "Walk"), (SPIKED, "Spiked"), (GOLD_LATER, HOSTILE))):
+        text = write_ascii_level(parse_level_string(string), name=name, author=HOSTILE, comment=HOSTILE)
+        (folder / f"00-{number}-level.txt").write_text(text, "utf-8")
+    (folder / "pack.toml").write_text(
+        f'name = {json.dumps(HOSTILE)}\n[[episode]]\nnumber = 0\nname = {json.dumps(HOSTILE)}\n'
+        'levels = ["00-0-level.txt"]\n', "utf-8",
+    )  # fmt: skip
+    return folder
+
+
+@pytest.fixture
+def runs(tmp_path: Path) -> Path:
+    folder = tmp_path / "runs"
+    folder.mkdir()
+    return folder
 
 
 @pytest.fixture(autouse=True)

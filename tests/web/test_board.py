@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import json
 import os
 import re
 import time
 from collections.abc import Callable
 from dataclasses import replace
 from datetime import UTC, datetime
-from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
 from unittest.mock import Mock
@@ -36,9 +34,10 @@ from ninja_game.web.board.rules import FASTEST, HIGHEST, Category
 from ninja_game.web.board.runs import ASSISTED, PLAYED, Key, ValidatedRuns
 from ninja_game.web.pages.frame import POLICY, tag
 from ninja_game.web.pages.gallery import page_name, published_levels
-from tests.support.forgeries import FORGERIES, GOLD_LATER, PRACTISED, WALKING, record, replay
+from tests.support.board import DIGEST, HOSTILE, Tags, put, slow_walk
+from tests.support.forgeries import FORGERIES, PRACTISED, WALKING, record, replay
 from tests.support.own_pack import PACK
-from tests.support.samples import SPIKED, WALK, WALK_END
+from tests.support.samples import WALK, WALK_END
 
 BROKEN = """
 Array.from(document.querySelectorAll("td, th")).filter((cell) => {
@@ -56,39 +55,6 @@ Array.from(new Set(Array.from(document.querySelectorAll(".wide"))
 """
 """What stands above tables of many columns: that they go on at the side of the page."""
 
-DIGEST = level_digest(parse_level_string(WALK))
-HOSTILE = "<script>document.title='owned'</script><img src=x onerror=\"document.title='owned'\">\"'`&amp;\u202e"
-
-
-@pytest.fixture
-def levels(tmp_path: Path) -> Path:
-    """Three levels that count, as a pack with an episode, one of them with a hostile name."""
-    folder = tmp_path / "levels"
-    folder.mkdir()
-    for number, (string, name) in enumerate(((WALK, "Walk"), (SPIKED, "Spiked"), (GOLD_LATER, HOSTILE))):
-        text = write_ascii_level(parse_level_string(string), name=name, author=HOSTILE, comment=HOSTILE)
-        (folder / f"00-{number}-level.txt").write_text(text, "utf-8")
-    (folder / "pack.toml").write_text(
-        f'name = {json.dumps(HOSTILE)}\n[[episode]]\nnumber = 0\nname = {json.dumps(HOSTILE)}\n'
-        'levels = ["00-0-level.txt"]\n', "utf-8",
-    )  # fmt: skip
-    return folder
-
-
-@pytest.fixture
-def runs(tmp_path: Path) -> Path:
-    folder = tmp_path / "runs"
-    folder.mkdir()
-    return folder
-
-
-def put(folder: Path, name: str, text: str, *, day: int = 1) -> Path:
-    path = folder / name
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(text, "utf-8")
-    os.utime(path, (86_400 * day, 86_400 * day))
-    return path
-
 
 def with_demands(folder: Path, levels: Path) -> ValidatedRuns:
     """What comes of a folder whose ledger has each file on the day of ``put``."""
@@ -97,11 +63,6 @@ def with_demands(folder: Path, levels: Path) -> ValidatedRuns:
         return datetime.fromtimestamp((folder / key[0]).lstat().st_mtime, UTC).strftime(DATE) if way else ""
 
     return judge(folder, published_levels(levels), dates=date, jobs=1)
-
-
-def slow_walk(wait: int = 5, *, author: str) -> str:
-    """The walk, begun some ticks later."""
-    return replay(bytes(wait) + WALKING + b"\2", author=author)
 
 
 def why(folder: Path, levels: Path) -> str:
@@ -580,25 +541,6 @@ def test_what_does_not_count_is_said_in_plain_words(runs: Path, levels: Path) ->
     assert [each.kind for each in found] == ["refused", "practice"]
     assert found[0].why.startswith("'My <b>cave</b>' is not one of the levels that count; its level_digest begins")
     assert found[1].why == "it was played (slow motion): runs with such help do not count"
-
-
-class Tags(HTMLParser):
-    """The elements and attributes of a page, and whatever is wrong about its nesting."""
-
-    def __init__(self, text: str) -> None:
-        super().__init__()
-        self.found: list[tuple[str, dict[str, str | None]]] = []
-        self.open: list[str] = []
-        self.feed(text)
-        assert self.open == []
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.found.append((tag, dict(attrs)))
-        if tag not in {"meta", "link", "img", "input"}:
-            self.open.append(tag)
-
-    def handle_endtag(self, tag: str) -> None:
-        assert self.open.pop() == tag
 
 
 def board_of(runs: Path, levels: Path, out: Path) -> Path:

@@ -14,13 +14,13 @@ from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.made import Made
 from ninja_game.play.replay.paths import paths_picture
 from ninja_game.ui.theme import PALETTES, RUN_COLOURS
+from tests.support.board import HOSTILE, put, slow_walk
 from tests.support.forgeries import WALKING, replay
 from tests.support.samples import WALK, WALK_END
-from tests.web.test_board import HOSTILE, levels, put, runs, slow_walk  # noqa: F401
 
 
 @pytest.fixture
-def folder(runs: Path) -> Path:  # noqa: F811
+def folder(runs: Path) -> Path:
     put(runs, "ann.txt", replay(author="Ann"))
     put(runs, "bea.txt", slow_walk(author="Bea"))
     put(runs, "cid.txt", replay(bytes(8) + WALKING + b"\2", author=HOSTILE))
@@ -39,14 +39,14 @@ def answer(folder: Path, pack: Path, *words: str) -> list[dict[str, object]]:
     return found
 
 
-def test_a_level_with_assisted_runs_alone_says_so(runs: Path, levels: Path) -> None:  # noqa: F811
+def test_a_level_with_assisted_runs_alone_says_so(runs: Path, levels: Path) -> None:
     put(runs, "bot.txt", replay(author="Bot", made=Made(edits=3)))
     code, text = ask(runs, levels, "rank", "Walk")
     assert (code, "on Walk yet; assisted: 1, with --assisted" in text) == (2, True), text
 
 
 @pytest.mark.parametrize("level", ["Walk", "walk", "00-0", "wal", "00-0-LEVEL"])
-def test_a_level_is_ranked(level: str, folder: Path, levels: Path) -> None:  # noqa: F811
+def test_a_level_is_ranked(level: str, folder: Path, levels: Path) -> None:
     code, text = ask(folder, levels, "rank", level)
     assert code == 0
     head, first, second, third = text.splitlines()
@@ -57,13 +57,13 @@ def test_a_level_is_ranked(level: str, folder: Path, levels: Path) -> None:  # n
     assert [row["ticks"] for row in answer(folder, levels, "rank", level)] == [WALK_END, WALK_END + 5, WALK_END + 8]
 
 
-def test_the_best_and_a_players_run(folder: Path, levels: Path) -> None:  # noqa: F811
+def test_the_best_and_a_players_run(folder: Path, levels: Path) -> None:
     assert [row["player"] for row in answer(folder, levels, "best", "Walk")] == ["Ann"]
     (row,) = answer(folder, levels, "rank", "Walk", "BEA", "--category", "highest score")
     assert (row["place"], row["score"], row["file"]) == (2, 3680 - WALK_END - 5, "bea.txt")
 
 
-def test_remarks_stand_beside_the_runs(runs: Path, levels: Path) -> None:  # noqa: F811
+def test_remarks_stand_beside_the_runs(runs: Path, levels: Path) -> None:
     put(runs, "ann.txt", slow_walk(40, author="Ann"))
     put(runs, "bob.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="\u0410nn"))
     near = "64 of its 65 ticks have the inputs of the run by Ann in ann.txt"
@@ -73,7 +73,7 @@ def test_remarks_stand_beside_the_runs(runs: Path, levels: Path) -> None:  # noq
     assert [line.partition("; note: ")[2] for line in lines] == ["", "", said]
 
 
-def test_inputs_are_counted(folder: Path, levels: Path) -> None:  # noqa: F811
+def test_inputs_are_counted(folder: Path, levels: Path) -> None:
     (row,) = answer(folder, levels, "inputs", "Walk", "Bea")
     counted = {key: row[key] for key in ("left", "right", "neither", "jump", "strokes", "longest", "presses", "jumps")}
     right = WALK_END + 1
@@ -82,7 +82,7 @@ def test_inputs_are_counted(folder: Path, levels: Path) -> None:  # noqa: F811
     }  # fmt: skip
 
 
-def test_splits_pictures_and_films(folder: Path, levels: Path, tmp_path: Path) -> None:  # noqa: F811
+def test_splits_pictures_and_films(folder: Path, levels: Path, tmp_path: Path) -> None:
     code, text = ask(folder, levels, "splits", "Walk", "Ann", "Bea")
     assert (code, "\nexit " in text, "+5" in text) == (0, True, True), text
     ((event, *_),) = (
@@ -113,6 +113,6 @@ def test_the_first_path_is_on_top() -> None:
         (["rank", "Walk", "--assisted"], "on Walk yet; played: 3, without --assisted"),
     ],
 )  # fmt: skip
-def test_what_there_is_not_is_named(words: list[str], told: str, folder: Path, levels: Path) -> None:  # noqa: F811
+def test_what_there_is_not_is_named(words: list[str], told: str, folder: Path, levels: Path) -> None:
     code, text = ask(folder, levels, *words)
     assert (code, told in text) == (2, True), text

@@ -32,10 +32,10 @@ from ninja_game.web.board.pages import check_site
 from ninja_game.web.board.players import Players, folded
 from ninja_game.web.pages.gallery import published_levels
 from tests.support import near_copies
+from tests.support.board import DIGEST, put, slow_walk
 from tests.support.forgeries import WALKING, record, replay
 from tests.support.reference import require_reference
 from tests.test_entry_points import PACKAGE, readers
-from tests.web.test_board import DIGEST, levels, put, runs, slow_walk  # noqa: F401
 
 JSON = "board.json"
 
@@ -79,7 +79,7 @@ def bare_repository(folder: Path, mark: Path) -> None:
 
 @pytest.mark.skipif(not shutil.which("git"), reason="git is not here")
 @pytest.mark.parametrize("inside", ["", ".git"])
-def test_a_repository_in_the_folder_starts_no_command(inside: str, tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+def test_a_repository_in_the_folder_starts_no_command(inside: str, tmp_path: Path, levels: Path, runs: Path) -> None:
     mark = tmp_path / "touched"
     put(runs, "ann.txt", replay(author="Ann"))
     bare_repository(runs / inside, mark)
@@ -92,7 +92,7 @@ def test_a_repository_in_the_folder_starts_no_command(inside: str, tmp_path: Pat
     assert mark.exists()
 
 
-def test_no_name_outside_the_folder_is_told(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+def test_no_name_outside_the_folder_is_told(tmp_path: Path, levels: Path, runs: Path) -> None:
     (tmp_path / "outside").mkdir()
     (tmp_path / "outside" / "secret-name.txt").write_text("x")
     (runs / "inner").symlink_to(tmp_path / "outside")
@@ -116,7 +116,7 @@ def empty_ledger(folder: Path) -> Path:
     return put(folder, "empty.json", '{"version": 2, "runs": [], "rejected": []}')
 
 
-def test_a_run_keeps_the_date_at_which_the_board_took_it_in(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+def test_a_run_keeps_the_date_at_which_the_board_took_it_in(tmp_path: Path, levels: Path, runs: Path) -> None:
     data = tmp_path / JSON
     put(runs, "bea.txt", slow_walk(author="Bea"))
     board(runs, levels, "--json", str(data))
@@ -132,7 +132,7 @@ def test_a_run_keeps_the_date_at_which_the_board_took_it_in(tmp_path: Path, leve
     assert str(rows(data)["bea.txt"]["added"]) > "2026-02"
 
 
-def test_a_bad_moment_loses_no_date(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+def test_a_bad_moment_loses_no_date(tmp_path: Path, levels: Path, runs: Path) -> None:
     data, date = tmp_path / JSON, "2026-01-31T12:00:00Z"
     good = {"ann.txt": replay(author="Ann"), "bea.txt": record(WALKING + b"\2") + record(b"\0" * 9 + WALKING)}
     bad = {"ann.txt": replay(author="Ann", gold=77), "bea.txt": "\0"}
@@ -147,7 +147,7 @@ def test_a_bad_moment_loses_no_date(tmp_path: Path, levels: Path, runs: Path) ->
     assert dates == {("ann.txt", 0): date, ("bea.txt", 0): date, ("bea.txt", 1): date}
 
 
-def test_the_first_one_in_the_ledger_owns_the_run(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+def test_the_first_one_in_the_ledger_owns_the_run(tmp_path: Path, levels: Path, runs: Path) -> None:
     data = tmp_path / JSON
     put(runs, "zoe.txt", slow_walk(author="Zoe"), day=900)
     board(runs, levels, "--json", str(data))
@@ -162,7 +162,7 @@ def test_the_first_one_in_the_ledger_owns_the_run(tmp_path: Path, levels: Path, 
 
 @pytest.mark.parametrize("steps", [("-ann.txt", "zoe.txt"), ("-ann.txt zoe.txt",), ("zoe.txt", "-ann.txt")])
 def test_a_withdrawn_run_stays_its_players(
-    steps: tuple[str, ...], tmp_path: Path, levels: Path, runs: Path  # noqa: F811
+    steps: tuple[str, ...], tmp_path: Path, levels: Path, runs: Path
 ) -> None:  # fmt: skip
     data = tmp_path / JSON
     put(runs, "ann.txt", slow_walk(author="Ann"))
@@ -185,7 +185,7 @@ def test_a_withdrawn_run_stays_its_players(
     assert json.loads(data.read_text("utf-8"))["withdrawn"] == []
 
 
-def test_without_a_ledger_nobody_is_called_a_copier(levels: Path, runs: Path) -> None:  # noqa: F811
+def test_without_a_ledger_nobody_is_called_a_copier(levels: Path, runs: Path) -> None:
     put(runs, "zoe.txt", slow_walk(author="Zoe"), day=1)
     put(runs, "ann.txt", slow_walk(author="Ann"), day=9)
     found = judge(runs, published_levels(levels), jobs=1)
@@ -216,7 +216,7 @@ BROKEN: dict[str, dict[str, object]] = {
 
 @pytest.mark.parametrize("broken", BROKEN)
 @pytest.mark.parametrize("option", ["--check", "--json"])
-def test_a_broken_ledger_is_named_and_stays(broken: str, option: str, tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+def test_a_broken_ledger_is_named_and_stays(broken: str, option: str, tmp_path: Path, levels: Path, runs: Path) -> None:
     text = json.dumps({"version": 2, "runs": [ROW | {"file": "first.txt"}, ROW | BROKEN[broken]], "rejected": []})
     data = put(tmp_path, JSON, text)
     put(runs, "ann.txt", replay(author="Ann"))
@@ -237,13 +237,13 @@ def test_a_broken_ledger_is_named_and_stays(broken: str, option: str, tmp_path: 
         '{"version": 2, "runs": [], "rejected": [], "withdrawn": [{"level": 3}]}',
     ],
 )
-def test_another_file_is_not_taken_for_a_ledger(text: str, tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+def test_another_file_is_not_taken_for_a_ledger(text: str, tmp_path: Path, levels: Path, runs: Path) -> None:
     data = put(tmp_path, JSON, text)
     assert board(runs, levels, "--json", str(data))[0] == 2
     assert data.read_text("utf-8") == text
 
 
-def test_one_odd_file_does_not_stop_the_others(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+def test_one_odd_file_does_not_stop_the_others(tmp_path: Path, levels: Path, runs: Path) -> None:
     put(runs, "ann.txt", replay(author="Ann"))
     put(runs, "far.txt", replay(author="Far")).touch()
     os.utime(runs / "far.txt", (2**40, 2**40))
@@ -255,7 +255,7 @@ def test_one_odd_file_does_not_stop_the_others(tmp_path: Path, levels: Path, run
     assert {"ann.txt", "a\nb.txt"} <= set(rows(tmp_path / JSON))
 
 
-def test_a_name_of_letters_that_stand_for_many_is_cut(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+def test_a_name_of_letters_that_stand_for_many_is_cut(tmp_path: Path, levels: Path, runs: Path) -> None:
     put(runs, "ann.txt", replay(author="\ufdfa" * MOST_NAME))
     code, text = board(runs, levels, "--site", str(tmp_path / "site"))
     (shared,) = (tmp_path / "site" / "replays").glob("*.txt")
@@ -265,7 +265,7 @@ def test_a_name_of_letters_that_stand_for_many_is_cut(tmp_path: Path, levels: Pa
 
 @pytest.mark.parametrize("odd", ["[made:  from a run by Ann]", "odd"])
 def test_a_run_that_cannot_be_written_stops_no_page(
-    odd: str, tmp_path: Path, levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch  # noqa: F811
+    odd: str, tmp_path: Path, levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:  # fmt: skip
     put(runs, "ann.txt", slow_walk(author="Ann"))
     put(runs, "bea.txt", record().replace("#test#", f"#{odd}#"))
@@ -277,13 +277,13 @@ def test_a_run_that_cannot_be_written_stops_no_page(
     assert (tmp_path / "site" / "board" / "index.html").exists()
 
 
-def test_a_record_without_a_level_counts_where_one_level_does(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+def test_a_record_without_a_level_counts_where_one_level_does(tmp_path: Path, levels: Path, runs: Path) -> None:
     put(runs, "ann.txt", record(level=""))
     found = judge(runs, published_levels(levels / "00-0-level.txt"), jobs=1)
     assert [run.player for run in found.runs] == ["unknown (ann.txt)"]
 
 
-def test_a_run_of_six_lines_asks_for_no_second_of_work(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+def test_a_run_of_six_lines_asks_for_no_second_of_work(tmp_path: Path, levels: Path, runs: Path) -> None:
     put(runs, "ann.txt", f"ninja-game replay 3\nlevel-digest: {DIGEST}\nfinal-tick: 999999\ninputs:\n  .\n")
     put(runs, "bea.txt", record(bytes(3700) + WALKING))
     found = judge(runs, published_levels(levels), jobs=1)
@@ -293,7 +293,7 @@ def test_a_run_of_six_lines_asks_for_no_second_of_work(tmp_path: Path, levels: P
     assert "in_time is false" in told[1][1], told
 
 
-def test_inputs_alone_take_in_no_other_file(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+def test_inputs_alone_take_in_no_other_file(tmp_path: Path, levels: Path, runs: Path) -> None:
     put(runs, "ann.tas", "Read,part.txt\n   1,R\n")
     found = judge(runs, published_levels(levels / "00-0-level.txt"), jobs=1)
     assert [each.why for each in found.rejected] == ["inputs without a level; send a replay, or a record of N"]
@@ -303,7 +303,7 @@ def test_inputs_alone_take_in_no_other_file(tmp_path: Path, levels: Path, runs: 
 
 
 @pytest.mark.parametrize("out", [".", "replays/..", "replays", "replays/deep", "link", "replays/.", "around"])
-def test_the_pages_are_not_written_into_the_runs(out: str, tmp_path: Path, levels: Path) -> None:  # noqa: F811
+def test_the_pages_are_not_written_into_the_runs(out: str, tmp_path: Path, levels: Path) -> None:
     folder = tmp_path / "replays"
     put(folder, "ann.txt", replay(author="Ann"))
     (tmp_path / "link").symlink_to(tmp_path)
@@ -315,7 +315,7 @@ def test_the_pages_are_not_written_into_the_runs(out: str, tmp_path: Path, level
     assert sorted(tmp_path.rglob("*")) == before
 
 
-def test_a_ledger_is_not_written_where_it_would_be_a_run(tmp_path: Path, levels: Path) -> None:  # noqa: F811
+def test_a_ledger_is_not_written_where_it_would_be_a_run(tmp_path: Path, levels: Path) -> None:
     put(tmp_path, "runs/ann.txt", replay(author="Ann"))
     code, text = board(tmp_path / "runs", levels, "--json", str(tmp_path / "runs" / "new.txt"))
     assert (code, "the board would be read as a run" in text) == (2, True), text
@@ -366,7 +366,7 @@ def test_names_without_a_letter_that_is_seen_are_unnamed() -> None:
     assert Players().meet("\u200b\u3164")[0] == "unnamed"
 
 
-def test_players_are_shown_as_they_came_first(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+def test_players_are_shown_as_they_came_first(tmp_path: Path, levels: Path, runs: Path) -> None:
     data = tmp_path / JSON
     put(runs, "z.txt", slow_walk(author="Ann"))
     board(runs, levels, "--json", str(data))

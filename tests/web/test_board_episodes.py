@@ -20,8 +20,8 @@ from ninja_game.web.board.rules import FASTEST
 from ninja_game.web.board.runs import PLAYED, ValidatedRuns
 from ninja_game.web.pages.gallery import published_levels
 from ninja_game.web.pages.memo import Memo
+from tests.support.board import board
 from tests.support.own_pack import PACK
-from tests.web.test_board_memo import board
 
 RUNS = sorted((PACK / "certificates").glob("0*.exit.replay.txt"))[:5]
 SHOWN = published_levels(PACK)

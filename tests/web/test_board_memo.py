@@ -22,16 +22,9 @@ from ninja_game.web.board import collect, copies, judge
 from ninja_game.web.board.collect import RunFolder, SentFile
 from ninja_game.web.pages import memo
 from ninja_game.web.pages.memo import Memo
+from tests.support.board import DIGEST, board, put, slow_walk
 from tests.support.forgeries import WALKING, replay
 from tests.support.samples import WALK_END
-from tests.web.test_board import DIGEST, levels, put, runs, slow_walk  # noqa: F401
-
-
-def board(folder: Path, pack: Path, *words: str) -> str:
-    """The output of a command on the board that goes well."""
-    result = CliRunner().invoke(cli, ["board", str(folder), "--levels", str(pack), "--jobs", "1", *words])
-    assert result.exit_code == 0, result.output
-    return result.stdout
 
 
 @pytest.fixture
@@ -65,7 +58,7 @@ def drawn(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
 
 def test_only_what_is_new_is_simulated_and_written(
-    tmp_path: Path, levels: Path, runs: Path, simulated: list[str], drawn: list[str],  # noqa: F811
+    tmp_path: Path, levels: Path, runs: Path, simulated: list[str], drawn: list[str],
 ) -> None:  # fmt: skip
     site = str(tmp_path / "site")
     put(runs, "ann.txt", replay(author="Ann"))
@@ -93,7 +86,7 @@ def test_only_what_is_new_is_simulated_and_written(
 
 
 def test_a_file_that_lies_there_as_before_is_not_read(
-    levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch  # noqa: F811
+    levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:  # fmt: skip
     """Its size and times tell; one that was written a moment ago is read again, since it may change unseen."""
     read: list[str] = []
@@ -123,7 +116,7 @@ def test_a_file_that_lies_there_as_before_is_not_read(
 
 
 def test_a_lost_worker_is_not_remembered(
-    levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch  # noqa: F811
+    levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:  # fmt: skip
     put(runs, "ann.txt", replay(author="Ann"))
     with monkeypatch.context() as patch:
@@ -137,7 +130,7 @@ def tree(folder: Path) -> dict[str, bytes]:
     return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*.*") if path.is_file()}
 
 
-def test_pages_are_the_same_as_made_again(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+def test_pages_are_the_same_as_made_again(tmp_path: Path, levels: Path, runs: Path) -> None:
     """Runs come, change and go; whatever was remembered, the pages are those of a board that remembers nothing."""
     some = {
         "ann.txt": replay(author="Ann"), "bea.txt": slow_walk(40, author="Bea"),
@@ -154,7 +147,7 @@ def test_pages_are_the_same_as_made_again(tmp_path: Path, levels: Path, runs: Pa
 
 
 def test_the_command_after_the_first_compares_nothing(
-    tmp_path: Path, levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch  # noqa: F811
+    tmp_path: Path, levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:  # fmt: skip
     """All runs have one moment, and near copies lie between others; one more run is compared alone."""
     compared, simulated = (Mock(side_effect=getattr(copies, name)) for name in ("_near_to_another", "run_level"))
@@ -177,7 +170,7 @@ def test_the_command_after_the_first_compares_nothing(
     assert (compared.call_count, simulated.call_count) == (5, 9), "and the earlier ones are what it is compared with"
 
 
-def test_a_page_that_somebody_changed_is_written_again(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+def test_a_page_that_somebody_changed_is_written_again(tmp_path: Path, levels: Path, runs: Path) -> None:
     put(runs, "ann.txt", replay(author="Ann"))
     board(runs, levels, "--site", str(tmp_path / "site"))
     before = tree(tmp_path / "site")
@@ -192,7 +185,7 @@ def test_a_page_that_somebody_changed_is_written_again(tmp_path: Path, levels: P
 
 @pytest.mark.parametrize("words", [[], ["--again"]])
 def test_a_run_that_is_withdrawn_leaves_no_file(
-    words: list[str], tmp_path: Path, levels: Path, runs: Path  # noqa: F811
+    words: list[str], tmp_path: Path, levels: Path, runs: Path
 ) -> None:  # fmt: skip
     put(runs, "ann.txt", replay(author="Ann"))
     put(runs, "bea.txt", slow_walk(author="Bea"))
@@ -205,7 +198,7 @@ def test_a_run_that_is_withdrawn_leaves_no_file(
 
 
 def test_what_comes_with_the_runs_is_not_remembered(
-    tmp_path: Path, levels: Path, runs: Path, board_cache: Path, simulated: list[str]  # noqa: F811
+    tmp_path: Path, levels: Path, runs: Path, board_cache: Path, simulated: list[str]
 ) -> None:  # fmt: skip
     """Memos, checkpoint logs and ledgers beside the runs, in the pages, or in the current folder judge nothing."""
     put(runs, "ann.txt", slow_walk(author="Ann"))
@@ -228,7 +221,7 @@ def test_what_comes_with_the_runs_is_not_remembered(
 
 @pytest.mark.parametrize("place", ["runs", "runs/deep", ".", "site", "site/board/deep"])
 def test_a_cache_folder_among_the_runs_or_pages_is_refused(
-    place: str, tmp_path: Path, levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch  # noqa: F811
+    place: str, tmp_path: Path, levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:  # fmt: skip
     put(runs, "ann.txt", replay(author="Ann"))
     folder = Path(place) if place == "." else tmp_path / place
@@ -255,7 +248,7 @@ BROKEN = [7, "x", None, [], [7], [[]], [[0, ""]], [[0, "odd", "why"]], [[0, "", 
 
 @pytest.mark.parametrize("broken", BROKEN)
 def test_a_broken_row_of_a_memo_is_none(
-    broken: Any, tmp_path: Path, levels: Path, runs: Path, board_cache: Path, simulated: list[str]  # noqa: F811
+    broken: Any, tmp_path: Path, levels: Path, runs: Path, board_cache: Path, simulated: list[str]
 ) -> None:  # fmt: skip
     site = tmp_path / "site"
     put(runs, "ann.txt", replay(author="Ann"))
@@ -281,7 +274,7 @@ def test_all_code_of_the_program_counts(tmp_path: Path, monkeypatch: pytest.Monk
 
 
 def test_other_rules_of_the_world_are_other_runs(
-    tmp_path: Path, levels: Path, runs: Path, simulated: list[str], monkeypatch: pytest.MonkeyPatch  # noqa: F811
+    tmp_path: Path, levels: Path, runs: Path, simulated: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:  # fmt: skip
     put(runs, "ann.txt", replay(author="Ann"))
     board(runs, levels)

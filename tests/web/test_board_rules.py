@@ -17,10 +17,9 @@ from ninja_game.web.board.ranking import Ranking
 from ninja_game.web.board.rules import FASTEST, MOST_CATEGORIES, NAMES, USUAL, Category, read_categories
 from ninja_game.web.board.runs import ASSISTED, PLAYED
 from ninja_game.web.pages.gallery import path_data, published_levels
+from tests.support.board import DIGEST, Tags, board, put, slow_walk
 from tests.support.forgeries import GOLD_LATER, WALKING, replay
 from tests.support.samples import WALK_END
-from tests.web.test_board import DIGEST, Tags, levels, put, runs, slow_walk  # noqa: F401
-from tests.web.test_board_memo import board
 
 SEARCHED = Made(edits=3, searches=("improve",), begun_by="Ann")
 RULES = Path("docs/board-template/board.toml")
@@ -35,7 +34,7 @@ def category(name: str = "A", **more: object) -> str:
     return "[[category]]\n" + "".join(f"{key} = {json.dumps(value)}\n" for key, value in keys.items())
 
 
-def test_an_assisted_run_is_on_a_ladder_of_its_own(runs: Path, levels: Path, tmp_path: Path) -> None:  # noqa: F811
+def test_an_assisted_run_is_on_a_ladder_of_its_own(runs: Path, levels: Path, tmp_path: Path) -> None:
     put(runs, "ann.txt", slow_walk(author="Ann"))
     put(runs, "bea.txt", replay(bytes(9) + WALKING + b"\2", author="Bea", made=Made(played=True)))
     put(runs, "tas.txt", replay(author="Ann", made=SEARCHED, co_authors=("<b>Eve</b>",)))
@@ -57,7 +56,7 @@ def test_an_assisted_run_is_on_a_ladder_of_its_own(runs: Path, levels: Path, tmp
     assert any("made: edited 3" in each.read_text("utf-8") for each in text.parent.iterdir())
 
 
-def test_the_rules_of_the_template_rank_as_they_say(runs: Path, levels: Path) -> None:  # noqa: F811
+def test_the_rules_of_the_template_rank_as_they_say(runs: Path, levels: Path) -> None:
     """Ann goes straight through the gold; Bea jumps over nothing and takes it later; the level's gold is one piece."""
     put(runs, "ann.txt", replay(author="Ann"))
     put(runs, "bea.txt", slow_walk(author="Bea"))
@@ -79,7 +78,7 @@ def test_the_rules_of_the_template_rank_as_they_say(runs: Path, levels: Path) ->
     assert not Category("Spent", ("-gold + ticks",)).rising
 
 
-def test_a_run_is_in_a_category_only_where_its_formula_holds(runs: Path, levels: Path, tmp_path: Path) -> None:  # noqa: F811
+def test_a_run_is_in_a_category_only_where_its_formula_holds(runs: Path, levels: Path, tmp_path: Path) -> None:
     put(runs, "ann.txt", slow_walk(author="Ann"))
     put(runs, "bea.txt", replay(author="Bea"))
     others = category("B", rank=["-ticks"]) + category("C", rank=["1 / (gold - 1)"])
@@ -112,7 +111,7 @@ def test_broken_rules_are_named(text: str, tmp_path: Path) -> None:
     assert "board.toml" in str(caught.value)
 
 
-def test_rules_of_a_mebibyte_are_too_many(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+def test_rules_of_a_mebibyte_are_too_many(tmp_path: Path, levels: Path, runs: Path) -> None:
     path = rules(tmp_path, "#" * 2**20 + "#")
     result = CliRunner().invoke(cli, ["board", str(runs), "--levels", str(levels), "--rules", str(path)])
     assert (result.exit_code, "too large" in result.output) == (2, True)
@@ -123,7 +122,7 @@ def test_every_name_of_a_formula_is_in_the_documents() -> None:
     assert all(f"`{name}`" in text for name in NAMES)
 
 
-def test_no_record_depends_on_the_clock(runs: Path, levels: Path, tmp_path: Path) -> None:  # noqa: F811
+def test_no_record_depends_on_the_clock(runs: Path, levels: Path, tmp_path: Path) -> None:
     """The level of the week, the feed and the records follow from the ledger."""
     put(runs, "ann.txt", replay(author="Ann"))
     put(runs, "bea.txt", slow_walk(author="Bea"))
@@ -138,7 +137,7 @@ def test_no_record_depends_on_the_clock(runs: Path, levels: Path, tmp_path: Path
     assert ranking.contested[0] == DIGEST
 
 
-def test_the_feed_is_atom_and_leads_to_levels(runs: Path, levels: Path, tmp_path: Path) -> None:  # noqa: F811
+def test_the_feed_is_atom_and_leads_to_levels(runs: Path, levels: Path, tmp_path: Path) -> None:
     name = "<b>\x1b\u202e&\ud800"
     put(
         runs,
@@ -158,7 +157,7 @@ def test_the_feed_is_atom_and_leads_to_levels(runs: Path, levels: Path, tmp_path
     assert again.findtext(f"{atom}entry/{atom}id") == entry.findtext(f"{atom}id")
 
 
-def test_the_feed_says_who_a_name_is_not(runs: Path, levels: Path, tmp_path: Path) -> None:  # noqa: F811
+def test_the_feed_says_who_a_name_is_not(runs: Path, levels: Path, tmp_path: Path) -> None:
     put(runs, "a.txt", slow_walk(author="Ann"))
     put(runs, "b.txt", replay(bytes(2) + WALKING + b"\2", author="\u0410nn"))
     board(runs, levels, "--site", str(tmp_path / "site"), "--json", str(tmp_path / "board.json"))
@@ -173,7 +172,7 @@ def test_the_feed_says_who_a_name_is_not(runs: Path, levels: Path, tmp_path: Pat
 
 
 def test_long_lists_go_on_on_other_pages(
-    runs: Path, levels: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,  # noqa: F811
+    runs: Path, levels: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
 ) -> None:  # fmt: skip
     monkeypatch.setattr("ninja_game.web.board.level_pages.PER_PAGE", 3)
     for wait in range(3, 10):

@@ -21,9 +21,10 @@ from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
 from ninja_game.errors import FileError, NinjaGameError
-from ninja_game.files.user_folder import bundled_replays
+from ninja_game.files.user_folder import PACKAGE, bundled_replays, data_folder
 from ninja_game.web.site import build, game_archive
 from ninja_game.web.site.build import site_server
+from ninja_game.web.site.game_archive import LEFT_OUT
 from tests.support.slow import the_rest_is_slow
 
 
@@ -137,6 +138,12 @@ def test_the_archive_holds_the_game_and_nothing_that_the_page_cannot_use(pyodide
     assert not [name for name in names if "/cli/" in name or "/learn/" in name or name.endswith((".pyc", ".md"))]
     with ZipFile(app / "pyodide" / "python_stdlib.zip") as library:
         assert library.namelist() == ["encodings/utf_8.py", "json/__init__.py"]
+
+
+@pytest.mark.parametrize("folder, beginning", [(name, each) for name in LEFT_OUT for each in LEFT_OUT[name]])
+def test_all_that_the_page_leaves_out_is_there(folder: str, beginning: str) -> None:
+    root = PACKAGE if folder == "package" else data_folder(folder)
+    assert any(path.relative_to(root).as_posix().startswith(beginning) for path in root.rglob("*.*"))
 
 
 def test_a_folder_with_other_things_is_left_alone(pyodide: Path, tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ from typing import NamedTuple
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.legend import ODD_TILE, SYMBOL_OF_CHAR, TILE_CHARS, TILE_OF_CHAR, Symbol, visible_parts
 from ninja_game.formats.ascii.object_lines import Listed, OddTile
-from ninja_game.formats.ascii.places import shown
+from ninja_game.formats.ascii.places import Cell, middle_of, shown
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 
@@ -65,8 +65,6 @@ class Problems:
             joined.further = tuple(others)
             raise joined
 
-
-Cell = tuple[int, int]  # column 1…31, row 1…23
 
 FRAME = "|"
 ROW_START = re.compile(r"\s*+(\d*+)\s*+\|", re.ASCII)
@@ -252,7 +250,8 @@ def _named(symbol: Symbol) -> str:
 
 def point_of(cell: Cell, symbol: Symbol) -> tuple[float, float]:
     """Where a drawn object stands, px."""
-    return 24.0 * cell[0] + 12.0 + symbol.dx, 24.0 * cell[1] + 12.0 + symbol.dy
+    x, y = middle_of(cell)
+    return x + symbol.dx, y + symbol.dy
 
 
 def _drawn_records(picture: Picture, drawn: Sequence[tuple[Cell, Symbol]], problems: Problems) -> list[ObjectSpec]:

@@ -8,7 +8,10 @@ import struct
 
 from ninja_game.errors import LevelError
 from ninja_game.sim.level import COLUMNS, ROWS
-from ninja_game.sim.rules import CELL
+from ninja_game.sim.rules import CELL, HALF
+
+Cell = tuple[int, int]
+"""Column 1…31, row 1…23; 0 and 32, 24 are the border."""
 
 _NUMBER = re.compile(r"[+-]?(\d++(\.\d*+)?|\.\d++)(e[+-]?\d++)?|nan|[+-]?inf", re.ASCII)
 _LONGEST_SHOWN = 40
@@ -22,6 +25,25 @@ def shown(text: str) -> str:
 def same_bits(a: float, b: float) -> bool:
     """Whether two float64 are the same to the last bit: -0.0 is not 0.0; one NaN is as good as another."""
     return struct.pack("<d", a) == struct.pack("<d", b) or (math.isnan(a) and math.isnan(b))
+
+
+def is_inside(cell: Cell) -> bool:
+    """Whether a cell has a tile of the level's own: the border has not."""
+    return 1 <= cell[0] <= COLUMNS and 1 <= cell[1] <= ROWS
+
+
+def cell_of(x: float, y: float) -> Cell:
+    """Column and row of the cell that holds a point, px.
+
+    >>> cell_of(24, 47.5)
+    (1, 1)
+    """
+    return int(x // CELL), int(y // CELL)
+
+
+def middle_of(cell: Cell) -> tuple[float, float]:
+    """A cell's middle, px."""
+    return CELL * cell[0] + HALF, CELL * cell[1] + HALF
 
 
 def number_text(value: float) -> str:
@@ -46,8 +68,8 @@ def read_number(text: str) -> float:
 
 def _cell_number(value: float, count: int) -> str:
     """Cell coordinate of a px coordinate if quarter steps from 0 to the far border give it exactly, else ''."""
-    cell = (value - 12.0) / CELL
-    if not 0 <= cell <= count + 1 or cell * 4 != int(cell * 4) or not same_bits(cell * CELL + 12.0, value):
+    cell = (value - HALF) / CELL
+    if not 0 <= cell <= count + 1 or cell * 4 != int(cell * 4) or not same_bits(cell * CELL + HALF, value):
         return ""
     return number_text(cell)
 
@@ -80,13 +102,13 @@ def read_place(text: str, dx: float = 0.0, dy: float = 0.0) -> tuple[float, floa
         if value * 4 != int(value * 4):
             expected, hint = "steps of 0.25 (6 px)", "write finer positions in px, as in 60,564px"
             raise LevelError(f"{what} between the quarter cells", found=found, expected=expected, hint=hint)
-    return x * CELL + 12.0 + dx, y * CELL + 12.0 + dy
+    return x * CELL + HALF + dx, y * CELL + HALF + dy
 
 
-def read_cell(text: str) -> tuple[int, int]:
+def read_cell(text: str) -> Cell:
     """Column and row of a whole cell (0…32, 0…24). Raises LevelError (without a place)."""
     x, y = read_place(text)
-    column, row = (x - 12.0) / CELL, (y - 12.0) / CELL
+    column, row = (x - HALF) / CELL, (y - HALF) / CELL
     if text.endswith("px") or not (column.is_integer() and row.is_integer()):
         raise LevelError("not a whole cell", found=shown(text), expected="column,row such as 20,14")
     return int(column), int(row)

@@ -7,7 +7,6 @@ from functools import partial
 from pathlib import Path
 
 from ninja_game.editor.brush import FAMILIES, OBJECT_TYPES, QUARTERS, SNAPS
-from ninja_game.editor.draft import Cell, cell_of
 from ninja_game.editor.files import SUFFIX, Source, draft_of, new_source, open_source, recovered
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
 from ninja_game.editor.specs import points
@@ -16,10 +15,11 @@ from ninja_game.editor.tools import TOOLS
 from ninja_game.errors import LevelError, NinjaGameError, reason
 from ninja_game.files.shown_text import counted, file_stem
 from ninja_game.files.user_folder import LEVELS, free_path
+from ninja_game.formats.ascii.places import Cell, cell_of
 from ninja_game.formats.ascii.writer import headers_of
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.sayings import Saying, read_sayings
-from ninja_game.levels.episodes import Entry, Mood
+from ninja_game.levels.episodes import GAME, YOURS, Entry, Mood
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
 from ninja_game.play.editor.messages import MessagesScreen
@@ -363,7 +363,7 @@ class EditorCommands(DocumentCommands):
     def edit_entry(self, entry: Entry) -> None:
         """Edit a level of the browser: the player's in its file, in a pack too; the game's or a zip's as a new one."""
         path = Path(entry.named.file)
-        if entry.source != "game" and entry.named.ascii and path.is_file():
+        if entry.source != GAME and entry.named.ascii and path.is_file():
             self.open_file(path)
         else:
             self.session.begin(Source(draft_of(entry.named)))
@@ -443,7 +443,7 @@ class TryScreen(LevelScreen):
     def __init__(self, app: App, session: EditorSession, level: Level, says: str) -> None:
         title = f"{session.name} ({app.controls.name('back')}: back to the editor)"
         named = NamedLevel(title, "", "", level, "", says=says)
-        self._trying = TryContext(session, Entry(named, "yours"))
+        self._trying = TryContext(session, Entry(named, YOURS))
         super().__init__(app, self._trying)
 
     def leave(self) -> None:

@@ -10,9 +10,10 @@ from functools import partial
 import pygame
 
 from ninja_game.editor.brush import EMPTY
-from ninja_game.editor.draft import Cell, Draft, cell_of, is_inside
+from ninja_game.editor.draft import Draft
 from ninja_game.editor.specs import BODY, SWITCH, object_type_name, points
 from ninja_game.errors import LevelError
+from ninja_game.formats.ascii.places import Cell, cell_of, is_inside
 from ninja_game.formats.sayings import (
     BAR,
     KEYS,

@@ -9,7 +9,6 @@ from functools import lru_cache, partial
 import pygame
 
 from ninja_game.editor.brush import tile_name
-from ninja_game.editor.draft import cell_of
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, Motion
 from ninja_game.editor.specs import SWITCH, carried, has_switch, object_type_name, points, properties, word
 from ninja_game.editor.tools import (
@@ -24,7 +23,7 @@ from ninja_game.editor.tools import (
 )
 from ninja_game.errors import LevelError
 from ninja_game.files.user_folder import short_path
-from ninja_game.formats.ascii.places import place_text, read_place
+from ninja_game.formats.ascii.places import cell_of, place_text, read_place
 from ninja_game.formats.ascii.writer import best_form
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.commands import TABLE

@@ -14,8 +14,9 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.editor.certify import Route, TestMap
-from ninja_game.editor.draft import Cell, Draft, changed_cells
+from ninja_game.editor.draft import Draft, changed_cells
 from ninja_game.editor.specs import BODY, SWITCH, has_switch, points
+from ninja_game.formats.ascii.places import Cell, middle_of
 from ninja_game.formats.sayings import read_sayings
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.palette_view import ObjectPictures, ObjectSprites
@@ -23,7 +24,7 @@ from ninja_game.sim import kinds
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 from ninja_game.sim.loader import grid_tiles
 from ninja_game.sim.memory.schema import TileMap
-from ninja_game.sim.rules import CELL, HALF, STRIDE
+from ninja_game.sim.rules import CELL, STRIDE
 from ninja_game.ui.canvas import Canvas, Colour, Point
 from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.drawing import DrawTarget, SpriteBook, is_near
@@ -276,7 +277,7 @@ def death_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
 
 
 def finding_points(level: Level, finding: Finding) -> list[Point]:
-    places = [(CELL * column + HALF, CELL * row + HALF) for column, row in finding.cells]
+    places = list(map(middle_of, finding.cells))
     for number in finding.records:
         found = points(level.objects[number]) if number < len(level.objects) else {}
         place = found.get(SWITCH if finding.about_switch else BODY)

@@ -8,11 +8,12 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.editor.certify import NO_TESTS, SQUARE, Reach, Route
-from ninja_game.editor.draft import Cell, Draft, is_inside
+from ninja_game.editor.draft import Draft
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.specs import BODY, SWITCH, carried, points
 from ninja_game.editor.stamp import CellArea, Stamp, area_between, nearest
 from ninja_game.editor.tools import PICK_REACH, EditorTools, said_cells
+from ninja_game.formats.ascii.places import Cell, is_inside
 from ninja_game.play.app import App
 from ninja_game.play.editor.palette_view import tile_icon
 from ninja_game.play.editor.session import EditorSession
@@ -126,7 +127,7 @@ class Overlay:
 
     def _frame(self, area: CellArea, colour: Colour) -> None:
         column, row, columns, rows = area
-        rect = self.canvas.rect(24 * column, 24 * row, 24 * columns, 24 * rows)
+        rect = self.canvas.rect(CELL * column, CELL * row, CELL * columns, CELL * rows)
         pygame.draw.rect(self.target.surface, colour, rect, self.canvas.px(1.6))
         self._note(rect)
 
@@ -174,7 +175,7 @@ class Overlay:
             self.target.line(self.sheet.palette.accent, *a, *b)
 
     def _ghost_tile(self, cell: tuple[int, int], tile: int) -> None:
-        rect = self.canvas.rect(24 * cell[0], 24 * cell[1], 24, 24)
+        rect = self.canvas.rect(CELL * cell[0], CELL * cell[1], CELL, CELL)
         if self.sheet.draft and self.sheet.draft.tile(cell):
             self.target.surface.fill(self.sheet.palette.background, rect)
         picture = tile_icon(tile, rect.size, self.sheet.palette.base.name, alpha=150)

@@ -183,7 +183,7 @@ class LevelPlay:
         """The suicide key: an explosion or a shot, thrown at random (game.md §2)."""
         rng = self.rng
         self.attempt.give_up(rng.random(), rng.uniform(-5, 5), -6 * rng.random())
-        self.view.on_death()
+        self.view.follow_ninja()
         self._note_end()
 
     @property
@@ -283,7 +283,7 @@ class LevelPlay:
         if due and self.phase is Phase.PLAY:
             self.attempt.check_time()
             if self.attempt.outcome == "dead":
-                self.view.on_death()
+                self.view.follow_ninja()
                 self._note_end()
 
     def _note_end(self) -> None:

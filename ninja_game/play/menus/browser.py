@@ -15,7 +15,7 @@ from ninja_game.files.user_folder import free_path
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.generator.daily import FOLDER as DAILY
-from ninja_game.levels.episodes import Entry, author_name
+from ninja_game.levels.episodes import GAME, YOURS, Entry, author_name
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.level.screen import play_level
@@ -179,8 +179,8 @@ class Browser(ThumbnailScreen):
         for button, hint in (self.change, "Open it in the editor"), (self.link, "Copy a link that opens this level"):
             button.enabled, button.hint = selected is not None, hint if selected else lock
         self.watch_best.enabled = selected is not None and selected.digest in self.bests
-        name, ours = self.player.settings.name, selected is not None and selected.source == "game"
-        mine = selected is not None and not ours and (selected.source == "yours" or name == selected.named.author)
+        name, ours = self.player.settings.name, selected is not None and selected.source == GAME
+        mine = selected is not None and not ours and (selected.source == YOURS or name == selected.named.author)
         known = ours or bool(selected and self.player.catalogue.author_run(selected))
         opened = mine or (selected is not None and opens_author(selected, self.marks.get(selected.digest)))
         self.watch_author.enabled = known and opened
@@ -224,7 +224,7 @@ class Browser(ThumbnailScreen):
             return
         self.thumbnails.draw(surface, entry, SIDE + 28, 66, SIDE_WIDTH - 56)
         theme.text(surface, entry.title, SIDE, 278, size=17, bold=True, width=SIDE_WIDTH - 44)
-        unsigned = "yours" if entry.source == "yours" else "author unknown"
+        unsigned = "yours" if entry.source == YOURS else "author unknown"
         by = f"by {author_name(entry.named.author)}" if entry.named.author else unsigned
         about = "    ".join(filter(None, (by, where_from(entry))))
         theme.text(surface, about, SIDE, 303, size=10.5, colour=palette.faint, width=SIDE_WIDTH)
@@ -250,7 +250,7 @@ class Browser(ThumbnailScreen):
         theme.text(surface, entry.title, left, y + 11, size=12, bold=chosen, width=186)
         if self.player.lock_of(entry):
             draw_look(surface, theme, "locked", (x + 4 + PICTURE / 2 - 11, y + 16, 22, 22))
-        by = author_name(entry.named.author) if entry.source == "yours" else ""
+        by = author_name(entry.named.author) if entry.source == YOURS else ""
         source = "    ".join(filter(None, (by, where_from(entry))))
         theme.text(surface, source, left, y + 32, size=10, colour=palette.faint, width=w - PICTURE - 64)
         mark = self.marks.get(entry.digest)

@@ -17,7 +17,7 @@ from ninja_game.play.menus.menu_screen import CANCEL, Menu, Row
 from ninja_game.play.menus.problems import of_files, problems_button
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, tries_text
-from ninja_game.player.playthrough import EpisodeRun, left_half_way
+from ninja_game.player.playthrough import EpisodeRun, unfinished_run
 from ninja_game.player.progress import CHEATED, LOCKED, WITH_HELP, Mark, has_all_gold, next_par, tally, worst_medal
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import BAR, ListView
@@ -217,7 +217,7 @@ class EpisodeGrid(ThumbnailScreen):
             return
         practice_mode = self.player.settings.practice
         afresh = EpisodeRun(self.player, self.episode, practice_mode=practice_mode)
-        left = None if practice_mode else left_half_way(self.player, self.episode)
+        left = None if practice_mode else unfinished_run(self.player, self.episode)
         if left is None or not left.position:
             self.app.push(LevelScreen(self.app, afresh))
             return

@@ -10,7 +10,7 @@ import pygame
 
 from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.load import load_levels
-from ninja_game.levels.episodes import Entry
+from ninja_game.levels.episodes import GAME, Entry
 from ninja_game.play.app import App
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
 from ninja_game.ui.list_view import ListView
@@ -40,7 +40,7 @@ class GoodLevel(NamedTuple):
 def read_good_levels() -> list[GoodLevel]:
     tables = tomllib.loads((data_folder("assets") / FILE).read_text("utf-8"))["level"]
     files = [data_folder("levels") / f"{each['file']}.txt" for each in tables]
-    entries = [Entry(load_levels(file)[0], "game") for file in files]
+    entries = [Entry(load_levels(file)[0], GAME) for file in files]
     return [GoodLevel(entry, each["about"], each["notes"]) for entry, each in zip(entries, tables, strict=True)]
 
 

@@ -9,7 +9,7 @@ import pygame
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.pars import MARGINS, Pars
 from ninja_game.formats.run_time import seconds_text
-from ninja_game.levels.episodes import Entry
+from ninja_game.levels.episodes import GAME, YOURS, Entry
 from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.player.progress import Mark, has_all_gold, medal_of
@@ -109,6 +109,6 @@ def draw_pars(surface: pygame.Surface, theme: Theme, pars: Pars | None, tick: in
 
 
 def where_from(entry: Entry) -> str:
-    pack = shown_text(entry.source) if entry.source not in {"game", "yours"} else ""
-    place = entry.place or ("Your folder" if entry.source == "yours" else "")
+    pack = shown_text(entry.source) if entry.source not in {GAME, YOURS} else ""
+    place = entry.place or ("Your folder" if entry.source == YOURS else "")
     return "    ".join(filter(None, (pack, place, entry.pars.grade if entry.pars else "")))

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from itertools import pairwise
+from itertools import chain, pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -55,7 +55,8 @@ class Film:
 
     ``size``: px of a run's picture. ``speed``: 1 is that of the game. ``ghosts``: runs on the same level that go along;
     ``beside``: up to three more of it, each in a picture of its own. ``keys``, ``splits``: whether the keys that are
-    down are shown, and time and splits with how many ticks other runs are later. ``then``: the film that follows.
+    down are shown, and time and splits with how many ticks other runs are later. ``known``: its moments, where they are
+    known already.
 
     Raises ArgumentError for a section that is empty or begins after the end, and for one without ``last`` in which the
     runs have more than MOST_PICTURES together.
@@ -71,20 +72,18 @@ class Film:
     last: int | None = None
     beside: tuple[Recording, ...] = ()
     splits: bool = False
-    then: Film | None = None
+    known: range | None = None
 
     @property
     def whole_size(self) -> tuple[int, int]:
         beside, (w, h) = len(self.beside), self.size
         return w * min(2, 1 + beside), h * (1 + beside // 2)
 
-    @property
-    def length(self) -> int:
-        return len(self.moments) + (self.then.length if self.then else 0)
-
     @cached_property
     def moments(self) -> range:
         """The ticks after which there is a picture. Raises LevelError for a level that cannot be played."""
+        if self.known is not None:
+            return self.known
         runs = self.run, *self.beside
         wanted = self.first + MOST_PICTURES // len(runs) if self.last is None else self.last
         # What comes after the last picture is not run.
@@ -100,6 +99,11 @@ class Film:
         return range(self.first, last + 1)
 
 
+def length_of(films: Sequence[Film]) -> int:
+    """The number of their pictures. Raises what ``Film.moments`` does."""
+    return sum(len(film.moments) for film in films)
+
+
 def section_of(films: Sequence[Film], first: int, last: int | None) -> list[Film]:
     """The part of consecutive films between two pictures, counted from 0 over all. ``last``: None: the end.
 
@@ -110,10 +114,8 @@ def section_of(films: Sequence[Film], first: int, last: int | None) -> list[Film
         count = len(film.moments)
         start, end = max(0, first - before), count - 1 if last is None else min(count - 1, last - before)
         if start <= end:
-            part = replace(film, first=start, last=end)
-            # Else the runs would be simulated once more.
-            vars(part)["moments"] = film.moments[start : end + 1]
-            found.append(part)
+            # With what is known already the runs are not simulated once more.
+            found.append(replace(film, first=start, last=end, known=film.moments[start : end + 1]))
         before += count
     if not found:
         raise ArgumentError(f"a film from tick {first} to {last} has no pictures; there are {before:,}")
@@ -207,30 +209,31 @@ def film_pictures(film: Film) -> Iterator[pygame.Surface]:
                 panel.draw(place, whole=tick == moments.start)
         if tick in moments:
             yield surface
-    if film.then:
-        yield from film_pictures(film.then)
 
 
-def write_film(film: Film, path: Path, report: Callable[[int], bool] = lambda _: True) -> bool:
-    """Write a film to ``path``: a .gif, .webm or .mp4, or for a path without suffix a folder of PNG pictures.
+def write_film(
+    films: Sequence[Film], path: Path, report: Callable[[int, int], bool] = lambda _made, _count: True
+) -> bool:
+    """Write films, one after the other, to ``path``: a .gif, .webm, .mp4, or without suffix a folder of PNG pictures.
 
-    ``report`` gets the number of pictures made so far; where it gives False, the film is given up: then this gives
-    False and leaves no file. Raises NinjaGameError for another suffix, MissingExtraError, OSError, what
-    ``Film.moments`` does.
+    Size, speed and colours are those of the first. ``report`` gets how many pictures are made so far, and of how many;
+    where it gives False, the film is given up: then this gives False and leaves no file. Raises NinjaGameError for
+    another suffix, MissingExtraError, OSError, what ``Film.moments`` does.
     """
+    first, count = films[0], length_of(films)
 
     def pictures() -> Iterator[pygame.Surface]:
-        for number, picture in enumerate(film_pictures(film)):
-            if not report(number):
+        for number, picture in enumerate(chain.from_iterable(map(film_pictures, films))):
+            if not report(number, count):
                 raise _StoppedError
             yield picture
 
     try:
         if path.suffix == ".gif":
-            palette = palette_named((film.settings or Settings()).palette)
-            write_gif(pictures(), film.length, path, film.whole_size, film.speed, palette, len(film.ghosts))
+            palette = palette_named((first.settings or Settings()).palette)
+            write_gif(pictures(), count, path, first.whole_size, first.speed, palette, len(first.ghosts))
         elif path.suffix in _VIDEO:
-            write_video(pictures(), path, film.whole_size, film.speed)
+            write_video(pictures(), path, first.whole_size, first.speed)
         elif path.suffix:
             raise NinjaGameError(f"{path}: a film is a .gif, .webm, .mp4, or a folder of pictures (no suffix)")
         else:
@@ -371,15 +374,13 @@ class FilmJob:
     def percent(self) -> int:
         return min(99, 100 * self._made // self._count)
 
-    def _report(self, made: int) -> bool:
-        self._made = made
+    def _report(self, made: int, count: int) -> bool:
+        self._made, self._count = made, count
         return self._wanted
 
     def _make(self) -> None:
-        film = Film(self._run, settings=self._settings)
-        self._count = film.length
         path = export_path(self._folder, self._run.title, ".gif")
-        if write_film(film, path, self._report):
+        if write_film([Film(self._run, settings=self._settings)], path, self._report):
             self.result = f"Saved: {path}"
         self.done = True
 

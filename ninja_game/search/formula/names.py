@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache, cached_property
+from functools import cache, cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -32,6 +32,18 @@ FACTS = ("dead", "won", "in_air", "near_wall", "taken", "opened")
 """Those that are true or false."""
 
 
+def ninja_view(of: Callable[[str], Values]) -> dict[str, Callable[..., Values]]:
+    """What the names of the ninja and the run mean. ``of``: gives the plain ones' values and "outcome", as float64."""
+    plain = ("x", "y", "vx", "vy", "tick", "gold", "state", "jump_timer", "in_air", "near_wall")
+    return {
+        **{name: partial(of, name) for name in plain},
+        "speed": lambda: np.hypot(of("vx"), of("vy")),
+        "dead": lambda: (of("outcome") == OUTCOME_DEAD).astype(float),
+        "won": lambda: (of("outcome") == OUTCOME_EXIT).astype(float),
+        "distance": lambda x, y: np.hypot(of("x") - x, of("y") - y),
+    }
+
+
 def view_of(batch: Batch) -> dict[str, Callable[..., NDArray[np.float64]]]:
     """Functions for all names, of the worlds as they are when they are called.
 
@@ -40,21 +52,21 @@ def view_of(batch: Batch) -> dict[str, Callable[..., NDArray[np.float64]]]:
     ninja = batch.records["ninja"]
     place, before = batch.positions, batch.previous
 
-    def velocity(axis: int) -> Any:
-        return place[:, axis] - before[:, axis]
+    def of(name: str) -> Values:
+        found: Values = values[name]().astype(float, copy=False)
+        return found
 
     def flag(what: str) -> Callable[..., Any]:
         return lambda number: (_flags(batch, number, what) != 0).astype(float)
 
-    return {
-        "x": lambda: place[:, 0], "y": lambda: place[:, 1], "vx": lambda: velocity(0), "vy": lambda: velocity(1),
-        "speed": lambda: np.hypot(velocity(0), velocity(1)),
-        "tick": lambda: (batch.ticks - 1).astype(float), "gold": lambda: batch.gold.astype(float),
-        "state": lambda: batch.states.astype(float), "jump_timer": lambda: ninja["jump_timer"].astype(float),
-        "dead": lambda: (batch.outcomes == OUTCOME_DEAD).astype(float),
-        "won": lambda: (batch.outcomes == OUTCOME_EXIT).astype(float),
-        "in_air": lambda: ninja["in_air"].astype(float), "near_wall": lambda: ninja["near_wall"].astype(float),
-        "distance": lambda x, y: np.hypot(place[:, 0] - x, place[:, 1] - y),
+    values: dict[str, Callable[[], Any]] = {
+        "x": lambda: place[:, 0], "y": lambda: place[:, 1],
+        "vx": lambda: place[:, 0] - before[:, 0], "vy": lambda: place[:, 1] - before[:, 1],
+        "tick": lambda: batch.ticks - 1, "gold": lambda: batch.gold, "state": lambda: batch.states,
+        "outcome": lambda: batch.outcomes, "jump_timer": lambda: ninja["jump_timer"],
+        "in_air": lambda: ninja["in_air"], "near_wall": lambda: ninja["near_wall"],
+    }  # fmt: skip
+    return ninja_view(of) | {
         "object_x": lambda number: _place(batch, number, "x"), "object_y": lambda number: _place(batch, number, "y"),
         "taken": flag("taken"), "opened": flag("opened"),
     }  # fmt: skip
@@ -109,10 +121,14 @@ def plain_number(number: Any, what: str) -> float:
     return float(number)
 
 
+def no_object(id_: float) -> ArgumentError:
+    return ArgumentError(f"there is no object {id_:g}; ids are those that `ninja-game splits` shows")
+
+
 def _object(batch: Batch, number: Any) -> Any:
     id_ = id_of(number)
     if not 0 <= id_ < int(batch.records["id_count"][0]) or id_ != int(id_):
-        raise ArgumentError(f"there is no object {id_:g}; ids are those that `ninja-game splits` shows")
+        raise no_object(id_)
     return batch.objects[:, int(id_) + 1]
 
 
@@ -131,14 +147,18 @@ FLAGS = {"taken": {GOLD: "taken", MINE: "exploded"}, "opened": {EXIT: "is_open",
 """The field of a kind of objects that says so."""
 
 
+def flag_field(what: str, kind: int, id_: float) -> str:
+    """The field of an object that ``what`` asks for. Raises ArgumentError where its kind has none."""
+    if kind not in FLAGS[what]:
+        kinds = " and ".join(KIND_NAMES[each] for each in FLAGS[what])
+        raise ArgumentError(f"object {id_:g} is of kind {KIND_NAMES[kind]}; '{what}' is for {kinds}")
+    return FLAGS[what][kind]
+
+
 def _flags(batch: Batch, number: Any, what: str) -> Any:
     """A field that is 0 or 1, of an object of all worlds."""
     found = _object(batch, number)
-    kind = int(found["kind"][0])
-    if kind not in FLAGS[what]:
-        kinds = " and ".join(KIND_NAMES[each] for each in FLAGS[what])
-        raise ArgumentError(f"object {float(number):g} is of kind {KIND_NAMES[kind]}; '{what}' is for {kinds}")
-    return found[FLAGS[what][kind]]
+    return found[flag_field(what, int(found["kind"][0]), float(number))]
 
 
 _SPEED = 4.0

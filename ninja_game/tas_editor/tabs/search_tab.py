@@ -67,16 +67,18 @@ class SpanResults:
     """Runs a task in the background, and puts results into the run, while nothing that they rely on has changed.
 
     ``better``: the results that bring more than the run's own keys, best first; of those that go one way the best one.
-    While nothing has reached the goal, what comes nearest.
+    While nothing has reached the goal, what comes nearest. ``every``: as of SpanSearch; None: search the whole run.
     Raises what SpanSearch does.
     """
 
-    def __init__(self, editor: TasEditor, task: SpanTask, method: str, every: int) -> None:
+    def __init__(self, editor: TasEditor, task: SpanTask, method: str, every: int | None) -> None:
         self.editor = editor
         self.task = task
-        memory, jobs = editor.session.timeline.asked_memory, max(1, cores() - 1)
-        self._others = () if every else tuple(editor.others)
-        self.search = SpanSearch(task, method, jobs, every=every, memory=memory) if every else self._whole(method, jobs)
+        asked, jobs = editor.session.timeline.asked_memory, max(1, cores() - 1)
+        self._others = tuple(editor.others) if every is None else ()
+        self.search = (
+            self._whole(method, jobs) if every is None else SpanSearch(task, method, jobs, every=every, memory=asked)
+        )
         # The begins of runs that results fit to, and the first tick that follows a result in each: the run that is
         # searched and those that results were put into.
         whole = len(task.inputs) if task.rest else task.last
@@ -390,7 +392,7 @@ class SearchTab(Tab):
             task = self._whole_task if whole else self.task
             if not (task.goal or task.measure or task.rest):
                 raise ArgumentError("Say what for: a goal, or a value that is to be the greatest or smallest")
-            every = 0 if whole else fewest_ticks(task.length) if self.method == "exhaustive" else 1
+            every = None if whole else fewest_ticks(task.length) if self.method == "exhaustive" else 1
             self.results = SpanResults(self.editor, task, self.method, every)
         except NinjaGameError as error:
             self.editor.refuse(what_is_wrong(error))

@@ -61,18 +61,13 @@ class AudioPlayer(AudioOutput):
     ``folder``: where the Ogg files are; missing ones are silent.
     """
 
-    def __init__(
-        self, folder: Path, volume: int = LOUDEST, effects_volume: int = LOUDEST, loop_volume: int = LOUDEST,
-        music_volume: int = 0,
-    ) -> None:  # fmt: skip
+    def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.volume = volume
-        self.effects_volume = effects_volume
-        self.loop_volume = loop_volume
-        self.music_volume = music_volume
+        self.volume = self.effects_volume = self.loop_volume = LOUDEST
+        self.music_volume = 0
         self._music = Music(folder / "music", len(LOOPS))
         self._variants = Variants()
-        self._ladder = GoldLadder(len(GOLD))
+        self._gold_pitches = GoldPitches(len(GOLD))
         self._steps = Footsteps()
         self._sounds: dict[str, pygame.mixer.Sound | None] = {}
         self._world: World | None = None
@@ -99,7 +94,7 @@ class AudioPlayer(AudioOutput):
             names, level = event_sound(event, world.ninja)
             if names and names not in heard:
                 heard.add(names)
-                name = GOLD[self._ladder.climb(world.tick)] if names is GOLD else self._variants.choose(names)
+                name = GOLD[self._gold_pitches.next(world.tick)] if names is GOLD else self._variants.choose(names)
                 self.play(name, x=event.x, level=level)
         if step := self._steps.loudness(world.ninja):
             self.play(self._variants.choose(STEPS), x=world.ninja.x, level=step)
@@ -226,19 +221,19 @@ class Variants:
         return self._last[names]
 
 
-class GoldLadder:
-    """The rung of each piece of gold: one higher in a chain, to the top; the lowest one after a pause or a restart."""
+class GoldPitches:
+    """The pitch of each piece of gold: one higher in a chain, to the top; the lowest one after a pause or a restart."""
 
-    def __init__(self, rungs: int) -> None:
-        self.top = rungs - 1
-        self._rung, self._tick = -1, -1
+    def __init__(self, pitches: int) -> None:
+        self.top = pitches - 1
+        self._pitch, self._tick = -1, -1
 
-    def climb(self, tick: int) -> int:
-        """The rung of gold that is taken in this tick, 0 and up."""
-        chained = self._rung >= 0 and 0 <= tick - self._tick <= CHAIN_TICKS
-        self._rung = min(self._rung + 1, self.top) if chained else 0
+    def next(self, tick: int) -> int:
+        """The pitch of gold that is taken in this tick, 0 and up."""
+        chained = self._pitch >= 0 and 0 <= tick - self._tick <= CHAIN_TICKS
+        self._pitch = min(self._pitch + 1, self.top) if chained else 0
         self._tick = tick
-        return self._rung
+        return self._pitch
 
 
 class Footsteps:

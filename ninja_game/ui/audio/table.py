@@ -18,7 +18,7 @@ def several(name: str, count: int) -> Names:
     return tuple(f"{name}-{number}" for number in range(1, count + 1))
 
 
-GOLD = several("gold", 12)  # a ladder of pitches
+GOLD = several("gold", 12)  # from low to high
 
 STEPS = several("step", 5)
 

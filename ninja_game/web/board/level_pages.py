@@ -144,7 +144,7 @@ class LevelPages:
             more = joined(*(tag("p", each) for each in links))
             return run_page(run.entry, stem, title, facts, BOARD, self.game, self.links, self.site, drawn, more)
 
-        self.pages.make_replay(f"{stem}.html", [title, facts, links, self.around], content)
+        self.pages.make(f"{stem}.html", [title, facts, links, self.around], content, replay=True)
 
     def name(self, player: str) -> str:
         """A player's name in a table, and whose it is not where it looks like one that was there before."""

@@ -72,7 +72,7 @@ class BoardPages(LevelPages):
 
     def write(self) -> None:
         for run in self.ranking.judged.runs:
-            self.pages.make_replay(f"{self.stems[run.key]}.txt", self.stems[run.key], partial(_text, run))
+            self.pages.make(f"{self.stems[run.key]}.txt", self.stems[run.key], partial(_text, run), replay=True)
             self.run_page(run)
         self._players()
         for entry in self.entries.values():

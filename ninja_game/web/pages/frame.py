@@ -128,30 +128,27 @@ class Pages:
         self.write(SCRIPT, (here / SCRIPT).read_text("utf-8"))
         self.write(ICON, page_icon())
 
-    def write(self, name: str, content: str | bytes) -> None:
-        """A file of the folder, or below it; what was there is replaced: pages can always be made again."""
-        self._site.write(f"{self.folder.name}/{name}", content)
-        self._written.add(name)
+    def write(self, name: str, content: str | bytes, *, replay: bool = False) -> None:
+        """A file of the folder, or below it; what was there is replaced: pages can always be made again.
 
-    def make(self, name: str, data: object, content: Callable[[], str | bytes]) -> None:
-        """A file of the folder as ``write``, unless it lies there as it was made of the same plain values."""
-        self._make(f"{self.folder.name}/{name}", data, content)
-        self._written.add(name)
+        ``replay``: instead of the site's folder of replays, to which pages lead.
+        """
+        self._site.write(self._place(name, replay=replay), content)
 
-    def make_replay(self, name: str, data: object, content: Callable[[], str]) -> None:
-        """A replay that pages lead to, or the page of one, in the site's folder of them; otherwise as ``make``."""
-        self._make(f"{REPLAYS}/{name}", data, content)
-
-    def _make(self, name: str, data: object, content: Callable[[], str | bytes]) -> None:
+    def make(self, name: str, data: object, content: Callable[[], str | bytes], *, replay: bool = False) -> None:
+        """A file as ``write``, unless it lies there as it was made of the same plain values."""
         digest = f"{program()} {data}" if isinstance(data, str) else digest_of([program(), data])
-        file = f"{self._site.root}/{name}"
-        if self._memo.recall(name) != [digest, *stamp_of(file)]:
-            self._site.write(name, content())
-            self._memo.note(name, [digest, *stamp_of(file)])
+        place = self._place(name, replay=replay)
+        file = f"{self._site.root}/{place}"
+        if self._memo.recall(place) != [digest, *stamp_of(file)]:
+            self._site.write(place, content())
+            self._memo.note(place, [digest, *stamp_of(file)])
 
-    def write_replay(self, name: str, text: str) -> None:
-        """A replay that pages lead to, or the page of one, in the site's folder of them."""
-        self._site.write(f"{REPLAYS}/{name}", text)
+    def _place(self, name: str, *, replay: bool) -> str:
+        if replay:
+            return f"{REPLAYS}/{name}"
+        self._written.add(name)
+        return f"{self.folder.name}/{name}"
 
     def finish(self) -> None:
         """Remove what this memo's earlier pages had and these have not, and keep the memo."""

@@ -26,7 +26,7 @@ from ninja_game.formats.pack.pars import MARGINS, MEDALS, Pars
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.formats.run_time import seconds_text
-from ninja_game.levels.episodes import Entry, EpisodeSet, episode_set
+from ninja_game.levels.episodes import YOURS, Entry, EpisodeSet, episode_set
 from ninja_game.sim.kinds import KIND_NAMES
 from ninja_game.sim.level import Level, makes_object
 from ninja_game.ui.theme import CLASSIC
@@ -75,7 +75,7 @@ class PublishedLevels:
 def published_levels(path: Path) -> PublishedLevels:
     """The levels of a pack, or of any file or folder. Raises NinjaGameError, OSError."""
     if not is_pack(path):
-        entries = tuple(Entry(level, "yours") for level in load_levels(path))
+        entries = tuple(Entry(level, YOURS) for level in load_levels(path))
         return PublishedLevels(path.stem, "", "", EpisodeSet("", path.stem, (), {}, entries))
     pack = Pack(path)
     return PublishedLevels(pack.name, pack.index.author, pack.index.comment, episode_set(pack, ""), pack)
@@ -272,18 +272,17 @@ SORT_ORDERS = (("", "in playing order"), ("name", "by name"), ("difficulty", "by
 LONGEST_NAME = 60  # characters of a name in the list
 
 
-def write_gallery(out: Path, shown: PublishedLevels, *, game: str = GAME, address: str = "") -> Path:
+def write_gallery(out: Path, shown: PublishedLevels, *, address: str = "") -> Path:
     """Write ``out/gallery/`` and the certificates into ``out/replays/``; the gallery's first page.
 
-    ``game``: name of the page with the game in ``out``; ``address``: where ``out`` will be, if that is known.
-    Raises FileError where ``out/gallery`` holds something else.
+    ``address``: where ``out`` will be, if that is known. Raises FileError where ``out/gallery`` holds something else.
     """
     pages = Pages(out, FOLDER)
     whole = (out / HOME).is_file()
-    links = [(f"../{address}", title) for address, title in NAVIGATION] if whole else [(f"../{game}", "Play")]
+    links = [(f"../{address}", title) for address, title in NAVIGATION] if whole else [(f"../{GAME}", "Play")]
     if (out / BOARD / "index.html").is_file():
         links.append((f"../{BOARD}/index.html", "Board"))
-    write_levels(pages, shown, f"../{game}", "index.html", links, address and f"{address}{FOLDER}/")
+    write_levels(pages, shown, f"../{GAME}", "index.html", links, address and f"{address}{FOLDER}/")
     return pages.folder / "index.html"
 
 
@@ -303,8 +302,9 @@ def write_levels(pages: Pages, shown: PublishedLevels, game: str, name: str, lin
             stem, title = shared_name(text), f"{entry.title} {KINDS[kind].lower()}"
             certificates[KINDS[kind]] = stem, tick
             facts = [("Time", f"{seconds_text(tick)} s"), ("Made", str(recording.replay.made))]
-            pages.write_replay(f"{stem}.txt", text)
-            pages.write_replay(f"{stem}.html", run_page(entry, stem, title, facts, pages.folder.name, game, near, site))
+            pages.write(f"{stem}.txt", text, replay=True)
+            run = run_page(entry, stem, title, facts, pages.folder.name, game, near, site)
+            pages.write(f"{stem}.html", run, replay=True)
         pages.write(page_name(digest), level_page(entry, certificates, f"../{game}", deeper, site=site))
     pages.write(name, page("Levels", *_list(shown), links=links))
     # Last of all: where the disk is full, the pages of an earlier time are all there.

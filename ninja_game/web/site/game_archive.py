@@ -139,11 +139,15 @@ def library_of(files: Mapping[str, bytes]) -> bytes:
     return out.getvalue()
 
 
-LEFT_OUT = (
-    "batch", "bench.", "cli", "generated.tsv.xz", "data", "learn", "search", "sounds/music", "tas", "verification",
-    "web/board", "web/pages", "web/licences", "web/page", "web/site",
-)  # fmt: skip
-"""What of the package a page has no use for."""
+LEFT_OUT = {
+    "package": (
+        "batch/", "cli/", "learn/", "search/", "tas/", "tas_editor/",
+        "web/board/", "web/page/", "web/pages/", "web/site/",
+    ),
+    "levels": (),
+    "assets": ("bench.", "generated.tsv.xz", "sounds/music/"),
+}  # fmt: skip
+"""What of the package and its data a page has no use for: how the names of such files begin."""
 
 
 def game_archive(files: Mapping[str, bytes]) -> bytes:
@@ -161,14 +165,15 @@ def game_files() -> Iterator[tuple[str, bytes]]:
     """Name and content of every file of the package, its data, and the library for TOML."""
     for path in PACKAGE.rglob("*.py"):
         name = path.relative_to(PACKAGE).as_posix()
-        if not name.startswith(LEFT_OUT):
+        if not name.startswith(LEFT_OUT["package"]):
             yield f"ninja_game/{name}", path.read_bytes()
     yield "boot.py", (PACKAGE / "web" / "page" / "boot.py").read_bytes()
     for folder in ("levels", "assets"):
         root = data_folder(folder)
         for path in root.rglob("*"):
-            if path.is_file() and path.suffix != ".md" and not path.relative_to(root).as_posix().startswith(LEFT_OUT):
-                yield f"ninja_game/data/{folder}/{path.relative_to(root).as_posix()}", path.read_bytes()
+            name = path.relative_to(root).as_posix()
+            if path.is_file() and path.suffix != ".md" and not name.startswith(LEFT_OUT[folder]):
+                yield f"ninja_game/data/{folder}/{name}", path.read_bytes()
     for path in _package("tomlkit").rglob("*.py"):
         yield f"tomlkit/{path.relative_to(_package('tomlkit')).as_posix()}", path.read_bytes()
 

@@ -22,7 +22,7 @@ def driver(tmp_path: Path) -> Iterator[Maker]:
             if isinstance(screen, EditorScreen):
                 screen.session.certifier.stop()
                 screen.session.close()
-                screen.session.certifier._left.clear()
+                screen.session.certifier.solver.left.clear()
         made.close()
 
 

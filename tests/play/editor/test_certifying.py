@@ -66,7 +66,7 @@ def test_searches_of_levels_that_were_left_go_on_one_after_the_other(
     kept = levels / "certificates" / "room.exit.replay.txt"
     assert not kept.exists()
     ready.set()
-    session.certifier._job.finish(LONGEST)
+    session.certifier.solver.job.finish(LONGEST)
     assert (at_once, kept.exists()) == ([False, True], True)
     assert told[-2:] == ["Room: certified, 0.97 s, kept with the level", "Other: no run in 20 s"]
 
@@ -100,7 +100,7 @@ def test_a_search_of_what_no_file_holds_ends_with_the_level(room: Maker) -> None
     certifier = room.editor.session.certifier
     search = certifier.search = type(certifier.search)(room.draft.level)
     with pytest.MonkeyPatch.context() as busy:
-        busy.setattr(type(certifier._job), "idle", False)
+        busy.setattr(type(certifier.solver.job), "idle", False)
         room.chord("n", pygame.KMOD_LCTRL)
         room.choose("Empty")
     assert (search.end, certifier.text) == ("Stopped", "")

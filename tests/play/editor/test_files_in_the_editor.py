@@ -15,9 +15,9 @@ import pygame
 import pytest
 
 from ninja_game.cli.main import cli
-from ninja_game.editor.draft import is_inside
 from ninja_game.editor.files import Autosave, Source, ascii_text, new_source, open_source, recovered
 from ninja_game.files.user_folder import CHECKOUT, EDITING, bundled_levels
+from ninja_game.formats.ascii.places import is_inside
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.play.app import App
