@@ -58,8 +58,8 @@ def drawn(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
 
 def test_only_what_is_new_is_simulated_and_written(
-    tmp_path: Path, levels: Path, runs: Path, simulated: list[str], drawn: list[str],
-) -> None:  # fmt: skip
+    tmp_path: Path, levels: Path, runs: Path, simulated: list[str], drawn: list[str]
+) -> None:
     site = str(tmp_path / "site")
     put(runs, "ann.txt", replay(author="Ann"))
     put(runs, "bad.txt", replay(author="Ann", gold=77))
@@ -87,7 +87,7 @@ def test_only_what_is_new_is_simulated_and_written(
 
 def test_a_file_that_lies_there_as_before_is_not_read(
     levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:  # fmt: skip
+) -> None:
     """Its size and times tell; one that was written a moment ago is read again, since it may change unseen."""
     read: list[str] = []
     file = RunFolder.file
@@ -115,9 +115,7 @@ def test_a_file_that_lies_there_as_before_is_not_read(
     assert read == ["ann.txt"] * 4
 
 
-def test_a_lost_worker_is_not_remembered(
-    levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:  # fmt: skip
+def test_a_lost_worker_is_not_remembered(levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     put(runs, "ann.txt", replay(author="Ann"))
     with monkeypatch.context() as patch:
         died = WorkerLostError("the worker died again and again")
@@ -148,7 +146,7 @@ def test_pages_are_the_same_as_made_again(tmp_path: Path, levels: Path, runs: Pa
 
 def test_the_command_after_the_first_compares_nothing(
     tmp_path: Path, levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:  # fmt: skip
+) -> None:
     """All runs have one moment, and near copies lie between others; one more run is compared alone."""
     compared, simulated = (Mock(side_effect=getattr(copies, name)) for name in ("_near_to_another", "run_level"))
     monkeypatch.setattr(copies, "_near_to_another", compared)
