@@ -161,9 +161,7 @@ def test_the_first_one_in_the_ledger_owns_the_run(tmp_path: Path, levels: Path, 
 
 
 @pytest.mark.parametrize("steps", [("-ann.txt", "zoe.txt"), ("-ann.txt zoe.txt",), ("zoe.txt", "-ann.txt")])
-def test_a_withdrawn_run_stays_its_players(
-    steps: tuple[str, ...], tmp_path: Path, levels: Path, runs: Path
-) -> None:  # fmt: skip
+def test_a_withdrawn_run_stays_its_players(steps: tuple[str, ...], tmp_path: Path, levels: Path, runs: Path) -> None:
     data = tmp_path / JSON
     put(runs, "ann.txt", slow_walk(author="Ann"))
     board(runs, levels, "--json", str(data))
@@ -266,7 +264,7 @@ def test_a_name_of_letters_that_stand_for_many_is_cut(tmp_path: Path, levels: Pa
 @pytest.mark.parametrize("odd", ["[made:  from a run by Ann]", "odd"])
 def test_a_run_that_cannot_be_written_stops_no_page(
     odd: str, tmp_path: Path, levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:  # fmt: skip
+) -> None:
     put(runs, "ann.txt", slow_walk(author="Ann"))
     put(runs, "bea.txt", record().replace("#test#", f"#{odd}#"))
     if odd == "odd":

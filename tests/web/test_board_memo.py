@@ -58,8 +58,8 @@ def drawn(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
 
 def test_only_what_is_new_is_simulated_and_written(
-    tmp_path: Path, levels: Path, runs: Path, simulated: list[str], drawn: list[str],
-) -> None:  # fmt: skip
+    tmp_path: Path, levels: Path, runs: Path, simulated: list[str], drawn: list[str]
+) -> None:
     site = str(tmp_path / "site")
     put(runs, "ann.txt", replay(author="Ann"))
     put(runs, "bad.txt", replay(author="Ann", gold=77))
@@ -87,7 +87,7 @@ def test_only_what_is_new_is_simulated_and_written(
 
 def test_a_file_that_lies_there_as_before_is_not_read(
     levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:  # fmt: skip
+) -> None:
     """Its size and times tell; one that was written a moment ago is read again, since it may change unseen."""
     read: list[str] = []
     file = RunFolder.file
@@ -115,9 +115,7 @@ def test_a_file_that_lies_there_as_before_is_not_read(
     assert read == ["ann.txt"] * 4
 
 
-def test_a_lost_worker_is_not_remembered(
-    levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:  # fmt: skip
+def test_a_lost_worker_is_not_remembered(levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     put(runs, "ann.txt", replay(author="Ann"))
     with monkeypatch.context() as patch:
         died = WorkerLostError("the worker died again and again")
@@ -148,7 +146,7 @@ def test_pages_are_the_same_as_made_again(tmp_path: Path, levels: Path, runs: Pa
 
 def test_the_command_after_the_first_compares_nothing(
     tmp_path: Path, levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:  # fmt: skip
+) -> None:
     """All runs have one moment, and near copies lie between others; one more run is compared alone."""
     compared, simulated = (Mock(side_effect=getattr(copies, name)) for name in ("_near_to_another", "run_level"))
     monkeypatch.setattr(copies, "_near_to_another", compared)
@@ -184,9 +182,7 @@ def test_a_page_that_somebody_changed_is_written_again(tmp_path: Path, levels: P
 
 
 @pytest.mark.parametrize("words", [[], ["--again"]])
-def test_a_run_that_is_withdrawn_leaves_no_file(
-    words: list[str], tmp_path: Path, levels: Path, runs: Path
-) -> None:  # fmt: skip
+def test_a_run_that_is_withdrawn_leaves_no_file(words: list[str], tmp_path: Path, levels: Path, runs: Path) -> None:
     put(runs, "ann.txt", replay(author="Ann"))
     put(runs, "bea.txt", slow_walk(author="Bea"))
     other = put(tmp_path, "site/replays/0123456789abcdef.txt", "of the gallery")
@@ -199,7 +195,7 @@ def test_a_run_that_is_withdrawn_leaves_no_file(
 
 def test_what_comes_with_the_runs_is_not_remembered(
     tmp_path: Path, levels: Path, runs: Path, board_cache: Path, simulated: list[str]
-) -> None:  # fmt: skip
+) -> None:
     """Memos, checkpoint logs and ledgers beside the runs, in the pages, or in the current folder judge nothing."""
     put(runs, "ann.txt", slow_walk(author="Ann"))
     board(runs, levels)
@@ -222,7 +218,7 @@ def test_what_comes_with_the_runs_is_not_remembered(
 @pytest.mark.parametrize("place", ["runs", "runs/deep", ".", "site", "site/board/deep"])
 def test_a_cache_folder_among_the_runs_or_pages_is_refused(
     place: str, tmp_path: Path, levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:  # fmt: skip
+) -> None:
     put(runs, "ann.txt", replay(author="Ann"))
     folder = Path(place) if place == "." else tmp_path / place
     monkeypatch.setattr("ninja_game.cli.web.cache_folder", lambda: folder)
@@ -249,7 +245,7 @@ BROKEN = [7, "x", None, [], [7], [[]], [[0, ""]], [[0, "odd", "why"]], [[0, "", 
 @pytest.mark.parametrize("broken", BROKEN)
 def test_a_broken_row_of_a_memo_is_none(
     broken: Any, tmp_path: Path, levels: Path, runs: Path, board_cache: Path, simulated: list[str]
-) -> None:  # fmt: skip
+) -> None:
     site = tmp_path / "site"
     put(runs, "ann.txt", replay(author="Ann"))
     put(runs, "bea.txt", slow_walk(author="Bea"))
@@ -275,7 +271,7 @@ def test_all_code_of_the_program_counts(tmp_path: Path, monkeypatch: pytest.Monk
 
 def test_other_rules_of_the_world_are_other_runs(
     tmp_path: Path, levels: Path, runs: Path, simulated: list[str], monkeypatch: pytest.MonkeyPatch
-) -> None:  # fmt: skip
+) -> None:
     put(runs, "ann.txt", replay(author="Ann"))
     board(runs, levels)
     monkeypatch.setattr(judge, "program", lambda: "another")

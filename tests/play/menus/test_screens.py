@@ -58,8 +58,7 @@ def test_screen_is_reached_and_left_by_keys(driver: MenuDriver, entry: str) -> N
 def test_focus_is_always_on_a_widget_and_seen(driver: MenuDriver, entry: str) -> None:
     screen = driver.open(entry)
     assert isinstance(screen, MenuScreen)
-    if not screen.widgets:  # the daily level is being made: there is nothing to choose
-        return
+    driver.wait(lambda: screen.widgets, "the daily level")
     for name in DIRECTIONS * 2:
         driver.press(name)
         assert screen.focus in screen.widgets
