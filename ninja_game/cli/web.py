@@ -148,12 +148,16 @@ class _Board(click.Command):
     type=OLD_FILE,
     help="Report what differs from this file written by --json; exit code 1 if anything is refused, changed or gone.",
 )
+@click.option(
+    "--confirm", metavar="RUN", multiple=True,
+    help="The runs of this file in FOLDER are no copies, although they are nearly somebody else's. Needs --json.",
+)  # fmt: skip
 @rules_option
 @click.option("--again", is_flag=True, help="Simulate every run, and write every page, also those known from before.")
 @jobs_option
 @address_option
 def board(
-    folder: Path, levels: Path | None, site: Path | None, data: Path | None, check: Path | None,
+    folder: Path, levels: Path | None, site: Path | None, data: Path | None, check: Path | None, confirm: Sequence[str],
     rules: Path | None, again: bool, jobs: int | None, address: str,
 ) -> int:  # fmt: skip
     """Rank the runs of a folder, all simulated again: tables, pages, checks.
@@ -169,6 +173,7 @@ def board(
       ninja-game board replays/
       ninja-game board replays/ --site public/ --json board.json
       ninja-game board replays/ --check board.json
+      ninja-game board replays/ --json board.json --confirm ann/00-0.txt
       ninja-game board replays/ --levels my-pack/ --site public/
       ninja-game board ask replays/ rank 00-0
     """
@@ -178,13 +183,15 @@ def board(
     from ninja_game.web.pages.frame import GAME
     from ninja_game.web.pages.gallery import published_levels
 
+    if confirm and not data:
+        raise click.UsageError("--confirm: name the ledger, which notes it, with --json")
     if site:
         check_site(site, folder)
     if data:
         check_output(data, keep=[folder])
         check_ledger(data, folder)
     shown = published_levels(levels or data_folder("levels"))
-    ranking, before = _ranking(folder, shown, rules, check or data, jobs=jobs, again=again)
+    ranking, before = _ranking(folder, shown, rules, check or data, jobs=jobs, again=again, confirm=confirm)
     judged = ranking.judged
     if site:
         BoardPages(site, ranking, memo=memo_of("pages", site, folder, again=again), address=address).write()
@@ -208,12 +215,12 @@ def board(
 
 def _ranking(
     folder: Path, shown: PublishedLevels, rules: Path | None, ledger: Path | None, *,
-    jobs: int | None, again: bool = False,
+    jobs: int | None, again: bool = False, confirm: Sequence[str] = (),
 ) -> tuple[Ranking, Ledger]:  # fmt: skip
-    """The ranking of a folder's runs by the board's rules, and the ledger before."""
+    """The ranking of a folder's runs by the board's rules, and the ledger before, in which files are confirmed."""
     from ninja_game.web.board.judge import judge
     from ninja_game.web.board.ranking import Ranking
-    from ninja_game.web.board.report import dates_of, read_board
+    from ninja_game.web.board.report import dates_of, plain, read_board
     from ninja_game.web.board.rules import USUAL, read_categories
     from ninja_game.web.board.runs import NO_LEDGER
 
@@ -221,6 +228,13 @@ def _ranking(
     gc.set_threshold(20_000)
     now = datetime.now(UTC)
     before = read_board(ledger, now) if ledger and ledger.exists() else NO_LEDGER
+    near = [row for row in before.runs.values() if row.get("near") and not row.get("confirmed")]
+    for name in confirm:
+        if not (rows := [row for row in near if row["file"] == name]):
+            files = ", ".join(plain(row["file"]) for row in near[:10]) or "none"
+            raise ArgumentError(f"--confirm {name!a}: no run of the ledger that waits; those that do: {files}")
+        for row in rows:
+            row["confirmed"] = True
     categories = read_categories(rules) if rules else USUAL
     memo = memo_of("runs", folder, folder, again=again)
     dates = dates_of(before, now) if ledger else None
@@ -285,7 +299,11 @@ def ask(
     chosen = _category(ranking, category)
     tables = ranking.tables.get(entry.digest, {})
     table, other = (tables.get((each, chosen), []) for each in sorted((PLAYED, ASSISTED), reverse=not assisted))
-    found = [_of_player(table, player) for player in players] or table[: None if what == "rank" else MOST_RUNS]
+    found = [_of_player([*table, *other], player) for player in players] or table[
+        : None if what == "rank" else MOST_RUNS
+    ]
+    if what == "rank":
+        found = [*found, *ranking.waiting(entry.digest, (ASSISTED if assisted else PLAYED, chosen), found)]
     if not found:
         ladder, way = ("played", "without") if assisted else ("assisted", "with")
         hint = f"; {ladder}: {len(other)}, {way} --assisted" if other else ""
@@ -301,8 +319,12 @@ def _answer(
 
     rows: Any = [_row(each, category) for each in found]
     form = RANKED
-    replays = [replace(each.run.replay, name=each.run.player) for each in found if what not in ("rank", "best")]
-    runs = [Recording(each.run.entry.named.level, replay) for each, replay in zip(found, replays, strict=False)]
+    ladders = sorted({each.run.ladder for each in found}, reverse=True)
+    names = [each.run.player + f", {each.run.ladder}" * (len(ladders) > 1) for each in found]
+    runs = [
+        Recording(each.run.entry.named.level, replace(each.run.replay, name=name))
+        for each, name in zip(found, names, strict=True) if what not in ("rank", "best")
+    ]  # fmt: skip
     if what == "inputs":
         form, rows = TYPED, [row | _inputs(run.inputs) for row, run in zip(rows, runs, strict=True)]
     elif what == "splits":
@@ -320,13 +342,14 @@ def _answer(
     if as_data:
         click.echo(json.dumps(rows))
     else:
-        entry, ladder = found[0].run.entry, found[0].run.ladder
+        entry, ladder = found[0].run.entry, " and ".join(ladders)
         click.echo(shown_text(f"{entry.episode} {entry.title}, {category.name.lower()}, {ladder}:".strip(), LONGEST))
-        click.echo("\n".join(_line(form, row) for row in rows))
+        click.echo("\n".join(_line(form, row | {"player": name}) for row, name in zip(rows, names, strict=True)))
 
 
 def _line(form: str, row: Mapping[str, Any]) -> str:
-    note = f"; note: {row['remark']}" if row["remark"] else ""
+    waits = "" if row["confirmed"] else "waits for confirmation, "
+    note = f"; note: {waits}{row['remark']}" if row["remark"] else ""
     return shown_text(form.format(**{**row, "place": row["place"] or "-"}).rstrip() + note, LONGEST)
 
 
@@ -365,7 +388,7 @@ def _of_player(table: Sequence[Ranked], player: str) -> Ranked:
     from ninja_game.web.board.players import folded
 
     for each in table:
-        if folded(each.run.player) == folded(player):
+        if folded(player) in (folded(each.run.player), folded(f"{each.run.player}, {each.run.ladder}")):
             return each
     raise ArgumentError(
         f"{player!a} has no run there; players: {', '.join(each.run.player for each in table[:10]) or 'none'}"
@@ -378,7 +401,8 @@ def _row(ranked: Ranked, category: Category) -> dict[str, Any]:
         "level": run.entry.digest, "level_name": run.entry.title, "place": ranked.place, "player": run.player,
         "result": category.text(ranked.values[0]), "ticks": run.tick, "gold": run.gold, "score": run.score,
         "presses": run.presses, "jumps": run.jumps, "made": run.made or "unknown", "co_authors": run.co_authors,
-        "date": run.day, "file": run.file, "record": run.record, "remark": run.remark,
+        "date": run.day, "file": run.file, "record": run.record, "remark": run.remark, "ladder": run.ladder,
+        "confirmed": not run.near,
     }  # fmt: skip
 
 

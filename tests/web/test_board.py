@@ -157,6 +157,21 @@ def test_who_has_only_assisted_runs_is_among_the_players_too(runs: Path, levels:
     assert '<p><a href="players.html">Players, played</a></p>' in assisted
 
 
+def test_runs_of_both_ladders_stand_side_by_side(runs: Path, levels: Path, tmp_path: Path) -> None:
+    put(runs, "ann.txt", slow_walk(author="Ann"))
+    level = board_of(runs, levels, tmp_path / "site") / "levels" / f"{DIGEST[:16]}.html"
+    page = level.read_text("utf-8")
+    assert (page.count('class="way"'), 'id="splits"' in page) == (2, False), "a path for one run: line and legend"
+    put(runs, "bot.txt", replay(author="Bot", made=Made(edits=7)))
+    board_of(runs, levels, tmp_path / "site")
+    page = level.read_text("utf-8")
+    splits = page.partition('<section id="splits">')[2]
+    assert re.findall('<th scope="col">([^<]+)', splits) == ["Split", "Ann", "Fastest segment", "Bot, assisted"]
+    assert "<td>-0.125</td>" in splits
+    (path,) = (each for each in (tmp_path / "site" / "replays").glob("*.html") if "<dd>edited" in each.read_text())
+    assert "#splits" in path.read_text("utf-8")
+
+
 def test_a_better_time_goes_down_and_a_better_score_up(runs: Path, levels: Path, tmp_path: Path) -> None:
     put(runs, "a.txt", slow_walk(author="Ann"), day=1)
     put(runs, "b.txt", replay(author="Ann"), day=2)
@@ -338,6 +353,31 @@ def test_a_near_copy_has_no_place_until_somebody_confirms_it(runs: Path, levels:
         assert [each.player for each in ranking.standings[PLAYED] if each.records[FASTEST]] == [places[0][1]]
     doubted = [(1, "Ann"), (2, "Cid"), (0, "Bob")], ["Ann"]
     assert found == [doubted, ([(1, "Bob"), (2, "Ann"), (3, "Cid")], ["Ann", "Bob"]), doubted]
+
+
+def test_a_faster_near_copy_is_told_and_confirmed_by_a_command(runs: Path, levels: Path, tmp_path: Path) -> None:
+    data = tmp_path / "board.json"
+    put(runs, "ann.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Ann"))
+    put(runs, "bob.txt", slow_walk(90, author="Bob"))
+    taken_in_earlier(runs, levels, data)
+    put(runs, "better.txt", slow_walk(40, author="Bob"))
+    waits = "Better, and waiting: Bob 1.575 with 1 gold."
+    command, site = ("--json", str(data), "--site", str(tmp_path / "site")), tmp_path / "site" / "board"
+    assert check(runs, levels, *command)[0] == 0
+    level, rejected, waiting = (
+        (site / name).read_text("utf-8") for name in (f"levels/{DIGEST[:16]}.html", "rejected.html", "waiting.html")
+    )
+    assert (waits in level, ">Waiting for confirmation: 1 run<" in rejected) == (True, True)
+    assert "<td>better.txt</td>" in waiting
+    words = "board", str(runs), "--levels", str(levels), "--json", str(data), "--confirm", "nobody.txt"
+    told = CliRunner().invoke(cli, words)
+    assert (told.exit_code, "that waits; those that do: better.txt" in told.stderr) == (2, True)
+    assert check(runs, levels, "--confirm", "better.txt")[0] == 2
+    assert check(runs, levels, *command, "--confirm", "better.txt")[0] == 0
+    assert check(runs, levels, *command)[0] == 0
+    assert waits not in (site / f"levels/{DIGEST[:16]}.html").read_text("utf-8")
+    assert not (site / "waiting.html").exists()
+    assert '"confirmed": true' in data.read_text("utf-8")
 
 
 def test_a_near_copy_stays_one_where_the_first_run_is_withdrawn_and_comes_back(

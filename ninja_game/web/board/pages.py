@@ -18,7 +18,7 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.sim.rules import LIFETIME
-from ninja_game.web.board.level_pages import FIRST, LevelPages, level_link, player_page
+from ninja_game.web.board.level_pages import FIRST, HOW_TO_CONFIRM, NEAR, LevelPages, level_link, player_page
 from ninja_game.web.board.ranking import Ranked, Record, Standing
 from ninja_game.web.board.report import summary
 from ninja_game.web.board.rules import HIGHEST
@@ -278,14 +278,25 @@ class BoardPages(LevelPages):
         rejected, order = self.ranking.judged.rejected, list(KINDS)
         counts = Counter(each.kind for each in rejected)
         said = ", ".join(f"{title.lower()}: {counts[kind]}" for kind, (_, title) in KINDS.items() if counts[kind])
-        rows = [
+        rows: list[tuple[Content, ...]] = [
             (KINDS[each.kind][1], each.file + f", record {each.record}" * (each.record > 0),
              self.name(each.player), each.level, each.why, self._first_run(each.first), each.added.partition("T")[0])
             for each in sorted(rejected, key=lambda each: order.index(each.kind))
         ]  # fmt: skip
         lead = f"None of them is ranked; {said}." if said else "Every file of the folder is a run that counts."
+        near = [
+            (level_link(run.entry), self.player_link(run.player), seconds_text(run.tick), run.gold,
+             *self.leads(run, ""), run.file + f", record {run.record}" * (run.record > 0), run.near, run.day)
+            for run in self.ranking.judged.runs if run.near
+        ]  # fmt: skip
+        waiting = tag("a", f"Waiting for confirmation: {counted(len(near), 'run')}", href="waiting.html")
+        leads = tag("p", lead), tag("p", waiting) if near else None
         heads = ("What", "File", "Player", "Level", "Why", "The first run", "Date")
-        self.list("rejected", "Rejected", "What does not count", heads, rows, tag("p", lead))
+        self.list("rejected", "Rejected", "What does not count", heads, rows, *leads)
+        if near:
+            names = ("Level", "Player", "Time", "Gold", "Watch", "Share", "File", "Nearly", "Date")
+            about, caption = (tag("p", NEAR), tag("p", HOW_TO_CONFIRM)), "Runs that are nearly somebody else's"
+            self.list("waiting", "Waiting for confirmation", caption, names, near, *about)
 
     def _first_run(self, key: Key | None) -> Content:
         """A link to the page of a run that others have copied."""
