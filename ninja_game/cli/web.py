@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli.commands import FAILED
+from ninja_game.cli.film import large
 from ninja_game.cli.options import NEW_FILE, NEW_FOLDER, OLD_FILE, OLD_FOLDER, InputPath, jobs_option
 from ninja_game.cli.splits import as_json, draw, show, table_of
 from ninja_game.cli.terminal import draw_unseen
@@ -250,7 +251,7 @@ LONGEST = 400  # characters of a line
 RANKED = "{place}. {player}: {result} ({ticks} ticks, {gold} gold, {made}) {date}"
 TYPED = (
     "{player}: {ticks} ticks, {presses} presses, {jumps} jumps; ticks left {left}, right {right}, neither {neither}, "
-    "jump {jump}; {strokes} strokes, the longest {longest} ticks"
+    "jump {jump}; {strokes} strokes, the longest {longest} ticks\n{keys}"
 )
 
 
@@ -279,8 +280,9 @@ def ask(
     """Ask the board of a folder about a level, and about players on it (default: the first five).
 
     LEVEL is a title, a number as 03-1, the name of a file, or the beginning of a digest. WHAT is one of: rank, the
-    table; best, its first row; inputs, what the keys do; splits; trace, the paths as a picture; film, the first run
-    with the others as ghosts. Nothing is simulated that an earlier command on the same folder has simulated.
+    table; best, its first row; inputs, the keys as text and how often each is down; splits; trace, the paths as a
+    picture; film, the first run with the others as ghosts. A player of both ladders is asked for as "Ann, assisted".
+    Nothing is simulated that an earlier command on the same folder has simulated.
 
     \b
     Examples:
@@ -350,7 +352,8 @@ def _answer(
 def _line(form: str, row: Mapping[str, Any]) -> str:
     waits = "" if row["confirmed"] else "waits for confirmation, "
     note = f"; note: {waits}{row['remark']}" if row["remark"] else ""
-    return shown_text(form.format(**{**row, "place": row["place"] or "-"}).rstrip() + note, LONGEST)
+    said, *keys = form.format(**{**row, "place": row["place"] or "-"}).rstrip().split("\n")
+    return "\n".join([shown_text(said + note, LONGEST), *keys])
 
 
 def _film(runs: Sequence[Recording], output: Path) -> None:
@@ -358,6 +361,8 @@ def _film(runs: Sequence[Recording], output: Path) -> None:
     from ninja_game.play.replay.film import Film, write_film
 
     write_film(Film(runs[0], ghosts=tuple(runs[1:]), keys=True), output, lambda _: True)
+    if said := large(output):
+        click.echo(f"{shown_text(str(output))}{said}", err=True)
 
 
 def _level(text: str, entries: Sequence[Entry]) -> Entry:
@@ -406,12 +411,14 @@ def _row(ranked: Ranked, category: Category) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _inputs(inputs: bytes) -> dict[str, int]:
-    """Ticks with each key down, and spans of the same keys."""
+def _inputs(inputs: bytes) -> dict[str, int | str]:
+    """Ticks with each key down, and spans of the same keys; and the inputs as text."""
+    from ninja_game.formats.replay.notations import write_inputs
     from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, KEYS_DOWN
     from ninja_game.ui.input.bindings import MOVES
 
     counts = {name: sum(bool(each & key) for each in inputs) for name, key in MOVES}
     spans = [len(list(span)) for _, span in groupby(each & KEYS_DOWN for each in inputs)]
     neither = sum(not each & (KEY_LEFT + KEY_RIGHT) for each in inputs)
-    return {**counts, "neither": neither, "strokes": len(spans), "longest": max(spans)}
+    text = "\n".join(write_inputs(inputs))
+    return {**counts, "neither": neither, "strokes": len(spans), "longest": max(spans), "keys": text}

@@ -108,6 +108,12 @@ def test_inputs_are_counted(folder: Path, levels: Path) -> None:  # noqa: F811
     }  # fmt: skip
 
 
+def test_inputs_are_told_as_text(folder: Path, levels: Path) -> None:  # noqa: F811
+    (row,) = answer(folder, levels, "inputs", "Walk", "Bea")
+    assert row["keys"] == f".*5 R*{WALK_END + 1}"
+    assert ask(folder, levels, "inputs", "Walk", "Bea")[1].splitlines()[-1] == row["keys"]
+
+
 def test_splits_pictures_and_films(folder: Path, levels: Path, tmp_path: Path) -> None:  # noqa: F811
     code, text = ask(folder, levels, "splits", "Walk", "Ann", "Bea")
     assert (code, "\nexit " in text, "+5" in text) == (0, True, True), text
