@@ -172,6 +172,51 @@ def test_runs_of_both_ladders_stand_side_by_side(runs: Path, levels: Path, tmp_p
     assert "#splits" in path.read_text("utf-8")
 
 
+def test_a_batch_is_one_row_of_the_first_page(
+    runs: Path, levels: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    put(runs, "a.txt", slow_walk(author="Ann"))
+    put(runs, "b.txt", replay(author="Bot", made=Made(edits=7)))
+    for most, rows, told in ((2, 2, False), (1, 1, True)):
+        monkeypatch.setattr("ninja_game.web.board.pages.MOST_OF_A_MOMENT", most)
+        index = (board_of(runs, levels, tmp_path / f"{most}") / "index.html").read_text("utf-8")
+        newest = index.partition("Newest records")[2].partition("</tbody>")[0]
+        assert (newest.count("<tr>") - 1, "2 runs with records came in together" in newest) == (rows, told)
+    assert index.index("Players, played") < index.index("Most contested") < index.index("Newest records")
+    for text in ('<a href="levels.html">1 level</a>', "<td>2 players</td>"):
+        assert text in newest
+
+
+def test_levels_have_the_best_of_each_ladder(runs: Path, levels: Path, tmp_path: Path) -> None:
+    put(runs, "a.txt", slow_walk(author="Ann"))
+    put(runs, "b.txt", replay(author="Bot", made=Made(edits=7)))
+    site = board_of(runs, levels, tmp_path / "site")
+    page = (site / "levels.html").read_text("utf-8")
+    assert re.findall('<th scope="col">([^<]+)', page)[-4:] == [
+        "Fastest, played",
+        "First",
+        "Fastest, assisted",
+        "First",
+    ]
+    assert re.findall("<td>([0-9.]+)</td>", page)[:4] == ["2", "2", "0.700", "0.575"]
+    assert "those of both ladders" in page
+
+
+def test_a_count_that_is_the_same_everywhere_has_no_column(runs: Path, levels: Path, tmp_path: Path) -> None:
+    put(runs, "a.txt", slow_walk(author="Ann"))
+    put(runs, "b.txt", replay(level=GOLD_LATER, author="Bea"))
+    contested = (board_of(runs, levels, tmp_path / "site") / "index.html").read_text("utf-8").partition("Most cont")[2]
+    assert re.findall('<th scope="col">([^<]+)', contested.partition("</thead>")[0]) == ["Level", "Fastest", "First"]
+
+
+def test_a_player_sees_the_places_of_all_categories(runs: Path, levels: Path, tmp_path: Path) -> None:
+    put(runs, "a.txt", replay(author="Ann"))
+    put(runs, "b.txt", slow_walk(author="Bea"))
+    site = board_of(runs, levels, tmp_path / "site")
+    (page,) = (text for text in map(Path.read_text, (site / "players").glob("*.html")) if "<title>Bea" in text)
+    assert re.findall("<div>([^<]+)</div>", page) == ["Fastest: 2, 0.125 behind", "Highest score: 2, 0.125 behind"]
+
+
 def test_a_better_time_goes_down_and_a_better_score_up(runs: Path, levels: Path, tmp_path: Path) -> None:
     put(runs, "a.txt", slow_walk(author="Ann"), day=1)
     put(runs, "b.txt", replay(author="Ann"), day=2)
@@ -193,7 +238,7 @@ def test_tables_of_a_level_have_no_empty_column_and_say_a_remark_once(runs: Path
     page = (tmp_path / "site" / "board" / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
     tables = page.split("<caption>Best run of each player</caption>")[1:]
     heads = [re.findall("<th [^>]*>([^<]+)", each.partition("</thead>")[0]) for each in tables]
-    others = ["Watch", "Share", "Gold", "Made", "Date", "Remark"]
+    others = ["Gold", "Made", "Date", "Watch", "Share", "Remark"]
     assert heads == [
         ["Place", "Player", *units, "Behind", *others] for units in (["Fastest", "Highest score"], ["Time"])
     ], "same order, once"

@@ -45,7 +45,7 @@ PER_PAGE = 100  # rows of a table that goes on on another page: a page has at mo
 
 LONGEST_NAME = 40  # characters of a name in a table
 
-RUN_HEADS = ("Watch", "Share", "Medal", "Gold", "Made", "Date", "Remark")
+RUN_HEADS = ("Gold", "Made", "Date", "Medal", "Watch", "Share", "Remark")
 LINKS = [
     ("index.html", "Board"), ("players.html", "Players"), ("levels.html", "Levels"), ("episodes.html", "Episodes"),
     ("rejected.html", "Rejected"),
@@ -158,9 +158,9 @@ class LevelPages:
     def run(self, run: Run, *results: Content, timed: bool = True) -> tuple[Content, ...]:
         """Cells of a run, for heads that end in RUN_HEADS. ``timed``: with its medal, which is of the time."""
         gold = f"{run.gold} of {run.entry.all_gold}"
-        about = medal_mark(run.medal if timed else ""), gold, run.made or "unknown", run.day, run.remark
+        about = gold, run.made or "unknown", run.day, medal_mark(run.medal if timed else "")
         others = f" with {shown_text(run.co_authors, LONGEST_NAME)}" if run.co_authors else None
-        return (joined(self.player_link(run.player, UP), others), *results, *self.leads(run, UP), *about)
+        return (joined(self.player_link(run.player, UP), others), *results, *about, *self.leads(run, UP), run.remark)
 
     def value(self, category: Category, run: Run) -> str:
         """The number that a run is ranked by, as text; "" where it is not of the category."""
@@ -278,7 +278,7 @@ class LevelPages:
         drawn = paths(UP + picture_name(runs[0].level), list(zip(names, known, strict=True)))
         together = tag("p", self.watch(runs, UP, f"Watch the first {len(runs)} together"))
         pairs = [
-            (joined(swatch(number), " ", names[number]), *(self._pair(run, other) for other in runs))
+            (tag("div", swatch(number), " ", names[number], class_="text"), *(self._pair(run, other) for other in runs))
             for number, run in enumerate(runs)
         ]
         races = table("Seconds by which the left one is later; a link watches both", ("Run", *names), pairs)
