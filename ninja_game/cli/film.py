@@ -15,6 +15,7 @@ from ninja_game.files.user_folder import free_path
 from ninja_game.formats.links import is_link
 
 MOST_BESIDE = 3
+LARGE = 5_000_000  # bytes of a GIF
 
 
 @click.command()
@@ -45,11 +46,15 @@ MOST_BESIDE = 3
     help="Show the runs of this file, three at most, in pictures of their own beside the first.",
 )  # fmt: skip
 @click.option("--keys", is_flag=True, help="Show the keys that are down.")
-@click.option("--splits", is_flag=True, help="Show time and last split, and how many ticks later (+) others are there.")
+@click.option(
+    "--splits", is_flag=True, help="Show time and last splits, and how many ticks later (+) others are there."
+)
+@click.option("--gold", is_flag=True, help="With --splits: a split for each piece of gold, too.")
 @level_option
 def film(
     replay: Path, output: Path | None, record: int | None, size: tuple[int, int], speed: float, first: int,
-    last: int | None, ghosts: Sequence[Path], beside: Sequence[Path], keys: bool, splits: bool, level_path: Path | None,
+    last: int | None, ghosts: Sequence[Path], beside: Sequence[Path], keys: bool, splits: bool, gold: bool,
+    level_path: Path | None,
 ) -> None:  # fmt: skip
     """Write a film of a recording: a GIF, a WebM, an MP4, or a folder of pictures.
 
@@ -89,7 +94,7 @@ def film(
 
     alone = len(parts) == 1
     films = [
-        Film(run, size, speed, None, along, keys, first * alone, last if alone else None, others, splits)
+        Film(run, size, speed, None, along, keys, first * alone, last if alone else None, others, splits, gold)
         for run, along, others in zip(parts, ghosts_of, beside_of, strict=True)
     ]
     if not alone and (first or last is not None):
@@ -106,4 +111,10 @@ def film(
             write_film(films, path, report)
     except OSError as error:
         raise NinjaGameError(f"{path}: the film cannot be written: {error.strerror}") from None
-    click.echo(f"{shown_text(str(path))}: {length_of(films)} ticks")
+    click.echo(f"{shown_text(str(path))}: {length_of(films)} ticks{large(path)}")
+
+
+def large(path: Path) -> str:
+    """What is said of a GIF that is large."""
+    size = path.stat().st_size
+    return f", {size / 1e6:.0f} MB; as .mp4 it would be smaller" if path.suffix == ".gif" and size > LARGE else ""

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli.commands import FAILED
+from ninja_game.cli.film import large
 from ninja_game.cli.options import NEW_FILE, NEW_FOLDER, OLD_FILE, OLD_FOLDER, InputPath, jobs_option
 from ninja_game.cli.splits import as_json, draw, show, table_of
 from ninja_game.cli.terminal import draw_unseen
@@ -148,12 +149,16 @@ class _Board(click.Command):
     type=OLD_FILE,
     help="Report what differs from this file written by --json; exit code 1 if anything is refused, changed or gone.",
 )
+@click.option(
+    "--confirm", metavar="RUN", multiple=True,
+    help="The runs of this file in FOLDER are no copies, although they are nearly somebody else's. Needs --json.",
+)  # fmt: skip
 @rules_option
 @click.option("--again", is_flag=True, help="Simulate every run, and write every page, also those known from before.")
 @jobs_option
 @address_option
 def board(
-    folder: Path, levels: Path | None, site: Path | None, data: Path | None, check: Path | None,
+    folder: Path, levels: Path | None, site: Path | None, data: Path | None, check: Path | None, confirm: Sequence[str],
     rules: Path | None, again: bool, jobs: int | None, address: str,
 ) -> int:  # fmt: skip
     """Rank the runs of a folder, all simulated again: tables, pages, checks.
@@ -169,6 +174,7 @@ def board(
       ninja-game board replays/
       ninja-game board replays/ --site public/ --json board.json
       ninja-game board replays/ --check board.json
+      ninja-game board replays/ --json board.json --confirm ann/00-0.txt
       ninja-game board replays/ --levels my-pack/ --site public/
       ninja-game board ask replays/ rank 00-0
     """
@@ -178,13 +184,15 @@ def board(
     from ninja_game.web.pages.frame import GAME
     from ninja_game.web.pages.gallery import published_levels
 
+    if confirm and not data:
+        raise click.UsageError("--confirm: name the ledger, which notes it, with --json")
     if site:
         check_site(site, folder)
     if data:
         check_output(data, keep=[folder])
         check_ledger(data, folder)
     shown = published_levels(levels or data_folder("levels"))
-    ranking, before = _ranking(folder, shown, rules, check or data, jobs=jobs, again=again)
+    ranking, before = _ranking(folder, shown, rules, check or data, jobs=jobs, again=again, confirm=confirm)
     judged = ranking.judged
     if site:
         BoardPages(site, ranking, memo=memo_of("pages", site, folder, again=again), address=address).write()
@@ -208,12 +216,12 @@ def board(
 
 def _ranking(
     folder: Path, shown: PublishedLevels, rules: Path | None, ledger: Path | None, *,
-    jobs: int | None, again: bool = False,
+    jobs: int | None, again: bool = False, confirm: Sequence[str] = (),
 ) -> tuple[Ranking, Ledger]:  # fmt: skip
-    """The ranking of a folder's runs by the board's rules, and the ledger before."""
+    """The ranking of a folder's runs by the board's rules, and the ledger before, in which files are confirmed."""
     from ninja_game.web.board.judge import judge
     from ninja_game.web.board.ranking import Ranking
-    from ninja_game.web.board.report import dates_of, read_board
+    from ninja_game.web.board.report import dates_of, plain, read_board
     from ninja_game.web.board.rules import USUAL, read_categories
     from ninja_game.web.board.runs import NO_LEDGER
 
@@ -221,6 +229,13 @@ def _ranking(
     gc.set_threshold(20_000)
     now = datetime.now(UTC)
     before = read_board(ledger, now) if ledger and ledger.exists() else NO_LEDGER
+    near = [row for row in before.runs.values() if row.get("near") and not row.get("confirmed")]
+    for name in confirm:
+        if not (rows := [row for row in near if row["file"] == name]):
+            files = ", ".join(plain(row["file"]) for row in near[:10]) or "none"
+            raise ArgumentError(f"--confirm {name!a}: no run of the ledger that waits; those that do: {files}")
+        for row in rows:
+            row["confirmed"] = True
     categories = read_categories(rules) if rules else USUAL
     memo = memo_of("runs", folder, folder, again=again)
     dates = dates_of(before, now) if ledger else None
@@ -236,7 +251,7 @@ LONGEST = 400  # characters of a line
 RANKED = "{place}. {player}: {result} ({ticks} ticks, {gold} gold, {made}) {date}"
 TYPED = (
     "{player}: {ticks} ticks, {presses} presses, {jumps} jumps; ticks left {left}, right {right}, neither {neither}, "
-    "jump {jump}; {strokes} strokes, the longest {longest} ticks"
+    "jump {jump}; {strokes} strokes, the longest {longest} ticks\n{keys}"
 )
 
 
@@ -265,8 +280,9 @@ def ask(
     """Ask the board of a folder about a level, and about players on it (default: the first five).
 
     LEVEL is a title, a number as 03-1, the name of a file, or the beginning of a digest. WHAT is one of: rank, the
-    table; best, its first row; inputs, what the keys do; splits; trace, the paths as a picture; film, the first run
-    with the others as ghosts. Nothing is simulated that an earlier command on the same folder has simulated.
+    table; best, its first row; inputs, the keys as text and how often each is down; splits; trace, the paths as a
+    picture; film, the first run with the others as ghosts. A player of both ladders is asked for as "Ann, assisted".
+    Nothing is simulated that an earlier command on the same folder has simulated.
 
     \b
     Examples:
@@ -285,7 +301,11 @@ def ask(
     chosen = _category(ranking, category)
     tables = ranking.tables.get(entry.digest, {})
     table, other = (tables.get((each, chosen), []) for each in sorted((PLAYED, ASSISTED), reverse=not assisted))
-    found = [_of_player(table, player) for player in players] or table[: None if what == "rank" else MOST_RUNS]
+    found = [_of_player([*table, *other], player) for player in players] or table[
+        : None if what == "rank" else MOST_RUNS
+    ]
+    if what == "rank":
+        found = [*found, *ranking.waiting(entry.digest, (ASSISTED if assisted else PLAYED, chosen), found)]
     if not found:
         ladder, way = ("played", "without") if assisted else ("assisted", "with")
         hint = f"; {ladder}: {len(other)}, {way} --assisted" if other else ""
@@ -301,8 +321,12 @@ def _answer(
 
     rows: Any = [_row(each, category) for each in found]
     form = RANKED
-    replays = [replace(each.run.replay, name=each.run.player) for each in found if what not in ("rank", "best")]
-    runs = [Recording(each.run.entry.named.level, replay) for each, replay in zip(found, replays, strict=False)]
+    ladders = sorted({each.run.ladder for each in found}, reverse=True)
+    names = [each.run.player + f", {each.run.ladder}" * (len(ladders) > 1) for each in found]
+    runs = [
+        Recording(each.run.entry.named.level, replace(each.run.replay, name=name))
+        for each, name in zip(found, names, strict=True) if what not in ("rank", "best")
+    ]  # fmt: skip
     if what == "inputs":
         form, rows = TYPED, [row | _inputs(run.inputs) for row, run in zip(rows, runs, strict=True)]
     elif what == "splits":
@@ -320,14 +344,16 @@ def _answer(
     if as_data:
         click.echo(json.dumps(rows))
     else:
-        entry, ladder = found[0].run.entry, found[0].run.ladder
+        entry, ladder = found[0].run.entry, " and ".join(ladders)
         click.echo(shown_text(f"{entry.episode} {entry.title}, {category.name.lower()}, {ladder}:".strip(), LONGEST))
-        click.echo("\n".join(_line(form, row) for row in rows))
+        click.echo("\n".join(_line(form, row | {"player": name}) for row, name in zip(rows, names, strict=True)))
 
 
 def _line(form: str, row: Mapping[str, Any]) -> str:
-    note = f"; note: {row['remark']}" if row["remark"] else ""
-    return shown_text(form.format(**{**row, "place": row["place"] or "-"}).rstrip() + note, LONGEST)
+    waits = "" if row["confirmed"] else "waits for confirmation, "
+    note = f"; note: {waits}{row['remark']}" if row["remark"] else ""
+    said, *keys = form.format(**{**row, "place": row["place"] or "-"}).rstrip().split("\n")
+    return "\n".join([shown_text(said + note, LONGEST), *keys])
 
 
 def _film(runs: Sequence[Recording], output: Path) -> None:
@@ -335,6 +361,8 @@ def _film(runs: Sequence[Recording], output: Path) -> None:
     from ninja_game.play.replay.film import Film, write_film
 
     write_film([Film(runs[0], ghosts=tuple(runs[1:]), keys=True)], output)
+    if said := large(output):
+        click.echo(f"{shown_text(str(output))}{said}", err=True)
 
 
 def _level(text: str, entries: Sequence[Entry]) -> Entry:
@@ -365,7 +393,7 @@ def _of_player(table: Sequence[Ranked], player: str) -> Ranked:
     from ninja_game.web.board.players import folded
 
     for each in table:
-        if folded(each.run.player) == folded(player):
+        if folded(player) in (folded(each.run.player), folded(f"{each.run.player}, {each.run.ladder}")):
             return each
     raise ArgumentError(
         f"{player!a} has no run there; players: {', '.join(each.run.player for each in table[:10]) or 'none'}"
@@ -378,16 +406,19 @@ def _row(ranked: Ranked, category: Category) -> dict[str, Any]:
         "level": run.entry.digest, "level_name": run.entry.title, "place": ranked.place, "player": run.player,
         "result": category.text(ranked.values[0]), "ticks": run.tick, "gold": run.gold, "score": run.score,
         "presses": run.presses, "jumps": run.jumps, "made": run.made or "unknown", "co_authors": run.co_authors,
-        "date": run.day, "file": run.file, "record": run.record, "remark": run.remark,
+        "date": run.day, "file": run.file, "record": run.record, "remark": run.remark, "ladder": run.ladder,
+        "confirmed": not run.near,
     }  # fmt: skip
 
 
-def _inputs(inputs: bytes) -> dict[str, int]:
-    """Ticks with each key down, and spans of the same keys."""
+def _inputs(inputs: bytes) -> dict[str, int | str]:
+    """Ticks with each key down, and spans of the same keys; and the inputs as text."""
+    from ninja_game.formats.replay.notations import write_inputs
     from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, KEYS_DOWN
     from ninja_game.ui.input.bindings import MOVES
 
     counts = {name: sum(bool(each & key) for each in inputs) for name, key in MOVES}
     spans = [len(list(span)) for _, span in groupby(each & KEYS_DOWN for each in inputs)]
     neither = sum(not each & (KEY_LEFT + KEY_RIGHT) for each in inputs)
-    return {**counts, "neither": neither, "strokes": len(spans), "longest": max(spans)}
+    text = "\n".join(write_inputs(inputs))
+    return {**counts, "neither": neither, "strokes": len(spans), "longest": max(spans), "keys": text}

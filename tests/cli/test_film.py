@@ -18,10 +18,11 @@ from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.made import Made
 from ninja_game.formats.replay.text import Replay, parse_replay, write_episode
+from ninja_game.play.level.hud import Hud
 from ninja_game.play.replay import film
 from ninja_game.play.replay.film import Film, section_of
 from ninja_game.play.replay.playback import Playback
-from ninja_game.runs.compare import run_splits
+from ninja_game.runs.compare import RunSplits, run_splits
 from ninja_game.runs.run import record_replay
 from ninja_game.sim.inputs import Demo
 from tests.support.samples import SPIKED, WALK, WALK_END, replay_of_walk, running, write_records
@@ -146,6 +147,33 @@ def test_runs_stand_beside_each_other_with_their_splits(
         assert parts[0] != parts[1]
     assert film_of(*words, "--splits", "--from", 30, "--to", 30, "-o", tmp_path / "told").exit_code == 0
     assert (tmp_path / "told" / "00000.png").read_bytes() != files[30].read_bytes()
+
+
+@pytest.mark.parametrize("words, gold", [((), False), (("--gold",), True)])
+def test_the_last_three_splits_are_shown_and_gold_where_it_is_asked_for(
+    words: tuple[str, ...], gold: bool, replay: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    events, shown = list[str](), list[str]()
+
+    def texts(own: RunSplits, _: object) -> list[tuple[int, str]]:
+        events.extend(each.event for each in own.splits)
+        return [(tick, str(tick)) for tick in range(5)]
+
+    def foot(_hud: object, _surface: object, text: str, *_: object) -> list[object]:
+        shown.append(text)
+        return []
+
+    monkeypatch.setattr(film, "split_texts", texts)
+    monkeypatch.setattr(Hud, "foot", foot)
+    assert film_of(replay, "--splits", *words, "--to", 9, "-o", tmp_path / "told").exit_code == 0
+    assert ("gold-taken" in events, shown[-1]) == (gold, "0.225 s; 2; 3; 4")
+
+
+def test_a_large_gif_is_told(replay: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    said = "as .mp4 it would be smaller"
+    assert said not in film_of(replay, "--to", 3, "-o", tmp_path / "a.gif").output
+    monkeypatch.setattr("ninja_game.cli.film.LARGE", 9)
+    assert said in film_of(replay, "--to", 3, "-o", tmp_path / "b.gif").output
 
 
 def test_names_of_runs_are_not_cut_within_a_word(tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -35,6 +36,13 @@ def board(folder: Path, pack: Path, *words: str) -> str:
     result = CliRunner().invoke(cli, ["board", str(folder), "--levels", str(pack), "--jobs", "1", *words])
     assert result.exit_code == 0, result.output
     return result.stdout
+
+
+def taken_in_earlier(runs: Path, levels: Path, data: Path) -> None:
+    """All that is there comes into the ledger with a date of long ago."""
+    board(runs, levels, "--json", str(data))
+    then = re.sub('"added": "[^"]*"', '"added": "2026-01-31T12:00:00Z"', data.read_text("utf-8"))
+    data.write_text(then, "utf-8")
 
 
 class Tags(HTMLParser):

@@ -14,7 +14,7 @@ from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.made import Made
 from ninja_game.play.replay.paths import paths_picture
 from ninja_game.ui.theme import PALETTES, RUN_COLOURS
-from tests.support.board import HOSTILE, put, slow_walk
+from tests.support.board import HOSTILE, put, slow_walk, taken_in_earlier
 from tests.support.forgeries import WALKING, replay
 from tests.support.samples import WALK, WALK_END
 
@@ -43,6 +43,32 @@ def test_a_level_with_assisted_runs_alone_says_so(runs: Path, levels: Path) -> N
     put(runs, "bot.txt", replay(author="Bot", made=Made(edits=3)))
     code, text = ask(runs, levels, "rank", "Walk")
     assert (code, "on Walk yet; assisted: 1, with --assisted" in text) == (2, True), text
+
+
+def test_players_of_both_ladders_are_compared(folder: Path, levels: Path) -> None:
+    put(folder, "tool.txt", replay(bytes(3) + WALKING + b"\2", author="Ann", made=Made(edits=3)))
+    put(folder, "bot.txt", replay(bytes(4) + WALKING + b"\2", author="Bot", made=Made(edits=3)))
+    code, text = ask(folder, levels, "splits", "Walk", "Ann", "Bot", "Ann, assisted")
+    head = next(line for line in text.splitlines() if line.startswith("split"))
+    assert (code, text.splitlines()[0][:11], head.endswith("Bot, assisted  Ann, assisted")) == (0, "Ann, played", True)
+    lines = ask(folder, levels, "rank", "Walk", "Bot", "Bea")[1].splitlines()
+    assert [each[:24] for each in lines] == [
+        "00-0 Walk, fastest, play",
+        "2. Bot, assisted: 0.675 ",
+        "2. Bea, played: 0.700 (2",
+    ]
+    assert [row["ladder"] for row in answer(folder, levels, "rank", "Walk", "Bot", "Bea")] == ["assisted", "played"]
+
+
+def test_a_faster_run_that_waits_is_told(runs: Path, levels: Path, tmp_path: Path) -> None:
+    put(runs, "ann.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Ann"))
+    put(runs, "bob.txt", slow_walk(90, author="Bob"))
+    taken_in_earlier(runs, levels, data := tmp_path / "board.json")
+    put(runs, "better.txt", slow_walk(40, author="Bob"))
+    code, text = ask(runs, levels, "rank", "Walk", "--ledger", str(data))
+    assert code == 0
+    assert [line.partition(": ")[0] for line in text.splitlines()[1:]] == ["1. Ann", "2. Bob", "-. Bob"]
+    assert "; note: waits for confirmation, " in text.splitlines()[-1]
 
 
 @pytest.mark.parametrize("level", ["Walk", "walk", "00-0", "wal", "00-0-LEVEL"])

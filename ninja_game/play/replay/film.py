@@ -41,6 +41,7 @@ MOST_PICTURES = 20_000
 """Pictures of a film whose last tick nobody named: more than eight minutes."""
 
 
+SHOWN_SPLITS = 3  # the last ones of a run
 LONGEST_NAME = 28  # letters of a run's name among its splits
 LETTERS = 13.0  # the size of what is written above and below the level, larger than in the game: films are small
 
@@ -55,8 +56,8 @@ class Film:
 
     ``size``: px of a run's picture. ``speed``: 1 is that of the game. ``ghosts``: runs on the same level that go along;
     ``beside``: up to three more of it, each in a picture of its own. ``keys``, ``splits``: whether the keys that are
-    down are shown, and time and splits with how many ticks other runs are later. ``known``: its moments, where they are
-    known already.
+    down are shown, and time and splits, those of gold with ``gold``, with how many ticks other runs are later.
+    ``known``: its moments, where they are known already.
 
     Raises ArgumentError for a section that is empty or begins after the end, and for one without ``last`` in which the
     runs have more than MOST_PICTURES together.
@@ -72,6 +73,7 @@ class Film:
     last: int | None = None
     beside: tuple[Recording, ...] = ()
     splits: bool = False
+    gold: bool = False
     known: range | None = None
 
     @property
@@ -157,7 +159,10 @@ class _Panel:
             covered = [hud.label(surface, self.title, LETTERS)]
         words = [self.title] * bool(run.episode)
         if self.film.splits:
-            words += [f"{seconds_text(self.time)} s", *[text for tick, text in self.splits if tick < world.tick][-1:]]
+            words += [
+                f"{seconds_text(self.time)} s",
+                *[text for tick, text in self.splits if tick < world.tick][-SHOWN_SPLITS:],
+            ]
         for name, ghost in self.ghosts if self.view.context.settings.show_ghost else ():
             x, y = ghost.place(1.0)
             if is_near(x, y):
@@ -193,9 +198,11 @@ def film_pictures(film: Film) -> Iterator[pygame.Surface]:
     moments, (w, h), runs = film.moments, film.size, (film.run, *film.beside)
     splits: list[list[tuple[int, str]]] = [[]] * len(runs)
     if film.splits:
-        from ninja_game.runs.compare import run_splits
+        from ninja_game.runs.compare import SPLIT_EVENTS, run_splits
 
-        first, *others = [run_splits(each, memory="auto") for each in (*runs, *film.ghosts)]
+        events = SPLIT_EVENTS if film.gold else SPLIT_EVENTS[1:]
+
+        first, *others = [run_splits(each, events, memory="auto") for each in (*runs, *film.ghosts)]
         splits = [split_texts(first, others), *(split_texts(each, [first]) for each in others[: len(film.beside)])]
     panels = [_Panel(film, *each) for each in zip(runs, splits, strict=True)]
     panels[0].follow(film.ghosts)

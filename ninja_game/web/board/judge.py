@@ -14,6 +14,7 @@ from typing import Any, NamedTuple, get_type_hints
 from ninja_game.budget import RUN_BUDGET, tick_cost
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.lines import MOST_NAME
+from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.replay.made import parse_made
 from ninja_game.formats.replay.text import INPUTS_AFTER
 from ninja_game.levels.episodes import Entry
@@ -233,6 +234,10 @@ def _worded(problem: RunProblem, result: Verdict, sent: Sent) -> str:
     """A problem as the sender of a run reads it."""
     if problem.code == "not-strict" and result.practice and str(problem).startswith("practice"):
         return f"it was {result.made}: runs with such help do not count"
+    if problem.code == "not-strict" and str(problem).startswith("complete"):
+        demo = parse_demo(sent.chunk.records[0].demo)
+        held = f"it claims {demo.end} frames and holds {demo.end - demo.missing}"
+        return f"the demo is cut off: {held}; `ninja-game convert FILE OUT --to replay` makes a run that claims no more"
     if problem.code == "not-strict" and str(problem).startswith("possible_by_keyboard"):
         inputs = sent.inputs(result.ticks)
         odd = (keys != ours for keys, ours in zip(inputs, with_press_bits(inputs), strict=True))

@@ -23,7 +23,7 @@ from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, SplitRow, run_split
 from ninja_game.ui.theme import RUN_COLOURS
 from ninja_game.web.board.ranking import Part, Ranked, Ranking
 from ninja_game.web.board.rules import FASTEST, Category
-from ninja_game.web.board.runs import Run
+from ninja_game.web.board.runs import PLAYED, Run
 from ninja_game.web.pages.frame import GAME, REPLAYS, Content, Markup, Pages, joined, page, section, table, tag
 from ninja_game.web.pages.gallery import (
     BOARD,
@@ -45,7 +45,7 @@ PER_PAGE = 100  # rows of a table that goes on on another page: a page has at mo
 
 LONGEST_NAME = 40  # characters of a name in a table
 
-RUN_HEADS = ("Watch", "Share", "Medal", "Gold", "Made", "Date", "Remark")
+RUN_HEADS = ("Gold", "Made", "Date", "Medal", "Watch", "Share", "Remark")
 LINKS = [
     ("index.html", "Board"), ("players.html", "Players"), ("levels.html", "Levels"), ("episodes.html", "Episodes"),
     ("rejected.html", "Rejected"),
@@ -57,7 +57,8 @@ MOST_SPLITS = 60  # rows of splits; where there were more, gold is left out
 
 RECORDS = "records"
 SPLITS = "splits"
-NEAR = "A run that is nearly somebody else's has no place, until the keeper of the board confirms it."
+NEAR = "A run that is nearly somebody else's has no place, until the keeper of the board confirms it. "
+HOW_TO_CONFIRM = "The keeper confirms one with: ninja-game board FOLDER --json board.json --confirm FILE"
 
 # The chart, px, before it is fitted to the page.
 WIDTH = 480
@@ -132,8 +133,8 @@ class LevelPages:
                 ranks.append((self.part_name(part), f"place {row.place}{late}"))
             if number and not links:
                 links.append(self.watch([run, first], "", f"Watch with {self.name(first.player)}"))
-            if number < TOGETHER and len(rows) > 1 and part == next(iter(self.ranking.tables[run.level])):
-                links.append(tag("a", "Splits", href=f"{UP}{BOARD}/{page_name(run.level)}#{SPLITS}"))
+        if run in (beside := self.ranking.side_by_side(run.level, TOGETHER)[1]) and len(beside) > 1:
+            links.append(tag("a", "Splits", href=f"{UP}{BOARD}/{page_name(run.level)}#{SPLITS}"))
         keys = f"{counted(run.presses, 'press', 'presses')}, {counted(run.jumps, 'jump')}"
         gold, made = f"{run.gold} of {run.entry.all_gold}", run.made or "unknown"
         facts = [("Time", f"{seconds_text(run.tick)} s"), *ranks, ("Score", seconds_text(run.score)), ("Gold", gold),
@@ -157,9 +158,9 @@ class LevelPages:
     def run(self, run: Run, *results: Content, timed: bool = True) -> tuple[Content, ...]:
         """Cells of a run, for heads that end in RUN_HEADS. ``timed``: with its medal, which is of the time."""
         gold = f"{run.gold} of {run.entry.all_gold}"
-        about = medal_mark(run.medal if timed else ""), gold, run.made or "unknown", run.day, run.remark
+        about = gold, run.made or "unknown", run.day, medal_mark(run.medal if timed else "")
         others = f" with {shown_text(run.co_authors, LONGEST_NAME)}" if run.co_authors else None
-        return (joined(self.player_link(run.player, UP), others), *results, *self.leads(run, UP), *about)
+        return (joined(self.player_link(run.player, UP), others), *results, *about, *self.leads(run, UP), run.remark)
 
     def value(self, category: Category, run: Run) -> str:
         """The number that a run is ranked by, as text; "" where it is not of the category."""
@@ -199,27 +200,33 @@ class LevelPages:
             return None, None, section("Runs", tag("p", "Nobody has passed this level here yet."))
         said = f"All runs: {len(self.ranking.by_level[entry.digest])}"
         link = tag("p", tag("a", said, href=f"{entry.digest[:16]}-runs.html"))
-        part, ranked = next(iter(tables.items()))
-        runs = [each.run for each in ranked[:TOGETHER]]
-        drawn, beside = self._side_by_side(runs, self.part_name(part)) if len(runs) > 1 else (None, None)
+        drawn, beside = self._side_by_side(*self.ranking.side_by_side(entry.digest, TOGETHER))
+        part = next(iter(tables))
         fell = [each for each in tables if len(self.ranking.history[entry.digest, each]) > (each != part)]
         first, *others = [self._progression(entry, each, RECORDS * (not at)) for at, each in enumerate(fell)] or [None]
         folded = tag("details", tag("summary", "How the other records went"), *others) if others else None
         same: dict[str, dict[Part, list[Ranked]]] = defaultdict(dict)
         for each, rows in tables.items():
             same[f"{each[0]} {[(row.place, row.run.key) for row in rows[:FIRST]]}"][each] = rows[:FIRST]
+        near = {row.run.key for rows in tables.values() for row in rows[:FIRST] if row.run.near}
         remarks: set[str] = set()
         shown, leads = list[Content](), list[tuple[str, str]]()
         for number, parts in enumerate(same.values(), 1):
+            waiting = [row for each in parts for row in self.ranking.waiting(entry.digest, each, tables[each])]
+            near |= {row.run.key for row in waiting}
             shown.append(self._table(parts, remarks, anchor := f"ranks-{number}"))
+            better = [
+                f"{self.name(row.run.player)} {seconds_text(row.run.tick)} with {row.run.gold} gold" for row in waiting
+            ]
+            shown.append(tag("p", f"Better, and waiting: {', '.join(dict.fromkeys(better))}.") if better else "")
             for each, (best, *_) in parts.items():
                 leader = f": {self.name(best.run.player)}, {each[1].text(best.values[0])}" if best.place == 1 else ""
                 leads.append((anchor, self.part_name(each) + leader))
-        near = any(row.run.near for rows in tables.values() for row in rows[:FIRST])
         leads += [(each, each.capitalize()) for each, content in ((RECORDS, first), (SPLITS, beside)) if content]
         links = [tag("li", tag("a", text, href=f"#{anchor}")) for anchor, text in leads]
         contents = tag("nav", tag("ul", *links), class_="contents", aria_label="On this page")
-        return contents, drawn, joined(*shown, tag("p", NEAR) if near else None, link, first, folded, beside)
+        note = tag("p", NEAR, tag("a", "What waits", href=f"{UP}waiting.html")) if near else None
+        return contents, drawn, joined(*shown, note, link, first, folded, beside)
 
     def _table(self, parts: Mapping[Part, Sequence[Ranked]], above: set[str], anchor: str) -> Markup:
         """A table of categories with the same runs in order. ``above``: remarks of tables above."""
@@ -259,9 +266,11 @@ class LevelPages:
         title = f"How the record {moved}: {self.part_name(part)}"
         return section(title, chart, table("Newest first", heads, rows[: -FIRST - 1 : -1]), anchor=anchor or None)
 
-    def _side_by_side(self, runs: Sequence[Run], name: str) -> tuple[Markup, Markup]:
-        """The first runs of a table, its ``name``: their paths; races of any two of them, and their splits."""
-        names = [self.name(run.player) for run in runs]
+    def _side_by_side(self, category: Category, runs: Sequence[Run]) -> tuple[Markup, Content]:
+        """The paths of the first runs of a category; of several, races of any two of them, and their splits."""
+        names = [self.name(run.player) + ", assisted" * (run.ladder != PLAYED) for run in runs]
+        if len(runs) == 1:
+            return paths(UP + picture_name(runs[0].level), [(names[0], runs[0].path)]), None
         found = [run_splits(Recording(run.entry.named.level, run.replay), memory="auto") for run in runs]
         known = [
             run.folder.drawn.get(run.key) or path_data(each.positions) for run, each in zip(runs, found, strict=True)
@@ -269,7 +278,7 @@ class LevelPages:
         drawn = paths(UP + picture_name(runs[0].level), list(zip(names, known, strict=True)))
         together = tag("p", self.watch(runs, UP, f"Watch the first {len(runs)} together"))
         pairs = [
-            (joined(swatch(number), " ", names[number]), *(self._pair(run, other) for other in runs))
+            (tag("div", swatch(number), " ", names[number], class_="text"), *(self._pair(run, other) for other in runs))
             for number, run in enumerate(runs)
         ]
         races = table("Seconds by which the left one is later; a link watches both", ("Run", *names), pairs)
@@ -277,7 +286,7 @@ class LevelPages:
         lines = [(row.split.name, *_cells(row)) for row in rows]
         splits = table("Seconds; later than the first: +", ("Split", names[0], "Fastest segment", *names[1:]), lines)
         best = tag("p", f"Sum of the fastest segments, each from the row above: {seconds_text(sum_of_best(rows))} s.")
-        drawn = joined(drawn, tag("p", f"The first {len(runs)} runs: {name}"), together)
+        drawn = joined(drawn, tag("p", f"The first {len(runs)} runs: {category.name}"), together)
         return drawn, joined(section("Any two of the first", races), section("Splits", splits, best, anchor=SPLITS))
 
     def _pair(self, run: Run, other: Run) -> Content:

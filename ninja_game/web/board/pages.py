@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 from functools import partial
-from itertools import product
+from itertools import groupby, product
 from pathlib import Path
 from statistics import mean, median
 from typing import Any
@@ -18,7 +18,7 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.sim.rules import LIFETIME
-from ninja_game.web.board.level_pages import FIRST, LevelPages, level_link, player_page
+from ninja_game.web.board.level_pages import FIRST, HOW_TO_CONFIRM, NEAR, LevelPages, level_link, player_page
 from ninja_game.web.board.ranking import Ranked, Record, Standing
 from ninja_game.web.board.report import summary
 from ninja_game.web.board.rules import HIGHEST
@@ -30,9 +30,10 @@ from ninja_game.web.pages.gallery import BOARD, UP, medal_mark, page_name, share
 NEWEST = 30
 LEADING = 20
 CONTESTED = 10
+MOST_OF_A_MOMENT = 5  # records that come in at one moment and have a row each
 
 FEED = "feed.xml"
-ONE_MOMENT = "Of a level's records of one moment only the last is here."
+ONE_MOMENT = "Where several runs that came in together beat a level's record, the best of them is the record."
 BY_LEVELS = "By levels led, then by levels passed"
 
 
@@ -90,16 +91,14 @@ class BoardPages(LevelPages):
     # --- the first page and the feed ---
 
     def _first(self) -> str:
-        rows = [
-            (
-                level_link(record.run.entry), self.watch([record.run], ""), self.player_link(record.run.player),
-                tag("div", *(tag("div", each) for each in self._achieved(record)), class_="text"), record.run.moment,
-            )
-            for record in self.ranking.records[:NEWEST]
-        ]  # fmt: skip
+        rows: list[tuple[Content, ...]] = []
+        for _, group in groupby(self.ranking.records, key=lambda each: each.run.added):
+            if len(rows) >= NEWEST:
+                break
+            rows += self._of_a_moment([*group])
         heads = ("Level", "Watch", "Player", "Record", "Date")
         feed = tag("p", tag("a", "Feed of new records (Atom)", href=FEED))
-        shown = table("Newest first", heads, rows), tag("p", ONE_MOMENT), feed
+        shown = table("Newest first", heads, rows[:NEWEST]), tag("p", ONE_MOMENT), feed
         newest = section("Newest records", *shown) if rows else None
         leaders = [
             section(self._players_of(ladder), table(BY_LEVELS, self._heads(), map(self._standing, standings[:LEADING])))
@@ -108,8 +107,24 @@ class BoardPages(LevelPages):
         ]
         lead = tag("p", f"{self.ranking.shown.name}: {summary(self.ranking.judged)}.", class_="lead")
         said = tag("p", "Every run was simulated again: times, gold and scores are the result of its inputs.")
-        contents = self._week(), newest, *leaders, self._contested()
+        contents = *leaders, self._contested(), self._week(), newest
         return page("Board", lead, said, *contents, links=self.links)
+
+    def _of_a_moment(self, records: Sequence[Record]) -> list[tuple[Content, ...]]:
+        """A row for each of the records that came in at one moment; one for all where they are many."""
+        moment = records[0].run.moment
+        if len(records) <= MOST_OF_A_MOMENT:
+            return [
+                (
+                    level_link(run.entry), self.watch([run], ""), self.player_link(run.player),
+                    tag("div", *(tag("div", each) for each in self._achieved(record)), class_="text"), moment,
+                )
+                for record in records for run in [record.run]
+            ]  # fmt: skip
+        levels, players = ({getattr(each.run, name) for each in records} for name in ("level", "player"))
+        where = tag("a", counted(len(levels), "level"), href="levels.html")
+        said = f"{len(records)} runs with records came in together"
+        return [(where, "", counted(len(players), "player"), said, moment)]
 
     def _achieved(self, record: Record) -> Iterator[str]:
         """The categories of a record, its results in them, and by how much it is better."""
@@ -126,17 +141,37 @@ class BoardPages(LevelPages):
         return section("Level of the week", tag("p", level_link(self.entries[digest]), sent))
 
     def _contested(self) -> Content:
-        rows: list[tuple[Content, ...]] = []
+        rows: list[list[Content]] = []
         for digest in self.ranking.contested[:CONTESTED]:
-            if ranked := self._placed(digest):
-                first, records = ranked[0], self.ranking.history[digest, (PLAYED, self.main)]
+            if ranked := self._placed(digest, PLAYED):
+                counts = len(self.ranking.history[digest, (PLAYED, self.main)]), self._counts(digest)[1]
                 spread = [self.main.difference(each.behind) for each in ranked[1:5:3]]
-                leader = self.player_link(first.run.player), self.main.text(first.values[0])
-                counts = len(records), self._counts(digest)[1]
-                rows.append((level_link(first.run.entry), *counts, *leader, *spread, *[""] * (2 - len(spread))))
-        heads = ("Level", "Records", "Players", "First", self.main.name, "Second behind", "Fifth behind")
-        caption = "By how often a record was beaten"
+                spread += [""] * (2 - len(spread))
+                rows.append([level_link(self.entries[digest]), *counts, *self._best(digest)])
+                rows[-1][5:5] = spread
+        for at in (1, 2):
+            if len(rows) > 1 and len({row[at] for row in rows}) == 1:
+                for row in rows:
+                    row[at] = ""  # it tells nothing
+        heads = ["Level", "Records", "Players", *self._best_heads()]
+        heads[5:5] = ["Second behind", "Fifth behind"]
+        caption = f"By how often a record was beaten{self._of_both()}"
         return section("Most contested levels", table(caption, heads, rows)) if rows else None
+
+    def _of_both(self) -> str:
+        """What a caption says where there are two ladders."""
+        return "; runs and players are those of both ladders" * (len(self.ranking.ladders) > 1)
+
+    def _best_heads(self) -> list[str]:
+        return [each for ladder in self.ranking.ladders for each in (self.part_name((ladder, self.main)), "First")]
+
+    def _best(self, digest: str) -> list[Content]:
+        """The best number and its player in the first category of each ladder, "" where nobody has one."""
+        found: list[Content] = []
+        for ladder in self.ranking.ladders:
+            first = next(iter(self._placed(digest, ladder)), None)
+            found += [self.main.text(first.values[0]), self.player_link(first.run.player)] if first else ["", ""]
+        return found
 
     def _feed(self) -> str:
         """New records as Atom (RFC 4287); dates are those of the ledger."""
@@ -211,34 +246,37 @@ class BoardPages(LevelPages):
             gold = f"{run.gold} of {run.entry.all_gold}"
             result = seconds_text(run.tick), medal_mark(run.medal), seconds_text(run.score), gold
             leads = run.made or "unknown", *self.leads(run, UP), run.day
-            return (row[1], level_link(run.entry, UP), *result, *row[3:5], *leads)
+            places = tag("div", *(tag("div", each) for each in row[3]), class_="text") if row[3] else ""
+            return (row[1], level_link(run.entry, UP), *result, places, *leads)
 
         rows = [
-            [self.stems[run.key], run.entry.episode, run.medal, *self._place(run), run.day]
+            [self.stems[run.key], run.entry.episode, run.medal, self._places(run), run.day]
             for run in sorted(runs, key=lambda run: (order[run.level], run.added, run.key))
         ]
-        heads = ("No.", "Level", "Time", "Medal", "Score", "Gold", "Place", "Behind", "Made", "Watch", "Share", "Date")
+        heads = ("No.", "Level", "Time", "Medal", "Score", "Gold", "Places", "Made", "Watch", "Share", "Date")
         self.list(player_page(player), player, "All runs", heads, rows, *lead, cells=cells)
 
-    def _place(self, run: Run) -> tuple[int | str, str]:
-        """Its place in the first category, and how far behind it is; both "" where it has none."""
-        rows = (rows[number] for part, rows, number in self.ranking.places.get(run.key, ()) if part[1] is self.main)
-        return next(((row.place, self.main.difference(row.behind)) for row in rows if row.place), ("", ""))
+    def _places(self, run: Run) -> list[str]:
+        """Its place in each category, and how far behind it is."""
+        placed = [(part[1], rows[number]) for part, rows, number in self.ranking.places.get(run.key, ())]
+        return [
+            f"{category.name}: {row.place}" + f", {category.difference(row.behind)} behind" * (row.place > 1)
+            for category, row in placed if row.place
+        ]  # fmt: skip
 
     # --- levels, episodes, and what does not count ---
 
     def _levels(self) -> None:
-        rows: list[tuple[Content, ...]] = []
-        for digest, entry in self.entries.items():
-            ranked = self._placed(digest)
-            best = [(self.main.text(first.values[0]), self.player_link(first.run.player)) for first in ranked[:1]]
-            rows.append((entry.episode, level_link(entry), *self._counts(digest), *(best or [("", "")])[0]))
-        heads = ("No.", "Level", "Runs", "Players", self.main.name, "First")
-        self.list("levels", "Levels", "In playing order", heads, rows)
+        rows = [
+            (entry.episode, level_link(entry), *self._counts(digest), *self._best(digest))
+            for digest, entry in self.entries.items()
+        ]
+        heads = ("No.", "Level", "Runs", "Players", *self._best_heads())
+        self.list("levels", "Levels", f"In playing order{self._of_both()}", heads, rows)
 
-    def _placed(self, digest: str) -> list[Ranked]:
-        """The runs with a place in the first category."""
-        table = self.ranking.tables.get(digest, {}).get((PLAYED, self.main), [])
+    def _placed(self, digest: str, ladder: str) -> list[Ranked]:
+        """The runs with a place in the first category of a ladder."""
+        table = self.ranking.tables.get(digest, {}).get((ladder, self.main), [])
         return [each for each in table if each.place]
 
     def _counts(self, digest: str) -> tuple[int, int]:
@@ -278,14 +316,25 @@ class BoardPages(LevelPages):
         rejected, order = self.ranking.judged.rejected, list(KINDS)
         counts = Counter(each.kind for each in rejected)
         said = ", ".join(f"{title.lower()}: {counts[kind]}" for kind, (_, title) in KINDS.items() if counts[kind])
-        rows = [
+        rows: list[tuple[Content, ...]] = [
             (KINDS[each.kind][1], each.file + f", record {each.record}" * (each.record > 0),
              self.name(each.player), each.level, each.why, self._first_run(each.first), each.added.partition("T")[0])
             for each in sorted(rejected, key=lambda each: order.index(each.kind))
         ]  # fmt: skip
         lead = f"None of them is ranked; {said}." if said else "Every file of the folder is a run that counts."
+        near = [
+            (level_link(run.entry), self.player_link(run.player), seconds_text(run.tick), run.gold,
+             *self.leads(run, ""), run.file + f", record {run.record}" * (run.record > 0), run.near, run.day)
+            for run in self.ranking.judged.runs if run.near
+        ]  # fmt: skip
+        waiting = tag("a", f"Waiting for confirmation: {counted(len(near), 'run')}", href="waiting.html")
+        leads = tag("p", lead), tag("p", waiting) if near else None
         heads = ("What", "File", "Player", "Level", "Why", "The first run", "Date")
-        self.list("rejected", "Rejected", "What does not count", heads, rows, tag("p", lead))
+        self.list("rejected", "Rejected", "What does not count", heads, rows, *leads)
+        if near:
+            names = ("Level", "Player", "Time", "Gold", "Watch", "Share", "File", "Nearly", "Date")
+            about, caption = (tag("p", NEAR), tag("p", HOW_TO_CONFIRM)), "Runs that are nearly somebody else's"
+            self.list("waiting", "Waiting for confirmation", caption, names, near, *about)
 
     def _first_run(self, key: Key | None) -> Content:
         """A link to the page of a run that others have copied."""

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime, timedelta
 from functools import cached_property
+from itertools import zip_longest
 from operator import itemgetter
 
 from ninja_game.formats.pack.pars import MEDALS
@@ -114,6 +115,25 @@ class Ranking:
             }
             found[level] = {part: table for part, table in parts.items() if table}
         return found
+
+    def waiting(self, level: str, part: Part, table: Sequence[Ranked]) -> list[Ranked]:
+        """Near copies that nobody has confirmed, and that are better than the run of their player in the table."""
+        ladder, category = part
+        best = {row.run.player: row for row in table if row.run.ladder == ladder}
+        found = []
+        for run in self.by_level.get(level, ()):
+            values, row = self.values(category, run), best.get(run.player)
+            if run.near and run.ladder == ladder and values and row and values < row.values:
+                found.append(Ranked(0, run, values, values[0] - table[0].values[0]))
+        return found
+
+    def side_by_side(self, level: str, most: int) -> tuple[Category, list[Run]]:
+        """The first category that a level has runs in, and the first of them: of both ladders in turn, played first."""
+        tables = self.tables[level]
+        category = next(each for each in self.categories if any((ladder, each) in tables for ladder in self.ladders))
+        turns = zip_longest(*(tables.get((ladder, category), [])[:most] for ladder in self.ladders))
+        runs = [ranked.run for turn in turns for ranked in turn if ranked][:most]
+        return category, sorted(runs, key=lambda run: run.ladder != PLAYED)
 
     @cached_property
     def places(self) -> dict[Key, list[tuple[Part, list[Ranked], int]]]:

@@ -137,8 +137,10 @@ class Run(Judged):
     @property
     def path(self) -> str:
         """Its path over the level, as ``path_data``."""
-        drawn = self.folder.drawn.get(self.key)
-        return drawn or path_data(run_level(self.entry.named.level, self.inputs).positions)
+        drawn = self.folder.drawn
+        if self.key not in drawn:
+            drawn[self.key] = path_data(run_level(self.entry.named.level, self.inputs).positions)
+        return drawn[self.key]
 
     @property
     def replay(self) -> Replay:

@@ -105,6 +105,7 @@ _FRAME = 0.4  # how much darker than a tile the frame round a page is: letters s
 _ICON_SIZE = 64
 _LONGEST_HEADING = 30
 _LONGEST_LINE = 24
+_LONGEST_HEAD = 20  # letters in the first row
 """Characters of a cell that stay in one line."""
 
 
@@ -272,15 +273,15 @@ def table(caption: str, heads: Iterable[str], rows: Iterable[Iterable[Content]])
     """A table with its caption, of the columns with something in them; it scrolls by itself where it is too wide."""
     cells = [list(row) for row in rows]
     filled = [any(cell not in ("", None) for cell in column) for column in zip(*cells, strict=True)] or repeat(True)
-    head = tag("tr", *(tag("th", each, scope="col") for each in compress(heads, filled)))
+    head = tag("tr", *(tag("th", _wrapping(each, _LONGEST_HEAD), scope="col") for each in compress(heads, filled)))
     lines = [tag("tr", *(tag("td", _wrapping(cell)) for cell in compress(row, filled))) for row in cells]
     whole = tag("table", tag("caption", caption), tag("thead", head), tag("tbody", *lines))
     return tag("div", whole, class_="wide", tabindex="0", role="region", aria_label=caption)
 
 
-def _wrapping(cell: Content) -> Content:
+def _wrapping(cell: Content, longest: int = _LONGEST_LINE) -> Content:
     """A cell that breaks its lines if it is long."""
-    long = isinstance(cell, str) and not isinstance(cell, Markup) and len(cell) > _LONGEST_LINE
+    long = isinstance(cell, str) and not isinstance(cell, Markup) and len(cell) > longest
     return tag("span", cell, class_="text") if long else cell
 
 
