@@ -47,17 +47,18 @@ a plot. With Ctrl the wheel goes tick by tick. Drag what is between the parts to
 class RunCommands(DocumentCommands):
     """The commands that concern files.
 
-    ``run``: does a command of any part by its name; ``recover``: opens what was not saved.
+    ``run``: does a command of any part by its name; ``recover``: opens what was not saved; ``begin_new``: a new run.
     """
 
     def __init__(
-        self, app: App, editor: TasEditor, run: Callable[[str], object], recover: Callable[[RecoveredRun], object]
-    ) -> None:
+        self, app: App, editor: TasEditor, run: Callable[[str], object], recover: Callable[[RecoveredRun], object],
+        begin_new: Action,
+    ) -> None:  # fmt: skip
         super().__init__(app, editor.session)
         self.editor = editor
         self.session = editor.session
         self._run = run
-        self._recover = recover
+        self._recover, self._begin_new = recover, begin_new
 
     def commands(self) -> Commands:
         return {"menu": self.menu, "help": self.help, "save": self.save, "save_as": self.save_as}
@@ -70,6 +71,7 @@ class RunCommands(DocumentCommands):
         rows: list[Row] = [
             ("Save", self.save, key["save"]), ("Save as...", self.save_as, key["save_as"]),
             ("Open another run...", lambda: self._run("open_other"), f"Beside this one: {key['open_other']}"),
+            ("New run on this level", self._begin_new, "Empty; Esc, Leave comes back to this one"),
             ("Not saved last time...", self.list_recovered, "Runs that were edited when the program ended"),
             ("Watch", self.watch, "In the replay viewer, which makes films too"),
             ("Keep as a replay", self.keep, "Among yours"), ("Copy a link", self.copy_link, "Opens the run"),

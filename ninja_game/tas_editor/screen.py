@@ -8,11 +8,12 @@ from pathlib import Path
 
 import pygame
 
+from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
 from ninja_game.play.workspace import Commands, WorkspaceScreen
-from ninja_game.tas.files import OpenedRun, same_level
+from ninja_game.tas.files import OpenedRun, new_run, same_level
 from ninja_game.tas.journal import RecoveredRun
 from ninja_game.tas.session import Session
 from ninja_game.tas_editor.commands import TABLE, RunCommands
@@ -52,7 +53,7 @@ class TasScreen(WorkspaceScreen):
         self.level, self.roll = LevelPart(self.editor, values.ask), Roll(self.editor)
         self.strip = TabStrip(self.editor, self.tabs)
         self.head, self.foot_line = Head(self.editor), Foot(self.editor)
-        self.files = RunCommands(app, self.editor, self.run, self._recover)
+        self.files = RunCommands(app, self.editor, self.run, self._recover, self._begin_new)
         self.level.others.open(others)
         placed = [self.head, self.level, self.roll, self.foot_line, self.strip, *self.tabs]
         self.splitters = Splitters(self.editor, placed)
@@ -88,6 +89,12 @@ class TasScreen(WorkspaceScreen):
 
     def hint(self, text: str) -> None:
         self.editor.hint = text
+
+    def _begin_new(self) -> None:
+        """Open an empty run of the level above this one."""
+        about = self.session.about
+        on = NamedLevel(about.replay.level_name or about.name, about.level_author, "", about.level, about.file)
+        self.app.push(TasScreen(self.app, new_run(on, body=about.body)))
 
     def _recover(self, found: RecoveredRun) -> None:
         screen = TasScreen(self.app, found.opened, found=found)

@@ -250,6 +250,16 @@ def test_a_closed_window_of_a_saved_run_leaves_nothing(at: TasDriver) -> None:
     assert journals(at) == []
 
 
+def test_a_new_run_of_the_level_opens_over_this_one(at: TasDriver) -> None:
+    old, level = at.screen, at.session.about.level
+    at.choose_in_menu("New run on this level")
+    at.adopt()
+    assert (len(at.editor.track), at.session.about.level, at.session.file.path) == (0, level, None)
+    at.frames(2)
+    at.choose_in_menu("Leave")
+    assert at.top() is old
+
+
 def test_help_page_and_viewer_come_from_the_menu(at: TasDriver) -> None:
     at.press("f1")
     assert isinstance(at.top(), HelpPage)
