@@ -13,6 +13,7 @@ import pygame
 import pytest
 
 from ninja_game.play.menus.menu_screen import PANEL_WIDTH, Menu
+from ninja_game.search.certificate import without_idle_keys
 from ninja_game.search.formula import background
 from ninja_game.search.formula.methods import fewest_ticks
 from ninja_game.search.formula.task import Found
@@ -411,8 +412,11 @@ def test_the_whole_run_is_shortened_in_the_background_and_keeps_its_markers(at: 
     at.frames(2)
     found = tab.found[0]
     assert results.words(found)[0].startswith(f"exit in tick {found.ticks - 1}")
+    at.editor.go(30)
     row(at, tab, 0)
+    assert at.editor.selection == (30, 31), "one stays where one is"
     assert at.editor.track.inputs == found.inputs
+    assert without_idle_keys(results.task.level, found.inputs, results.task.inputs) == found.inputs
     assert at.session.timeline.end == (found.ticks - 1, "exit")
     (marker,) = at.editor.track.markers
     assert (marker.name, marker.tick < 40) == ("begins", True)
