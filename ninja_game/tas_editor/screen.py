@@ -148,7 +148,7 @@ class Head(TasPart):
     def render_key(self) -> tuple[object, ...]:
         session = self.editor.session
         run = session.about.replay.credit, session.timeline.end
-        return *run, session.file.path, session.is_saved, session.journal.problem
+        return *run, session.file.path, session.is_run_saved, session.is_saved, session.journal.problem
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         session, palette, right = self.editor.session, theme.palette, self.area[2] - 8
@@ -164,7 +164,11 @@ class Head(TasPart):
         name = theme.fit(name, room - theme.width(how, 13, bold=True), 13, bold=True) + how
         title = theme.text(surface, name, 8, 6, size=13, bold=True, colour=palette.on_tile, width=room)
         x = title.right / theme.canvas.scale + 12
-        saved = "" if not session.file.path and session.is_saved else ", saved" if session.is_saved else ", not saved"
+        saved = ", not saved"
+        if session.is_run_saved:
+            what = "branches" if len(session.branches) else "watched values"
+            beside = f", not its {what}" * (not session.is_saved)
+            saved = f", saved{beside}" if session.file.path else beside
         state = session.journal.problem or file + saved
         theme.text(surface, state, x, 9, size=9.5, colour=palette.on_tile, width=right - 224 - x)
         words = {"exit": f"exit in tick {end}", "dead": f"dead in tick {end}"}.get(outcome, "no exit yet")
