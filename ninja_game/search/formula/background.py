@@ -103,7 +103,9 @@ class SpanSearch:
             # The run's own keys are tried first.
             self._began, self.own = monotonic(), found[0] if found else None
             if compiled_available() and self._options["memory"] != "plain":
-                run_in_background(_prepare_whole_run, lambda _: None)
+                from ninja_game.search.solve import compile_solver  # few searches are of a whole run
+
+                run_in_background(compile_solver, lambda _: None)
         self.ticks_run, self.found = ticks, self._without_junk(found, TIDYING_SECONDS)
         late = self._limit and self.seconds >= self._limit
         return not (late or self._cancelled.is_set())
@@ -115,12 +117,6 @@ class SpanSearch:
             if each.inputs not in self._tidy and monotonic() < late:
                 self._tidy[each.inputs] = without_junk(self.task, each)
         return tuple(self._tidy.get(each.inputs, each) for each in found)
-
-
-def _prepare_whole_run() -> None:
-    from ninja_game.search.solve import compile_solver
-
-    compile_solver()
 
 
 TIDYING_SECONDS = 0.1
