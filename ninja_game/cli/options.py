@@ -311,12 +311,17 @@ def time_text(end_tick: int) -> str:
     return f"{end_tick} ticks ({seconds_text(end_tick)} s)"
 
 
-def smoothed_run(level: Level, run: Replay, price: int) -> Replay:
-    """The run with fewer key changes, verified; at most ``price`` ticks longer and with no less gold."""
-    from ninja_game.search.certificate import smoothed, verified_run
+def plainer_run(task: Task, run: Replay, price: int | None) -> Replay:
+    """The run without keys that do nothing, verified.
 
-    inputs = smoothed(level, run.inputs, body=run.body, gold=run.gold, price=price)
-    return verified_run(level, inputs, body=run.body, gold=run.gold)
+    ``price``: also with fewer key changes, at most so many ticks longer and with no less gold.
+    """
+    from ninja_game.search.certificate import smoothed, verified_run, without_idle_keys
+
+    inputs = without_idle_keys(task.level, run.inputs, task.first, body=run.body)
+    if price is not None:
+        inputs = smoothed(task.level, inputs, body=run.body, gold=run.gold, price=price)
+    return verified_run(task.level, inputs, body=run.body, gold=run.gold)
 
 
 def saver(path: Path, level: NamedLevel) -> Callable[[Replay], None]:

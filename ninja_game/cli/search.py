@@ -92,9 +92,8 @@ def solve(
     if run is None:
         click.echo(options.not_found_text(task, report.last))
         return FAILED
-    if smooth is not None:
-        run = options.smoothed_run(task.level, run, smooth)
-        save(run)
+    run = options.plainer_run(task, run, smooth)
+    save(run)
     click.echo(f"{shown_text(str(output))}: {options.time_text(run.end_tick)}, {run.gold} gold")
     return 0
 
@@ -185,9 +184,8 @@ def improve(
     assert run is not None  # noqa: S101 - the first run is one
     if log:
         log.note("ended")
-    if smooth is not None:
-        run = options.smoothed_run(task.level, run, smooth)
-        save(run)
+    run = options.plainer_run(task, run, smooth)
+    save(run)
     gain = before[0] - run.end_tick
     change = f"{abs(gain)} ticks {'shorter' if gain > 0 else 'longer'}" if gain else "no shorter run was found"
     click.echo(f"{output}: {options.time_text(run.end_tick)}, {change}, {run.gold} gold")
@@ -246,7 +244,7 @@ def search(
     from ninja_game.formats.load import load_replays
     from ninja_game.runs.run import record_replay
     from ninja_game.search.formula.methods import search_span
-    from ninja_game.search.formula.task import SpanTask, score_text
+    from ninja_game.search.formula.task import SpanTask, score_text, without_junk
 
     if maximise and minimise:
         raise click.UsageError("--maximise and --minimise cannot be used together")
@@ -282,6 +280,9 @@ def search(
         found = search_span(
             task, report, method=method, every=every, seed=seed, threads=jobs or cores(), missed=misses.append
         )
+    found = tuple(without_junk(task, each) for each in found)
+    if save and found:
+        save(record_replay(task.level, found[0].inputs, body=task.body))
     for each in found or misses[-1:]:
         click.echo(f"{score_text(task, each)}: {_keys(each)}")
     if not found:

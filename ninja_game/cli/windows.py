@@ -118,14 +118,15 @@ def tas(
 ) -> int:
     """Edit a run tick by tick, in a window.
 
-    FILE is a recording of any format. On one side the level, on the other a row for each tick: its keys, and what the
-    world says after it. Change keys, take over and play on, search for something better, keep branches. A replay text
-    of ours is saved into its file; any other recording becomes a new one. Where the level was changed after the
-    recording, the run opens on the level as it is now, to be mended.
+    FILE is a recording of any format, or a level, for a new run of it. On one side the level, on the other a row for
+    each tick: its keys, and what the world says after it. Change keys, take over and play on, search for something
+    better, keep branches. A replay text of ours is saved into its file; any other recording becomes a new one. Where
+    the level was changed after the recording, the run opens on the level as it is now, to be mended.
 
     \b
     Examples:
       ninja-game tas best.replay.txt
+      ninja-game tas level.txt
       ninja-game tas demos.txt --record 3
       ninja-game tas best.replay.txt --against theirs.replay.txt
       ninja-game tas old.replay.txt --level changed.txt

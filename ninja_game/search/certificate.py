@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import replace
+from functools import cache
 from itertools import groupby
 from pathlib import Path
 
@@ -19,7 +20,8 @@ from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.formats.replay.notations import Marker
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.runs.run import record_replay, run_level
-from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
+from ninja_game.sim.digest import state_digest
+from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, pressed, with_press_bits
 from ninja_game.sim.level import Level
 from ninja_game.simulation import Body
 
@@ -133,6 +135,63 @@ def moved_markers(recording: Recording, inputs: bytes) -> tuple[Marker, ...]:
 def save_replay(path: Path, replay: Replay) -> None:
     """Write a replay, whole or not at all. Raises OSError."""
     write_atomically(path, write_replay(replay))
+
+
+MOST_TICKS = 4000
+"""Longer runs keep all their keys: a tick takes some 0.5 ms."""
+_CHOICES = (*range(8), *range(12, 16))
+"""The inputs that a keyboard can make in a tick."""
+
+
+def without_idle_keys(
+    level: Level, inputs: bytes, begun: bytes, *, body: Body = "circle", first: int = 0, last: int | None = None
+) -> bytes:
+    """A run with the same state after each tick, by plainer keys in the ticks ``first`` … ``last`` - 1 (None: all).
+
+    Of keys that lead to just the same state each tick gets those of the run that it was made of, ``begun``, as long as
+    that goes the same way; then as few changes as possible. Runs over MOST_TICKS, and such with triggers that no
+    keyboard makes, stay as they are.
+    """
+    import numpy as np  # which a page has not
+
+    from ninja_game.batch.batch import Batch
+
+    last = len(inputs) if last is None else last
+    if len(inputs) > MOST_TICKS or with_press_bits(inputs) != inputs:
+        return inputs
+    batch = Batch(level, len(_CHOICES), body=body, threads=1)
+
+    @cache
+    def state_of(index: int) -> str:
+        world = batch.world(index)
+        world.ninja.jump_held = 0  # every tick writes it before it is read
+        return state_digest(world)
+
+    batch.run(np.repeat(np.frombuffer(inputs[:first], np.uint8)[:, np.newaxis], len(_CHOICES), 1), stop=True)
+    needed = np.array([[_CHOICES.index(pressed(keys, before & JUMP_HELD)) for keys in range(8)] for before in range(8)])
+    costs = np.full(8, np.inf)
+    costs[inputs[first - 1] & KEYS_DOWN if first else 0] = 0
+    came_from, aligned = [], begun[:first] == inputs[:first]
+    for tick in range(first, last):
+        own = _CHOICES.index(inputs[tick])
+        batch.run(np.array([_CHOICES], np.uint8), stop=True)
+        same = (batch.positions == batch.positions[own]).all(1) & (batch.previous == batch.previous[own]).all(1)
+        for index in np.flatnonzero(same).tolist():
+            same[index] = index == own or state_of(index) == state_of(own)
+        wanted = begun[tick] if tick < len(begun) else -1
+        aligned = aligned and wanted in _CHOICES and bool(same[_CHOICES.index(wanted)])
+        other = (np.arange(8) != (wanted & KEYS_DOWN)) * (100 if aligned else 1) * (wanted >= 0)
+        steps = costs[:, np.newaxis] + 4 * (1 - np.eye(8)) + other + np.where(same[needed], 0, np.inf)
+        came_from.append(steps.argmin(0))
+        costs = steps.min(0)
+        state_of.cache_clear()
+        batch.copy([own] * len(_CHOICES), range(len(_CHOICES)))
+    if last < len(inputs):  # the tick behind must trigger as before
+        costs += [0 if pressed(inputs[last], keys & JUMP_HELD) == inputs[last] else np.inf for keys in range(8)]
+    made = [int(costs.argmin())]
+    for before in reversed(came_from):
+        made.append(int(before[made[-1]]))
+    return with_press_bits(inputs[:first] + bytes(made[-2::-1]) + inputs[last:])
 
 
 Row = tuple[int, int]  # keys that are down, and for how many ticks

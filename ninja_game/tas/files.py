@@ -9,16 +9,17 @@ from functools import partial
 from pathlib import Path
 
 from ninja_game.document import check_free, digest_of, digest_of_file
-from ninja_game.errors import DAMAGED, NinjaGameError, ReplayError
+from ninja_game.errors import DAMAGED, LevelError, NinjaGameError, ReplayError
 from ninja_game.files.reading import read_bytes, read_utf8
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import is_bundled
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.lines import numbered_lines
 from ninja_game.formats.links import is_link
-from ninja_game.formats.load import load_replays
+from ninja_game.formats.load import load_levels, load_replays, texts_of
 from ninja_game.formats.n14.level_string import level_digest
-from ninja_game.formats.recording import Recording
+from ninja_game.formats.named_level import NamedLevel, form_of
+from ninja_game.formats.recording import Recording, holds_recordings
 from ninja_game.formats.replay.input_text import Inputs, read_inputs
 from ninja_game.formats.replay.notations import in_our_notation, is_tas_text
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay, write_replay
@@ -26,6 +27,7 @@ from ninja_game.runs.conversion import on_level
 from ninja_game.runs.run import record_replay
 from ninja_game.sim.inputs import MAX_TICKS
 from ninja_game.sim.level import Level
+from ninja_game.simulation import Body
 from ninja_game.tas.timeline import AFTERMATH
 from ninja_game.tas.tracks import Branches, InputTrack, branches_of_json
 
@@ -62,9 +64,11 @@ def open_run(path: Path, *, record: int | None = None, level: Level | None = Non
 
     ``level``: where it is played, None: on its own as it is now; on another one than the recorded it has no file yet.
     Only replay texts that ``save_run`` could have written are replaced by it: those with comments, blocks or other
-    files in them stay, and so do those of the game. Raises ReplayError, DemoError, LevelError; OSError for a file that
-    cannot be opened.
+    files in them stay, and so do those of the game. A level, or a text without ticks for ``level``, is a new run.
+    Raises ReplayError, DemoError, LevelError; OSError for a file that cannot be opened.
     """
+    if not any(holds_recordings(text) for _, text in texts_of(path)):
+        return _begun_on(path, record, level)
     recordings = load_replays(path, level=level, changed=True)
     if record is None and len(recordings) > 1:
         raise ReplayError(f"{len(recordings)} recordings", str(path), hint="say which one with --record")
@@ -80,6 +84,31 @@ def open_run(path: Path, *, record: int | None = None, level: Level | None = Non
         return OpenedRun(recording, track)
     file = RunFile(path, digest_of(data), digest_of_file(branches_path(path)), track)
     return OpenedRun(recording, track, file, read_branches(path))
+
+
+def _begun_on(path: Path, record: int | None, level: Level | None) -> OpenedRun:
+    """A run on a level of a file without recordings, or with the inputs of a text on ``level``."""
+    if level is not None and form_of(next((text for _, text in texts_of(path)), "")) == "string":
+        text = "".join(text for _, text in texts_of(path)).strip().removeprefix("inputs:")
+        read = inputs_of_text(text, str(path)) if text.strip() else Inputs(b"")
+        return new_run(NamedLevel(path.stem, "", "", level, str(path)), InputTrack(read.keys, read.markers))
+    levels = load_levels(path)
+    if record is None and len(levels) > 1:
+        raise LevelError(f"{len(levels)} levels", str(path), hint="say which one with --record")
+    chosen = next((each for each in levels if each.record == (record or 0)), None)
+    if chosen is None:
+        raise LevelError(f"there is no record {record}", str(path), expected=f"0 to {len(levels) - 1}")
+    return new_run(replace(chosen, level=level or chosen.level))
+
+
+NO_TICKS = InputTrack(b"")
+
+
+def new_run(on: NamedLevel, track: InputTrack = NO_TICKS, body: Body = "circle") -> OpenedRun:
+    """A run to be made on a level; it has no file yet."""
+    names = {"name": on.name, "level_name": on.name, "level_author": on.author}
+    about = Replay.of_inputs(track.inputs, on.level, body=body, **names)
+    return OpenedRun(Recording(on.level, about, file=on.file), track)
 
 
 def run_file_of(path: Path, digest: str, branches_digest: str) -> RunFile:

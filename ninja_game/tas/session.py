@@ -76,7 +76,12 @@ class Session:
     @property
     def is_saved(self) -> bool:
         """Whether the file holds what is here."""
-        return not self._file_differs and self.track == self.saved and self._kept() == self._saved_branches
+        return self.is_run_saved and self._kept() == self._saved_branches
+
+    @property
+    def is_run_saved(self) -> bool:
+        """Whether the file holds the keys and the markers; not so the branches and the watched values beside it."""
+        return not self._file_differs and self.track == self.saved
 
     def _kept(self) -> tuple[list[Branch], tuple[str, ...]]:
         return list(self.branches.all), self.branches.watched
@@ -152,6 +157,11 @@ class Session:
         """What is said of the run: once its keys are others, what was done to it since it was opened, and by whom."""
         opened, made = self._first.recording, self.track.made
         self.about = opened if made == NONE else made.credited(opened, self._player)
+
+    def name_player(self, player: str) -> None:
+        """Say who edits the run, which was not known so far."""
+        self._player = player
+        self._credit()
 
     def _note(self) -> None:
         """Put what has changed into the journal. What could not be written is a part of the next edit's line."""

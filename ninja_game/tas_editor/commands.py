@@ -16,10 +16,11 @@ from ninja_game.formats.links import replay_link
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.menu_screen import Action, Menu, Row, ask_text, nothing
+from ninja_game.play.menus.menu_screen import Action, FormPanel, Menu, Row, nothing
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.workspace import CommandMenu, Commands, CommandTable, DocumentCommands, bundled_commands, key_text
 from ninja_game.player.player_data import keep_replay
+from ninja_game.tas.contributions import NONE
 from ninja_game.tas.files import branches_path, replay_of_track, same_level
 from ninja_game.tas.journal import RecoveredRun, recovered
 from ninja_game.tas_editor.editor import TasEditor
@@ -47,17 +48,18 @@ a plot. With Ctrl the wheel goes tick by tick. Drag what is between the parts to
 class RunCommands(DocumentCommands):
     """The commands that concern files.
 
-    ``run``: does a command of any part by its name; ``recover``: opens what was not saved.
+    ``run``: does a command of any part by its name; ``recover``: opens what was not saved; ``begin_new``: a new run.
     """
 
     def __init__(
-        self, app: App, editor: TasEditor, run: Callable[[str], object], recover: Callable[[RecoveredRun], object]
-    ) -> None:
+        self, app: App, editor: TasEditor, run: Callable[[str], object], recover: Callable[[RecoveredRun], object],
+        begin_new: Action,
+    ) -> None:  # fmt: skip
         super().__init__(app, editor.session)
         self.editor = editor
         self.session = editor.session
         self._run = run
-        self._recover = recover
+        self._recover, self._begin_new = recover, begin_new
 
     def commands(self) -> Commands:
         return {"menu": self.menu, "help": self.help, "save": self.save, "save_as": self.save_as}
@@ -70,6 +72,7 @@ class RunCommands(DocumentCommands):
         rows: list[Row] = [
             ("Save", self.save, key["save"]), ("Save as...", self.save_as, key["save_as"]),
             ("Open another run...", lambda: self._run("open_other"), f"Beside this one: {key['open_other']}"),
+            ("New run on this level", self._begin_new, "Empty; Esc, Leave comes back to this one"),
             ("Not saved last time...", self.list_recovered, "Runs that were edited when the program ended"),
             ("Watch", self.watch, "In the replay viewer, which makes films too"),
             ("Keep as a replay", self.keep, "Among yours"), ("Copy a link", self.copy_link, "Opens the run"),
@@ -94,7 +97,11 @@ class RunCommands(DocumentCommands):
         free = free_path(folder, file_stem(self.session.name, "run"), REPLAY_SUFFIX)
         name = (path or free).name.removesuffix(REPLAY_SUFFIX)
 
-        def on_accept(text: str) -> None:
+        def on_accept(texts: list[str]) -> None:
+            text, *player = texts
+            if player and player[0].strip():
+                self.app.know_author("", player[0])
+                self.session.name_player(self.app.settings.name)
             path = folder / Path(text.strip()).expanduser()
             if path.parent.is_dir():
                 stem = file_stem(path.name.removesuffix(REPLAY_SUFFIX), "run")
@@ -104,7 +111,10 @@ class RunCommands(DocumentCommands):
 
         place = short_path(folder.absolute())
         title = f"Save in {'...' * (len(place) > 38)}{place[-38:]}"  # of a long path the end says more
-        ask_text(self.app, title, "Name or path of the file", name, "Save", on_accept, 300)
+        fields = [("Name or path of the file", name, 300)]
+        if self._asks_name:
+            fields.append(("Your name, kept in the settings", "", 40))
+        self.app.push(FormPanel(self.app, title, fields, "Save", on_accept))
 
     def saved_text(self, path: Path) -> str:
         session, tail = self.session, ""
@@ -113,8 +123,14 @@ class RunCommands(DocumentCommands):
             tail = ", with what is behind its end (Ctrl+E removes it)" if died else ", without what is behind its exit"
         branches = " and its branches beside it" * branches_path(path).exists()
         replay = session.about.replay
-        nobody = "; its player is unknown: your name can be set in the settings"
-        return f"Saved{tail}: {path}{branches}{nobody * (not (replay.author or replay.co_authors))}"
+        nobody = "; its player is unknown" * (not (replay.author or replay.co_authors))
+        return f"Saved{tail}: {path}{branches}{nobody}{': Save as asks for your name' * self._asks_name}"
+
+    @property
+    def _asks_name(self) -> bool:
+        """Whether nobody is named whose edits these are."""
+        known = self.session.about.replay.author or self.app.settings.name
+        return self.session.track.made != NONE and not known
 
     def keep(self) -> None:
         if self.session.has_tail and self.session.timeline.end[1] == "dead":

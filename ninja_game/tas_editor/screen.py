@@ -8,11 +8,12 @@ from pathlib import Path
 
 import pygame
 
+from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.play.app import App
 from ninja_game.play.workspace import Commands, WorkspaceScreen
-from ninja_game.tas.files import OpenedRun, same_level
+from ninja_game.tas.files import OpenedRun, new_run, same_level
 from ninja_game.tas.journal import RecoveredRun
 from ninja_game.tas.session import Session
 from ninja_game.tas_editor.commands import TABLE, RunCommands
@@ -52,7 +53,7 @@ class TasScreen(WorkspaceScreen):
         self.level, self.roll = LevelPart(self.editor, values.ask), Roll(self.editor)
         self.strip = TabStrip(self.editor, self.tabs)
         self.head, self.foot_line = Head(self.editor), Foot(self.editor)
-        self.files = RunCommands(app, self.editor, self.run, self._recover)
+        self.files = RunCommands(app, self.editor, self.run, self._recover, self._begin_new)
         self.level.others.open(others)
         placed = [self.head, self.level, self.roll, self.foot_line, self.strip, *self.tabs]
         self.splitters = Splitters(self.editor, placed)
@@ -88,6 +89,12 @@ class TasScreen(WorkspaceScreen):
 
     def hint(self, text: str) -> None:
         self.editor.hint = text
+
+    def _begin_new(self) -> None:
+        """Open an empty run of the level above this one."""
+        about = self.session.about
+        on = NamedLevel(about.replay.level_name or about.name, about.level_author, "", about.level, about.file)
+        self.app.push(TasScreen(self.app, new_run(on, body=about.body)))
 
     def _recover(self, found: RecoveredRun) -> None:
         screen = TasScreen(self.app, found.opened, found=found)
@@ -141,7 +148,7 @@ class Head(TasPart):
     def render_key(self) -> tuple[object, ...]:
         session = self.editor.session
         run = session.about.replay.credit, session.timeline.end
-        return *run, session.file.path, session.is_saved, session.journal.problem
+        return *run, session.file.path, session.is_run_saved, session.is_saved, session.journal.problem
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         session, palette, right = self.editor.session, theme.palette, self.area[2] - 8
@@ -157,7 +164,11 @@ class Head(TasPart):
         name = theme.fit(name, room - theme.width(how, 13, bold=True), 13, bold=True) + how
         title = theme.text(surface, name, 8, 6, size=13, bold=True, colour=palette.on_tile, width=room)
         x = title.right / theme.canvas.scale + 12
-        saved = "" if not session.file.path and session.is_saved else ", saved" if session.is_saved else ", not saved"
+        saved = ", not saved"
+        if session.is_run_saved:
+            what = "branches" if len(session.branches) else "watched values"
+            beside = f", not its {what}" * (not session.is_saved)
+            saved = f", saved{beside}" if session.file.path else beside
         state = session.journal.problem or file + saved
         theme.text(surface, state, x, 9, size=9.5, colour=palette.on_tile, width=right - 224 - x)
         words = {"exit": f"exit in tick {end}", "dead": f"dead in tick {end}"}.get(outcome, "no exit yet")

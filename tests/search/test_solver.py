@@ -12,12 +12,20 @@ from ninja_game.errors import LevelError
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.text import Replay
 from ninja_game.runs.run import run_level
+from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.level import Level
 
 if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
-from ninja_game.search.certificate import UnverifiedRunError, named_run, rows_of, smoothed, verified_run
+from ninja_game.search.certificate import (
+    UnverifiedRunError,
+    named_run,
+    rows_of,
+    smoothed,
+    verified_run,
+    without_idle_keys,
+)
 from ninja_game.search.heuristics import Heuristics
 from ninja_game.search.nodes import open_start
 from ninja_game.search.searching import Search
@@ -188,6 +196,20 @@ def test_the_replay_says_what_was_played() -> None:
     assert str(replay.made) == "searched (solve)"
     assert (replay.final_tick, replay.outcome, replay.gold) == (WALK_TICKS, "exit", 1)
     assert len(replay.inputs) == WALK_TICKS + 1
+
+
+def test_keys_that_do_nothing_are_those_of_the_run_that_was_begun_with() -> None:
+    # Left and right together stand still, as no key does; in the air a jump that is over makes no difference.
+    begun = with_press_bits([0] * 8 + [6] * 3 + [2] * 40)
+    junk = with_press_bits([3] * 4 + [0] * 4 + [6] * 3 + [2] * 4 + [6] * 2 + [2] * 34)
+    assert without_idle_keys(WALK, junk, begun) == begun
+    assert len(rows_of(without_idle_keys(WALK, junk, b""))) <= len(rows_of(begun))
+    other = with_press_bits([2] * 4 + [3] * 5 + [2] * 20)
+    kept = without_idle_keys(WALK, other, begun, first=6)
+    assert (kept[:6], run_level(WALK, kept).positions.tolist()) == (
+        other[:6],
+        run_level(WALK, other).positions.tolist(),
+    )
 
 
 def test_smoothing_leaves_out_keys_that_do_nothing() -> None:

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from ninja_game.document import OccupiedError, digest_of_file
-from ninja_game.errors import ArgumentError, FileError, NinjaGameError, ReplayError
+from ninja_game.errors import ArgumentError, FileError, LevelError, NinjaGameError, ReplayError
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.recording import Recording
@@ -37,6 +37,28 @@ def saved_run(opened: OpenedRun, track: InputTrack, path: Path) -> OpenedRun:
     """Save an input track, and open it again."""
     save_run(opened.recording, track, Branches(), path, opened.file)
     return open_run(path)
+
+
+@pytest.mark.parametrize("text", ["", "inputs:\n", ".*1\n", "R*3 RJ\n"])
+def test_a_text_with_few_ticks_or_none_is_a_run_on_a_level_that_is_given(text: str, tmp_path: Path) -> None:
+    file = tmp_path / "begun.txt"
+    file.write_text(text, "utf-8")
+    opened = open_run(file, level=LEVEL)
+    assert list(opened.track.inputs) == {".*1\n": [0], "R*3 RJ\n": [2, 2, 2, 14]}.get(text, [])
+    assert opened.file == RunFile()
+
+
+def test_a_level_is_opened_as_a_new_run_of_it(tmp_path: Path) -> None:
+    ours, records = PACK / "00-0-first-steps.txt", write_records(tmp_path / "n.txt", ("a", WALK, ""), ("b", WALK, ""))
+    assert open_run(ours).recording.name == "First Steps"
+    with pytest.raises(LevelError, match=r"2 levels.*--record"):
+        open_run(records)
+    opened = open_run(records, record=1)
+    assert (opened.recording.name, opened.recording.level, len(opened.track)) == ("b", LEVEL, 0)
+    with pytest.raises(LevelError, match="there is no record 2"):
+        open_run(records, record=2)
+    again = saved_run(opened, InputTrack(bytes([2] * 30)), tmp_path / "new.replay.txt")
+    assert (again.recording.name, again.recording.level_author, again.recording.author) == ("b", "me", "")
 
 
 @given(tracks(), st.sampled_from(["circle", "box"]))

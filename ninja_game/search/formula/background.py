@@ -11,14 +11,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.replay.text import Replay
 from ninja_game.runs.run import run_level
 from ninja_game.runtime import cores, require_desktop, run_in_background
-from ninja_game.search.certificate import UnverifiedRunError, with_plain_triggers
+from ninja_game.search.certificate import UnverifiedRunError, with_plain_triggers, without_idle_keys
 from ninja_game.search.formula.methods import METHODS, search_span, to_exit
-from ninja_game.search.formula.task import Found, SpanTask
-from ninja_game.sim.inputs import KEYS_DOWN, fitted_inputs
+from ninja_game.search.formula.task import Found, SpanTask, without_junk
+from ninja_game.sim.inputs import KEYS_DOWN, fitted_inputs, with_press_bits
 
 if TYPE_CHECKING:
     from ninja_game.search.task import Task
@@ -47,6 +48,7 @@ class SpanSearch:
         task.check()
         self.task = task
         self.found: tuple[Found, ...] = ()
+        self._tidy: dict[bytes, Found] = {}
         self.own: Found | None = None
         self.miss: Found | None = None
         self.ticks_run = 0
@@ -87,7 +89,8 @@ class SpanSearch:
 
     def _work(self) -> None:
         missed = partial(setattr, self, "miss")
-        search_span(self.task, self._report, missed=missed, **self._options)  # type: ignore[arg-type]
+        found = search_span(self.task, self._report, missed=missed, **self._options)  # type: ignore[arg-type]
+        self.found = self._without_junk(found, np.inf)
         self._ended = monotonic()
 
     def _fail(self, why: str) -> None:
@@ -99,11 +102,25 @@ class SpanSearch:
                 return False
             # The run's own keys are tried first.
             self._began, self.own = monotonic(), found[0] if found else None
-        self.ticks_run, self.found = ticks, found
+            if compiled_available() and self._options["memory"] != "plain":
+                from ninja_game.search.solve import compile_solver  # few searches are of a whole run
+
+                run_in_background(compile_solver, lambda _: None)
+        self.ticks_run, self.found = ticks, self._without_junk(found, TIDYING_SECONDS)
         late = self._limit and self.seconds >= self._limit
         return not (late or self._cancelled.is_set())
 
+    def _without_junk(self, found: tuple[Found, ...], seconds: float) -> tuple[Found, ...]:
+        """Results without keys that do nothing, as far as there is time for it: the others follow."""
+        late = monotonic() + seconds
+        for each in found:
+            if each.inputs not in self._tidy and monotonic() < late:
+                self._tidy[each.inputs] = without_junk(self.task, each)
+        return tuple(self._tidy.get(each.inputs, each) for each in found)
 
+
+TIDYING_SECONDS = 0.1
+"""Of one report to tidy what was found."""
 LONGEST_SECONDS = 1e6
 """Seconds of a search that goes on until it is cancelled."""
 MOST_JOBS = 4
@@ -192,10 +209,14 @@ class RunSearch(SpanSearch):
         self.ticks_run = sum(self._ticks.values())
 
     def _note_run(self, run: Replay, *, own_route: bool) -> None:
-        path = run_level(self.task.level, run.inputs, body=self.task.body).positions
-        keys = np.frombuffer(run.inputs.ljust(self.task.length, b"\0"), np.uint8) & np.uint8(KEYS_DOWN)
+        wanted = self._wanted
+        inputs = run.inputs
+        if not any(with_press_bits(each).startswith(inputs) for each in wanted.others):
+            inputs = without_idle_keys(wanted.level, inputs, with_press_bits(wanted.first), body=wanted.body)
+        path = run_level(self.task.level, inputs, body=self.task.body).positions
+        keys = np.frombuffer(inputs.ljust(self.task.length, b"\0"), np.uint8) & np.uint8(KEYS_DOWN)
         end = tuple(np.concatenate([path[-1], path[-1] - path[-2]]).tolist())
-        found = Found(float(run.ticks), run.ticks, keys, run.inputs, run.gold, end, own_route, path=path)
+        found = Found(float(run.ticks), run.ticks, keys, inputs, run.gold, end, own_route, path=path)
         with self._lock:
             self._began = self._began or monotonic()
             if self._reaches and self.own is None:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.batch.batch import Batch
 from ninja_game.errors import ArgumentError
+from ninja_game.search.certificate import without_idle_keys
 from ninja_game.search.formula.language import UNTRUE, Formula, FormulaError, Values, parse_number, parse_truth
 from ninja_game.search.formula.names import FACTS, SPAN_NAMES, UNREACHABLE, difference_from, distance_views, view_of
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
@@ -107,6 +108,17 @@ class Found:
     own_route: bool = field(compare=False, default=True)
     missed_by: float | None = field(compare=False, default=None)
     path: NDArray[np.floating] = field(compare=False, repr=False, default_factory=lambda: np.zeros((0, 2)))
+
+
+def without_junk(task: SpanTask, found: Found) -> Found:
+    """The same result without keys that do nothing, as ``without_idle_keys`` has it."""
+    first, last = task.first, task.first + found.ticks
+    inputs = without_idle_keys(
+        task.level, found.inputs, with_press_bits(task.inputs), body=task.body, first=first, last=last
+    )
+    keys = found.keys.copy()
+    keys[: found.ticks] = np.frombuffer(inputs[first:last], np.uint8) & KEYS_DOWN
+    return replace(found, keys=keys, inputs=inputs)
 
 
 NEAR, NEARLY = 24.0, 6

@@ -28,6 +28,7 @@ from ninja_game.view.overlays import OVERLAY_ACTIONS
 
 _REACH = 16.0  # px of the level within which an object is pointed at
 _LEAP = 40.0
+_NEAR = 40.0  # px of the level within which a click goes to a tick
 """A drag goes to a nearer part of the run that is many ticks away only if it is nearer by more px than this."""
 
 LINE = 13.0  # height of what is written below the level, logical px
@@ -37,15 +38,18 @@ _STILL = 3  # the mouse that moves less, px, clicks
 Px = tuple[int, int]
 
 
-def nearest_tick(positions: paths.Positions, x: float, y: float, cursor: int, *, dragged: bool = False) -> int:
-    """The tick, of those whose path is shown, after which the ninja was nearest to a place, px of the level."""
+def nearest_tick(positions: paths.Positions, x: float, y: float, cursor: int, *, dragged: bool = False) -> int | None:
+    """The tick, of those whose path is shown, after which the ninja was nearest to a place, px of the level.
+
+    None where it was never near, unless the mouse is ``dragged``.
+    """
     first, last = paths.shown_span(cursor)
     shown = positions[first:last] if first < len(positions) else positions
     first = first if first < len(positions) else 0
     far = np.hypot(shown[:, 0] - x, shown[:, 1] - y)
     if dragged:
         far += np.minimum(np.abs(np.arange(len(far)) + first - cursor), _LEAP)
-    return first + int(np.argmin(far))
+    return first + int(np.argmin(far)) if dragged or far.min() < _NEAR else None
 
 
 def object_at(run: Simulation, x: float, y: float) -> ObjectView | None:
@@ -134,7 +138,7 @@ class LevelPart(TasPart):
         self._pointer.handle_mouse(event, x, y)
         return True
 
-    def point_at(self, tick: int, found: ObjectView | None) -> None:
+    def point_at(self, tick: int | None, found: ObjectView | None) -> None:
         self.hover, self.pointed = tick, found
         self._hovered_run = self.editor.track
 
@@ -314,19 +318,22 @@ class LevelPointer:
     def _point(self, event: pygame.Event, at: Px) -> None:
         """Name what is there; a click, or a drag, goes to the tick in which the ninja was nearest."""
         part, editor = self._part, self._editor
-        positions = editor.session.timeline.positions
+        timeline = editor.session.timeline
+        behind = timeline.end[0] + 1 or max(1, len(editor.track))
+        positions = timeline.positions[:behind]
         if not len(positions):
             return
         place = part.picture.canvas.logical(at)
-        dragged = event.type == pygame.MOUSEMOTION and bool(event.buttons[0])
+        dragged = self._goes and event.type == pygame.MOUSEMOTION and bool(event.buttons[0])
         pressed = event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT
         tick = nearest_tick(positions, *place, editor.cursor, dragged=dragged)
         part.point_at(tick, None if dragged else object_at(part.picture.run, *place))
         found = part.pointed
         words = f"{found.kind} {found.id}; right button: watch it; " if found else ""
         zoomed = part.picture.camera.zoom > 1
-        editor.hint = f"{words}Click: to tick {tick}; wheel: zoom{', right button: move, 0: all' if zoomed else ''}"
-        self._goes = dragged or pressed
-        if self._goes:
+        click = f"Click: to tick {tick}; " * (tick is not None)
+        editor.hint = f"{words}{click}wheel: zoom{', right button: move, 0: all' if zoomed else ''}"
+        self._goes = tick is not None and (dragged or pressed)
+        if self._goes and tick is not None:
             part.playing.stop()
             editor.go(tick, select=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from difflib import SequenceMatcher
 from functools import lru_cache
+from itertools import accumulate, groupby
 from typing import NamedTuple
 
 import numpy as np
@@ -13,7 +15,7 @@ from ninja_game.formats.replay.notations import KEY_NAMES
 from ninja_game.sim.inputs import KEYS_DOWN, fitted_inputs
 from ninja_game.sim.states import STATE_NAMES
 from ninja_game.tas.timeline import exit_distance
-from ninja_game.tas.tracks import InputTrack
+from ninja_game.tas.tracks import InputTrack, first_difference
 from ninja_game.tas_editor.editor import TasEditor
 from ninja_game.tas_editor.tabs.values_tab import colour_of
 from ninja_game.ui.theme import Palette
@@ -141,7 +143,7 @@ def row_facts(editor: TasEditor, first: int, last: int) -> list[RowFacts]:
             names.get(tick, ""),
             tick >= count,
             0 <= end < tick,
-            tick in changed if isinstance(changed, range) else tick < count and bool(changed[tick]),
+            tick < count and bool(changed[tick]),
             begin <= tick < behind,
             tick == editor.cursor,
         )
@@ -163,16 +165,30 @@ def _values(editor: TasEditor, first: int, last: int) -> list[Values]:
     return [Values(*row) for row in zip(*(values.tolist() for values in found), strict=True)]
 
 
+MOST_ROWS = 400
+"""Spans of the same keys in which changes are looked for one by one."""
+
+
 @lru_cache(maxsize=2)
-def changed_ticks(track: InputTrack, saved: InputTrack) -> range | bytes:
-    """Ticks in which a track differs from the saved one: a bool per tick, or, for another length, a range."""
-    ours, theirs = np.frombuffer(track.inputs, np.uint8), np.frombuffer(saved.inputs, np.uint8)
+def changed_ticks(track: InputTrack, saved: InputTrack) -> bytes:
+    """Whether each tick of a track differs from the saved one: a bool per tick; ticks that only moved do not."""
+    ours, theirs = track.inputs, saved.inputs
     if len(ours) == len(theirs):
-        return bytes(ours != theirs)
-    first, shared = track.first_difference(saved), min(len(ours), len(theirs))
-    unequal = np.flatnonzero(ours[::-1][:shared] != theirs[::-1][:shared])
-    same = int(unequal[0]) if len(unequal) else shared
-    return range(first, len(ours) - min(same, shared - first))
+        return bytes(np.frombuffer(ours, np.uint8) != np.frombuffer(theirs, np.uint8))
+    old_rows, rows = ([(keys, len(list(ticks))) for keys, ticks in groupby(each)] for each in (theirs, ours))
+    starts = [list(accumulate((ticks for _, ticks in each), initial=0)) for each in (old_rows, rows)]
+    spans: list[tuple[str, int, int, int, int]] = [("replace", 0, len(old_rows), 0, len(rows))]
+    if max(len(old_rows), len(rows)) <= MOST_ROWS:
+        spans = list(SequenceMatcher(None, old_rows, rows, autojunk=False).get_opcodes())
+    changed = bytearray(len(ours))
+    for what, *bounds in spans:
+        before, first, now, last = (starts[k // 2][each] for k, each in enumerate(bounds))
+        if what != "equal":
+            old, new = theirs[before:first], ours[now:last]
+            begin = first_difference(old, new)
+            end = first_difference(old[begin:][::-1], new[begin:][::-1])
+            changed[now + begin : last - end] = bytes([1]) * (last - end - now - begin)
+    return bytes(changed)
 
 
 def key_difference_text(row: RowFacts, other: str) -> str:

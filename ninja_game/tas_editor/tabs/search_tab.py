@@ -33,8 +33,9 @@ from ninja_game.ui.widgets import Button, Choice
 CLOSING_SECONDS = 0.5  # how long a search that is cancelled is waited for when the TAS editor is left
 
 COMPILING = (
-    "Searches are loaded; the first time on a machine they are compiled, a minute or two. Meanwhile you can "
-    "play, look around and edit; only an edit in the ticks that are searched, or before them, ends the search."
+    "Searches are loaded; the first time on a machine they are compiled, some minutes (`ninja-game compile` does it "
+    "beforehand). Meanwhile you can play, look around and edit; only an edit in the ticks that are searched, or before "
+    "them, ends the search."
 )
 NOT_BEGUN = "Stopped before it began. The rules are still made ready, for the next search."
 NOTHING_YET = "Nothing yet."
@@ -117,7 +118,7 @@ class SpanResults:
         return None
 
     def put(self, found: Found) -> bool:
-        """Put a result into the run, as one edit, and select it; whether that was possible."""
+        """Put a result into the run, as one edit, and select its span; whether that was possible."""
         behind = self.behind
         if behind is None:
             self.editor.app.notify("The run was changed: search again")
@@ -127,7 +128,8 @@ class SpanResults:
             return False
         end = self.task.first + found.ticks
         self._fitting.append((made.inputs if self.task.rest else made.inputs[:end], end))
-        self.editor.select(self.task.first, end)
+        if not isinstance(self.search, RunSearch):  # of a whole run one stays where one is
+            self.editor.select(self.task.first, end)
         return True
 
     def _whose(self, found: Found) -> OtherRun | None:
@@ -182,7 +184,7 @@ class SpanResults:
         before = () if isinstance(self.search, RunSearch) else self.better
         better = [
             each
-            for each in (*before, *found)
+            for each in (*found, *before)  # of equal ones the tidy one
             if each.missed_by is None
             and (own is None or each.score < own.score or (each.score == own.score and each.gold > own.gold))
         ]

@@ -142,12 +142,20 @@ class Rows(ListView):
 
 
 class EntryField(TextEntry):
+    """A field in a tab; ``enter`` at Enter, ``step`` with -1 or 1 at Up and Down."""
+
     def __init__(
         self, prompt: str, enter: Callable[[], object], *, longest: int, hint: str = "",
-        put: Callable[[str], object] = lambda _: None,
+        put: Callable[[str], object] = lambda _: None, step: Callable[[int], object] | None = None,
     ) -> None:  # fmt: skip
         super().__init__(UNPLACED, prompt, "", put, longest=longest, hint=hint)
-        self._enter = enter
+        self._enter, self._step = enter, step
+
+    def nudge(self, action: str) -> bool:
+        if self._step is None or action not in ("up", "down"):
+            return super().nudge(action)
+        self._step(1 if action == "down" else -1)
+        return True
 
     def confirm(self) -> bool:
         self._enter()

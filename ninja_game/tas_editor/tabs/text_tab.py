@@ -23,6 +23,7 @@ from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button
 
 LONGEST = 300  # characters of a line that is typed
+_NAMED_END = re.compile(r'(?<=\s)#\s*([^"#]+)$')
 _WORD = re.compile(r'#"[^"]*"|\S+')
 
 
@@ -67,6 +68,11 @@ def text_of(track: InputTrack, first: int, last: int, *, celeste: bool) -> str:
     return f"{name} {frames}".lstrip()
 
 
+def _read(text: str) -> Inputs:
+    words = _WORD.findall(text)
+    return inputs_of_text("\n".join(words), "") if words else Inputs(b"")
+
+
 class TextTab(Tab):
     """The lines; that of the cursor's tick stands in the field, and Enter puts what is typed there in its place."""
 
@@ -81,8 +87,8 @@ class TextTab(Tab):
         self._seen: tuple[object, ...] = ()
         self.list = Rows(self._draw_row, self._choose, hint="A click selects the ticks of a line")
         hint = "R*30 RJ*10 or 30,R,J, several; #name: a marker; # any text: a comment; nothing: no such ticks. Enter"
-        self.field = EntryField("the line of the cursor's tick", self.put, longest=LONGEST, hint=hint)
-        self.notation = Button(UNPLACED, "30,R,J", self._turn, hint="The other notation", size=SMALL)
+        self.field = EntryField("the line of the cursor's tick", self.put, longest=LONGEST, hint=hint, step=self._step)
+        self.notation = Button(UNPLACED, "R*30", self._turn, hint="A click: the other notation", size=SMALL)
         hint = "Only the lines from the marker before the cursor to the next one"
         self.fold = Button(UNPLACED, "Fold", self._fold, hint=hint, size=SMALL)
         self.widgets: list[Rows | EntryField | Button] = [self.field, self.fold, self.notation, self.list]
@@ -113,24 +119,37 @@ class TextTab(Tab):
             return f"{name}: {counted(last - first, 'tick')}"
         return text_of(self._track, first, last, celeste=self.celeste)
 
-    def put(self) -> None:
-        """Replace the line by the text of the field. Its marker stays unless the keys come with another one.
+    def _step(self, by: int) -> None:
+        """Go to the line above or below; what was typed is put in before."""
+        index = self.list.index
+        first, last = self.span(index)
+        if self.field.text.strip() == self.text(index) or self.put():
+            self.editor.go(first - 1 if by < 0 else max(last, self.editor.cursor))
 
-        A comment, ``# any text``, is the marker of the same keys.
+    def put(self) -> bool:
+        """Replace the line by the text of the field, and go to the next one.
+
+        Its marker stays unless the keys come with another one. A comment, ``# any text``, is the marker of the same
+        keys. Whether it was done.
         """
         text, (first, last) = self.field.text.strip(), self.span(self.list.index)
         if text[:2].strip() == "#":
-            if self.editor.edit_selected(lambda track: track.named(first, text[1:])):
-                self.editor.go(first)
-            return
-        words = _WORD.findall(text)
+            if done := self.editor.edit_selected(lambda track: track.named(first, text[1:])):
+                self.editor.go(last)
+            return done
         try:
-            typed = inputs_of_text("\n".join(words), "") if words else Inputs(b"")
+            try:
+                typed = _read(text)
+            except FormatError:
+                # A text of several words, up to the line's end, is the name of what follows.
+                if (named := _NAMED_END.sub(r'#"\1"', text)) == text:
+                    raise
+                typed = _read(named)
         except FormatError as error:
             place = f"word {error.line}: " * bool(error.line)
             error.line = error.column = 0
             self.editor.refuse(f"Not changed: {place}{error}")
-            return
+            return False
 
         def changed(track: InputTrack) -> InputTrack:
             left = first + bool(typed.keys and not typed.markers)
@@ -140,8 +159,9 @@ class TextTab(Tab):
                 made = made.named(first + tick, name)
             return made
 
-        if self.editor.edit_selected(changed):
-            self.editor.go(first)
+        if done := self.editor.edit_selected(changed):
+            self.editor.go(first + len(typed.keys))
+        return done
 
     def _choose(self, index: int) -> None:
         first, last = self.span(index)
@@ -156,7 +176,7 @@ class TextTab(Tab):
 
     def _turn(self) -> None:
         self.celeste = not self.celeste
-        self.notation.text = "R*30" if self.celeste else "30,R,J"
+        self.notation.text = "30,R,J" if self.celeste else "R*30"
 
     def render_key(self) -> tuple[object, ...]:
         return self._seen, self.list.over, self.list.first

@@ -12,7 +12,7 @@ from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.made import Made
 from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.menu_screen import Menu
+from ninja_game.play.menus.menu_screen import FormPanel, Menu
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.inputs import KEY_LEFT
@@ -75,7 +75,7 @@ def test_a_run_of_n_is_saved_beside_its_file_under_a_name_that_is_asked_for(tmp_
     at.choose("Save")
     first = tmp_path / "a-run.replay.txt"
     assert load_replays(first)[0].author == ""
-    assert "its player is unknown: your name can be set in the settings" in at.app.notice
+    assert at.app.notice.endswith("; its player is unknown")
     assert at.app.notice.startswith("Saved, without what is behind its exit: ")
     assert at.session.is_saved
     assert at.session.has_tail, "here it stays"
@@ -84,6 +84,19 @@ def test_a_run_of_n_is_saved_beside_its_file_under_a_name_that_is_asked_for(tmp_
     at.choose_in_menu("Keep as a replay")
     assert "saved" in at.app.notice
     assert len(at.player.records.replays()) == 1
+    at.close()
+
+
+def test_who_has_no_name_yet_is_asked_for_it_when_an_edited_run_is_saved(tmp_path: Path) -> None:
+    at = TasDriver(tmp_path / "player", write_records(tmp_path / "demos.txt", ("a run", WALK, running(30))))
+    change(at)
+    at.chord("s", CTRL)
+    at.shown(FormPanel).texts[1] = "Ann"
+    at.choose("Save")
+    assert load_replays(tmp_path / "a-run.replay.txt")[0].author == "Ann"
+    assert at.app.settings.name == "Ann"
+    at.chord("s", CTRL | pygame.KMOD_SHIFT)
+    assert len(at.shown(FormPanel).texts) == 1, "once"
     at.close()
 
 
@@ -248,6 +261,16 @@ def test_a_closed_window_of_a_saved_run_leaves_nothing(at: TasDriver) -> None:
     at.chord("z", CTRL)
     at.app.stack.clear()
     assert journals(at) == []
+
+
+def test_a_new_run_of_the_level_opens_over_this_one(at: TasDriver) -> None:
+    old, level = at.screen, at.session.about.level
+    at.choose_in_menu("New run on this level")
+    at.adopt()
+    assert (len(at.editor.track), at.session.about.level, at.session.file.path) == (0, level, None)
+    at.frames(2)
+    at.choose_in_menu("Leave")
+    assert at.top() is old
 
 
 def test_help_page_and_viewer_come_from_the_menu(at: TasDriver) -> None:

@@ -23,7 +23,7 @@ from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.files import open_run, runs_of_level
 from ninja_game.tas.timeline import Timeline
 from ninja_game.tas_editor.level.other_runs import AHEAD, OtherRunScreen
-from ninja_game.tas_editor.level.part import object_at
+from ninja_game.tas_editor.level.part import nearest_tick, object_at
 from ninja_game.tas_editor.level.paths import shown_span
 from ninja_game.tas_editor.screen import TasScreen
 from ninja_game.tas_editor.tabs.values_tab import ValuesTab
@@ -110,6 +110,22 @@ def test_a_click_goes_to_the_nearest_tick(at: TasDriver, tick: int) -> None:
     at.mouse(700, 300, click=False)
     assert screen.editor.cursor == hovered
     assert screen.level.hover is None
+
+
+def test_far_from_the_run_and_behind_its_end_no_tick_is_offered(at: TasDriver) -> None:
+    timeline = at.session.timeline
+    end, positions = timeline.end[0], timeline.positions
+    x, y = positions[-1]
+    tick = nearest_tick(positions[: end + 1], float(x), float(y), end)
+    assert tick is None or tick <= end
+    left, top, *_ = at.screen.level.area
+    factor = at.screen.level.picture.canvas.scale / at.app.canvas.scale
+    at.mouse(left + x * factor, top + y * factor, click=False)
+    assert (at.screen.level.hover or 0) <= end
+    corners = [(each, down) for each in (10.0, 780.0) for down in (10.0, 580.0)]
+    far = max(corners, key=lambda at: float(np.hypot(*(positions - at).T).min()))
+    at.mouse(left + far[0] * factor, top + far[1] * factor)
+    assert (at.screen.level.hover, at.editor.cursor) == (None, 0)
 
 
 def test_the_run_before_the_edit_is_a_ghost_where_it_was_elsewhere(at: TasDriver) -> None:
@@ -309,12 +325,15 @@ def test_other_runs_come_from_any_file(at: TasDriver, tmp_path: Path) -> None:
 
 
 def test_of_a_long_run_the_way_near_the_cursor_is_shown(at: TasDriver) -> None:
-    at.editor.edit(lambda track: track.replaced(len(track), len(track), [0] * 20_000))
-    at.frames(10)
+    at.editor.edit(lambda track: track.replaced(0, len(track), [0] * 20_000))
+    at.wait(lambda: at.session.timeline.complete, "the whole run")
     at.editor.go(15_300)
     at.frames()
     assert shown_span(15_300) == (13_000, 19_000)
-    at.mouse(200, 200, click=False)
+    left, top, *_ = at.screen.level.area
+    factor = at.screen.level.picture.canvas.scale / at.app.canvas.scale
+    x, y = at.session.timeline.positions[15_300]
+    at.mouse(left + x * factor, top + y * factor, click=False)
     assert at.screen.level.hover is not None
     assert 13_000 <= at.screen.level.hover < 19_000
 

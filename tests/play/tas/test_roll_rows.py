@@ -66,7 +66,10 @@ def test_rows_that_differ_from_the_saved_ones_are_marked(at: TasDriver) -> None:
     assert 20 in marked
     assert set(marked) <= {20, 21}
     taken = InputTrack(bytes([1, 2, 1, 2, 2]))
-    assert changed_ticks(taken, InputTrack(bytes([1, 2, 2]))) == range(2, 4)
+    assert sum(changed_ticks(taken, InputTrack(bytes([1, 2, 2])))) == 2
+    begun = InputTrack(bytes([2] * 9 + [1] * 20 + [2] * 5 + [0] * 7))
+    shorter = InputTrack(bytes([2] * 6 + [1] * 20 + [2] * 2 + [1] + [2] * 2 + [0] * 7))
+    assert np.flatnonzero(np.frombuffer(changed_ticks(shorter, begun), np.uint8)).tolist() == [28]
     assert changed_ticks(taken, taken) == bytes(5)
 
 

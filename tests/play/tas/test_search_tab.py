@@ -12,7 +12,10 @@ import numpy as np
 import pygame
 import pytest
 
+from ninja_game.backend.memories import compiled_available
 from ninja_game.play.menus.menu_screen import PANEL_WIDTH, Menu
+from ninja_game.search import solve as solve_module
+from ninja_game.search.certificate import without_idle_keys
 from ninja_game.search.formula import background
 from ninja_game.search.formula.methods import fewest_ticks
 from ninja_game.search.formula.task import Found
@@ -289,7 +292,7 @@ def test_a_search_is_cancelled_by_hand_and_when_the_tas_editor_is_left(
 
 def test_the_button_stops_what_still_compiles(at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch) -> None:
     compiled = Event()
-    monkeypatch.setattr(background, "search_span", lambda *_, **__: compiled.wait(60.0))
+    monkeypatch.setattr(background, "search_span", lambda *_, **__: (compiled.wait(60.0), ())[1])
     wish(at, "Greatest speed")
     assert results_of(tab).note == COMPILING
     at.choose("Stop")
@@ -298,6 +301,17 @@ def test_the_button_stops_what_still_compiles(at: TasDriver, tab: SearchTab, mon
     at.choose("Start")
     assert results_of(tab).running
     compiled.set()
+
+
+@pytest.mark.skipif(not compiled_available(), reason="nothing is compiled")
+def test_the_first_search_prepares_that_of_the_whole_run(
+    at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    prepared = Event()
+    monkeypatch.setattr(solve_module, "compile_solver", prepared.set)
+    wish(at, "Greatest speed")
+    at.wait(prepared.is_set, "the solver")
+    assert results_of(tab).search.seconds > 0
 
 
 def test_what_is_wrong_is_told(at: TasDriver, tab: SearchTab) -> None:
@@ -411,8 +425,11 @@ def test_the_whole_run_is_shortened_in_the_background_and_keeps_its_markers(at: 
     at.frames(2)
     found = tab.found[0]
     assert results.words(found)[0].startswith(f"exit in tick {found.ticks - 1}")
+    at.editor.go(30)
     row(at, tab, 0)
+    assert at.editor.selection == (30, 31), "one stays where one is"
     assert at.editor.track.inputs == found.inputs
+    assert without_idle_keys(results.task.level, found.inputs, results.task.inputs) == found.inputs
     assert at.session.timeline.end == (found.ticks - 1, "exit")
     (marker,) = at.editor.track.markers
     assert (marker.name, marker.tick < 40) == ("begins", True)

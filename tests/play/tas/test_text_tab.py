@@ -53,7 +53,7 @@ def test_text_follows_the_roll(at: TasDriver, tab: TextTab) -> None:
 
 
 def test_the_other_notation(at: TasDriver, tab: TextTab) -> None:
-    at.choose("30,R,J")
+    at.choose("R*30")
     at.frames()
     assert texts(tab) == ["2,R", "#hop 3,R", "3,R,J", "#land 4", ""]
 
@@ -67,7 +67,7 @@ def test_the_other_notation(at: TasDriver, tab: TextTab) -> None:
         ("# wait, it's early!", 'R*2|#"wait, it\'s early!" R*3 RJ*3|#land .*4'),
         ('#"one more" L*2 #two J', 'R*2|#"one more" L*2|#two J RJ*3|#land .*4'),
         ("#", "R*5 RJ*3|#land .*4"),
-        ("#hop R*1 #turn 3", "refused"),
+        ("#hop R*1 turn #3", "refused"),
         ("#one R #two L", "R*2|#one R|#two L RJ*3|#land .*4"),
         ("", "R*2 RJ*3|#land .*4"),
         ("(R L)*2", "R*2|#hop R L R L RJ*3|#land .*4"),
@@ -83,7 +83,7 @@ def test_the_roll_follows_what_is_typed(text: str, inputs: str, at: TasDriver, t
         return
     found = inputs_of_text(inputs.replace("|", "\n"), "test")
     assert at.editor.track == InputTrack(found.keys, found.markers)
-    assert at.editor.cursor == 2
+    assert at.editor.cursor == len(found.keys) - 7, "the next line"
     at.editor.session.undo()
     assert at.editor.track == RUN
 
@@ -109,6 +109,28 @@ def test_what_is_wrong_is_told_by_its_word(at: TasDriver, tab: TextTab) -> None:
     assert at.app.notice.startswith("Not changed: word 3: not an input run; found 'jr*2'")
     typed(at, tab, "R*3 L")
     assert at.app.notice == "", "it is done now"
+
+
+def test_a_name_of_several_words_ends_a_line(at: TasDriver, tab: TextTab) -> None:
+    typed(at, tab, "R*2 . #over the edge")
+    assert texts(tab)[:3] == ["R*2", ".*1", '#"over the edge" R*3']
+
+
+def test_enter_and_arrows_lead_from_line_to_line_while_one_types(at: TasDriver, tab: TextTab) -> None:
+    typed(at, tab, "R*4")
+    assert tab.field.text == "#hop R*3"
+    at.press("down")
+    at.frames()
+    assert tab.field.text == "RJ*3"
+    at.write(" L")
+    at.press("up")
+    at.frames()
+    assert (tab.field.text, texts(tab)[2:4]) == ("#hop R*3", ["RJ*3", "L*1"])
+    at.editor.go(len(at.editor.track))
+    at.frames()
+    typed(at, tab, "L*5")
+    typed(at, tab, "R*6")
+    assert texts(tab)[-3:] == ["L*5", "R*6", ""]
 
 
 def test_lines_are_added_at_the_end(at: TasDriver, tab: TextTab) -> None:

@@ -161,6 +161,11 @@ def test_four_formulas_over_four_thousand_ticks_are_quick(at: TasDriver, tab: Va
     assert sorted(times)[10] < 0.01, "ten times less on a quiet machine"
 
 
+def test_a_watched_value_is_not_the_run_that_is_not_saved(at: TasDriver) -> None:
+    at.session.watch(["speed"])
+    assert (at.session.is_run_saved, at.session.is_saved) == (True, False)
+
+
 def test_watched_values_are_kept_with_the_run(at: TasDriver, tab: ValuesTab, tmp_path: Path) -> None:
     tab.remove()
     tab.add("hypot(vx, vy) * 10")
