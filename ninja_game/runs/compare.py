@@ -109,7 +109,8 @@ def run_splits(
         ninja = run.ninja
         positions.append((ninja.x, ninja.y))
         for event in run.events:
-            if event.name in events:
+            # A ninja may die in the tick in which it touches the exit: it has passed.
+            if event.name in events and not (event.name == "died" and run.outcome == "exit"):
                 number = counts.get((event.name, event.object_id), 0)
                 counts[event.name, event.object_id] = number + 1
                 # Who killed is told by traces; runs that die share the split.

@@ -24,6 +24,7 @@ from ninja_game.runs.compare import (
     sum_of_best,
 )
 from ninja_game.runs.run import run_level
+from ninja_game.simulation import Simulation
 from tests.support.samples import SPIKED, WALK_END, replay_of_walk
 
 LEVEL = "0" * 713 + "|5^100,566!11^200,564,170,564!0^140,566"
@@ -52,6 +53,16 @@ def test_a_run_notes_gold_the_switch_and_its_end() -> None:
 def test_a_death_is_a_split_whoever_killed() -> None:
     found = run_splits(walk(0, level=SPIKED))
     assert (found.outcome, found.splits[-1].key) == ("dead", ("died", None, 0))
+
+
+def test_a_pass_that_kills_in_the_same_tick_has_no_death() -> None:
+    on = parse_level("0" * 713 + "|5^100,40!11^100,584,100,60")
+    fall = Recording(on, Replay.of_inputs(bytes(120), on, name="fall"))
+    simulation = Simulation(on)
+    while simulation.outcome == "running":
+        simulation.step_keys(0)
+    assert [event.name for event in simulation.events] == ["won", "died"]
+    assert [split.event for split in run_splits(fall).splits] == ["exit-opened", "won"]
 
 
 def test_table_measures_every_run_against_the_best_one() -> None:

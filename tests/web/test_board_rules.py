@@ -89,6 +89,15 @@ def test_a_run_is_in_a_category_only_where_its_formula_holds(runs: Path, levels:
     assert players == {"A": ["Ann"], "B": ["Ann", "Bea"]}, "where a number is not finite, a run is not of the category"
 
 
+def test_the_first_of_a_table_holds_the_record_by_the_second_number_too(runs: Path, levels: Path) -> None:
+    put(runs, "a.txt", slow_walk(author="Bea"))
+    put(runs, "b.txt", replay(author="Ann"))
+    shown, keys = published_levels(levels), Category("Fewest keys", ("presses", "ticks"))
+    ranking = Ranking(judge(runs, shown, jobs=1), shown, (keys,))
+    assert [row.run.player for row in ranking.tables[DIGEST][PLAYED, keys]] == ["Ann", "Bea"]
+    assert ranking.history[DIGEST, (PLAYED, keys)][-1].player == "Ann"
+
+
 BROKEN = {
     "": "1 to 12 tables [[category]] alone", "category = 3": "not the rules", "x = 1\n" + category(): "not the rules",
     "[[category": "no TOML", category() * (MOST_CATEGORIES + 1): "not the rules", category() * 2: "two categories",

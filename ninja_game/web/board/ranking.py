@@ -164,7 +164,7 @@ class Ranking:
                 values = self.values(category, run)
                 records = found[run.level, (run.ladder, category)] if values else []
                 best = self.values(category, records[-1]) if records else None
-                if values and not run.near and (best is None or values[0] < best[0]):
+                if values and not run.near and (best is None or values < best):
                     records[-1:] = [run] if best and records[-1].added == run.added else [*records[-1:], run]
         return found
 
