@@ -37,6 +37,19 @@ def opened(maker: Maker) -> MessagesScreen:
     return maker.shown(MessagesScreen)
 
 
+@pytest.fixture
+def painted(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Palettes of the pictures that previews have had painted."""
+    names: list[str] = []
+
+    def paint(level: Level, palette: Palette, width: int, *, opened: bool) -> pygame.Surface:
+        names.append(palette.name)
+        return thumbnail(level, palette, width, opened=opened)
+
+    monkeypatch.setattr(messages_module, "thumbnail", paint)
+    return names
+
+
 def in_picture(column: int, row: int) -> tuple[float, float]:
     """Where the preview shows the middle of a cell."""
     left, top, wide, _ = PICTURE
@@ -293,16 +306,7 @@ def test_each_moment_is_explained_by_its_row(room: Maker) -> None:
         assert f"{name}: {text[0].lower()}{text[1:]}." in shown
 
 
-def test_the_preview_is_the_games_picture_painted_once_with_its_labels(
-    room: Maker, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    painted: list[str] = []
-
-    def paint(level: Level, palette: Palette, width: int, *, opened: bool) -> pygame.Surface:
-        painted.append(palette.name)
-        return thumbnail(level, palette, width, opened=opened)
-
-    monkeypatch.setattr(messages_module, "thumbnail", paint)
+def test_the_preview_is_the_games_picture_painted_once_with_its_labels(room: Maker, painted: list[str]) -> None:
     opened(room)
     room.choose("Add a message")
     room.type("all of it")
@@ -324,16 +328,7 @@ def test_the_preview_is_the_games_picture_painted_once_with_its_labels(
     assert len(painted) == 2
 
 
-def test_the_preview_has_the_colours_of_the_levels_place_in_its_pack(
-    maker: Maker, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    painted: list[str] = []
-
-    def paint(level: Level, palette: Palette, width: int, *, opened: bool) -> pygame.Surface:
-        painted.append(palette.name)
-        return thumbnail(level, palette, width, opened=opened)
-
-    monkeypatch.setattr(messages_module, "thumbnail", paint)
+def test_the_preview_has_the_colours_of_the_levels_place_in_its_pack(maker: Maker, painted: list[str]) -> None:
     app = maker.app
     app.change_settings(palette="by-column")
     folder = packs.new_pack(app.player.folder / "levels", "Hills", "Ann")
