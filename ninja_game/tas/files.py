@@ -67,8 +67,9 @@ def open_run(path: Path, *, record: int | None = None, level: Level | None = Non
     files in them stay, and so do those of the game. A level, or a text without ticks for ``level``, is a new run.
     Raises ReplayError, DemoError, LevelError; OSError for a file that cannot be opened.
     """
-    if not any(holds_recordings(text) for _, text in texts_of(path)):
-        return _begun_on(path, record, level)
+    texts = [text for _, text in texts_of(path)]
+    if not any(map(holds_recordings, texts)):
+        return _begun_on(path, "".join(texts), record, level)
     recordings = load_replays(path, level=level, changed=True)
     if record is None and len(recordings) > 1:
         raise ReplayError(f"{len(recordings)} recordings", str(path), hint="say which one with --record")
@@ -86,10 +87,10 @@ def open_run(path: Path, *, record: int | None = None, level: Level | None = Non
     return OpenedRun(recording, track, file, read_branches(path))
 
 
-def _begun_on(path: Path, record: int | None, level: Level | None) -> OpenedRun:
-    """A run on a level of a file without recordings, or with the inputs of a text on ``level``."""
-    if level is not None and form_of(next((text for _, text in texts_of(path)), "")) == "string":
-        text = "".join(text for _, text in texts_of(path)).strip().removeprefix("inputs:")
+def _begun_on(path: Path, text: str, record: int | None, level: Level | None) -> OpenedRun:
+    """A run on a level of a file without recordings, or with the inputs of its ``text`` on ``level``."""
+    if level is not None and form_of(text) == "string":
+        text = text.strip().removeprefix("inputs:")
         read = inputs_of_text(text, str(path)) if text.strip() else Inputs(b"")
         return new_run(NamedLevel(path.stem, "", "", level, str(path)), InputTrack(read.keys, read.markers))
     levels = load_levels(path)

@@ -88,7 +88,10 @@ class Session:
 
     @property
     def has_tail(self) -> bool:
-        """Whether keys or names of ticks behind its end keep the run from being a replay with claims."""
+        """Whether there are keys or names of ticks behind its end.
+
+        Behind a death they keep the run from being a replay with claims; behind an exit they are left out of it.
+        """
         self.timeline.simulate(len(self.timeline))
         end, _ = self.timeline.end
         return end >= 0 and has_tail(self.track, end + 1)

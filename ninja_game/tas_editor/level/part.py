@@ -27,8 +27,8 @@ from ninja_game.ui.theme import Theme
 from ninja_game.view.overlays import OVERLAY_ACTIONS
 
 _REACH = 16.0  # px of the level within which an object is pointed at
-_LEAP = 40.0
 _NEAR = 40.0  # px of the level within which a click goes to a tick
+_LEAP = 40.0
 """A drag goes to a nearer part of the run that is many ticks away only if it is nearer by more px than this."""
 
 LINE = 13.0  # height of what is written below the level, logical px

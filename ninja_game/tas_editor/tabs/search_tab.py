@@ -175,7 +175,7 @@ class SpanResults:
         found, miss = self.search.found, self.search.miss
         if not found and miss is not None:
             self.better = (miss,)
-        if found is self._seen:
+        if [*map(id, found)] == [*map(id, self._seen)]:  # each report of a search is a new tuple
             return
         self._seen, own = found, self.search.own
         if own is not None:
