@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
 
 from ninja_game.errors import LevelError
+from ninja_game.formats.ascii.places import middle_of
 from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL
 
@@ -40,7 +41,7 @@ class Saying(NamedTuple):
     @property
     def place(self) -> tuple[float, float] | None:
         """The middle of the cell near which it is said, px; None for every other moment."""
-        return ((self.cell[0] + 0.5) * CELL, (self.cell[1] + 0.5) * CELL) if self.when == "at" else None
+        return middle_of(self.cell) if self.when == "at" else None
 
 
 def read_sayings(value: str) -> tuple[Saying, ...]:

@@ -104,25 +104,27 @@ class Ground:
         closed = {edge for door in locked for edge in edges_of(door)}
         closed -= {edge for door in self.doors.values() if door.mechanism != LOCKED for edge in edges_of(door)}
         frontier = [start]
+        self.cells.add(start)
         while frontier:
             cell = frontier.pop()
-            if cell not in self.cells:
-                self.cells.add(cell)
-                touched = (
-                    door
-                    for place in _around(cell)
-                    for door in waiting.get(place, ())
-                    if _touches(cell, door.x, door.y, rules.DOOR_SWITCH_RADIUS)
-                )
-                opened = closed.intersection(edge for door in touched for edge in edges_of(door))
-                closed -= opened
-                frontier += [edge // 4 for edge in opened if edge // 4 in self.cells]
-            frontier += [there for there in self._ways(cell, closed) if there not in self.cells]
+            touched = (
+                door
+                for place in _around(cell)
+                for door in waiting.get(place, ())
+                if _touches(cell, door.x, door.y, rules.DOOR_SWITCH_RADIUS)
+            )
+            opened = closed.intersection(edge for door in touched for edge in edges_of(door))
+            closed -= opened
+            frontier += [edge // 4 for edge in opened if edge // 4 in self.cells]
+            new = [*self._ways(cell, closed)]
+            self.cells.update(new)
+            frontier += new
 
     def _ways(self, cell: int, closed: set[int]) -> Iterator[int]:
+        """The cells beside one that can be reached from it, and were not before."""
         for side, step in enumerate(tiles.NEIGHBOUR_OFFSET):
             there, here = 4 * cell + side, 4 * (cell + step) + (side ^ 2)
-            if tiles.EXISTS[cell + step] and not self.is_full(cell + step):
+            if tiles.EXISTS[cell + step] and cell + step not in self.cells and not self.is_full(cell + step):
                 tiles_open = self.edges[there] != rules.SOLID and self.edges[here] != rules.SOLID
                 if tiles_open and there not in closed and here not in closed and self._gap(cell, cell + step):
                     yield cell + step

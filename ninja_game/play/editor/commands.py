@@ -348,10 +348,9 @@ class EditorCommands(DocumentCommands):
 
     def _entry(self) -> Entry | None:
         """The level's file as it is played: in its place in a pack, or alone; None without a file."""
-        path, draft = str(self.session.source.path or ""), self.session.draft
-        levels = [each for pack in self.app.player.catalogue.packs() for each in pack.levels] if path else []
-        alone = Entry(NamedLevel(draft.name, "", "", draft.level, path), "yours") if path else None
-        return next((each for each in levels if each.named.file == path), alone)
+        alone = self.session.entry
+        levels = (each for pack in self.app.player.catalogue.packs() for each in pack.levels)
+        return alone and next((each for each in levels if each.named.file == alone.named.file), alone)
 
     def open(self) -> None:
         self.unless_unsaved(lambda: self.app.push(LevelChoice(self.app, self.edit_entry)))

@@ -13,7 +13,7 @@ from ninja_game.editor.brush import EMPTY
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.specs import BODY, SWITCH, object_type_name, points
 from ninja_game.errors import LevelError
-from ninja_game.formats.ascii.places import Cell, cell_of, is_inside
+from ninja_game.formats.ascii.places import Cell, cell_of, is_inside, middle_of
 from ninja_game.formats.sayings import (
     BAR,
     KEYS,
@@ -35,7 +35,7 @@ from ninja_game.play.level.play import things_at_start
 from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuScreen, Row
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.schema import World
-from ninja_game.sim.rules import CELL, HALF, LIFETIME
+from ninja_game.sim.rules import LIFETIME
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas, Point
 from ninja_game.ui.input.bindings import InputEvent
@@ -144,7 +144,7 @@ def _cells_before(draft: Draft, place: Point) -> Point:
         way = [(column + step * k, row) for k in range(1, 4)]
         floor = sum(draft.tile((x, row + 1)) != EMPTY for x, _ in way)
         if 1 + floor > best and all(is_inside(cell) and draft.tile(cell) == EMPTY for cell in way):
-            best, at = 1 + floor, (CELL * way[-1][0] + HALF, CELL * row + HALF)
+            best, at = 1 + floor, middle_of(way[-1])
     return at
 
 
@@ -331,7 +331,8 @@ class MessagesScreen(MenuScreen):
         palette = self.app.palette_in(self._look)
         key = palette.name, size, opened
         if key not in self._stages:
-            self._stages[key] = _Stage(draft.level, palette, *size, opened=opened)
+            kept = {old: each for old, each in self._stages.items() if old[:2] == key[:2]}
+            self._stages = kept | {key: _Stage(draft.level, palette, *size, opened=opened)}
         stage, said, texts = self._stages[key], None, [each.text for each in self.messages]
         picture = stage.picture.copy()
         if message:

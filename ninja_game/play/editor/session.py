@@ -36,7 +36,7 @@ from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pack import is_pack
 from ninja_game.formats.replay.made import Made
 from ninja_game.formats.replay.text import Replay
-from ninja_game.levels.episodes import Entry
+from ninja_game.levels.episodes import GAME, YOURS, Entry
 from ninja_game.levels.findings import Finding
 from ninja_game.levels.warnings import level_findings
 from ninja_game.play.app import App
@@ -127,7 +127,7 @@ class EditorSession:
     def _recognise(self) -> None:
         """Take up this level's certificate, once it was played: beside its file, or of the same level elsewhere."""
         catalogue, level, path = self.app.player.catalogue, self.draft.level, self.source.path
-        same = [Entry(NamedLevel(self.name, "", "", level, str(path)), "yours")] if path else []
+        same = [alone] if (alone := self.entry) else []
         same += [each for each in catalogue.singles() if each.named.level == level]
         found = ((each, run) for each in same if (run := catalogue.author_run(each)))
         entry, run = next(found, (None, None))
@@ -135,6 +135,12 @@ class EditorSession:
             self._known_runs.ask((level, run))
             if path and entry is same[0]:
                 self._certified = run, run if run.gold >= level.gold else None, path
+
+    @property
+    def entry(self) -> Entry | None:
+        """The level as one in the player's folder; None without a file."""
+        path = self.source.path
+        return Entry(NamedLevel(self.name, "", "", self.draft.level, str(path)), YOURS) if path else None
 
     @property
     def draft(self) -> Draft:
@@ -289,7 +295,7 @@ class EditorSession:
             if (named := load_levels(path)[0]).level == search.level:
                 return named
         # The window's own catalogue is not for this thread.
-        own = (each.named for each in Catalogue(self.app.player.folder / LEVELS).singles() if each.source != "game")
+        own = (each.named for each in Catalogue(self.app.player.folder / LEVELS).singles() if each.source != GAME)
         return next((each for each in own if each.level == search.level and Path(each.file).is_file()), None)
 
     def _leave_search(self) -> None:

@@ -58,11 +58,12 @@ class Sayings:
 
     Several of one moment are said one after the other; what happens meanwhile is said first. ``text``: what is to be
     read now, or "", ``place``: near which place, px. ``helps``: the game itself says what helps too: to try again, to
-    climb.
+    climb. ``named``: the things with a name and an arrow, which the texts name.
     """
 
     def __init__(self, sayings: Sequence[Saying], *, helps: bool = False) -> None:
         self._sayings = sayings
+        self.named = named_things(each.text for each in sayings)
         self.helps = helps
         self._again = helps
         self._said: set[Saying] = set()
@@ -83,11 +84,6 @@ class Sayings:
 
     def _starts(self) -> list[Saying]:
         return [each for each in self._sayings if each.when == "start" and each not in self._said]
-
-    @property
-    def named(self) -> Sequence[str]:
-        """The things with a name and an arrow: those that its texts name, as long as the level shows texts."""
-        return named_things(each.text for each in self._sayings)
 
     @property
     def is_start(self) -> bool:

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.files.user_folder import data_folder
+from ninja_game.formats.ascii.places import middle_of
 from ninja_game.formats.load import load_levels
 from ninja_game.levels.episodes import GAME, Entry
 from ninja_game.play.app import App
@@ -78,7 +79,8 @@ class GoodLevelsScreen(ThumbnailScreen):
         for number, (column, row, _) in enumerate(self.level.notes, 1):
             # Beside what it points to, so that this is seen.
             px = width / 792
-            at = left + (24 * column + 12) * px, top + (24 * row + 12) * px
+            x, y = middle_of((column, row))
+            at = left + x * px, top + y * px
             x, y = at[0] + (AWAY if column < 3 else -AWAY), at[1] + (AWAY if row < 2 else -AWAY)
             theme.canvas.line(surface, palette.accent, (x, y), at, 1.5)
             theme.canvas.circle(surface, palette.accent, at, 2.5)

@@ -19,7 +19,7 @@ from ninja_game.formats.links import link_kind
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, Accepted, EpisodeIndex
 from ninja_game.formats.pack.pack import INDEX, Pack
 from ninja_game.generator.daily import FOLDER as DAILY
-from ninja_game.levels.episodes import Entry, EpisodeSet
+from ninja_game.levels.episodes import GAME, Entry, EpisodeSet
 from ninja_game.levels.findings import Finding, PackFinding
 from ninja_game.levels.warnings import level_findings
 from ninja_game.play.app import App
@@ -392,7 +392,7 @@ class PackScreen(ThumbnailScreen):
             raise NinjaGameError("that pack cannot be changed: it is the game's own, or a zip")
         name = file.name
         if file.parent != target:
-            name = packs.transfer(level.named, target, keep=level.source == "game" or self.folder not in file.parents)
+            name = packs.transfer(level.named, target, keep=level.source == GAME or self.folder not in file.parents)
         if (target / INDEX).is_file():
             number = goal.episode.number if goal and goal.episode else None
             if goal and number is None:
@@ -443,10 +443,7 @@ class PackScreen(ThumbnailScreen):
         if finding.code == "no-author":
             go = partial(self._form, 1)
         elif entry:
-            named = entry.named
-            odd = (each for each in level_findings(named.level, named.says) if each.sentence == finding.text)
-            known = why or next(odd, None)
-            go, text = partial(self._edit, entry, known), f"{entry.title}: {finding.text}"
+            go, text = partial(self._edit_at, entry, why, finding.text), f"{entry.title}: {finding.text}"
             for other, named in pack.levels.items():
                 text = text.replace(f"as {other}", f"as {named.name}")
 
@@ -458,6 +455,11 @@ class PackScreen(ThumbnailScreen):
         missing = missing_run(pack, finding) if why and not self.packer.busy else None
         longer = partial(self.packer.search_longer, self.path, missing) if missing else None
         return Problem(text, why.hint if why else finding.hint, go, asked, search=longer)
+
+    def _edit_at(self, entry: Entry, known: Finding | None, sentence: str) -> None:
+        """Edit a level at what is odd about it, ``known`` or what is said of it so."""
+        odd = level_findings(entry.named.level, entry.named.says) if known is None else ()
+        self._edit(entry, known or next((each for each in odd if each.sentence == sentence), None))
 
     def _accepted(self, accepted: Accepted) -> Problem:
         entry, code = self._entry(accepted.file), accepted.code.replace("-", " ")
