@@ -19,6 +19,7 @@ import click
 from ninja_game.cli.options import NEW_FILE, OLD_FILE, heartbeat
 from ninja_game.errors import FileError, NinjaGameError
 from ninja_game.files.shown_text import shown_text
+from ninja_game.runtime import cores
 
 if TYPE_CHECKING:
     from ninja_game.player.player_data import PlayerData
@@ -169,7 +170,7 @@ def compile(background: bool) -> None:  # noqa: A001 - the name of the command
         while (handle := hold_work()) is None:
             time.sleep(EVERY)
     try:
-        compile_everything(min(MOST_PROCESSES, os.cpu_count() or 1), quiet=background)
+        compile_everything(min(MOST_PROCESSES, cores()), quiet=background)
     finally:
         os.close(handle)
 

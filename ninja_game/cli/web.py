@@ -114,8 +114,8 @@ def site(out: Path | None, pyodide: Path | None, serve: bool, port: int, address
     files = build_site(folder, pyodide, cache_folder(), address)
     weights = {name: (len(content), len(gzip.compress(content, 9))) for name, content in sorted(files.items())}
     size, packed = map(sum, zip(*weights.values(), strict=True))
-    large = {name: weight for name, weight in weights.items() if weight[1] > 50_000}
-    for name, weight in (large | {f"{folder}: {len(files)} files": (size, packed)}).items():
+    heavy = {name: weight for name, weight in weights.items() if weight[1] > 50_000}
+    for name, weight in (heavy | {f"{folder}: {len(files)} files": (size, packed)}).items():
         click.echo(f"{name:<28} {weight[0]:>11,} bytes, {weight[1]:>10,} compressed by gzip")
     gallery = write_gallery(folder, published_levels(data_folder("levels")), address=address)
     click.echo(f"{gallery}: pictures and pages of the game's levels")

@@ -10,7 +10,7 @@ from ninja_game.files.user_folder import LEVELS, RECORDS, REPLAYS, SETTINGS, mak
 from ninja_game.files.writing import remove_leftovers
 from ninja_game.formats.replay.text import Replay
 from ninja_game.formats.run_time import seconds_text
-from ninja_game.levels.episodes import Entry, Episode
+from ninja_game.levels.episodes import GAME, YOURS, Entry, Episode
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Catalogue
 from ninja_game.player.progress import (
@@ -119,7 +119,7 @@ class PlayerData:
             and self.progress_in(episode.pack).columns[episode.column].beaten > entry.position
         ):
             return "Skipped, not passed yet"
-        mine = entry.source == "yours" or (entry.source != "game" and entry.named.author == self.settings.name != "")
+        mine = entry.source == YOURS or (entry.source != GAME and entry.named.author == self.settings.name != "")
         run = self.catalogue.author_run(entry) if mine and mark is None else None
         return reached(entry, mark) or (f"Certified: {seconds_text(run.end_tick)} s" if run else "Not passed yet")
 

@@ -116,6 +116,10 @@ FORGERIES = {
         record(demo="29:" + "|".join(repeat("35791394", 4))),
         "complete",
     ),
+    "inputs alone of a cut demo": (
+        replay_of_walk(outcome="", gold=0, digest="", inputs=WALKING, demo_length=WALK_END + 9.0),
+        "complete",
+    ),
     "an absurd length": (record(demo="9e99:" + "|".join(repeat("35791394", 5))), "complete"),
     "an endless length": (record(demo="1e999:" + "|".join(repeat("35791394", 5))), "complete"),
     "a negative length": (record(demo="-23:" + "|".join(repeat("35791394", 4))), "outcome"),

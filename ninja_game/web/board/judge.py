@@ -23,7 +23,7 @@ from ninja_game.runs.archive import Lost, verify_all
 from ninja_game.runs.chunks import Chunk, Result
 from ninja_game.runs.recording_reader import Unreadable
 from ninja_game.runs.verify import NOT_RUN, Verdict
-from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, with_press_bits
+from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, fitted_demo, with_press_bits
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.ui.input.bindings import MOVES
 from ninja_game.web.board.collect import RunFolder, Sent, SentFile
@@ -235,7 +235,8 @@ def _worded(problem: RunProblem, result: Verdict, sent: Sent) -> str:
     if problem.code == "not-strict" and result.practice and str(problem).startswith("practice"):
         return f"it was {result.made}: runs with such help do not count"
     if problem.code == "not-strict" and str(problem).startswith("complete"):
-        demo = parse_demo(sent.chunk.records[0].demo)
+        replay = sent.replay
+        demo = fitted_demo(replay.inputs, replay.demo_length or 0) if replay else parse_demo(sent.chunk.records[0].demo)
         held = f"it claims {demo.end} frames and holds {demo.end - demo.missing}"
         return f"the demo is cut off: {held}; `ninja-game convert FILE OUT --to replay` makes a run that claims no more"
     if problem.code == "not-strict" and str(problem).startswith("possible_by_keyboard"):
