@@ -397,7 +397,8 @@ class Steps(list[Step]):
             action()
         finally:
             after = _texts(folders)
-            pairs = {path: (before.get(path), after.get(path)) for path in before | after}
+            unknown = {path for texts in (before, after) for path, text in texts.items() if text is None}
+            pairs = {path: (before.get(path), after.get(path)) for path in before | after if path not in unknown}
             if texts := {path: (old, new) for path, (old, new) in pairs.items() if old != new}:
                 self[:] = [*self, Step(what, texts)][-12:]
 
@@ -428,6 +429,7 @@ class Steps(list[Step]):
 
 
 def _texts(folders: Iterable[Path]) -> dict[Path, bytes | None]:
+    """The texts in folders; None: too large, or not readable now, which is no reason to remove it."""
     suffixes = (*SUFFIXES, ".toml")
     paths = {path for folder in folders for path in folder.rglob("*") if path.suffix.lower() in suffixes}
     return {path: _text(path) for path in paths}

@@ -255,3 +255,11 @@ def test_the_command_makes_a_pack_ready(pack: Path, tmp_path: Path) -> None:
     assert result.exit_code == 1
     assert "of no level here" in result.output
     assert f"wrote {tmp_path / 'pack.zip'}\n#pack=" in result.output
+
+
+def test_undo_removes_nothing_that_could_not_be_read_before(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(packs, "MOST_BYTES", 4)
+    file, steps = tmp_path / "a.txt", packs.Steps()
+    file.write_bytes(b"too large")
+    steps.do("Cut", lambda: file.write_bytes(b"ok"), [tmp_path])
+    assert not steps
