@@ -293,9 +293,13 @@ class PackScreen(ThumbnailScreen):
         def copy() -> None:
             packs.place(self.path, packs.duplicate(self.path, level.named), episode.number if episode else None)
 
+        def play() -> None:
+            if why := play_level(self.app, level):
+                self.app.notify(why)
+
         rows: list[Row] = [
             ("Edit", lambda: self._edit(level, None), ""),
-            ("Play", lambda: self.app.notify(play_level(self.app, level)), ""),
+            ("Play", play, ""),
             ("Watch the run", partial(watch, self.app, [run]) if run else None, "" if run else "None is known yet"),
             ("Move...", lambda: self._hold(cell), ""),
         ]
