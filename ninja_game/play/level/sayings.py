@@ -58,7 +58,7 @@ class Sayings:
 
     Several of one moment are said one after the other; what happens meanwhile is said first. ``text``: what is to be
     read now, or "", ``place``: near which place, px. ``helps``: the game itself says what helps too: to try again, to
-    climb. ``named``: the things with a name and an arrow, which the texts name.
+    climb. ``named``: the things with a name and an arrow (``named_things``).
     """
 
     def __init__(self, sayings: Sequence[Saying], *, helps: bool = False) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from time import monotonic
 from typing import NamedTuple
@@ -20,7 +19,7 @@ from ninja_game.play.app import App, Aside, Screen
 from ninja_game.play.clipboard import copy_link
 from ninja_game.player.catalogue import Catalogue
 from ninja_game.runs.packs import file_of
-from ninja_game.runtime import NewestJob
+from ninja_game.runtime import NewestJob, cores
 from ninja_game.sim.level import Level
 
 SECONDS, LONGER = 20.0, 300.0
@@ -76,7 +75,7 @@ class Packer(Aside):
         self._step = text, share, monotonic()
 
     def _make_ready(self, path: Path) -> ReadyPack:
-        jobs = max(1, (os.cpu_count() or 2) - 1)
+        jobs = max(1, cores() - 1)
         return make_ready(path, seconds=self._seconds, jobs=jobs, say=self._say, obstacles=self.obstacles)
 
     def update(self) -> None:

@@ -104,9 +104,8 @@ _FAINT = 0.35
 _FRAME = 0.4  # how much darker than a tile the frame round a page is: letters stand on it
 _ICON_SIZE = 64
 _LONGEST_HEADING = 30
-_LONGEST_LINE = 24
+_LONGEST_LINE = 24  # characters of a cell that stay in one line
 _LONGEST_HEAD = 20  # letters in the first row
-"""Characters of a cell that stay in one line."""
 
 
 class Pages:
