@@ -69,23 +69,24 @@ class EditorTools:
 
     def __init__(self, draft: Draft) -> None:
         self.history = History(draft)
-        self.objects = False
-        self.tile = 1
-        self.spec: ObjectSpec = brush.object_of_type("gold")
+        self._take_first()
         self.snap = "cell"
-        self.symmetry = "off"
-        self.spacing, self.slopes, self.nearest = CELL, False, True
+        self.spacing, self.slopes = CELL, False
         self._bend = 0.0
         self.pointer = (396.0, 300.0)
         self._pressed_at = self.pointer
         self._switchless: ObjectSpec | None = None
-        self.tool = "brush"
         self.selection = stamps.Selection()
         self.clipboard: stamps.Stamp | None = None
         self.ghost: stamps.Stamp | None = None
         self.marquee: tuple[Cell, Cell] | None = None
         self._doing = ""
         self._chosen_before = stamps.Selection()
+
+    def _take_first(self) -> None:
+        self.tool, self.symmetry, self.nearest = "brush", "off", True
+        self.objects, self.tile = False, brush.FULL
+        self.spec: ObjectSpec = brush.object_of_type("gold")
 
     @property
     def draft(self) -> Draft:
@@ -99,6 +100,11 @@ class EditorTools:
     def placing_switch(self) -> bool:
         """Whether the next press says where the switch of a door or an exit is."""
         return self._switchless is not None
+
+    @property
+    def about_objects(self) -> bool:
+        """Whether keys are about objects: in hand, or selected."""
+        return self.objects or bool(self.selection.parts)
 
     @property
     def draws_one(self) -> bool:
@@ -116,10 +122,10 @@ class EditorTools:
         return self._doing == "drag"
 
     def load(self, draft: Draft) -> None:
-        """Work on another level, with the same tool in hand; what is drawn there has no images yet."""
+        """Work on another level: the first tile is in hand again, and what is drawn has no images."""
         self.finish()
-        self.symmetry = "off"
         self.history, self.selection = History(draft), stamps.Selection()
+        self._take_first()
 
     def move(self, x: float, y: float) -> None:
         """The pointer is somewhere else; what is being dragged follows."""

@@ -10,6 +10,7 @@ from typing import Any
 import pygame
 import pytest
 
+from ninja_game.editor.brush import object_of_type
 from ninja_game.editor.certify import Search, search_of
 from ninja_game.editor.files import Source, new_source, open_source
 from ninja_game.editor.stamp import everything
@@ -44,9 +45,13 @@ def test_what_belongs_to_a_level_ends_with_it_and_slopes_stay(room: Maker) -> No
     room.frames()
     assert (listed._find.text, len(listed.shown)) == ("ninja", 1), "a click selects what was typed"
     assert (session.tools.symmetry, session.start, session.tools.slopes) == ("left-right", "standing", True)
+    room.editor.focus = None
+    room.press("grave", "6", "a", "r")
     session.begin(Source(ROOM))
     room.frames()
     assert (session.tools.symmetry, session.start, session.tools.slopes) == ("off", "off", True)
+    assert (session.tools.objects, session.tools.tool) == (False, "brush")
+    assert session.tools.spec == object_of_type("gold"), "nothing of the hand carries over"
     assert (listed._find.text, len(listed.shown)) == ("", 2)
     room.editor.focus = None
     room.choose_in_menu("Leave the editor")
