@@ -6,7 +6,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from ninja_game.editor.brush import FAMILIES, OBJECT_TYPES, QUARTERS, SNAPS
+from ninja_game.editor.brush import SNAPS
 from ninja_game.editor.files import SUFFIX, Source, draft_of, new_source, open_source, recovered
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
 from ninja_game.editor.specs import points
@@ -46,21 +46,6 @@ TABLE = CommandTable(bundled_commands("level-editor.txt"))
 
 DIRECTION_KEYS = {"w": "up", "a": "left", "s": "down", "d": "right"}
 """Directions of objects, as in Ned."""
-
-OBJECT_TYPE_OF_KEY = {object_type.key: object_type for object_type in OBJECT_TYPES}
-
-_FAMILY_OF_KEY = {family.key: family for family in FAMILIES}
-
-
-def tile_of_key(name: str, present: int) -> int | None:
-    """The tile that a key chooses in tile mode, beside the one in hand: a digit its family, a letter its quarter."""
-    if name in ("e", "d"):
-        return int(name == "e")
-    family = next((each for each in FAMILIES if present in each.tiles), FAMILIES[0])
-    place = family.tiles.index(present) if present in family.tiles else 0
-    if name in _FAMILY_OF_KEY:
-        return _FAMILY_OF_KEY[name].tiles[place]
-    return family.tiles[QUARTERS.index(name)] if name in QUARTERS else None
 
 
 HELP = """\

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from math import dist
 from typing import NamedTuple
@@ -11,7 +11,7 @@ import pygame
 
 from ninja_game.editor import brush
 from ninja_game.editor.motion import TILE_IDS
-from ninja_game.editor.specs import BODY, points, word
+from ninja_game.editor.specs import BODY, points, properties, word
 from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.places import Cell, cell_of
@@ -20,9 +20,9 @@ from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec, well_formed
 from ninja_game.sim.rules import CELL
 from ninja_game.sim.states import TRAP
 from ninja_game.simulation import Simulation
-from ninja_game.ui.canvas import Canvas
+from ninja_game.ui.canvas import Canvas, Point
 from ninja_game.ui.input.keys import key_label_of
-from ninja_game.ui.theme import PALETTES, Area, Palette, Theme, inside
+from ninja_game.ui.theme import PALETTES, Area, Palette, Theme, inside, mixed
 from ninja_game.ui.widgets import Widget
 from ninja_game.view.ninja.figure import REACH, STAND, paint_figure
 from ninja_game.view.sprites import static_sprites
@@ -156,8 +156,38 @@ OBJECTS_PER_ROW = 6
 
 TILE_ORDER = (brush.EMPTY, brush.FULL, *(tile for family in brush.FAMILIES for tile in family.tiles))
 
-_TILE_KEYS = {family.key for family in brush.FAMILIES}
-"""Keys that choose tiles, where tiles are drawn; the other ones choose objects there too."""
+CHANGING_KEYS = {"direction": "wasd", "side": "wasd", "movement": "qe", "seeker": "n"}
+"""Letters that change a property of what is in hand or selected."""
+
+Entry = int | brush.ObjectType
+"""A tile or a type of objects."""
+
+_FAMILY_OF_KEY = {family.key: family for family in brush.FAMILIES}
+_OBJECT_TYPE_OF_KEY = {object_type.key: object_type for object_type in brush.OBJECT_TYPES}
+
+
+def live_changes(tools: EditorTools) -> dict[str, str]:
+    """The properties that letters change now, with these letters."""
+    names = [name for spec in tools.subjects for name in properties(spec)] if tools.about_objects else []
+    return {name: CHANGING_KEYS[name] for name in dict.fromkeys(names) if name in CHANGING_KEYS}
+
+
+def entry_of_key(tools: EditorTools, key: str) -> Entry | None:
+    """What a key takes in hand now: with tiles a digit a family, a letter a quarter of it, else all are objects'.
+
+    E and D are tiles wherever they change nothing.
+    """
+    if key in list("".join(live_changes(tools).values())):
+        return None
+    if key in ("e", "d"):
+        return brush.FULL if key == "e" else brush.EMPTY
+    if tools.about_objects:
+        return _OBJECT_TYPE_OF_KEY.get(key)
+    family = next((each for each in brush.FAMILIES if tools.tile in each.tiles), brush.FAMILIES[0])
+    place = family.tiles.index(tools.tile) if tools.tile in family.tiles else 0
+    if key in _FAMILY_OF_KEY:
+        return _FAMILY_OF_KEY[key].tiles[place]
+    return family.tiles[brush.QUARTERS.index(key)] if key in list(brush.QUARTERS) else _OBJECT_TYPE_OF_KEY.get(key)
 
 
 class PaletteView(Widget):
@@ -166,14 +196,14 @@ class PaletteView(Widget):
     def __init__(self, area: Area, tools: EditorTools) -> None:
         super().__init__(area)
         self.tools = tools
-        self.hovered: int | brush.ObjectType | None = None
+        self.hovered: Entry | None = None
 
-    def places(self) -> list[tuple[int | brush.ObjectType, Area]]:
+    def places(self) -> list[tuple[Entry, Area]]:
         """Every entry with its square; the four tiles of a family stand as their keys Q W A S do."""
         x, y, _, _ = self.area
-        found: list[tuple[int | brush.ObjectType, Area]] = []
+        found: list[tuple[Entry, Area]] = []
         for number, tile in enumerate((brush.EMPTY, brush.FULL)):
-            found.append((tile, (x + 34 + number * (TILE + 3), y + 1, TILE, TILE)))
+            found.append((tile, (x + 46 + number * (TILE + 14), y + 1, TILE, TILE)))
         for number, family in enumerate(brush.FAMILIES):
             row, column = divmod(number, 4)
             left, top = x + 11 + column * BLOCK, y + 21 + row * BLOCK_ROW
@@ -186,7 +216,7 @@ class PaletteView(Widget):
         return found
 
     @property
-    def _in_hand(self) -> int | brush.ObjectType:
+    def _in_hand(self) -> Entry:
         tools = self.tools
         return (
             brush.OBJECT_TYPES[brush.OBJECT_TYPE_NAMES.index(brush.object_type_of(tools.spec))]
@@ -199,16 +229,27 @@ class PaletteView(Widget):
         """What is under the mouse, or else in hand, and its keys."""
         return _said(self._in_hand if self.hovered is None else self.hovered)
 
-    def _at(self, x: float, y: float) -> int | brush.ObjectType | None:
+    def _at(self, x: float, y: float) -> Entry | None:
         return next((what for what, area in self.places() if inside(area, x, y)), None)
 
+    @property
+    def _heads(self) -> Sequence[tuple[str, Area]]:
+        x, y, _, _ = self.area
+        return ("Tiles", (x + 1, y + 4, 34, 12)), ("Objects", (x + 1, y + 91, 54, 12))
+
+    def _head_at(self, x: float, y: float) -> str:
+        return next((head for head, area in self._heads if inside(area, x, y)), "")
+
     def contains(self, x: float, y: float) -> bool:
-        """Whether an entry is there: what lies between them is others'."""
-        return self._at(x, y) is not None
+        """Whether an entry or a head is there: what lies between them is others'."""
+        return self._at(x, y) is not None or bool(self._head_at(x, y))
 
     def click(self, x: float, y: float) -> bool:
-        what = self._at(x, y)
-        if what is not None:
+        """Take what is there; a head: what was in hand of its kind."""
+        what, head = self._at(x, y), self._head_at(x, y)
+        if head:
+            self.tools.pick_up(self.tools.spec if head == "Objects" else self.tools.tile)
+        elif what is not None:
             self.tools.pick_up(what.spec if isinstance(what, brush.ObjectType) else what)
         return True
 
@@ -235,28 +276,35 @@ class PaletteView(Widget):
         canvas, palette = theme.canvas, theme.palette
         x, y, _, _ = self.area
         tools = self.tools
-        for text, top, lit in (("Tiles", y + 4, not tools.objects), ("Objects", y + 91, tools.objects)):
-            colour = palette.accent if lit else palette.text
-            theme.text(surface, text, x + 1, top, size=10, colour=colour, bold=lit)
+        for head, area in self._heads:
+            lit = (head == "Objects") is tools.objects
+            text, colour = (head, palette.accent) if lit else (f"{head}: `", palette.text)
+            theme.text(surface, text, *area[:2], size=10, colour=colour, bold=lit)
         for number, family in enumerate(brush.FAMILIES):
             row, column = divmod(number, 4)
             at = x + 3 + column * BLOCK, y + 32 + row * BLOCK_ROW
-            theme.text(surface, family.key, *at, size=8, colour=palette.faint if tools.objects else palette.text)
+            self._draw_key(surface, theme, family.key, at, live=isinstance(entry_of_key(tools, family.key), int))
         for what, area in self.places():
             canvas.fill_rect(surface, palette.background, *area)
             at = canvas.point(area[0], area[1])
             surface.blit(self._icon(theme, what, area), at, special_flags=pygame.BLEND_PREMULTIPLIED)
             if isinstance(what, brush.ObjectType):
-                middle, top = area[0] + OBJECT / 2, area[1] + OBJECT
-                colour = palette.text if tools.objects or what.key not in _TILE_KEYS else palette.faint
-                key = key_label_of(what.key)
-                theme.text(surface, key, middle, top, size=7.5, align="centre", height=KEY, colour=colour)
+                below = area[0] + OBJECT / 2 - 2.5, area[1] + OBJECT
+                self._draw_key(surface, theme, what.key, below, live=entry_of_key(tools, what.key) is what)
             if what in (brush.EMPTY, brush.FULL):
+                key = brush.tile_key(what)
+                beside = area[0] - 9, area[1] + 4
+                self._draw_key(surface, theme, key, beside, live=entry_of_key(tools, key.lower()) == what)
                 canvas.frame_rect(surface, palette.panel_edge, *area)
             if what == self._in_hand:
                 canvas.frame_rect(surface, palette.accent, *area, 2)
 
-    def _icon(self, theme: Theme, what: int | brush.ObjectType, area: Area) -> pygame.Surface:
+    def _draw_key(self, surface: pygame.Surface, theme: Theme, key: str, at: Point, *, live: bool) -> None:
+        """A key beside what it chooses, faint where it means something else now."""
+        colour = theme.palette.text if live else mixed(theme.palette.faint, theme.palette.panel, 0.5)
+        theme.text(surface, key_label_of(key), *at, size=8, height=KEY, colour=colour, bold=live)
+
+    def _icon(self, theme: Theme, what: Entry, area: Area) -> pygame.Surface:
         size = theme.canvas.rect(*area).size
         if not isinstance(what, brush.ObjectType):
             return tile_icon(what, size, theme.palette.base.name)
@@ -265,7 +313,7 @@ class PaletteView(Widget):
         return object_icon(self.tools.spec if in_hand else what.spec, size, theme.canvas.scale, theme.palette.base.name)
 
 
-def _said(what: int | brush.ObjectType) -> str:
+def _said(what: Entry) -> str:
     if isinstance(what, brush.ObjectType):
         return f"{what.name.capitalize()}: {key_label_of(what.key)}"
     name = brush.tile_name(what)

@@ -22,12 +22,13 @@ from ninja_game.editor.tools import (
     said_cells,
 )
 from ninja_game.errors import LevelError
+from ninja_game.files.shown_text import counted
 from ninja_game.files.user_folder import short_path
 from ninja_game.formats.ascii.places import cell_of, place_text, read_place
 from ninja_game.formats.ascii.writer import best_form
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.commands import TABLE
-from ninja_game.play.editor.palette_view import PaletteView
+from ninja_game.play.editor.palette_view import PaletteView, live_changes
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.view import LAYOUT, EditorView
 from ninja_game.play.menus.menu_screen import CANCEL, Menu, Row, ask_text
@@ -72,7 +73,7 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
     if tools.selection and tools.chosen is None:
         count = len(tools.selection.numbers)
         cells = tools.selection.area[2] * tools.selection.area[3] if tools.selection.area else 0
-        title = f"Selected: {cells} cells, {count} objects" if cells else f"Selected: {count} objects"
+        title = f"Selected: {counted(cells, 'cell') + ', ' if cells else ''}{counted(count, 'object')}"
         rows += [_choice(tools, name) for name in _common(tools.subjects)]
         turns = {"mirror": MIRROR, "flip": FLIP, "turn": CLOCKWISE}
         rows.append(
@@ -90,6 +91,8 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
         spec = tools.chosen or tools.spec
         title = f"{'Selected' if tools.selection else 'Draw'}: {object_type_name(spec)}"
         rows += [_choice(tools, name) for name in properties(spec)]
+        changes = [f"{' '.join(keys.upper())}: {name}" for name, keys in live_changes(tools).items()]
+        rows += [partial(Label, text=text, size=9.5, faint=True) for text in changes]
         if tools.selection:
             rows += [_place(tools, part) for part in points(spec)]
         elif has_switch(spec):
@@ -291,7 +294,7 @@ class PalettePart(EditorPart):
 
     def render_key(self) -> tuple[object, ...]:
         tools = self.session.tools
-        return tools.objects, tools.tile, tools.spec, self._palette.hovered
+        return tools.about_objects, live_changes(tools), tools.tile, tools.spec, self._palette.hovered, tools.objects
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)

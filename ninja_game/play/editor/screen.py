@@ -6,13 +6,13 @@ from collections.abc import Sequence
 
 import pygame
 
-from ninja_game.editor.brush import SNAPS, snapped
+from ninja_game.editor.brush import SNAPS, ObjectType, snapped
 from ninja_game.editor.files import Source
 from ninja_game.editor.specs import PROPERTIES, properties, word
 from ninja_game.editor.stamp import Selection
 from ninja_game.play.app import App
-from ninja_game.play.editor.commands import DIRECTION_KEYS, OBJECT_TYPE_OF_KEY, TABLE, EditorCommands, tile_of_key
-from ninja_game.play.editor.palette_view import PaletteView
+from ninja_game.play.editor.commands import DIRECTION_KEYS, TABLE, EditorCommands
+from ninja_game.play.editor.palette_view import PaletteView, entry_of_key
 from ninja_game.play.editor.parts import FilePart, Findings, ObjectList, PalettePart, Properties, StatusLine, Toolbar
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.view import LAYOUT, EditorView
@@ -124,16 +124,13 @@ class EditorScreen(WorkspaceScreen):
         if key.startswith("shift+") and key[6:] in DIRECTIONS:
             tools.nudge(*DIRECTIONS[key[6:]])
             return True
-        object_type, about_objects = OBJECT_TYPE_OF_KEY.get(key), tools.objects or bool(tools.selection.parts)
-        if about_objects and self._change_by_key(key):
+        if tools.about_objects and self._change_by_key(key):
             return True
-        # What is in hand has the digits; E and D are tiles wherever an object needs them for nothing else.
-        tile = tile_of_key(key, tools.tile) if not about_objects or key in ("e", "d") else None
-        what = tile if tile is not None else object_type.spec if object_type else None
+        what = entry_of_key(tools, key)
         if what is None:
             return False
         tools.selection = Selection()
-        tools.pick_up(what)
+        tools.pick_up(what.spec if isinstance(what, ObjectType) else what)
         return True
 
     def _change_by_key(self, key: str) -> bool:

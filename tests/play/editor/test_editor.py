@@ -13,7 +13,7 @@ import pytest
 
 from ninja_game.backend.memories import compiled_available
 from ninja_game.editor import packs
-from ninja_game.editor.brush import OBJECT_TYPES, object_of_type, placed
+from ninja_game.editor.brush import OBJECT_TYPES, object_of_type, object_type_of, placed
 from ninja_game.editor.certify import LANDED, SQUARE, STARTS, Reach, Search
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Source, open_source
@@ -25,6 +25,7 @@ from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import parse_replay
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.commands import TABLE, TryScreen
+from ninja_game.play.editor.palette_view import entry_of_key
 from ninja_game.play.editor.parts import FIRST_STEPS, Findings, ObjectList
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.menus.help import HelpPage
@@ -40,7 +41,7 @@ from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.ui.input.keys import SCANCODES
 from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Theme
-from ninja_game.ui.widgets import Choice
+from ninja_game.ui.widgets import Choice, Label
 from tests.support.level_maker import ROOM, Maker
 from tests.support.waiting import LONGEST
 
@@ -710,6 +711,28 @@ def test_keys_of_objects_and_tiles_work_whatever_is_selected_or_in_hand(room: Ma
     room.press("e")
     assert tools.objects
     assert tools.spec != before, "it has a movement"
+
+
+def test_the_palette_tells_which_keys_take_what_now(room: Maker) -> None:
+    """Each key that is shown live takes what it stands at, and no other one does."""
+    tools, palette = room.editor.session.tools, room.editor.palette
+    drone, door = object_of_type("zap drone"), object_of_type("locked door")
+    for in_hand in (1, 6, object_of_type("gold"), drone, door):
+        for key in (*"1234567890qwasednopi", "minus", "equals"):
+            tools.pick_up(in_hand)
+            claimed, before = entry_of_key(tools, key), (tools.objects, tools.tile, object_type_of(tools.spec))
+            room.press(key)
+            if claimed is None:
+                assert (tools.objects, tools.tile, object_type_of(tools.spec)) == before
+            else:
+                assert palette._in_hand == claimed
+    room.press("grave", "grave", "6")
+    labels = [each.text for each in room.editor.properties.widgets if isinstance(each, Label)]
+    assert labels[1:] == ["Q E: movement", "W A S D: direction", "N: seeker"]
+    for (_, area), objects in zip(palette._heads, (False, True), strict=True):
+        room.mouse(area[0] + 4, area[1] + 4)
+        assert tools.objects is objects
+    assert tools.spec == drone, "the drone is in hand again"
 
 
 def test_what_a_search_has_found_is_kept_when_its_level_is_left(room: Maker, tmp_path: Path) -> None:
