@@ -183,15 +183,30 @@ class Certifier:
             gold = f", {search.run.gold} gold" if search.run.gold else ""
             shortening = ", shortening" * self.busy
             return f"Certified: {search.run.end_tick / TICKS_PER_SECOND:.2f} s{gold}{shortening}"
+        if search.end == STOPPED and search.progress:
+            return f"Stopped: no exit found in {search.progress.seconds:.0f} s"
         if search.end or search.level is None:
             return search.end
         if search.progress is None:
-            if search is not self.solver.at_work and not self.solver.at_work.end:
-                return "Another level's search comes first. Go on editing, or save and leave: it goes on"
+            if place := self._place:
+                return f"Another level's search comes first: place {place} in the queue. Go on editing, or save and leave"
             return f"{monotonic() - search.began:.0f} s. {COMPILING}. Go on editing, or save and leave"
         ticks = search.progress.ticks
         tried = f"{ticks / 1e6:.1f} million" if ticks >= 1e6 else f"{ticks // 1000} thousand"
         return f"Looking for a run: {tried} ticks tried"
+
+    @property
+    def _place(self) -> int:
+        """In the queue of searches, from 1 on; 0 once it has begun."""
+        waits = self.search is not self.solver.at_work and not self.solver.at_work.end
+        return 1 + sum(not each.end for each in self.solver.left) if waits else 0
+
+    @property
+    def waited(self) -> str:
+        """Its place in the queue, or for how long it has been at work."""
+        search, place = self.search, self._place
+        seconds = search.progress.seconds if search.progress else monotonic() - search.began
+        return f"#{place}" if place else f"{seconds:.0f} s"
 
     @property
     def busy(self) -> bool:

@@ -223,7 +223,7 @@ _BUTTONS = (
     ("brush", "Brush", 40, 0), ("rectangle", "Box", 32, 0), ("line", "Line", 34, 0), ("ellipse", "Ellipse", 46, 0),
     ("fill", "Fill", 30, 0), ("select", "Select", 44, 0), ("pick", "Pick", 34, 4),
     ("symmetry", "Mirror: {symmetry}", 80, 0), ("grid", "Grid: {grid}", 80, 0), ("snap_next", "Snap: {snap}", 64, 4),
-    ("test", "Test", 34, 0), ("certify", "Certify", 46, 0), ("more", "More", 34, 0), ("help", "Help", 32, 0),
+    ("test", "Test", 34, 0), ("certify", "{certify}", 46, 0), ("more", "More", 34, 0), ("help", "Help", 32, 0),
 )  # fmt: skip
 """Command, text, width, more than the usual gap behind it, px."""
 
@@ -240,7 +240,8 @@ class ToolButton(Button):
         lit = self.name == tools.tool or (self.name == "symmetry" and tools.symmetry != "off")
         theme.row(surface, self.area, chosen=lit, focused=lit, radius=3)
         self.enabled = {"undo": tools.history.can_undo, "redo": tools.history.can_redo}.get(self.name, True)
-        text = self.text.format(symmetry=tools.symmetry, grid=self.view.grid.name, snap=tools.snap)
+        grid, certify = self.view.grid.name, self.view.session.certify_text
+        text = self.text.format(symmetry=tools.symmetry, grid=grid, snap=tools.snap, certify=certify)
         colour = theme.palette.text if self.enabled else theme.palette.faint
         bold, place = lit or focused, (x + w / 2, y + (h - 9) / 2)
         theme.text(surface, text, *place, size=9, colour=colour, align="centre", bold=bold, width=w)
@@ -280,7 +281,7 @@ class Toolbar(EditorPart):
     def render_key(self) -> tuple[object, ...]:
         tools = self.session.tools
         history = tools.history.can_undo, tools.history.can_redo
-        return tools.tool, tools.symmetry, self.view.grid, tools.snap, history
+        return tools.tool, tools.symmetry, self.view.grid, tools.snap, history, self.session.certify_text
 
 
 class PalettePart(EditorPart):

@@ -226,6 +226,13 @@ class EditorSession:
         return self.findings
 
     @property
+    def certify_text(self) -> str:
+        """What F7 does now."""
+        certifier = self.certifier
+        stops = certifier.busy and not certifier.is_stale(self.draft.level)
+        return f"Stop {certifier.waited}" if stops else "Certify"
+
+    @property
     def test_map(self) -> TestMap | None:
         return self._maps.result if self.tries else None
 

@@ -10,6 +10,7 @@ import pygame
 import pytest
 
 from ninja_game.editor import packs
+from ninja_game.editor.certify import Search
 from ninja_game.editor.files import open_source
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.pack import Pack
@@ -22,6 +23,7 @@ from ninja_game.search.certificate import verified_run
 from ninja_game.search.task import Progress, Task
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.kinds import EXIT
+from tests.support.draw_log import drawn
 from tests.support.level_maker import ROOM, Maker
 from tests.support.waiting import LONGEST
 
@@ -57,7 +59,8 @@ def test_searches_of_levels_that_were_left_go_on_one_after_the_other(
     assert session.certifier.text == "", "nothing is asked, and the new level has no search"
     session.save(levels / "other.txt", name="Other")
     room.press("f7")
-    assert session.certifier.text.startswith("Another level's search comes first")
+    assert session.certifier.text.startswith("Another level's search comes first: place 2 in the queue")
+    assert session.certify_text == "Stop #2"
     room.chord("n", pygame.KMOD_LCTRL)
     room.choose("Empty")
     session.begin(open_source(levels / "room.txt"))
@@ -94,6 +97,25 @@ def test_a_search_that_fails_ends_and_says_so_of_its_own_level_alone(
     room.wait(lambda: failed.end)
     assert (failed.end, certifier.busy) == ("there is not enough memory", True)
     assert certifier.text.startswith("0 s. The solver is compiled, ")
+
+
+def test_the_button_stops_a_search_and_it_is_said_what_it_had_found(room: Maker) -> None:
+    session = room.editor.session
+    assert session.certify_text == "Certify"
+    run = verified_run(ROOM.level, with_press_bits(bytes([2]) * 100))
+    for progress, found, said in (
+        (Progress(seconds=12.2), None, "Stopped: no exit found in 12 s"),
+        (Progress(seconds=3.0), run, "Stopped. Certified: 0.97 s"),
+        (None, None, "Stopped"),
+    ):
+        session.certifier.search = Search(room.draft.level, seconds=20.0, run=found, progress=progress)
+        if progress:
+            assert f"text 'Stop {progress.seconds:.0f} s'" in drawn(room.app)
+        room.choose(next(each.text for each in room.editor.widgets if getattr(each, "name", "") == "certify"))
+        assert (room.app.notice, session.certify_text) == (said, "Certify")
+    session.certifier.search = Search(room.draft.level)
+    room.drag((300, 300))
+    assert session.certify_text == "Certify", "it would search the level as it is now"
 
 
 def test_a_search_of_what_no_file_holds_ends_with_the_level(room: Maker) -> None:
