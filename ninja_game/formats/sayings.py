@@ -56,6 +56,15 @@ def read_sayings(value: str) -> tuple[Saying, ...]:
     return tuple(map(_read, parts))
 
 
+def unknown_words(text: str) -> list[str]:
+    """What stands in braces and is neither of KEYS nor of THINGS.
+
+    >>> unknown_words("{jump} or {fly}")
+    ['fly']
+    """
+    return [name for name in _KEY.findall(text) if name not in KEYS + THINGS]
+
+
 def named_things(texts: Iterable[str]) -> Sequence[str]:
     """What the arrows in a level with these texts lead to: both THINGS where any text names one, else nothing.
 
@@ -85,9 +94,8 @@ def _read(part: str) -> Saying:
         raise LevelError("not a text in 'says'", found=found, expected="WHEN: text", hint=f"WHEN is {_WHEN}")
     if len(text) > MOST_LETTERS or not text.isprintable():
         raise LevelError("a text in 'says'", found=found, expected=f"at most {MOST_LETTERS} printable letters")
-    for name in _KEY.findall(text):
-        if name not in KEYS + THINGS:
-            raise LevelError("an unknown key in 'says'", found=f"{{{name[:40]}}}", expected=", ".join(KEYS + THINGS))
+    for name in unknown_words(text):
+        raise LevelError("an unknown key in 'says'", found=f"{{{name[:40]}}}", expected=", ".join(KEYS + THINGS))
     if when in _EVENTS:
         return Saying(when, text)
     if match := _DEATH.fullmatch(when):

@@ -121,7 +121,7 @@ class HudView:
     the keys of each line of ``said``, ``letters``: what is on the keys of left, jump and right. ``named``: what a text
     names, and where that is, px. ``medal``: that of the pass, or "", ``stamp``: how far it has grown, 0…1, ``shine``:
     how far light has swept over it. ``seen``: how solid the panel of the end is, 0…1. ``ninja``: where it is in play,
-    px: what is said over it fades, ``softly`` or at once.
+    px: what is said over it fades, ``softly`` or at once. ``said_seen``: how solid ``said`` is apart from that.
     """
 
     lifetime: float
@@ -142,6 +142,7 @@ class HudView:
     seen: float = 1.0
     ninja: Point | None = None
     softly: bool = True
+    said_seen: float = 1.0
 
 
 class Hud:
@@ -168,10 +169,10 @@ class Hud:
             written.append(self.keys(surface, view.keys))
         written += [self.pointer(surface, *named) for named in view.named]
         if said is not None:
-            seen = 1.0 if in_border else _clear_of(view.ninja, said, softly=view.softly)
+            seen = view.said_seen * (1.0 if in_border else _clear_of(view.ninja, said, softly=view.softly))
             place = self.theme.canvas.rect(*said.area)
             behind = _behind(surface, place, seen)
-            if view.said and view.said.near and view.said.about:
+            if view.said and view.said.near and view.said.about and view.said_seen == 1:
                 written.append(self._tail(surface, said, view.said.about))
             written.append(self.said(surface, said, () if in_border else view.moves, view.letters))
             _fade(surface, place, behind, seen)

@@ -82,6 +82,7 @@ def hud_view(play: LevelPlay) -> HudView:
         seen=1.0 if settings.reduced_motion else min(1.0, (play.after_end + play.fraction) / FADE_TICKS),
         ninja=play.ninja_place(),
         softly=not settings.reduced_motion,
+        said_seen=1.0 if settings.reduced_motion else play.sayings.seen,
     )
 
 

@@ -14,6 +14,8 @@ from ninja_game.ui.canvas import Point
 
 SHOWN_TICKS = 240  # for which a text stays after its event
 START_TICKS = 480  # likewise, in play those of the start and of the switch, which tell the way
+READ_TICKS = 120  # after which it counts as read
+FADE_TICKS = 20  # in which one near a place fades at its end
 
 STILL = 0.05
 """px in a tick that are no motion."""
@@ -56,9 +58,10 @@ FALL_HELP = "Slide down a wall to slow a fall, or land on a downhill slope."
 class Sayings:
     """The texts of one level. Each event's text is said once; those of the start at each start until the exit is open.
 
-    Several of one moment are said one after the other; what happens meanwhile is said first. ``text``: what is to be
-    read now, or "", ``place``: near which place, px. ``helps``: the game itself says what helps too: to try again, to
-    climb. ``named``: the things with a name and an arrow (``named_things``).
+    Several of one moment are said one after the other; what happens meanwhile is said first, then what it interrupts
+    goes on: the start's, and what nobody can have read. ``text``: what is to be read now, or "", ``place``: near which
+    place, px, which ends it when the ninja is far from there. ``helps``: the game itself says what helps too: to try
+    again, to climb. ``named``: the things with a name and an arrow (``named_things``).
     """
 
     def __init__(self, sayings: Sequence[Saying], *, helps: bool = False) -> None:
@@ -81,6 +84,13 @@ class Sayings:
 
     def _say(self, *texts: _Text) -> None:
         (self.text, self._left, self.place), *self._next = texts or (_NOTHING,)
+        self._unread = READ_TICKS
+
+    def _say_first(self, *texts: _Text) -> None:
+        """Say this, then go on with what it interrupts and what waits; not with the start's once the exit is open."""
+        over = {each.text for each in self._said if each.when == "start"}.union(text for text, *_ in texts)
+        now = [(self.text, self._left, self.place)] if self.is_start or self._unread > 0 else []
+        self._say(*texts, *(each for each in (*now, *self._next) if each[0] and each[0] not in over))
 
     def _starts(self) -> list[Saying]:
         return [each for each in self._sayings if each.when == "start" and each not in self._said]
@@ -89,6 +99,11 @@ class Sayings:
     def is_start(self) -> bool:
         """Whether the present text is one of the start."""
         return self.text in [each.text for each in self._starts()]
+
+    @property
+    def seen(self) -> float:
+        """How solid the present text is, 0…1."""
+        return min(1.0, max(0.0, self._left / FADE_TICKS)) if self.place else 1.0
 
     def say_again(self) -> None:
         """All of it is said again, from the start on: another has shown how, which is not to have done it."""
@@ -103,6 +118,9 @@ class Sayings:
         """After a tick of play; whether there is something else to read."""
         before = self.text
         self._left -= 1
+        self._unread -= 1
+        if self.place and self._unread < 0 and not _is_near(world, self.place, 2 * NEAR):
+            self._left = min(self._left, FADE_TICKS)
         if self._left <= 0:
             self._say(*self._next)
         happened = {_WHEN.get(event.kind) for event in world.events[: world.event_count]}
@@ -112,15 +130,14 @@ class Sayings:
         new = [each for each in self._sayings if each.when in happened or _is_near(world, each.place)]
         if new := [each for each in new if each not in self._said]:
             self._said.update(new)
-            starts = [each.text for each in self._sayings if each.when == "start"]
-            self._say(*_in_turn(new), *(text for text in self._next if text[0] not in starts))
+            self._say_first(*_in_turn(new))
         if self._again and self._is_stuck(world):
             self._again = False
             self._say((AGAIN, SHOWN_TICKS, None))
         if self.helps and (wall := self._slipped(world)):
             towards, away = ("{right}", "{left}") if wall < 0 else ("{left}", "{right}")
             self._climb, self._foot = CLIMB % (towards, away), world.ninja.y
-            self._say((self._climb, START_TICKS, None), *self._next)
+            self._say_first((self._climb, START_TICKS, None))
         elif self.text == self._climb and self._foot - world.ninja.y > CLIMBED:
             self.text = ""
         return self.text != before
@@ -147,11 +164,19 @@ class Sayings:
         return away and self._still >= STILL_TICKS and self._quiet >= QUIET_TICKS
 
 
+def shown_ticks(when: str, together: int) -> int:
+    """For how many ticks a text of a moment is shown, of so many together; one alone that tells the way stays longer.
+
+    >>> shown_ticks("start", 1), shown_ticks("start", 2), shown_ticks("gold", 1)
+    (480, 240, 240)
+    """
+    return START_TICKS if together == 1 and when in {"start", "switch"} else SHOWN_TICKS
+
+
 def _in_turn(sayings: Sequence[Saying]) -> list[_Text]:
-    """One after the other; one alone that tells the way stays longer."""
-    longer = len(sayings) == 1 and sayings[0].when in {"start", "switch"}
-    return [(each.text, START_TICKS if longer else SHOWN_TICKS, each.place) for each in sayings]
+    """One after the other."""
+    return [(each.text, shown_ticks(each.when, len(sayings)), each.place) for each in sayings]
 
 
-def _is_near(world: World, place: Point | None) -> bool:
-    return place is not None and max(abs(world.ninja.x - place[0]), abs(world.ninja.y - place[1])) <= NEAR
+def _is_near(world: World, place: Point | None, near: float = NEAR) -> bool:
+    return place is not None and max(abs(world.ninja.x - place[0]), abs(world.ninja.y - place[1])) <= near

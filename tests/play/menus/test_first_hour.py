@@ -16,7 +16,17 @@ from ninja_game.play.level.hud import CLEAR, IN_BORDER, Hud, Said
 from ninja_game.play.level.hud_view import cause_of_death, hud_view
 from ninja_game.play.level.places import MUST, solid_place, tag_top
 from ninja_game.play.level.play import DEATH_PAUSE, STUCK_AFTER, Phase
-from ninja_game.play.level.sayings import CLIMB, CLIMBED, FALL_HELP, QUIET_TICKS, START_TICKS, Sayings
+from ninja_game.play.level.sayings import (
+    CLIMB,
+    CLIMBED,
+    FADE_TICKS,
+    FALL_HELP,
+    QUIET_TICKS,
+    READ_TICKS,
+    SHOWN_TICKS,
+    START_TICKS,
+    Sayings,
+)
 from ninja_game.play.level.screen import LevelScreen, PausePanel, play_level
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.main_menu import MainMenu
@@ -156,7 +166,7 @@ def test_each_text_has_its_moment(driver: MenuDriver) -> None:
         if sayings.on_tick(simulation.world):
             seen.append(sayings.text)
     assert seen in (["go", "gold", "open"], ["go", "open", "gold"])
-    for _ in range(START_TICKS):
+    for _ in range(START_TICKS + SHOWN_TICKS):
         sayings.on_tick(simulation.world)
     assert sayings.text == ""
     sayings.at_start()
@@ -167,15 +177,16 @@ def test_each_text_has_its_moment(driver: MenuDriver) -> None:
     assert sayings.text == "wait"
 
 
-def test_goal_is_not_read_again_after_a_text_of_the_first_seconds_but_after_that_of_a_death() -> None:
+def test_goal_is_read_on_after_what_interrupts_it_as_long_as_the_exit_is_shut() -> None:
     sayings = Sayings(read_sayings("start: go | gold: gold"))
     simulation = Simulation(parse_level_string("0" * 713 + "|5^100,566!0^120,566!11^400,564,500,564"))
     seen = []
-    for tick in range(START_TICKS + 1):
+    for tick in range(START_TICKS + SHOWN_TICKS + 1):
         simulation.step_keys(2 if tick < 8 else 0)
         if sayings.on_tick(simulation.world):
-            seen.append(sayings.text)
-    assert seen == ["gold", ""]
+            seen.append((tick, sayings.text))
+    assert [text for _, text in seen] == ["gold", "go", ""]
+    assert seen[-1][0] == START_TICKS + SHOWN_TICKS - 1, "in all as long as without the other text"
     sayings = Sayings(read_sayings("start: go | death 1: again"))
     sayings.on_death()
     sayings.at_start()
@@ -206,7 +217,7 @@ def test_several_texts_of_one_moment_are_said_one_after_the_other() -> None:
         simulation.world.event_count = int(kind is not None)
         simulation.world.events[0].kind = kind or 0
         texts += [quick.text for _ in range(1 if kind else 2 * START_TICKS) if quick.on_tick(simulation.world)]
-    assert texts == ["one", "three", "two", ""], "what happens is said first, and takes nothing away"
+    assert texts == ["one", "three", "one", "two", ""], "what happens is said first, and takes nothing away"
 
 
 def test_text_at_a_place_is_said_there_once() -> None:
@@ -221,6 +232,23 @@ def test_text_at_a_place_is_said_there_once() -> None:
     assert near.on_tick(simulation.world)
     assert not far.on_tick(simulation.world)
     assert (near.text, far.text) == ("here", "")
+
+
+@pytest.mark.parametrize("away, ticks", [(0, SHOWN_TICKS), (110, SHOWN_TICKS), (130, READ_TICKS + FADE_TICKS)])
+def test_text_at_a_place_fades_once_it_was_read_and_the_ninja_is_far(away: int, ticks: int) -> None:
+    told = Sayings(read_sayings("at 3,22: Here"))
+    ninja = (world := Simulation(room_level(["#@..#"], ())).world).ninja
+    ninja.x, ninja.y = 84.0, 540.0
+    assert told.on_tick(world)
+    ninja.x += away
+    solid = []
+    while told.text:
+        solid.append(told.seen)
+        told.on_tick(world)
+    assert len(solid) == pytest.approx(ticks, abs=2)
+    assert solid[:-FADE_TICKS] == [1.0] * (len(solid) - FADE_TICKS)
+    assert solid[-FADE_TICKS:] == sorted(solid[-FADE_TICKS:], reverse=True)
+    assert solid[-1] < 0.1
 
 
 def test_every_death_says_what_helps_until_the_level_is_passed(driver: MenuDriver) -> None:
