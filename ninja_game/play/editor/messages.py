@@ -24,6 +24,7 @@ from ninja_game.formats.sayings import (
     named_keys,
     named_things,
     read_sayings,
+    unknown_words,
 )
 from ninja_game.levels.episodes import Mood
 from ninja_game.levels.warnings import Ground, unseen_messages
@@ -32,16 +33,17 @@ from ninja_game.play.level.hud import Hud, HudView, Said
 from ninja_game.play.level.hud_view import named_in
 from ninja_game.play.level.places import Things
 from ninja_game.play.level.play import things_at_start
+from ninja_game.play.level.sayings import shown_ticks
 from ninja_game.play.menus.menu_screen import CANCEL, Menu, MenuScreen, Row
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.schema import World
-from ninja_game.sim.rules import LIFETIME
+from ninja_game.sim.rules import LIFETIME, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas, Point
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.text_entry import TextArea, TextEntry
 from ninja_game.ui.theme import Area, Palette, Theme, inside
-from ninja_game.ui.widgets import Button, Choice, Widget
+from ninja_game.ui.widgets import Button, Widget
 from ninja_game.view.sprites.thumbnail import open_exit, thumbnail
 
 ROW, TOP, WIDE = 112, 60, 294
@@ -49,16 +51,13 @@ PICTURE: Area = (342, TOP, 422, 422 * HEIGHT / WIDTH)
 """Rows of the messages; where the level is shown with the selected one."""
 
 _WHEN = {
-    "start": ("At the start", "At each start, until the exit is open"),
+    "start": ("At the start", "At each start and 12 s on, until the exit is open"),
     "switch": ("Exit opens", "Once, when the ninja opens the exit"),
     "gold": ("The first gold", "Once, when the ninja takes the first gold"),
     "death": ("After deaths", "At the start, after so many deaths"),
     "lock": ("A door unlocks", "Once, when a locked door opens"),
     "trap": ("A trap closes", "Once, when a trap door closes"),
-    "at": (
-        "Near a place",
-        "Beside its place, when the ninja first comes into its frame; a click in the picture moves it",
-    ),
+    "at": ("Near a place", "Beside it, when the ninja first comes into its frame"),
 }
 """What each moment is called, and when that is."""
 
@@ -71,6 +70,9 @@ _HELP = (
     f"{', '.join(f'{{{key}}}' for key in KEYS)} become the key or button of whoever plays;",
     f"Write {' or '.join(f'{{{thing}}}' for thing in THINGS)}: arrows in the level then point at both.",
 )
+
+
+_WORDS = ", ".join(f"{{{name}}}" for name in KEYS + THINGS)
 
 
 @dataclass
@@ -100,8 +102,12 @@ class Message:
             return False, "Type what is said, or remove the message"
         if BAR in self.text:
             return False, f"A message has no {BAR}"
-        known = ", ".join(f"{{{name}}}" for name in KEYS + THINGS)
-        return False, "" if _fits(f"start: {self.text}") else f"What stands in braces is one of {known}"
+        return False, self.unknown and f"{self.unknown} is not one of {_WORDS}"
+
+    @property
+    def unknown(self) -> str:
+        """The first thing in braces that is no word, with them; '' for none."""
+        return next((f"{{{name}}}" for name in unknown_words(self.text)), "")
 
 
 def _fits(source: str) -> bool:
@@ -114,13 +120,6 @@ def _fits(source: str) -> bool:
 def messages_of(says: str) -> list[Message]:
     details = {"death": "{0.deaths}", "at": "{0.cell[0]},{0.cell[1]}"}
     return [Message(each.when, details.get(each.when, "").format(each), each.text) for each in read_sayings(says)]
-
-
-class _Moment(Choice[str]):
-    """Only left, right and clicks change it: whoever types may have missed that the text has not the focus."""
-
-    def confirm(self) -> bool:
-        return False
 
 
 class _Stage:
@@ -203,13 +202,13 @@ class MessagesScreen(MenuScreen):
 
         def put(typed: str) -> None:
             message.text = typed
-            text.hint = "{jump} becomes the key or button of whoever plays" if "{" in typed else ""
+            about_keys = "{jump} becomes the key or button of whoever plays" if "{" in typed else ""
+            text.hint = message.problem[1] if message.unknown else about_keys
 
         put(message.text)
         text.put = put
-        words = [(name, when) for when, (name, _) in _WHEN.items()]
-        moment = _Moment((36, y, 116, 28), "", words, lambda: message.when, partial(self._choose, message))
-        moment.hint = "When it is said: left and right, or a click, change it"
+        ask = partial(self._ask_moment, message)
+        moment = Button((36, y, 116, 28), f"{_WHEN[message.when][0]}...", ask, hint="When it is said")
         about: list[Widget] = []
         if message.when in ("death", "at"):
             hint = "Column and row of the cell" if message.when == "at" else "How many deaths"
@@ -218,10 +217,15 @@ class MessagesScreen(MenuScreen):
         remove = Button((275, y, 55, 28), "Remove", lambda: self._remove(message), size=10)
         return [moment, *about, remove, text]
 
-    def _choose(self, message: Message, when: str) -> None:
-        message.when = when
-        message.detail = {"death": "3", "at": "{},{}".format(*self._here)}.get(when, "")
-        self.enter()
+    def _ask_moment(self, message: Message) -> None:
+        def choose(when: str) -> None:
+            if when != message.when:
+                message.when = when
+                message.detail = {"death": "3", "at": "{},{}".format(*self._here)}.get(when, "")
+                self.enter()
+
+        rows: list[Row] = [(name, partial(choose, when), about) for when, (name, about) in _WHEN.items()]
+        self.app.push(Menu(self.app, "When is it said?", [*rows, CANCEL]))
 
     @property
     def selected(self) -> Message | None:
@@ -310,6 +314,9 @@ class MessagesScreen(MenuScreen):
             colour = theme.palette.faint if length < MOST_LETTERS else theme.palette.bad
             count = f"{length} of {MOST_LETTERS}"
             theme.text(surface, count, 36 + WIDE, row + 95, size=8.5, colour=colour, align="right")
+            wrong = f"There is no {message.unknown}: the words are at the right" if message.unknown else ""
+            colour = theme.palette.bad if wrong else theme.palette.faint
+            theme.text(surface, wrong or self._turn_of(message), 36, row + 95, size=8.5, colour=colour, width=WIDE - 56)
             if self.focus in self._row_widgets[number]:
                 self._selected = number
         count = f"{len(self.messages)} of {MOST_SAYINGS}"
@@ -318,11 +325,19 @@ class MessagesScreen(MenuScreen):
         self._draw_level(surface, selected)
         name, when = _WHEN[selected.when] if selected else ("", "")
         about = [f"{name}: {when[0].lower()}{when[1:]}."] if selected else []
+        about += ["A click in the picture moves it."] * bool(selected and selected.when == "at")
         if selected and not selected.problem[1]:
             about += [finding.advice for finding in unseen_messages(selected.source, self._ground)]
         x, y, w, h = PICTURE
         below = x, y + h + 10, w, TOP + ROW * MOST_SAYINGS - y - h - 10
         theme.paragraph(surface, (*about, *_HELP), below, 11, 15, colour=theme.palette.faint)
+
+    def _turn_of(self, message: Message) -> str:
+        """How long it is shown, and as which of those of its moment."""
+        together = [each for each in self.messages if each.moment == message.moment]
+        place = next(k for k, each in enumerate(together, 1) if each is message)
+        which = f"No. {place} of {len(together)}, " if len(together) > 1 else ""
+        return f"{which}{shown_ticks(message.when, len(together)) / TICKS_PER_SECOND:.0f} s"
 
     def _draw_level(self, surface: pygame.Surface, message: Message | None) -> None:
         """The level with a message as in play. The level is drawn once, the message each time."""

@@ -19,6 +19,7 @@ from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import said_places
 from ninja_game.play.level.hud import Box, Hud
 from ninja_game.play.level.sayings import Sayings
+from ninja_game.play.menus.menu_screen import Menu
 from ninja_game.sim.events import LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.level import Level, ObjectSpec
@@ -64,6 +65,7 @@ def test_messages_are_made_row_by_row_and_a_test_says_them(room: Maker) -> None:
     room.choose("Add a message")
     choice = screen.widgets[3]
     room.mouse(*choice.centre)
+    room.choose("Exit opens")
     room.choose("Add a message")
     room.type("on")
     room.mouse(*screen._row_widgets[1][-1].centre)
@@ -82,13 +84,44 @@ def test_what_is_typed_goes_to_the_text_of_the_row_and_changes_no_moment(room: M
     screen = opened(room)
     room.choose("Add a message")
     screen.focus = screen._row_widgets[0][0]
-    room.press("return", "space")
-    assert screen.messages[0].when == "start"
     room.type("a b")
     assert (screen.messages[0].when, screen.messages[0].text) == ("start", "a b")
-    screen.focus = screen._row_widgets[0][0]
-    room.press("right")
-    assert screen.messages[0].when == "switch"
+
+
+def test_all_moments_are_listed_and_one_is_taken(room: Maker) -> None:
+    screen = opened(room)
+    room.choose("Add a message")
+    room.type("a")
+    for when, (name, _) in _WHEN.items():
+        before = screen.messages[0].when
+        room.choose(f"{_WHEN[before][0]}...")
+        listed = [getattr(each, "text", "") for each in room.shown(Menu).widgets]
+        assert listed == [*(each for each, _ in _WHEN.values()), "Cancel"]
+        room.choose("Cancel")
+        assert screen.messages[0].when == before
+        room.choose(f"{_WHEN[before][0]}...")
+        room.choose(name)
+        assert (screen.messages[0].when, screen.messages[0].text) == (when, "a")
+
+
+def test_those_of_one_moment_are_numbered_with_their_seconds(room: Maker) -> None:
+    room.editor.session.tools.history.change(replace(room.draft, says="start: a | gold: b | start: c | switch: d"))
+    opened(room)
+    shown = drawn(room.app)
+    for text in ("'No. 1 of 2, 6 s'", "'6 s'", "'No. 2 of 2, 6 s'", "'12 s'"):
+        assert shown.count(f"text {text}") == 1
+
+
+def test_a_word_that_is_not_known_is_named_at_its_field_while_it_is_typed(room: Maker) -> None:
+    screen = opened(room)
+    room.choose("Add a message")
+    for text in ("{fl", "y}"):
+        assert "There is no" not in drawn(room.app)
+        pygame.event.post(pygame.Event(pygame.TEXTINPUT, text=text))
+        room.frames()
+    assert "text 'There is no {fly}: the words are at the right'" in drawn(room.app)
+    assert screen.focus
+    assert screen.focus.hint.startswith("{fly} is not one of {left}, ")
 
 
 def test_every_message_comes_back_as_it_was(room: Maker) -> None:
@@ -115,7 +148,7 @@ def test_every_message_comes_back_as_it_was(room: Maker) -> None:
     [
         (Message("start", "", " "), False, "Type what is said"),
         (Message("start", "", "a | b"), False, "no |"),
-        (Message("start", "", "{fly} flies"), False, "one of {left}"),
+        (Message("start", "", "{fly} flies"), False, "{fly} is not one of {left}"),
         (Message("at", "32,1", "x"), True, "31,23"),
         (Message("at", "", "x"), True, "31,23"),
         (Message("death", "0", "x"), True, "1 to 99"),
@@ -141,7 +174,8 @@ def test_a_place_begins_at_the_pointer_or_with_what_is_selected_and_is_shown_by_
     screen = opened(room)
     room.choose("Add a message")
     room.type("here")
-    room.mouse(screen.widgets[0].area[0] + 5, screen.widgets[0].centre[1])
+    room.choose("At the start...")
+    room.choose("Near a place")
     assert (screen.messages[0].when, screen.messages[0].detail) == ("at", "7,9")
     room.mouse(*in_picture(20, 4))
     assert screen.messages[0].detail == "20,4"
