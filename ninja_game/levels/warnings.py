@@ -165,6 +165,8 @@ MANY_THINKERS = 30
 _NAMES_SHOWN = 3
 _OVER = 8.0
 """Nearer than this, px, a mine covers a piece of gold."""
+_HIDES = 12.5
+"""Likewise anything an exit, its switch or the start; a launch pad on the floor of their cell is 12 px away."""
 
 
 def level_warnings(level: Level, says: str = "") -> list[str]:
@@ -187,10 +189,11 @@ def level_findings(level: Level, says: str = "") -> list[Finding]:
     ground = Ground(level)
     odd: dict[Finding, list[int]] = {}
     first: dict[ObjectSpec, int] = {}
-    covering = _mines_over_gold(objects)
+    covering, ends = _mines_over_gold(objects), _ends(objects)
     for id_, record in enumerate(objects):
         again = [found("duplicate")] if first.setdefault(record, id_) != id_ else []
         over = [found("mine-over-gold")] if record in covering else []
+        over += [found("covers", what=what) for what in _covered_by(record, ends)]
         for finding in (*oddities(record, ground), *again, *over):
             odd.setdefault(finding, []).append(id_)
     of_objects = []
@@ -296,6 +299,32 @@ def _mines_over_gold(objects: Sequence[ObjectSpec]) -> set[ObjectSpec]:
             if any(dist(record.values, piece) < _OVER for place in places for piece in gold.get(place, ())):
                 covering.add(record)
     return covering
+
+
+_FIXED = {kinds.LAUNCH_PAD, kinds.BOUNCE_BLOCK, kinds.THWUMP, kinds.TURRET, kinds.LAUNCHER}
+_COVERING = {
+    "the exit": _FIXED | {kinds.MINE},
+    "the exit's switch": _FIXED | {kinds.MINE},
+    "the ninja's start": _FIXED | {kinds.DRONE, kinds.FLOOR_GUARD},
+}
+"""Kinds that nobody means to lie there: what moves leaves the exit free, and mines at the start are deadly anyway."""
+
+
+def _ends(objects: Sequence[ObjectSpec]) -> list[tuple[str, tuple[float, ...]]]:
+    """What begins and ends the way, of _COVERING, and where: exits, their switches, the ninja that plays."""
+    exits = [record.values for record in objects if record.kind == kinds.EXIT and well_formed(record)]
+    starts = [record.values for record in objects if record.kind == kinds.NINJA and well_formed(record)]
+    doors, switches, start = _COVERING
+    places = [end for values in exits for end in ((doors, values[:2]), (switches, values[2:]))]
+    return places + [(start, place) for place in starts[-1:]]
+
+
+def _covered_by(record: ObjectSpec, ends: Sequence[tuple[str, tuple[float, ...]]]) -> list[str]:
+    """Which of these an object hides or bars."""
+    if not well_formed(record):
+        return []
+    near = [what for what, place in ends if record.kind in _COVERING[what] and dist(record.values[:2], place) < _HIDES]
+    return list(dict.fromkeys(near))
 
 
 def _deadly_start(objects: Sequence[ObjectSpec]) -> Iterator[Finding]:

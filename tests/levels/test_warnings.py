@@ -76,6 +76,9 @@ CASES: dict[str, tuple[list[str], dict[int, str]]] = {
     "two doors on a side": (["automatic door 5,5 right", "automatic door 6,5 left"], {}),
     "gold in the rock": (["gold 124,490px"], {20: "....#"}),
     "mine over gold": (["gold 301,300px", "mine 305,306px"], {}),
+    "pad at the exit": (["launch pad 9,23 up"], {}),
+    "block over the exit's switch": (["bounce block 5,23.25"], {}),
+    "drone at the start": (["zap drone 1,23 wander-cw right"], {}),
     "door switch behind walls": (["locked door 9,9 left switch 1,1"], {1: "&#", 2: "##"}),
 }
 
