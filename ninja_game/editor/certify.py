@@ -188,9 +188,9 @@ class Certifier:
         if search.end or search.level is None:
             return search.end
         if search.progress is None:
-            if place := self._place:
-                return f"Another level's search comes first: place {place} in the queue. Go on editing, or save and leave"
-            return f"{monotonic() - search.began:.0f} s. {COMPILING}. Go on editing, or save and leave"
+            queued = f"Another level's search comes first: place {self._place} in the queue"
+            waits = queued if self._place else f"{monotonic() - search.began:.0f} s. {COMPILING}"
+            return f"{waits}. Go on editing, or save and leave"
         ticks = search.progress.ticks
         tried = f"{ticks / 1e6:.1f} million" if ticks >= 1e6 else f"{ticks // 1000} thousand"
         return f"Looking for a run: {tried} ticks tried"

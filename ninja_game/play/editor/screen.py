@@ -100,11 +100,15 @@ class EditorScreen(WorkspaceScreen):
             super().handle(event)
 
     def edit_by_key(self, event: InputEvent) -> bool:
-        """Keys choose what is drawn; confirm is the left button."""
+        """Keys choose what is drawn; confirm is the left button once the pointer was moved by keys or a pad."""
         if event.source and event.source[0] == "keys" and self._choose_by_key(chord(event.raw)):
             return True
         if event.menu == "confirm":
-            self.view.press()
+            if self.view.by_keys:
+                self.view.press()
+            else:
+                self.view.hovering = self.view.by_keys = True
+                self.view.hint = "Arrows move the pointer, Space draws there"
             return True
         return event.menu_released == "confirm" and self.view.release()
 
@@ -115,7 +119,7 @@ class EditorScreen(WorkspaceScreen):
         snap = tools.snap if tools.objects or tools.tool == "select" else "cell"
         x, y = tools.pointer
         step = SNAPS[snap]
-        self.view.hovering = True
+        self.view.hovering = self.view.by_keys = True
         tools.move(*snapped(x + dx * step, y + dy * step, snap))
 
     def _choose_by_key(self, key: str) -> bool:

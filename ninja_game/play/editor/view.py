@@ -199,6 +199,8 @@ LAYOUT = EditorLayout()
 class EditorView(Part):
     """The level under edit, and what lies over it. ``hovering``: the pointer is shown; ``hint``: for the line below.
 
+    ``by_keys``: it was last moved by keys or a pad.
+
     ``taker``: gets the cell of the next press in the level, which draws nothing then; None where it is given up.
     ``open_message``: called with the cell of a message that is clicked twice.
     ``listing``: the list of objects is shown in the place of the palette; ``tests``: the map of the tests is shown.
@@ -209,7 +211,7 @@ class EditorView(Part):
     def __init__(self, app: App, session: EditorSession, step_palette: Callable[[int], object]) -> None:
         self.app = app
         self.session = session
-        self.hovering = False
+        self.hovering = self.by_keys = False
         self.hint = ""
         self.grid: Grid = GRIDS[1]
         self.lines = self.paths = True
@@ -285,7 +287,7 @@ class EditorView(Part):
             self.release()
             return True
         self.session.tools.move(*self.overlay.canvas.logical(event.pos))
-        self.hovering = self.overlay.area.collidepoint(event.pos)
+        self.hovering, self.by_keys = self.overlay.area.collidepoint(event.pos), False
         if event.type == pygame.MOUSEBUTTONDOWN:
             add = bool(pygame.key.get_mods() & pygame.KMOD_SHIFT)
             right, middle = event.button == pygame.BUTTON_RIGHT, event.button == pygame.BUTTON_MIDDLE

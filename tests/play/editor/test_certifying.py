@@ -103,12 +103,12 @@ def test_the_button_stops_a_search_and_it_is_said_what_it_had_found(room: Maker)
     session = room.editor.session
     assert session.certify_text == "Certify"
     run = verified_run(ROOM.level, with_press_bits(bytes([2]) * 100))
-    for progress, found, said in (
+    for progress, best, said in (
         (Progress(seconds=12.2), None, "Stopped: no exit found in 12 s"),
         (Progress(seconds=3.0), run, "Stopped. Certified: 0.97 s"),
         (None, None, "Stopped"),
     ):
-        session.certifier.search = Search(room.draft.level, seconds=20.0, run=found, progress=progress)
+        session.certifier.search = Search(room.draft.level, seconds=20.0, run=best, progress=progress)
         if progress:
             assert f"text 'Stop {progress.seconds:.0f} s'" in drawn(room.app)
         room.choose(next(each.text for each in room.editor.widgets if getattr(each, "name", "") == "certify"))
