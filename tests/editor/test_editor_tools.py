@@ -505,6 +505,23 @@ def test_chosen_objects_move_in_the_order_with_their_selection(tools: EditorTool
     assert [spec.values[0] for spec in tools.draft.objects] == [36, 84, 60, 108]
 
 
+def test_what_is_pasted_is_joined_where_slopes_set_themselves(tools: EditorTools) -> None:
+    tools.history.change(tools.draft.with_tiles(dict.fromkeys([(column, 20) for column in range(5, 20)], 1)))
+    tools.selection = Selection((5, 20, 3, 1))
+    tools.copy()
+    for slopes in (False, True):
+        tools.slopes = slopes
+        tools.paste()
+        tools.pointer = 24 * 11 + 12.0, 24 * 19 + 12.0
+        shown, before = tools.preview, tools.draft
+        tools.press()
+        tools.release()
+        assert shown == {cell: tools.draft.tile(cell) for cell in changed_cells(before, tools.draft)}
+        made = [tools.draft.tile((column, 19)) for column in range(9, 14)]
+        assert (set(made) <= {0, 1}) is not slopes
+        tools.undo()
+
+
 def test_a_copied_piece_of_the_border_pastes_nothing(tools: EditorTools) -> None:
     tools.selection = Selection((0, 0, 1, 3))
     before = tools.draft
