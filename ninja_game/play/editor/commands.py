@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -25,7 +26,7 @@ from ninja_game.play.app import App
 from ninja_game.play.editor.messages import MessagesScreen
 from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.session import UNREACHABLE, EditorSession
-from ninja_game.play.editor.sheet import finding_points
+from ninja_game.play.editor.sheet import GRIDS, finding_points
 from ninja_game.play.editor.view import EditorView
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import LevelChoice
@@ -105,7 +106,8 @@ class EditorCommands(DocumentCommands):
             "next_tool": lambda: self.run(following(TOOLS, tools.tool)),
             "swap": lambda: tools.pick_up(tools.tile if tools.objects else tools.spec),
             "mirror": lambda: view.turn(MIRROR), "flip": lambda: view.turn(FLIP),
-            "turn": lambda: view.turn(CLOCKWISE), "symmetry": self.next_symmetry, "grid": view.next_grid,
+            "turn": lambda: view.turn(CLOCKWISE), "symmetry": self.next_symmetry,
+            "grid": lambda: view.show_grid(following(GRIDS, view.grid)),
             "slopes": self.switch_slopes,
             "list": lambda: setattr(view, "listing", not view.listing),
             "lines": lambda: setattr(view, "lines", not view.lines),
@@ -116,6 +118,26 @@ class EditorCommands(DocumentCommands):
             "next_entry": lambda: self._palette.step(1),
             "previous_entry": lambda: self._palette.step(-1),
         }  # fmt: skip
+
+    def choose(self, name: str) -> None:
+        """Do a command; of one that steps on, all steps are listed."""
+        tools, view = self.session.tools, self.view
+
+        def mirror(symmetry: str) -> None:
+            tools.finish()
+            tools.symmetry = symmetry
+
+        choices: dict[str, tuple[str, Mapping[str, Action]]] = {
+            "symmetry": ("Mirror", {each: partial(mirror, each) for each in SYMMETRIES}),
+            "grid": ("Grid", {each.name: partial(view.show_grid, each) for each in GRIDS}),
+            "snap_next": ("Snap", {each: partial(setattr, tools, "snap", each) for each in SNAPS}),
+        }
+        if name in choices:
+            title, steps = choices[name]
+            rows: list[Row] = [(each[0].upper() + each[1:], action, "") for each, action in steps.items()]
+            self.app.push(Menu(self.app, title, [*rows, CANCEL]))
+        else:
+            self.run(name)
 
     def next_symmetry(self) -> None:
         names = list(SYMMETRIES)

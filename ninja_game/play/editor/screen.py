@@ -40,7 +40,7 @@ class EditorScreen(WorkspaceScreen):
         self.properties = Properties(self.view)
         self.sides: tuple[Part, Part] = PalettePart(self.view, self.palette, self.run), ObjectList(self.view, self.run)
         self._parts: list[Part] = [
-            self.view, Toolbar(self.view, self.run), self.properties,
+            self.view, Toolbar(self.view, self.commands.choose), self.properties,
             Findings(self.view, self.commands.go_to_finding), FilePart(self.view), StatusLine(self.view),
         ]  # fmt: skip
         self._dragged_to: InputEvent | None = None

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.editor.certify import NO_TESTS, SQUARE, Reach, Route
-from ninja_game.editor.draft import Draft
+from ninja_game.editor.draft import Draft, Tiles
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.specs import BODY, SWITCH, carried, points
 from ninja_game.editor.stamp import CellArea, Stamp, area_between, nearest
@@ -34,7 +34,7 @@ from ninja_game.sim.rules import CELL
 from ninja_game.ui.canvas import Canvas, Colour, Point
 from ninja_game.ui.text_entry import DOUBLE_MS
 from ninja_game.ui.theme import Area, Palette, Theme
-from ninja_game.ui.widgets import Widget, following
+from ninja_game.ui.widgets import Widget
 from ninja_game.view.sprites.drawing import DrawTarget, drawing, is_near
 from ninja_game.view.sprites.sketch import Sketch
 
@@ -131,9 +131,9 @@ class Overlay:
         pygame.draw.rect(self.target.surface, colour, rect, self.canvas.px(1.6))
         self._note(rect)
 
-    def _ghost(self, stamp: Stamp) -> None:
-        """What would be pasted."""
-        for cell, tile in stamp.tiles.items():
+    def _ghost(self, stamp: Stamp, tiles: Tiles) -> None:
+        """What would be pasted, and the tiles that this would change."""
+        for cell, tile in tiles.items():
             self._ghost_tile(cell, tile)
         for each in self.sheet.pictures.sprites_of(stamp.objects).values():
             each.draw(self.target, alpha=GHOST)
@@ -145,7 +145,7 @@ class Overlay:
         if tools.placing_switch:
             return
         if ghost := tools.pasted:
-            self._ghost(ghost)
+            self._ghost(ghost, tools.preview)
             return
         draws = tools.effective_tool not in ("select", "pick")
         motions = (Motion(), *(SYMMETRIES[tools.symmetry] if draws else ()))
@@ -237,8 +237,8 @@ class EditorView(Part):
         self._laid_out = self._layout_key()
         self._marked = ()
 
-    def next_grid(self) -> None:
-        self.grid = following(GRIDS, self.grid)
+    def show_grid(self, grid: Grid) -> None:
+        self.grid = grid
         self.sheet.show_grid(self.grid.lines())
 
     def press(self, *, erase: bool = False, pick: bool = False, add: bool = False) -> None:

@@ -95,6 +95,20 @@ def test_keys_choose_draw_and_place_as_in_ned(room: Maker) -> None:
     assert len(room.draft.objects) == 2
 
 
+def test_a_stray_enter_draws_nothing_where_the_mouse_is(room: Maker) -> None:
+    before = room.draft
+    room.mouse(*room.at(300, 300), click=False)
+    room.press("return")
+    assert room.draft is before
+    assert "Arrows move the pointer" in room.editor.view.hint
+    room.press("right", "return")
+    assert room.draft.tile((13, 12)) == 1, "the pointer is the keys' by now"
+    drawn_by_keys = room.draft
+    room.mouse(*room.at(400, 300), click=False)
+    room.press("space")
+    assert room.draft is drawn_by_keys
+
+
 def test_the_next_exit_does_not_cover_a_switch_that_was_just_placed(maker: Maker) -> None:
     maker.open("Editor")
     maker.press("grave", "rightbracket")
@@ -249,6 +263,15 @@ def test_a_click_on_a_property_changes_the_selected_object(room: Maker) -> None:
     assert room.draft.objects[-1].values[2] == 0.0
     room.chord("z", pygame.KMOD_LCTRL)
     assert room.draft.objects[-1].values[2] == 3.0
+
+
+@pytest.mark.parametrize("name, chosen", [("symmetry", "Both"), ("grid", "2 cells"), ("snap_next", "Quarter")])
+def test_the_buttons_of_mirror_grid_and_snap_list_what_there_is(room: Maker, name: str, chosen: str) -> None:
+    button = next(each for each in room.editor.widgets if getattr(each, "name", "") == name)
+    room.mouse(*button.centre)
+    room.choose(chosen)
+    tools, grid = room.editor.session.tools, room.editor.view.grid.name
+    assert {"symmetry": tools.symmetry, "grid": grid, "snap_next": tools.snap}[name] == chosen.lower()
 
 
 def test_every_command_runs_and_help_names_all_keys(room: Maker) -> None:
