@@ -189,11 +189,12 @@ def level_findings(level: Level, says: str = "") -> list[Finding]:
     ground = Ground(level)
     odd: dict[Finding, list[int]] = {}
     first: dict[ObjectSpec, int] = {}
-    covering, ends = _mines_over_gold(objects), _ends(objects)
+    covering, ends = _mines_over_gold(objects), [*_ends(objects)]
     for id_, record in enumerate(objects):
         again = [found("duplicate")] if first.setdefault(record, id_) != id_ else []
         over = [found("mine-over-gold")] if record in covering else []
-        over += [found("covers", what=what) for what in _covered_by(record, ends)]
+        near = [what for what, at, barring in ends if record.kind in barring and _lies_at(record, at)]
+        over += [found("covers", what=what) for what in dict.fromkeys(near)]
         for finding in (*oddities(record, ground), *again, *over):
             odd.setdefault(finding, []).append(id_)
     of_objects = []
@@ -302,29 +303,22 @@ def _mines_over_gold(objects: Sequence[ObjectSpec]) -> set[ObjectSpec]:
 
 
 _FIXED = {kinds.LAUNCH_PAD, kinds.BOUNCE_BLOCK, kinds.THWUMP, kinds.TURRET, kinds.LAUNCHER}
-_COVERING = {
-    "the exit": _FIXED | {kinds.MINE},
-    "the exit's switch": _FIXED | {kinds.MINE},
-    "the ninja's start": _FIXED | {kinds.DRONE, kinds.FLOOR_GUARD},
-}
-"""Kinds that nobody means to lie there: what moves leaves the exit free, and mines at the start are deadly anyway."""
+_BARRING, _DEADLY = _FIXED | {kinds.MINE}, _FIXED | {kinds.DRONE, kinds.FLOOR_GUARD}
+"""Kinds that nobody means to lie over an exit, which drones leave free, and over the start (mines: ``_deadly_start``)."""
 
 
-def _ends(objects: Sequence[ObjectSpec]) -> list[tuple[str, tuple[float, ...]]]:
-    """What begins and ends the way, of _COVERING, and where: exits, their switches, the ninja that plays."""
-    exits = [record.values for record in objects if record.kind == kinds.EXIT and well_formed(record)]
-    starts = [record.values for record in objects if record.kind == kinds.NINJA and well_formed(record)]
-    doors, switches, start = _COVERING
-    places = [end for values in exits for end in ((doors, values[:2]), (switches, values[2:]))]
-    return places + [(start, place) for place in starts[-1:]]
+def _lies_at(record: ObjectSpec, place: tuple[float, ...]) -> bool:
+    return well_formed(record) and dist(record.values[:2], place) < _HIDES
 
 
-def _covered_by(record: ObjectSpec, ends: Sequence[tuple[str, tuple[float, ...]]]) -> list[str]:
-    """Which of these an object hides or bars."""
-    if not well_formed(record):
-        return []
-    near = [what for what, place in ends if record.kind in _COVERING[what] and dist(record.values[:2], place) < _HIDES]
-    return list(dict.fromkeys(near))
+def _ends(objects: Sequence[ObjectSpec]) -> Iterator[tuple[str, tuple[float, ...], set[int]]]:
+    """Exits, their switches and the ninja that plays: where they are, and which kinds are odd there."""
+    for record in filter(well_formed, objects):
+        if record.kind == kinds.EXIT:
+            yield "the exit", record.values[:2], _BARRING
+            yield "the exit's switch", record.values[2:], _BARRING
+    if starts := [each.values for each in objects if each.kind == kinds.NINJA and well_formed(each)]:
+        yield "the ninja's start", starts[-1], _DEADLY
 
 
 def _deadly_start(objects: Sequence[ObjectSpec]) -> Iterator[Finding]:

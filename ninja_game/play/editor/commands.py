@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -44,9 +43,6 @@ from ninja_game.ui.widgets import following
 
 TABLE = CommandTable(bundled_commands("level-editor.txt"))
 """Everything that a key does by itself. Other keys choose tiles and objects."""
-
-DIRECTION_KEYS = {"w": "up", "a": "left", "s": "down", "d": "right"}
-"""Directions of objects, as in Ned."""
 
 
 HELP = """\
@@ -106,7 +102,7 @@ class EditorCommands(DocumentCommands):
             "next_tool": lambda: self.run(following(TOOLS, tools.tool)),
             "swap": lambda: tools.pick_up(tools.tile if tools.objects else tools.spec),
             "mirror": lambda: view.turn(MIRROR), "flip": lambda: view.turn(FLIP),
-            "turn": lambda: view.turn(CLOCKWISE), "symmetry": self.next_symmetry,
+            "turn": lambda: view.turn(CLOCKWISE), "symmetry": lambda: self.mirror(following(list(SYMMETRIES), tools.symmetry)),
             "grid": lambda: view.show_grid(following(GRIDS, view.grid)),
             "slopes": self.switch_slopes,
             "list": lambda: setattr(view, "listing", not view.listing),
@@ -122,28 +118,20 @@ class EditorCommands(DocumentCommands):
     def choose(self, name: str) -> None:
         """Do a command; of one that steps on, all steps are listed."""
         tools, view = self.session.tools, self.view
-
-        def mirror(symmetry: str) -> None:
-            tools.finish()
-            tools.symmetry = symmetry
-
-        choices: dict[str, tuple[str, Mapping[str, Action]]] = {
-            "symmetry": ("Mirror", {each: partial(mirror, each) for each in SYMMETRIES}),
-            "grid": ("Grid", {each.name: partial(view.show_grid, each) for each in GRIDS}),
-            "snap_next": ("Snap", {each: partial(setattr, tools, "snap", each) for each in SNAPS}),
+        steps: dict[str, dict[str, Action]] = {
+            "symmetry": {each: partial(self.mirror, each) for each in SYMMETRIES},
+            "grid": {each.name: partial(view.show_grid, each) for each in GRIDS},
+            "snap_next": {each: partial(setattr, tools, "snap", each) for each in SNAPS},
         }
-        if name in choices:
-            title, steps = choices[name]
-            rows: list[Row] = [(each[0].upper() + each[1:], action, "") for each, action in steps.items()]
-            self.app.push(Menu(self.app, title, [*rows, CANCEL]))
+        rows: list[Row] = [(each[0].upper() + each[1:], do, "") for each, do in steps.get(name, {}).items()]
+        if rows:
+            self.app.push(Menu(self.app, TABLE.by_name[name].label, [*rows, CANCEL]))
         else:
             self.run(name)
 
-    def next_symmetry(self) -> None:
-        names = list(SYMMETRIES)
-        tools = self.session.tools
-        tools.finish()
-        tools.symmetry = following(names, tools.symmetry)
+    def mirror(self, symmetry: str) -> None:
+        self.session.tools.finish()
+        self.session.tools.symmetry = symmetry
 
     def switch_slopes(self) -> None:
         tools = self.session.tools

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from functools import lru_cache
 from math import dist
 from typing import NamedTuple
@@ -156,8 +156,13 @@ OBJECTS_PER_ROW = 6
 
 TILE_ORDER = (brush.EMPTY, brush.FULL, *(tile for family in brush.FAMILIES for tile in family.tiles))
 
-CHANGING_KEYS = {"direction": "wasd", "side": "wasd", "movement": "qe", "seeker": "n"}
-"""Letters that change a property of what is in hand or selected."""
+CHANGES: dict[str, dict[str, str | int]] = {
+    "direction": {"w": "up", "a": "left", "s": "down", "d": "right"},
+    "side": {"w": "top", "a": "left", "s": "bottom", "d": "right"},
+    "movement": {"q": -1, "e": 1},
+    "seeker": {"n": 1},
+}
+"""The letters that change each property of what is in hand or selected: to which word, or so many words on."""
 
 Entry = int | brush.ObjectType
 """A tile or a type of objects."""
@@ -166,10 +171,10 @@ _FAMILY_OF_KEY = {family.key: family for family in brush.FAMILIES}
 _OBJECT_TYPE_OF_KEY = {object_type.key: object_type for object_type in brush.OBJECT_TYPES}
 
 
-def live_changes(tools: EditorTools) -> dict[str, str]:
-    """The properties that letters change now, with these letters."""
+def live_changes(tools: EditorTools) -> dict[str, dict[str, str | int]]:
+    """Those of CHANGES that letters make now."""
     names = [name for spec in tools.subjects for name in properties(spec)] if tools.about_objects else []
-    return {name: CHANGING_KEYS[name] for name in dict.fromkeys(names) if name in CHANGING_KEYS}
+    return {name: CHANGES[name] for name in dict.fromkeys(names) if name in CHANGES}
 
 
 def entry_of_key(tools: EditorTools, key: str) -> Entry | None:
@@ -177,7 +182,7 @@ def entry_of_key(tools: EditorTools, key: str) -> Entry | None:
 
     E and D are tiles wherever they change nothing.
     """
-    if key in list("".join(live_changes(tools).values())):
+    if any(key in letters for letters in live_changes(tools).values()):
         return None
     if key in ("e", "d"):
         return brush.FULL if key == "e" else brush.EMPTY
@@ -232,24 +237,13 @@ class PaletteView(Widget):
     def _at(self, x: float, y: float) -> Entry | None:
         return next((what for what, area in self.places() if inside(area, x, y)), None)
 
-    @property
-    def _heads(self) -> Sequence[tuple[str, Area]]:
-        x, y, _, _ = self.area
-        return ("Tiles", (x + 1, y + 4, 34, 12)), ("Objects", (x + 1, y + 91, 54, 12))
-
-    def _head_at(self, x: float, y: float) -> str:
-        return next((head for head, area in self._heads if inside(area, x, y)), "")
-
     def contains(self, x: float, y: float) -> bool:
-        """Whether an entry or a head is there: what lies between them is others'."""
-        return self._at(x, y) is not None or bool(self._head_at(x, y))
+        """Whether an entry is there: what lies between them is others'."""
+        return self._at(x, y) is not None
 
     def click(self, x: float, y: float) -> bool:
-        """Take what is there; a head: what was in hand of its kind."""
-        what, head = self._at(x, y), self._head_at(x, y)
-        if head:
-            self.tools.pick_up(self.tools.spec if head == "Objects" else self.tools.tile)
-        elif what is not None:
+        what = self._at(x, y)
+        if what is not None:
             self.tools.pick_up(what.spec if isinstance(what, brush.ObjectType) else what)
         return True
 
@@ -276,10 +270,9 @@ class PaletteView(Widget):
         canvas, palette = theme.canvas, theme.palette
         x, y, _, _ = self.area
         tools = self.tools
-        for head, area in self._heads:
-            lit = (head == "Objects") is tools.objects
-            text, colour = (head, palette.accent) if lit else (f"{head}: `", palette.text)
-            theme.text(surface, text, *area[:2], size=10, colour=colour, bold=lit)
+        for text, top, lit in (("Tiles", y + 4, not tools.objects), ("Objects", y + 91, tools.objects)):
+            colour = palette.accent if lit else palette.text
+            theme.text(surface, text if lit else f"{text}: `", x + 1, top, size=10, colour=colour, bold=lit)
         for number, family in enumerate(brush.FAMILIES):
             row, column = divmod(number, 4)
             at = x + 3 + column * BLOCK, y + 32 + row * BLOCK_ROW

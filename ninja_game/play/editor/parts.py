@@ -91,8 +91,8 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
         spec = tools.chosen or tools.spec
         title = f"{'Selected' if tools.selection else 'Draw'}: {object_type_name(spec)}"
         rows += [_choice(tools, name) for name in properties(spec)]
-        changes = [f"{' '.join(keys.upper())}: {name}" for name, keys in live_changes(tools).items()]
-        rows += [partial(Label, text=text, size=9.5, faint=True) for text in changes]
+        texts = [f"{' '.join(letters).upper()}: {name}" for name, letters in live_changes(tools).items()]
+        rows += [partial(Label, text=text, size=9.5, faint=True) for text in texts]
         if tools.selection:
             rows += [_place(tools, part) for part in points(spec)]
         elif has_switch(spec):
@@ -104,7 +104,7 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
         title = f"Draw: {tile_name(tools.tile)}"
         first = FIRST_STEPS if tools.draft.level == Level() else ()
         rows += [partial(Label, text=text, size=9.5) for text in first]
-        texts = ("1 to 8: shape", "Q W A S: its solid corner", "E: full    D: empty", "H, J, U: mirror, flip, turn")
+        texts = ["1 to 8: shape", "Q W A S: its solid corner", "E: full    D: empty", "H, J, U: mirror, flip, turn"]
         rows += [partial(Label, text=text, size=9.5, faint=True) for text in texts]
         words = [("slopes: by hand", False), ("slopes: by themselves", True)]
         rows.append(lambda area: _setting(area, tools, "slopes", words, TABLE.hint("slopes")))

@@ -11,8 +11,8 @@ from ninja_game.editor.files import Source
 from ninja_game.editor.specs import PROPERTIES, properties, word
 from ninja_game.editor.stamp import Selection
 from ninja_game.play.app import App
-from ninja_game.play.editor.commands import DIRECTION_KEYS, TABLE, EditorCommands
-from ninja_game.play.editor.palette_view import PaletteView, entry_of_key
+from ninja_game.play.editor.commands import TABLE, EditorCommands
+from ninja_game.play.editor.palette_view import PaletteView, entry_of_key, live_changes
 from ninja_game.play.editor.parts import FilePart, Findings, ObjectList, PalettePart, Properties, StatusLine, Toolbar
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.view import LAYOUT, EditorView
@@ -128,7 +128,7 @@ class EditorScreen(WorkspaceScreen):
         if key.startswith("shift+") and key[6:] in DIRECTIONS:
             tools.nudge(*DIRECTIONS[key[6:]])
             return True
-        if tools.about_objects and self._change_by_key(key):
+        if self._change_by_key(key):
             return True
         what = entry_of_key(tools, key)
         if what is None:
@@ -139,28 +139,16 @@ class EditorScreen(WorkspaceScreen):
 
     def _change_by_key(self, key: str) -> bool:
         """Change the object in hand, or those that are selected; whether they have what the key is for."""
-        if key in DIRECTION_KEYS:
-            return self._direct(DIRECTION_KEYS[key])
-        if key in ("q", "e"):
-            return self._next_word("movement", -1 if key == "q" else 1)
-        return key == "n" and self._next_word("seeker", 1)
-
-    def _direct(self, direction: str) -> bool:
-        tools, side = self.session.tools, {"up": "top", "down": "bottom"}.get(direction, direction)
-        words = {"direction": direction, "side": side}
-        has = [name for name in words if any(name in properties(spec) for spec in tools.subjects)]
-        for name in has:
-            tools.put_word(name, words[name])
-        return bool(has)
-
-    def _next_word(self, name: str, by: int) -> bool:
         tools = self.session.tools
-        spec = next((each for each in tools.subjects if name in properties(each)), None)
-        if spec is None:
-            return False
+        changes = {name: letters[key] for name, letters in live_changes(tools).items() if key in letters}
+        for name, to in changes.items():
+            tools.put_word(name, self._words_on(name, to) if isinstance(to, int) else to)
+        return bool(changes)
+
+    def _words_on(self, name: str, by: int) -> str:
+        spec = next(each for each in self.session.tools.subjects if name in properties(each))
         words, now = list(PROPERTIES[spec.kind][name].words), word(spec, name)
-        tools.put_word(name, following(words, now if now in words else words[0], by))
-        return True
+        return following(words, now if now in words else words[0], by)
 
     def update(self, real_ms: int) -> None:
         super().update(real_ms)
