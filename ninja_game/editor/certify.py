@@ -188,25 +188,20 @@ class Certifier:
         if search.end or search.level is None:
             return search.end
         if search.progress is None:
-            queued = f"Another level's search comes first: place {self._place} in the queue"
-            waits = queued if self._place else f"{monotonic() - search.began:.0f} s. {COMPILING}"
+            queued = self.waited[0] == "#"
+            waits = f"Another level's search comes first: {self.waited} in the queue" if queued else COMPILING
             return f"{waits}. Go on editing, or save and leave"
         ticks = search.progress.ticks
         tried = f"{ticks / 1e6:.1f} million" if ticks >= 1e6 else f"{ticks // 1000} thousand"
         return f"Looking for a run: {tried} ticks tried"
 
     @property
-    def _place(self) -> int:
-        """In the queue of searches, from 1 on; 0 once it has begun."""
-        waits = self.search is not self.solver.at_work and not self.solver.at_work.end
-        return 1 + sum(not each.end for each in self.solver.left) if waits else 0
-
-    @property
     def waited(self) -> str:
         """Its place in the queue, or for how long it has been at work."""
-        search, place = self.search, self._place
-        seconds = search.progress.seconds if search.progress else monotonic() - search.began
-        return f"#{place}" if place else f"{seconds:.0f} s"
+        search, solver = self.search, self.solver
+        if search is not solver.at_work and not solver.at_work.end:
+            return f"#{1 + sum(not each.end for each in solver.left)}"
+        return f"{search.progress.seconds if search.progress else monotonic() - search.began:.0f} s"
 
     @property
     def busy(self) -> bool:
@@ -330,12 +325,15 @@ FAN = tuple(_fan())
 _FIRST_WALL = next(number for number, plan in enumerate(FAN) if plan.wall)
 
 
+def with_ninja_at(draft: Draft, place: tuple[float, float]) -> Level:
+    return put(draft, Stamp({}, (placed(object_of_type("ninja"), *place, "px"),))).level
+
+
 def find_reach(ask: Ask) -> Reach:
     """Run the fan. Raises LevelError for a level that cannot be played, NinjaGameError without Numba."""
     if not compiled_available():
         raise NinjaGameError(f"What can be reached needs Numba: {how_to_install('fast')}")
-    level = put(ask.draft, Stamp({}, (placed(object_of_type("ninja"), *ask.place, "px"),))).level
-    worlds = open_worlds("compiled", level, len(FAN), box=False)
+    worlds = open_worlds("compiled", with_ninja_at(ask.draft, ask.place), len(FAN), box=False)
     import numpy as np
 
     ninja = worlds.records["ninja"]

@@ -518,8 +518,5 @@ class EditorTools:
     def put_subject(self, spec: ObjectSpec) -> None:
         if self.chosen is None:
             self.spec = spec
-            return
-        number = next(iter(self.selection.numbers))
-        objects = (*self.draft.objects[:number], spec, *self.draft.objects[number + 1 :])
-        self.history.change(self.draft.with_objects(objects))
-        self.selection = stamps.Selection(None, frozenset((number, part) for part in points(spec)))
+        else:
+            self.change_each(lambda _: spec)

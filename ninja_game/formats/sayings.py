@@ -57,11 +57,7 @@ def read_sayings(value: str) -> tuple[Saying, ...]:
 
 
 def unknown_words(text: str) -> list[str]:
-    """What stands in braces and is neither of KEYS nor of THINGS.
-
-    >>> unknown_words("{jump} or {fly}")
-    ['fly']
-    """
+    """What stands in braces and is neither of KEYS nor of THINGS."""
     return [name for name in _KEY.findall(text) if name not in KEYS + THINGS]
 
 

@@ -44,7 +44,8 @@ class Ground:
     """The tiles and edges of a level, its doors, and the cells that the ninja's centre could reach.
 
     Passable is every cell that is not full, across every side that no face closes; nothing is asked of jumps. A locked
-    door opens once its switch can be touched; automatic and trap doors never stop the fill.
+    door opens once its switch can be touched; automatic and trap doors never stop the fill. ``ends``: exits, switches
+    and the start, where they are, and which kinds are odd there.
     """
 
     def __init__(self, level: Level) -> None:
@@ -60,6 +61,10 @@ class Ground:
         self.closed_edges = {edge for door in self.doors.values() if door.mechanism != TRAP for edge in edges_of(door)}
         ninjas = [record for record in level.objects if record.kind == kinds.NINJA]
         start = cell_at(*ninjas[-1].values) if ninjas and well_formed(ninjas[-1]) else 0
+        exits = [spec.values for spec in self.objects if spec.kind == kinds.EXIT and well_formed(spec)]
+        self.ends = [("the exit", values[:2], _BARRING) for values in exits]
+        self.ends += [("the exit's switch", values[2:], _BARRING) for values in exits]
+        self.ends += [("the ninja's start", ninjas[-1].values, _DEADLY)] if start else []
         # A ninja that starts in a tile may be pushed out on any side: nothing is certain then.
         self.certain = bool(start) and tiles.SHAPE[self.level.tiles[start]] == tiles.EMPTY
         self.cells: set[int] = set()
@@ -159,6 +164,9 @@ _BESIDE = 0.01
 """How far on both sides of a border its places are looked at, px."""
 _ALONG = [k - 11.5 for k in range(24)]
 _RIM = [(0.0, 0.0), *((_ROOM * cos(pi * k / 8), _ROOM * sin(pi * k / 8)) for k in range(16))]
+_FIXED = {kinds.LAUNCH_PAD, kinds.BOUNCE_BLOCK, kinds.THWUMP, kinds.TURRET, kinds.LAUNCHER}
+_BARRING, _DEADLY = _FIXED | {kinds.MINE}, _FIXED | {kinds.DRONE, kinds.FLOOR_GUARD}
+"""Kinds that nobody means to lie over an exit, which drones leave free, or over the start, where mines are deadly."""
 MANY_OBJECTS = 2000
 MANY_THINKERS = 30
 """With more enemies than these that think in turn, one waits more than three seconds for its turn."""
@@ -189,12 +197,10 @@ def level_findings(level: Level, says: str = "") -> list[Finding]:
     ground = Ground(level)
     odd: dict[Finding, list[int]] = {}
     first: dict[ObjectSpec, int] = {}
-    covering, ends = _mines_over_gold(objects), [*_ends(objects)]
+    covering = _mines_over_gold(objects)
     for id_, record in enumerate(objects):
         again = [found("duplicate")] if first.setdefault(record, id_) != id_ else []
         over = [found("mine-over-gold")] if record in covering else []
-        near = [what for what, at, barring in ends if record.kind in barring and _lies_at(record, at)]
-        over += [found("covers", what=what) for what in dict.fromkeys(near)]
         for finding in (*oddities(record, ground), *again, *over):
             odd.setdefault(finding, []).append(id_)
     of_objects = []
@@ -302,25 +308,6 @@ def _mines_over_gold(objects: Sequence[ObjectSpec]) -> set[ObjectSpec]:
     return covering
 
 
-_FIXED = {kinds.LAUNCH_PAD, kinds.BOUNCE_BLOCK, kinds.THWUMP, kinds.TURRET, kinds.LAUNCHER}
-_BARRING, _DEADLY = _FIXED | {kinds.MINE}, _FIXED | {kinds.DRONE, kinds.FLOOR_GUARD}
-"""Kinds that nobody means to lie over an exit, which drones leave free, and over the start (mines: ``_deadly_start``)."""
-
-
-def _lies_at(record: ObjectSpec, place: tuple[float, ...]) -> bool:
-    return well_formed(record) and dist(record.values[:2], place) < _HIDES
-
-
-def _ends(objects: Sequence[ObjectSpec]) -> Iterator[tuple[str, tuple[float, ...], set[int]]]:
-    """Exits, their switches and the ninja that plays: where they are, and which kinds are odd there."""
-    for record in filter(well_formed, objects):
-        if record.kind == kinds.EXIT:
-            yield "the exit", record.values[:2], _BARRING
-            yield "the exit's switch", record.values[2:], _BARRING
-    if starts := [each.values for each in objects if each.kind == kinds.NINJA and well_formed(each)]:
-        yield "the ninja's start", starts[-1], _DEADLY
-
-
 def _deadly_start(objects: Sequence[ObjectSpec]) -> Iterator[Finding]:
     starts = [record.values for record in objects if record.kind == kinds.NINJA and well_formed(record)]
     for id_, record in enumerate(objects):
@@ -358,6 +345,8 @@ def _place_oddities(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
     if isnan(x) or isnan(y):
         return
     cell = cell_at(x, y)
+    near = [what for what, place, barring in ground.ends if record.kind in barring and dist((x, y), place) < _HIDES]
+    yield from (found("covers", what=what) for what in dict.fromkeys(near))
     if record.kind == kinds.FLOOR_GUARD:
         return
     if not cell:

@@ -207,8 +207,7 @@ class MessagesScreen(MenuScreen):
 
         put(message.text)
         text.put = put
-        ask = partial(self._ask_moment, message)
-        moment = Button((36, y, 116, 28), f"{_WHEN[message.when][0]}...", ask, hint="When it is said")
+        moment = Button((36, y, 116, 28), f"{_WHEN[message.when][0]}...", lambda: self._ask_moment(message))
         about: list[Widget] = []
         if message.when in ("death", "at"):
             hint = "Column and row of the cell" if message.when == "at" else "How many deaths"
@@ -219,10 +218,11 @@ class MessagesScreen(MenuScreen):
 
     def _ask_moment(self, message: Message) -> None:
         def choose(when: str) -> None:
-            if when != message.when:
-                message.when = when
-                message.detail = {"death": "3", "at": "{},{}".format(*self._here)}.get(when, "")
-                self.enter()
+            if when == message.when:
+                return
+            message.when = when
+            message.detail = {"death": "3", "at": "{},{}".format(*self._here)}.get(when, "")
+            self.enter()
 
         rows: list[Row] = [(name, partial(choose, when), about) for when, (name, about) in _WHEN.items()]
         self.app.push(Menu(self.app, "When is it said?", [*rows, CANCEL]))

@@ -247,12 +247,9 @@ class PaletteView(Widget):
             self.tools.pick_up(what.spec if isinstance(what, brush.ObjectType) else what)
         return True
 
-    def hover(self, x: float, y: float) -> str:
-        """The mouse is there: what it is over, and how to take it by keys."""
+    def hover(self, x: float, y: float) -> None:
+        """The mouse is there."""
         self.hovered = self._at(x, y)
-        if self.hovered is None:
-            return ""
-        return f"{_said(self.hovered)} among the {'objects' if isinstance(self.hovered, brush.ObjectType) else 'tiles'}"
 
     def step(self, by: int) -> None:
         """The entry before or after the one in hand; while something is drawn only a line bends."""

@@ -307,7 +307,7 @@ class PalettePart(EditorPart):
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
         used = super().mouse(event, x, y)
         if used:
-            self.view.hint = self._palette.hover(x, y) or self.view.hint
+            self._palette.hover(x, y)
         return used
 
     def mouse_left(self) -> None:

@@ -8,7 +8,6 @@ from functools import partial
 from pathlib import Path
 from time import monotonic
 
-from ninja_game.editor.brush import object_of_type, placed
 from ninja_game.editor.certify import (
     STARTS,
     Ask,
@@ -22,10 +21,10 @@ from ninja_game.editor.certify import (
     map_of,
     route_of,
     search_of,
+    with_ninja_at,
 )
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Autosave, RecoveredDraft, Source, draft_of_text, new_source, open_source, save
-from ninja_game.editor.stamp import Stamp, put
 from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.reading import NO_FILE, stamp_of
@@ -361,10 +360,7 @@ class EditorSession:
     def level_to_test(self, at: Point | None = None) -> Level:
         """The level, with the ninja at a point if there is one."""
         self.tools.finish()
-        if at is None:
-            return self.draft.level
-        ninja = placed(object_of_type("ninja"), *at, "px")
-        return put(self.draft, Stamp({}, (ninja,))).level
+        return with_ninja_at(self.draft, at) if at else self.draft.level
 
     def tried(self, level: Level, inputs: bytes, *, over: bool = False) -> None:
         """A test was left, or is ``over``: its route is shown. One that was left and goes on is the same."""

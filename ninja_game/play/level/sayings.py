@@ -165,16 +165,11 @@ class Sayings:
 
 
 def shown_ticks(when: str, together: int) -> int:
-    """For how many ticks a text of a moment is shown, of so many together; one alone that tells the way stays longer.
-
-    >>> shown_ticks("start", 1), shown_ticks("start", 2), shown_ticks("gold", 1)
-    (480, 240, 240)
-    """
+    """Of a text of a moment with so many together: one alone that tells the way stays longer."""
     return START_TICKS if together == 1 and when in {"start", "switch"} else SHOWN_TICKS
 
 
 def _in_turn(sayings: Sequence[Saying]) -> list[_Text]:
-    """One after the other."""
     return [(each.text, shown_ticks(each.when, len(sayings)), each.place) for each in sayings]
 
 
