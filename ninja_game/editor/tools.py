@@ -107,14 +107,10 @@ class EditorTools:
         return self.objects or bool(self.selection.parts)
 
     @property
-    def draws_one(self) -> bool:
-        """Whether every tool puts one object at a time: a ninja, or what has a switch to be placed after it."""
-        return self.objects and (self.spec.kind == NINJA or has_switch(self.spec))
-
-    @property
     def effective_tool(self) -> str:
-        """The tool that a press uses: some objects are put one at a time."""
-        return "brush" if self.draws_one and self.tool not in ("select", "pick") else self.tool
+        """The tool that a press uses: a ninja, and what has a switch to be placed after it, are put one at a time."""
+        draws_one = self.objects and (self.spec.kind == NINJA or has_switch(self.spec))
+        return "brush" if draws_one and self.tool not in ("select", "pick") else self.tool
 
     @property
     def dragging(self) -> bool:

@@ -106,7 +106,7 @@ class Message:
 
     @property
     def unknown(self) -> str:
-        """The first thing in braces that is no word, with them; '' for none."""
+        """The first unknown word in braces, with them; '' for none."""
         return next((f"{{{name}}}" for name in unknown_words(self.text)), "")
 
 
