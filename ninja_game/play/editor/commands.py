@@ -126,7 +126,8 @@ class EditorCommands(DocumentCommands):
         }
         rows: list[Row] = [(each[0].upper() + each[1:], do, "") for each, do in steps.get(name, {}).items()]
         if rows:
-            self.app.push(Menu(self.app, TABLE.by_name[name].label, [*rows, CANCEL]))
+            title = {"symmetry": "Mirror", "grid": "Grid", "snap_next": "Snap"}[name]
+            self.app.push(Menu(self.app, title, [*rows, CANCEL]))
         else:
             self.run(name)
 

@@ -292,7 +292,7 @@ class PaletteView(Widget):
     def _draw_key(self, surface: pygame.Surface, theme: Theme, key: str, at: Point, *, live: bool) -> None:
         """A key beside what it chooses, faint where it means something else now."""
         colour = theme.palette.text if live else mixed(theme.palette.faint, theme.palette.panel, 0.5)
-        theme.text(surface, key_label_of(key), *at, size=8, height=KEY, colour=colour, bold=live)
+        theme.text(surface, key_label_of(key), *at, size=8, height=KEY, colour=colour)
 
     def _icon(self, theme: Theme, what: Entry, area: Area) -> pygame.Surface:
         size = theme.canvas.rect(*area).size
