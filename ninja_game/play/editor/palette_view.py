@@ -208,7 +208,7 @@ class PaletteView(Widget):
         x, y, _, _ = self.area
         found: list[tuple[Entry, Area]] = []
         for number, tile in enumerate((brush.EMPTY, brush.FULL)):
-            found.append((tile, (x + 46 + number * (TILE + 14), y + 1, TILE, TILE)))
+            found.append((tile, (x + 76 + number * (TILE + 14), y + 1, TILE, TILE)))
         for number, family in enumerate(brush.FAMILIES):
             row, column = divmod(number, 4)
             left, top = x + 11 + column * BLOCK, y + 21 + row * BLOCK_ROW
