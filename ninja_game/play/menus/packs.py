@@ -449,7 +449,7 @@ class PackScreen(ThumbnailScreen):
         elif entry:
             go, text = partial(self._edit_at, entry, why, finding.text), f"{entry.title}: {finding.text}"
             for other, named in pack.levels.items():
-                text = text.replace(f"as {other}", f"as {named.name}")
+                text = re.sub(rf"\b(as|than) {re.escape(other)}", rf"\1 {named.name}", text)
 
         def accept(why: str) -> None:
             packs.accept(self.path, file, finding.code, why)

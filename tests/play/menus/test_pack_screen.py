@@ -411,7 +411,7 @@ def test_a_remark_about_the_order_names_levels_and_can_be_accepted(driver: MenuD
     screen = opened(driver)
     remarks = [problem for problem in screen.problems() if problem.accept]
     assert [problem.text for problem in remarks] == [
-        "First Steps: hard, and not as easy as Mind the Gap, which comes right after it",
+        "First Steps: hard, harder than Mind the Gap (easy), but comes right before it",
         "First Steps: hard: the first level is the hardest of the pack",
     ]
 
