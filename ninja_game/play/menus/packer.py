@@ -6,7 +6,7 @@ from pathlib import Path
 from time import monotonic
 from typing import NamedTuple
 
-from ninja_game.editor.packs import MADE_READY, Obstacles, ReadyPack, make_ready, obstacle_of, problems_of
+from ninja_game.editor.packs import MADE_READY, Obstacles, ReadyPack, Steps, make_ready, obstacle_of, problems_of
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import short_path
@@ -36,7 +36,7 @@ class Packer(Aside):
     """``path``: the pack that is, or was, made ready; ``text``: how that stands or ended.
 
     ``share``: of its step, None where nobody knows. ``saved``: the zip that came of it. ``desk``: the screen at which a
-    link is waited for.
+    link is waited for. ``steps``: what was done at the desk.
     """
 
     def __init__(self, app: App) -> None:
@@ -46,6 +46,7 @@ class Packer(Aside):
         self._seconds = SECONDS
         self.desk: Screen | None = None
         self.obstacles: Obstacles = {}
+        self.steps = Steps()
         self.busy = self._stopped = False
         self.text, self._made = "", ""
         self.share: float | None = None

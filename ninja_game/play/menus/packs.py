@@ -75,7 +75,6 @@ class PackScreen(ThumbnailScreen):
         self.beside = "none"
         self.held: Cell | None = None
         self.pointer: tuple[float, float] | None = None
-        self.steps = packs.Steps()
         self.packer = packer_of(app)
         self.packer.desk = self
         self.status = PackStatus(self.packer, self.player.catalogue)
@@ -140,7 +139,8 @@ class PackScreen(ThumbnailScreen):
         ready, end = partial(self.packer.start, self.path), self.packer.end
         hint = "Certify all, measure par times, look for problems; zip and link. Only what changed is done again"
         undo = Button((216, 60, 50, 28), "Undo", lambda: self.do(self._undo), size=10)
-        undo.enabled, undo.hint = bool(self.steps), f"Ctrl+Z: {self.steps[-1].what}" if self.steps else ""
+        steps = self.packer.steps
+        undo.enabled, undo.hint = bool(steps), f"Ctrl+Z: {steps[-1].what}" if steps else ""
         new = Button((272, 60, 82, 28), "New pack...", self._new_pack, size=10)
         paste = Button((360, 60, 76, 28), "Paste link", self._paste, size=10)
         paste.hint = "Ctrl+V: the pack whose link is in the clipboard becomes one of yours"
@@ -153,7 +153,7 @@ class PackScreen(ThumbnailScreen):
         folder = Button((562, 525, 94, 24), "Open the folder", self._open_folder, size=10, hint="Where the zip is")
         share = [] if self.packer.busy else [*[folder] * bool(self._saved), link]
         first = [self.shelves, chosen, undo, new, paste, about, problems, make, beside, self.tray]
-        return [*first, *share] if have else [new, paste, *[undo] * bool(self.steps)]
+        return [*first, *share] if have else [new, paste, *[undo] * bool(steps)]
 
     @property
     def _saved(self) -> Path | None:
@@ -180,7 +180,7 @@ class PackScreen(ThumbnailScreen):
         """Change something on the disk, and show all as it is then. ``what``: how undo calls it; "" is no step."""
         try:
             if what:
-                self.steps.do(what, action, {self.folder, *(each.path for each in self.mine if each.path)})
+                self.packer.steps.do(what, action)
             else:
                 action()
         except (NinjaGameError, OSError) as error:
@@ -189,7 +189,7 @@ class PackScreen(ThumbnailScreen):
         self.app.top.enter()
 
     def _undo(self) -> None:
-        self.app.notify(f"Undone: {self.steps.undo()}")
+        self.app.notify(f"Undone: {self.packer.steps.undo()}")
 
     def ask(self, title: str, text: str, action: Callable[[str], object]) -> None:
         what = shown_text(title.partition(":")[0])
@@ -260,12 +260,13 @@ class PackScreen(ThumbnailScreen):
 
         def delete() -> None:
             there = packs.bin_pack(path, self.player.folder / DELETED)
-            self.steps.append(packs.Step(f"Delete {shown_text(name)}", moved=(path, there)))
             self.app.notify(f"{shown_text(name)} is in the folder {there.relative_to(self.player.folder)} now")
 
         title = f"Delete {shown_text(name)} with its {counted(len(Pack(path).files.levels), 'level')}?"
         hint = f"All goes to the folder {DELETED}; Undo brings it back"
-        self.app.push(Question(self.app, title, "Delete it", lambda: self.do(delete), hint))
+        self.app.push(
+            Question(self.app, title, "Delete it", lambda: self.do(delete, f"Delete {shown_text(name)}"), hint)
+        )
 
     def _choose(self, cell: Cell) -> None:
         if self.held:
