@@ -25,7 +25,7 @@ from ninja_game.levels.warnings import level_findings
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link, pasted_text
 from ninja_game.play.level.screen import play_level
-from ninja_game.play.menus.episodes import EpisodeGrid
+from ninja_game.play.menus.episodes import PREVIEW, EpisodeGrid
 from ninja_game.play.menus.menu_screen import CANCEL, FormPanel, Menu, Question, Row, ask_text
 from ninja_game.play.menus.pack_shelves import HIGH, WIDE, Cell, Rack
 from ninja_game.play.menus.packer import PackStatus, packer_of
@@ -138,13 +138,16 @@ class PackScreen(ThumbnailScreen):
         self.shelves.hint = self.tray.hint = "Drag a level or an episode; Enter or a second click: what can be done"
         ready, end = partial(self.packer.start, self.path), self.packer.end
         hint = "Certify all, measure par times, look for problems; zip and link. Only what changed is done again"
-        undo = Button((216, 60, 50, 28), "Undo", lambda: self.do(self._undo), size=10)
+        undo = Button((206, 60, 44, 28), "Undo", lambda: self.do(self._undo), size=10)
         steps = self.packer.steps
         undo.enabled, undo.hint = bool(steps), f"Ctrl+Z: {steps[-1].what}" if steps else ""
-        new = Button((272, 60, 82, 28), "New pack...", self._new_pack, size=10)
-        paste = Button((360, 60, 76, 28), "Paste link", self._paste, size=10)
+        new = Button((256, 60, 76, 28), "New pack...", self._new_pack, size=10)
+        paste = Button((338, 60, 68, 28), "Paste link", self._paste, size=10)
         paste.hint = "Ctrl+V: the pack whose link is in the clipboard becomes one of yours"
-        about = Button((442, 60, 78, 28), "About it...", self._about, size=10, hint="Play, name, copy or delete it")
+        about = Button((412, 60, 68, 28), "About it...", self._about, size=10, hint="Play, name, copy or delete it")
+        view = Button((486, 60, 60, 28), "Play" if received else "Preview", self._view, size=10)
+        view.hint = "Its episodes" if received else f"{PREVIEW}: what whoever pastes the link sees; nothing is kept"
+        view.enabled = bool(self.pack and self.pack.episodes)
         show = partial(ProblemsScreen, self.app, self.problems)
         problems = Button((526, 60, 78, 28), "Problems", lambda: self.app.push(show()), size=10)
         make = Button((610, 60, 146, 28), *(("Stop", end) if self.packer.busy else ("Make ready", ready)), hint=hint)
@@ -162,6 +165,12 @@ class PackScreen(ThumbnailScreen):
 
     def _open_folder(self) -> None:
         if self._saved and not webbrowser.open(self._saved.parent.as_uri()):
+    def _view(self) -> None:
+        """Show the episodes of the pack; those of one's own as nobody has played them yet."""
+        if self.pack:
+            newcomer = None if self.pack.received else self.player.newcomer()
+            self.app.push(EpisodeGrid(self.app, self.pack.key, newcomer))
+
             self.app.notify(f"Nothing here opens folders: it is {short_path(self._saved.parent)}")
 
     def _copy_link(self) -> None:

@@ -16,7 +16,7 @@ from ninja_game.play.level.play import STAMP_TICKS
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal
-from ninja_game.player.player_data import EPISODE_BEST, OF_A_LEVEL
+from ninja_game.player.player_data import EPISODE_BEST, OF_A_LEVEL, PlayerData
 from ninja_game.player.playthrough import EpisodeRun
 from ninja_game.player.progress import Mark, worst_medal
 from ninja_game.player.records import EpisodeBest
@@ -92,6 +92,10 @@ class EpisodePassed(ThumbnailScreen):
     @property
     def next_episode(self) -> Episode | None:
         return self.player.catalogue.following(self.run.episode)
+
+    @property
+    def player(self) -> PlayerData:
+        return self.run.data
 
     def build(self) -> Sequence[Widget]:
         self._best = self.player.records.episode_best(self.run.episode.key)

@@ -20,6 +20,7 @@ from ninja_game.editor.files import ascii_text
 from ninja_game.editor.packs import Obstacles, ReadyPack, Say
 from ninja_game.files.user_folder import short_path
 from ninja_game.formats.links import write_link
+from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import Replay
 from ninja_game.levels.findings import found, in_pack
@@ -31,6 +32,7 @@ from ninja_game.play.menus.menu_screen import BACK, FormPanel, MenuScreen
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.problems import ProblemsScreen
 from ninja_game.play.replay.screen import ReplayScreen
+from ninja_game.player.player_data import save_work
 from ninja_game.runs.packs import lint
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.task import Task
@@ -675,6 +677,39 @@ def test_a_pack_is_played_from_the_desk(driver: MenuDriver, path: Path) -> None:
     screen._read(path.parent / "empty")
     driver.choose("About it...")
     assert not driver.button("Play it").enabled
+
+
+def test_a_pack_is_previewed_as_somebody_who_has_played_nothing(driver: MenuDriver, path: Path) -> None:
+    driver.app.change_settings(name="the ninja-game developers")
+    packs.describe(path, {"comment": "Dry by noon"})
+    for name, level in Pack(path).levels.items():
+        if name.startswith("00"):
+            driver.player.marks.passed(level_digest(level.level), 1, 0)
+    screen = opened(driver)
+    driver.choose("Preview")
+    grid = driver.shown(EpisodeGrid)
+    text = drawn(driver.app)
+    assert "Laundry by the ninja-game developers. Dry by noon" in text
+    assert "text 'Preview as player'" in text
+    assert "0 of 8 levels passed" in text
+    assert "text '9.200 s'" not in text, "nothing is unlocked, nor raced"
+    assert "Not passed yet" in text
+    assert grid._look_of(1) == "locked"
+    driver.choose("Play")
+    run = driver.shown(LevelScreen).context
+    assert run.data is grid.player is not driver.player
+    assert save_work(run.data, lambda: ["Best: saved"]) == ["Best", "Not saved yet: this is a preview"]
+    driver.app.pop()
+    driver.press("escape")
+    assert driver.top() is screen
+
+
+def test_a_card_says_how_hard_its_level_is(driver: MenuDriver, path: Path) -> None:
+    table = path / "pars.toml"
+    table.write_text(table.read_text("utf-8").replace("difficulty = 0.39", "difficulty = 9.00"), "utf-8")
+    opened(driver)
+    seen = drawn(driver.app)
+    assert [seen.count(f"text '{grade}' at") for grade in ("very hard", "medium", "easy")] == [1, 1, 6]
 
 
 def test_each_of_two_problems_of_a_kind_leads_to_its_own_place(driver: MenuDriver, path: Path) -> None:
