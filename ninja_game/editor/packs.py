@@ -27,7 +27,7 @@ from ninja_game.files.user_folder import free_path, how_to_install
 from ninja_game.formats.links import whole_certificate
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, MOST_EPISODES, parse_index
-from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, MOST_FILES, PARS, Pack, certificate_name
+from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, MOST_FILES, PARS, RECEIVED, Pack, certificate_name
 from ninja_game.formats.pack.pars import write_pars
 from ninja_game.levels.episodes import episode_set
 from ninja_game.levels.findings import Finding, PackFinding
@@ -173,8 +173,8 @@ def new_pack(folder: Path, name: str, author: str) -> Path:
     return path
 
 
-def copy_pack(pack: Pack, folder: Path, name: str) -> Path:
-    """A copy of a pack, from wherever, by another name; its folder, in ``folder``."""
+def copy_pack(pack: Pack, folder: Path, name: str, *, received: bool = False) -> Path:
+    """A copy of a pack, from wherever, by another name; its folder, in ``folder``. ``received``: it stays another's."""
     names = pack.files.own_names
     if len(names) > MOST_FILES:
         raise PackError("a pack of too many files", found=f"{len(names):,}", expected=f"at most {MOST_FILES:,}")
@@ -186,7 +186,14 @@ def copy_pack(pack: Pack, folder: Path, name: str) -> Path:
         text, level = pack.files.text(file), pack.levels.get(level_of(pack, file))
         _put(path, file, whole_certificate(text, level) if level else text)
     describe(path, {"name": name})
+    if received:
+        _put(path, RECEIVED, "")
     return path
+
+
+def make_own(path: Path) -> None:
+    """Take a pack that came by a link for one's own from now on."""
+    _put(path, RECEIVED, None)
 
 
 def describe(path: Path, values: Mapping[str, str | Sequence[str]]) -> None:

@@ -17,7 +17,7 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import short_path
 from ninja_game.formats.links import link_kind
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, Accepted, EpisodeIndex
-from ninja_game.formats.pack.pack import INDEX, Pack
+from ninja_game.formats.pack.pack import INDEX, RECEIVED, Pack
 from ninja_game.generator.daily import FOLDER as DAILY
 from ninja_game.levels.episodes import GAME, Entry, EpisodeSet
 from ninja_game.levels.findings import Finding, PackFinding
@@ -55,6 +55,10 @@ _NO_LEVELS = (
 _STOPS = "It can be stopped at any time: what was found is kept."
 
 Edit = Callable[[Entry, Finding | None], object]
+
+
+def _name_of(pack: EpisodeSet) -> str:
+    return f"{pack.name} by {pack.pack.index.author or 'somebody'}" if pack.pack and pack.received else pack.name
 
 
 class PackScreen(ThumbnailScreen):
@@ -129,9 +133,10 @@ class PackScreen(ThumbnailScreen):
         super().enter()
 
     def build(self) -> Sequence[Widget]:
-        names, have = [(each.name, each.key) for each in self.mine], self.pack and self.pack.pack
-        chosen = Choice((36, 60, 174, 28), "", names, lambda: self.pack.key if self.pack else "", self._choose_pack)
-        chosen.hint = f"{have.index.title}, in the folder {self.path.name}" if have else ""
+        names, have = [(_name_of(each), each.key) for each in self.mine], self.pack and self.pack.pack
+        chosen = Choice((36, 60, 164, 28), "", names, lambda: self.pack.key if self.pack else "", self._choose_pack)
+        received = bool(self.pack and self.pack.received)
+        chosen.hint = f"{have.index.title}{', received' * received}, in the folder {self.path.name}" if have else ""
         tray = [("In no episode", "none"), ("Your folder", "yours")]
         tray += [(each.name if each.key else "The game's own", each.key) for each in self.sets if each is not self.pack]
         beside = Choice((622, 96, 134, 26), "", tray, lambda: self.beside, self._choose_tray)
@@ -149,28 +154,28 @@ class PackScreen(ThumbnailScreen):
         view.hint = "Its episodes" if received else f"{PREVIEW}: what whoever pastes the link sees; nothing is kept"
         view.enabled = bool(self.pack and self.pack.episodes)
         show = partial(ProblemsScreen, self.app, self.problems)
-        problems = Button((526, 60, 78, 28), "Problems", lambda: self.app.push(show()), size=10)
-        make = Button((610, 60, 146, 28), *(("Stop", end) if self.packer.busy else ("Make ready", ready)), hint=hint)
+        problems = Button((552, 60, 66, 28), "Problems", lambda: self.app.push(show()), size=10)
+        make = Button((624, 60, 132, 28), *(("Stop", end) if self.packer.busy else ("Make ready", ready)), hint=hint)
         link = Button((662, 525, 94, 24), "Copy the link", self._copy_link, size=10)
         link.hint = "Whoever opens it, or pastes it in Levels > Packs, gets the pack"
         folder = Button((562, 525, 94, 24), "Open the folder", self._open_folder, size=10, hint="Where the zip is")
         share = [] if self.packer.busy else [*[folder] * bool(self._saved), link]
-        first = [self.shelves, chosen, undo, new, paste, about, problems, make, beside, self.tray]
+        first = [self.shelves, chosen, undo, new, paste, about, view, problems, make, beside, self.tray]
         return [*first, *share] if have else [new, paste, *[undo] * bool(steps)]
 
     @property
     def _saved(self) -> Path | None:
-        """The zip that was just made of this pack."""
-        return self.packer.saved if self.packer.path == self.path else None
-
-    def _open_folder(self) -> None:
-        if self._saved and not webbrowser.open(self._saved.parent.as_uri()):
     def _view(self) -> None:
         """Show the episodes of the pack; those of one's own as nobody has played them yet."""
         if self.pack:
             newcomer = None if self.pack.received else self.player.newcomer()
             self.app.push(EpisodeGrid(self.app, self.pack.key, newcomer))
 
+        """The zip that was just made of this pack."""
+        return self.packer.saved if self.packer.path == self.path else None
+
+    def _open_folder(self) -> None:
+        if self._saved and not webbrowser.open(self._saved.parent.as_uri()):
             self.app.notify(f"Nothing here opens folders: it is {short_path(self._saved.parent)}")
 
     def _copy_link(self) -> None:
@@ -199,10 +204,35 @@ class PackScreen(ThumbnailScreen):
 
     def _undo(self) -> None:
         self.app.notify(f"Undone: {self.packer.steps.undo()}")
+    def change(self, action: Callable[[], object], what: str) -> None:
+        """Change the pack on the shelves; of one that was received it is asked whether a copy is to be changed."""
+        if not (self.pack and self.pack.pack and self.pack.received):
+            self.do(action, what)
+            return
+        pack = self.pack.pack
+
+        def own() -> None:
+            packs.make_own(pack.files.path)
+            action()
+
+        rows: list[Row] = [
+            ("Copy it, to change that", partial(self._copy, pack), "What was received stays as it is"),
+            ("Change it all the same", lambda: self.do(own, what), "It is yours from now on"),
+            CANCEL,
+        ]
+        self.app.push(Menu(self.app, f"Received: {shown_text(pack.index.title)}", rows))
+
+    def _copy(self, pack: Pack) -> None:
+        def copy() -> None:
+            self._read(packs.copy_pack(pack, self.folder, f"{pack.name} copy"))
+            self.app.notify("This copy is yours to change")
+
+        self.do(copy, "Copy")
+
 
     def ask(self, title: str, text: str, action: Callable[[str], object]) -> None:
         what = shown_text(title.partition(":")[0])
-        ask_text(self.app, title, "", text, "OK", lambda typed: self.do(lambda: action(typed), what), 60)
+        ask_text(self.app, title, "", text, "OK", lambda typed: self.change(lambda: action(typed), what), 60)
 
     def _new_pack(self) -> None:
         def make(name: str) -> None:
@@ -221,8 +251,8 @@ class PackScreen(ThumbnailScreen):
             if there := next((each for each in self.mine if each.pack and packs.same_pack(pack, each.pack)), None):
                 self._show(there)
                 raise NinjaGameError(f"{shown_text(there.name)} is among your packs already")
-            self._read(packs.copy_pack(pack, self.folder, pack.name))
-            self.app.notify(f"{shown_text(pack.name)} is among your packs now: Episodes plays it")
+            self._read(packs.copy_pack(pack, self.folder, pack.name, received=True))
+            self.app.notify(f"{shown_text(pack.name)} is among your packs now")
 
         self.do(take, "Paste link")
 
@@ -242,7 +272,7 @@ class PackScreen(ThumbnailScreen):
 
         def describe(texts: list[str]) -> None:
             self.app.know_author(index.author, texts[1])
-            self.do(lambda: packs.describe(self.path, dict(zip(keys, texts, strict=True))), "About the pack")
+            self.change(lambda: packs.describe(self.path, dict(zip(keys, texts, strict=True))), "About the pack")
 
         form = FormPanel(self.app, "About the pack", fields, "OK", describe)
         self.app.push(form)
@@ -251,14 +281,13 @@ class PackScreen(ThumbnailScreen):
     def _about(self) -> None:
         copied = Pack(self.path)
         index, empty = copied.index, not copied.episodes
-        copy = partial(packs.copy_pack, copied, self.folder)
         busy = self.packer.busy and self.packer.path == self.path
         gone = "It is being made ready" if busy else "It goes to the folder deleted, and Undo brings it back"
         grid = partial(EpisodeGrid, self.app, self.pack.key if self.pack else "")
         rows: list[Row] = [
             ("Play it", None if empty else lambda: self.app.push(grid()), "No episode has levels" * empty),
             ("Name, author, version...", self._form, ""),
-            ("Copy of the pack...", lambda: self.ask("Copy: its name", f"{index.name} copy", copy), ""),
+            ("Copy of the pack", lambda: self._copy(copied), ""),
             ("Delete the pack...", None if busy else self._delete, gone),
             CANCEL,
         ]
@@ -273,9 +302,8 @@ class PackScreen(ThumbnailScreen):
 
         title = f"Delete {shown_text(name)} with its {counted(len(Pack(path).files.levels), 'level')}?"
         hint = f"All goes to the folder {DELETED}; Undo brings it back"
-        self.app.push(
-            Question(self.app, title, "Delete it", lambda: self.do(delete, f"Delete {shown_text(name)}"), hint)
-        )
+        step = partial(self.do, delete, f"Delete {shown_text(name)}")
+        self.app.push(Question(self.app, title, "Delete it", step, hint))
 
     def _choose(self, cell: Cell) -> None:
         if self.held:
@@ -303,19 +331,20 @@ class PackScreen(ThumbnailScreen):
         def copy() -> None:
             packs.place(self.path, packs.duplicate(self.path, level.named), episode.number if episode else None)
 
+        edit = partial(self._edit, level, None)
         def play() -> None:
             if why := play_level(self.app, level):
                 self.app.notify(why)
 
         rows: list[Row] = [
-            ("Edit", lambda: self._edit(level, None), ""),
+            ("Edit", partial(self.change, edit, "Edit") if file.parent == self.path else edit, ""),
             ("Play", play, ""),
             ("Watch the run", partial(watch, self.app, [run]) if run else None, "" if run else "None is known yet"),
             ("Move...", lambda: self._hold(cell), ""),
         ]
         if file.parent == self.path:
             rows += [("Rename...", lambda: self.ask(f"Rename {level.named.name}", level.named.name, rename), "")]
-            rows += [("Copy", lambda: self.do(copy, f"Copy {title}"), "Another level like it")]
+            rows += [("Copy", lambda: self.change(copy, f"Copy {title}"), "Another level like it")]
             rows += [("Take out", lambda: self._set_aside(take_out, title), "Into no episode")] * bool(episode)
         self.app.push(Menu(self.app, level.title, [*rows, CANCEL]))
 
@@ -351,7 +380,7 @@ class PackScreen(ThumbnailScreen):
     def _set_aside(self, action: Callable[[], object], what: str) -> None:
         """Take levels out of their episode, and show where they are then."""
         self.beside = "none"
-        self.do(action, f"Take out {shown_text(what)}")
+        self.change(action, f"Take out {shown_text(what)}")
 
     # --- moving ---
 
@@ -376,10 +405,11 @@ class PackScreen(ThumbnailScreen):
     def _drop(self, goal: Cell | None, *, after: bool = False) -> None:
         held, self.held, self.pointer = self.held, None, None
         if held and held.level and not (goal and goal.level is held.level):
-            self.do(partial(self._put_level, held.level, goal, after=after), f"Move {shown_text(held.level.title)}")
+            do = self.do if goal is None and self.beside != "none" else self.change
+            do(partial(self._put_level, held.level, goal, after=after), f"Move {shown_text(held.level.title)}")
         elif held and held.episode and goal and goal.episode:
             numbers = held.episode.number, goal.episode.number
-            self.do(partial(packs.move_episode, self.path, *numbers), f"Move episode {numbers[0] + 1}")
+            self.change(partial(packs.move_episode, self.path, *numbers), f"Move episode {numbers[0] + 1}")
 
     def _is_after(self, index: int) -> bool:
         """Whether the mouse is over the right half of a cell: what it has lands behind what is there."""
@@ -406,9 +436,12 @@ class PackScreen(ThumbnailScreen):
             raise NinjaGameError("that pack cannot be changed: it is the game's own, or a zip")
         name = file.name
         if file.parent != target:
-            name = packs.transfer(level.named, target, keep=level.source == GAME or self.folder not in file.parents)
+            others = level.source == GAME or self.folder not in file.parents or (file.parent / RECEIVED).exists()
+            name = packs.transfer(level.named, target, keep=others)
         if (target / INDEX).is_file():
             number = goal.episode.number if goal and goal.episode else None
+        if target != self.path and (target / RECEIVED).exists():
+            raise NinjaGameError("that pack was received, and stays as it is")
             if goal and number is None:
                 number = packs.new_episode(target, "New episode", self._column())
             row = [each.level for each in self.shelves.cells if goal and each.episode is goal.episode and each.level]
@@ -457,9 +490,10 @@ class PackScreen(ThumbnailScreen):
         if finding.code == "no-author":
             go = partial(self._form, 1)
         elif entry:
-            go, text = partial(self._edit_at, entry, why, finding.text), f"{entry.title}: {finding.text}"
+            edit, text = partial(self._edit_at, entry, why, finding.text), f"{entry.title}: {finding.text}"
+            go = partial(self.change, edit, "Edit")
             for other, named in pack.levels.items():
-                text = re.sub(rf"\b(as|than) {re.escape(other)}", rf"\1 {named.name}", text)
+                text = text.replace(f"as {other}", f"as {named.name}").replace(f"than {other}", f"than {named.name}")
 
         def accept(why: str) -> None:
             packs.accept(self.path, file, finding.code, why)
@@ -479,8 +513,8 @@ class PackScreen(ThumbnailScreen):
         entry, code = self._entry(accepted.file), accepted.code.replace("-", " ")
         take_back = partial(packs.take_back, self.path, accepted.file, accepted.code)
         text = f"{entry.title if entry else accepted.file}: {code}. Accepted: {accepted.reason}"
-        go = partial(self._edit, entry, None) if entry else None
-        return Problem(text, "", go, lambda: self.do(take_back, "Take it back"), accepted=True)
+        go = partial(self.change, partial(self._edit, entry, None), "Edit") if entry else None
+        return Problem(text, "", go, lambda: self.change(take_back, "Take it back"), accepted=True)
 
     def update(self, real_ms: int) -> None:
         super().update(real_ms)

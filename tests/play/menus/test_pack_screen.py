@@ -221,9 +221,8 @@ def test_everything_about_a_pack_is_named_again(driver: MenuDriver, path: Path) 
     assert (pack.index.version, pack.index.episodes[0].name) == ("2", "Falls")
     assert pack.levels["00-0-first-steps.txt"].name == "Early steps"
     driver.choose("About it...")
-    driver.choose("Copy of the pack...")
-    typed(driver, "Laundry")
-    assert [each.name for each in screen.mine] == ["Laundry (laundry)", "Laundry (laundry-2)"]
+    driver.choose("Copy of the pack")
+    assert [each.name for each in screen.mine] == ["Laundry", "Laundry copy"]
 
 
 def test_a_problem_leads_to_its_place_and_is_accepted_with_a_reason(driver: MenuDriver, path: Path) -> None:
@@ -702,6 +701,45 @@ def test_a_pack_is_previewed_as_somebody_who_has_played_nothing(driver: MenuDriv
     driver.app.pop()
     driver.press("escape")
     assert driver.top() is screen
+
+
+def test_a_pack_that_was_received_is_changed_only_if_that_is_meant(driver: MenuDriver, path: Path) -> None:
+    link = Pack(path).files.link()
+    shutil.rmtree(path)
+    screen = opened(driver)
+    with patch("pygame.scrap.get_text", lambda: link):
+        driver.choose("Paste link")
+    text = drawn(driver.app)
+    assert "Laundry by the ninja-game developers" in text
+    received = screen.path
+    before = folder_texts(received)
+
+    def drag() -> None:
+        driver.carry(screen.shelves.row_area(2), half(screen, 8))
+
+    driver.choose("Play")
+    assert driver.shown(EpisodeGrid).player is driver.player
+    driver.press("escape")
+    drag()
+    assert driver.shown(MenuScreen).title == "Received: Laundry by the ninja-game developers"
+    driver.choose("Cancel")
+    assert folder_texts(received) == before
+    screen._choose_tray("yours")
+    driver.carry(screen.shelves.row_area(1), screen.tray.area)
+    assert folder_texts(received) == before, "taken from it, a level is copied"
+    assert (screen.folder / "00-0-first-steps.txt").is_file()
+    drag()
+    driver.choose("Copy it, to change that")
+    assert (screen.pack and screen.pack.name, folder_texts(received)) == ("Laundry copy", before)
+    drag()
+    assert layout(screen.path)[1] == ["01-0", "00-1", "01-1", "01-2"], "the copy asks nothing"
+    screen._read(received)
+    drag()
+    driver.choose("Change it all the same")
+    assert layout(received)[1] == ["01-0", "00-1", "01-1", "01-2"]
+    assert not (received / "received").exists()
+    driver.choose("Undo")
+    assert folder_texts(received) == before
 
 
 def test_a_card_says_how_hard_its_level_is(driver: MenuDriver, path: Path) -> None:
