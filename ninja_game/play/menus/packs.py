@@ -11,7 +11,7 @@ from pathlib import Path
 import pygame
 
 from ninja_game.editor import packs
-from ninja_game.editor.packs import missing_run, obstacle_of
+from ninja_game.editor.packs import ReadyPack, missing_run, obstacle_of
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import short_path
@@ -530,8 +530,25 @@ class PackScreen(ThumbnailScreen):
     def leave(self) -> None:
         super().leave()
         self.held = self.pointer = None
+        if packer.open_problems and self.app.top is self:
+            self._ask_about(packer.open_problems)
         if not self.packer.busy:
             self.packer.left()
+    def _ask_about(self, ready: ReadyPack) -> None:
+        self.packer.open_problems = None
+
+        def show() -> None:
+            self._read(ready.pack.files.path)
+            self.app.push(ProblemsScreen(self.app, self.problems))
+
+        rows: list[Row] = [
+            ("Show them", show, "Make ready asks again"),
+            ("Zip and link all the same", lambda: self.packer.publish(ready), ""),
+            CANCEL,
+        ]
+        title = f"{shown_text(ready.pack.name)}: {counted(len(ready.findings), 'open problem')}"
+        self.app.push(Menu(self.app, title, rows))
+
 
     # --- picture ---
 

@@ -275,9 +275,19 @@ def test_a_pack_is_made_ready_in_the_background(
     driver.wait(lambda: "Making the solver ready" in drawn(driver.app))
     assert "fill accent 36,546" not in drawn(driver.app), "no bar where nobody knows how long it takes"
     go_on.set()
-    driver.wait(lambda: "the link is in the clipboard" in driver.app.notice, "the pack is ready")
+    driver.wait(lambda: driver.top() is not screen, "it asks what to do about open problems")
+    assert driver.shown(MenuScreen).title == "Laundry: 1 open problem"
+    assert screen.packer.saved is None
+    driver.choose("Show them")
+    driver.shown(ProblemsScreen)
+    driver.press("escape")
+    assert driver.top() is screen, "it asks once"
+    driver.choose("Make ready")
+    driver.wait(lambda: driver.top() is not screen)
+    driver.choose("Zip and link all the same")
+    assert "the link is in the clipboard" in driver.app.notice
     zipped = driver.player.folder / "exports" / "laundry-1.zip"
-    assert begun == [path]
+    assert begun == [path, path]
     assert ZipFile(zipped).namelist()[0] == "laundry/pack.toml"
     saved, rest = f"Saved: {short_path(zipped)}", "the link is in the clipboard"
     assert driver.app.notice == f"{saved}; {rest}"
