@@ -87,6 +87,9 @@ class Rack(ListView):
             theme.canvas.frame_rect(surface, theme.palette.accent, *inner, 2.5, 4)
         elif not (cell.head or cell.level):
             theme.canvas.frame_rect(surface, theme.palette.panel_edge, *inner, 1, 4)
+            if self.cells[index - 1].head:
+                place, faint = (x + 8, y + h / 2 - 12, w - 16, 40), theme.palette.faint
+                theme.paragraph(surface, ["Drag a level here"], place, 9, 12, colour=faint, align="centre")
 
     def _draw_level(self, surface: pygame.Surface, theme: Theme, level: Entry, x: float, y: float, w: float) -> None:
         canvas, palette, state, right = theme.canvas, theme.palette, self.status.state(level), x + WIDE - 12

@@ -124,6 +124,8 @@ class PackScreen(ThumbnailScreen):
             entries = self.player.catalogue.own()
         elif self.beside != "none":
             entries = [entry for each in self.sets if each.key == self.beside for entry in each.levels]
+        goals = {"none": "take it out of its episode", "yours": "put it into your folder"}
+        self.tray.empty = f"Drag a level here to {goals.get(self.beside, 'put it into this pack')}"
         self.shelves.show(cells)
         self.tray.show([Cell(None, entry) for entry in entries])
         self.redraw = True
@@ -163,14 +165,14 @@ class PackScreen(ThumbnailScreen):
         first = [self.shelves, chosen, undo, new, paste, about, view, problems, make, beside, self.tray]
         return [*first, *share] if have else [new, paste, *[undo] * bool(steps)]
 
-    @property
-    def _saved(self) -> Path | None:
     def _view(self) -> None:
         """Show the episodes of the pack; those of one's own as nobody has played them yet."""
         if self.pack:
             newcomer = None if self.pack.received else self.player.newcomer()
             self.app.push(EpisodeGrid(self.app, self.pack.key, newcomer))
 
+    @property
+    def _saved(self) -> Path | None:
         """The zip that was just made of this pack."""
         return self.packer.saved if self.packer.path == self.path else None
 
@@ -202,8 +204,6 @@ class PackScreen(ThumbnailScreen):
         self._read()
         self.app.top.enter()
 
-    def _undo(self) -> None:
-        self.app.notify(f"Undone: {self.packer.steps.undo()}")
     def change(self, action: Callable[[], object], what: str) -> None:
         """Change the pack on the shelves; of one that was received it is asked whether a copy is to be changed."""
         if not (self.pack and self.pack.pack and self.pack.received):
@@ -229,18 +229,23 @@ class PackScreen(ThumbnailScreen):
 
         self.do(copy, "Copy")
 
+    def _undo(self) -> None:
+        self.app.notify(f"Undone: {self.packer.steps.undo()}")
 
     def ask(self, title: str, text: str, action: Callable[[str], object]) -> None:
         what = shown_text(title.partition(":")[0])
         ask_text(self.app, title, "", text, "OK", lambda typed: self.change(lambda: action(typed), what), 60)
 
     def _new_pack(self) -> None:
-        def make(name: str) -> None:
-            path = packs.new_pack(self.folder, name, self.player.settings.name)
+        def make(name: str, author: str = self.player.settings.name) -> None:
+            self.app.know_author("", author)
+            path = packs.new_pack(self.folder, name, author)
             self.beside = "yours" if self.player.catalogue.own() else "none"
             self._read(path)
 
-        self.ask("New pack: its name", "My pack", make)
+        fields = [("Name", "My pack", 60), ("Author", "", 40)][: 1 if self.player.settings.name else 2]
+        step = "New pack"
+        self.app.push(FormPanel(self.app, step, fields, "OK", lambda texts: self.do(lambda: make(*texts), step)))
 
     def _paste(self) -> None:
         def take() -> None:
@@ -326,12 +331,12 @@ class PackScreen(ThumbnailScreen):
         file = Path(level.named.file)
         rename, take_out = partial(packs.rename_level, file), partial(packs.place, self.path, file.name, None)
 
+        edit = partial(self._edit, level, None)
         run, title = self.player.catalogue.author_run(level), shown_text(level.title)
 
         def copy() -> None:
             packs.place(self.path, packs.duplicate(self.path, level.named), episode.number if episode else None)
 
-        edit = partial(self._edit, level, None)
         def play() -> None:
             if why := play_level(self.app, level):
                 self.app.notify(why)
@@ -434,14 +439,14 @@ class PackScreen(ThumbnailScreen):
             target = next((each.path for each in self.sets if each.key == self.beside and each.path), self.folder)
         if target != self.folder and target not in [each.path for each in self.mine]:
             raise NinjaGameError("that pack cannot be changed: it is the game's own, or a zip")
+        if target != self.path and (target / RECEIVED).exists():
+            raise NinjaGameError("that pack was received, and stays as it is")
         name = file.name
         if file.parent != target:
             others = level.source == GAME or self.folder not in file.parents or (file.parent / RECEIVED).exists()
             name = packs.transfer(level.named, target, keep=others)
         if (target / INDEX).is_file():
             number = goal.episode.number if goal and goal.episode else None
-        if target != self.path and (target / RECEIVED).exists():
-            raise NinjaGameError("that pack was received, and stays as it is")
             if goal and number is None:
                 number = packs.new_episode(target, "New episode", self._column())
             row = [each.level for each in self.shelves.cells if goal and each.episode is goal.episode and each.level]
@@ -525,15 +530,10 @@ class PackScreen(ThumbnailScreen):
         elif now != before:
             # A notice may be about a certificate that a search of the editor has found.
             self._read(news=now[3] in ("", before[3]))
-        self.redraw = self.status.update() or now != before or self.redraw
-
-    def leave(self) -> None:
-        super().leave()
-        self.held = self.pointer = None
         if packer.open_problems and self.app.top is self:
             self._ask_about(packer.open_problems)
-        if not self.packer.busy:
-            self.packer.left()
+        self.redraw = self.status.update() or now != before or self.redraw
+
     def _ask_about(self, ready: ReadyPack) -> None:
         self.packer.open_problems = None
 
@@ -549,6 +549,11 @@ class PackScreen(ThumbnailScreen):
         title = f"{shown_text(ready.pack.name)}: {counted(len(ready.findings), 'open problem')}"
         self.app.push(Menu(self.app, title, rows))
 
+    def leave(self) -> None:
+        super().leave()
+        self.held = self.pointer = None
+        if not self.packer.busy:
+            self.packer.left()
 
     # --- picture ---
 

@@ -752,12 +752,37 @@ def test_a_pack_that_was_received_is_changed_only_if_that_is_meant(driver: MenuD
     assert folder_texts(received) == before
 
 
+def test_an_empty_place_says_what_it_is_for(driver: MenuDriver, path: Path) -> None:
+    packs.new_episode(path, "Empty", 0)
+    screen = opened(driver)
+    seen = drawn(driver.app)
+    assert seen.count("text 'Drag a level' at") + seen.count("text 'Drag a level here' at") >= 2
+    assert "of its episode" in screen.tray.empty
+    screen._choose_tray("yours")
+    assert "into your folder" in screen.tray.empty
+
+
 def test_a_card_says_how_hard_its_level_is(driver: MenuDriver, path: Path) -> None:
     table = path / "pars.toml"
     table.write_text(table.read_text("utf-8").replace("difficulty = 0.39", "difficulty = 9.00"), "utf-8")
     opened(driver)
     seen = drawn(driver.app)
     assert [seen.count(f"text '{grade}' at") for grade in ("very hard", "medium", "easy")] == [1, 1, 6]
+
+
+def test_a_new_pack_asks_for_its_author_once(driver: MenuDriver) -> None:
+    screen = opened(driver)
+    driver.choose("New pack...")
+    driver.shown(FormPanel).texts[1] = "ida"
+    typed(driver, "Walls")
+    assert screen.pack
+    assert screen.pack.pack
+    assert screen.pack.pack.index.title == "Walls by ida"
+    assert driver.player.settings.name == "ida"
+    driver.choose("New pack...")
+    assert len(driver.shown(FormPanel).texts) == 1
+    typed(driver, "Roofs")
+    assert Pack(screen.folder / "roofs").index.author == "ida"
 
 
 def test_each_of_two_problems_of_a_kind_leads_to_its_own_place(driver: MenuDriver, path: Path) -> None:
