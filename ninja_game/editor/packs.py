@@ -99,9 +99,7 @@ class Steps(list[Step]):
 
 def _text(path: Path) -> bytes | None:
     """None where there is no file. Raises FileError, OSError for one that cannot be read."""
-    with suppress(FileNotFoundError):
-        return read_bytes(path)
-    return None
+    return read_bytes(path) if path.exists() else None
 
 
 @contextmanager

@@ -8,7 +8,6 @@ import pygame
 
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
-from ninja_game.formats.pack.pars import MARGINS
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Episode, EpisodeSet
 from ninja_game.play.app import App
@@ -133,8 +132,9 @@ class EpisodeGrid(ThumbnailScreen):
 
     def __init__(self, app: App, pack: str = "", newcomer: PlayerData | None = None) -> None:
         super().__init__(app)
-        self._newcomer = newcomer
-        self.title = PREVIEW if newcomer else self.title
+        self.previews = newcomer is not None
+        if newcomer:
+            self.title, self.player = PREVIEW, newcomer
         self.packs: list[EpisodeSet] = []
         self.pack = self.player.catalogue.ours
         self.marks: dict[str, Mark] = {}
@@ -150,13 +150,9 @@ class EpisodeGrid(ThumbnailScreen):
     def _look_for_packs(self, key: str) -> None:
         catalogue = self.player.catalogue
         catalogue.problems.clear()
-        self.packs = [pack for pack in catalogue.packs() if pack.episodes and not (self._newcomer and pack.key != key)]
+        self.packs = [pack for pack in catalogue.packs() if pack.episodes and not (self.previews and pack.key != key)]
         self.problems = of_files(catalogue.shown_problems)
         self.pack = next((pack for pack in self.packs if pack.key == key), catalogue.ours)
-
-    @property
-    def player(self) -> PlayerData:
-        return self._newcomer or self.app.player
 
     @property
     def number(self) -> int:
@@ -207,7 +203,7 @@ class EpisodeGrid(ThumbnailScreen):
         )  # fmt: skip
         problems = problems_button(self.app, (LEFT, 546, WIDE, 18), lambda: self.problems)
         if len(self.packs) < 2:
-            return [self.grid, self.play, *[self.practice] * (not self._newcomer), self.rows, *problems]
+            return [self.grid, self.play, *[self.practice] * (not self.previews), self.rows, *problems]
         names = [("This game's levels" if not pack.key else pack.name, pack.key) for pack in self.packs]
         choice = Choice(
             (LEFT, 62, WIDE, 26), "", names, lambda: self.pack.key, self._set_pack,
@@ -256,7 +252,7 @@ class EpisodeGrid(ThumbnailScreen):
         super().draw_frame(surface)
         theme, palette = self.app.theme, self.app.theme.palette
         if len(self.packs) < 2:
-            for line, text in enumerate(_PREVIEWED if self._newcomer else _OPENS):
+            for line, text in enumerate(_PREVIEWED if self.previews else _OPENS):
                 theme.text(surface, text, LEFT, 64 + 14 * line, size=10, colour=palette.faint, width=WIDE)
         self.grid.draw_names(surface, theme, self.pack.columns)
         for place, (look, text) in enumerate(LOOKS):
@@ -344,6 +340,6 @@ class EpisodeGrid(ThumbnailScreen):
         played = self.player.statistics.played(entry.digest)
         colour = theme.palette.good if mark else theme.palette.faint
         theme.text(surface, self.player.reached(entry, mark), left, y + 32, size=11, colour=colour, width=room)
-        draw_pars(surface, theme, entry.pars, mark and mark.fastest, left, y + 45, tuple(MARGINS))
+        draw_pars(surface, theme, entry.pars, mark and mark.fastest, left, y + 45, MEDALS[1:])
         if played.attempts:
             theme.text(surface, tries_text(played), left, y + 65, size=10, colour=theme.palette.faint)

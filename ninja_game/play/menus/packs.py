@@ -57,10 +57,6 @@ _STOPS = "It can be stopped at any time: what was found is kept."
 Edit = Callable[[Entry, Finding | None], object]
 
 
-def _name_of(pack: EpisodeSet) -> str:
-    return f"{pack.name} by {pack.pack.index.author or 'somebody'}" if pack.pack and pack.received else pack.name
-
-
 class PackScreen(ThumbnailScreen):
     """``pack``: the one on the shelves. ``held``: what is being moved; ``pointer``: where the mouse has it, else None.
 
@@ -135,7 +131,8 @@ class PackScreen(ThumbnailScreen):
         super().enter()
 
     def build(self) -> Sequence[Widget]:
-        names, have = [(_name_of(each), each.key) for each in self.mine], self.pack and self.pack.pack
+        names = [(each.pack.index.title if each.pack and each.received else each.name, each.key) for each in self.mine]
+        have = self.pack and self.pack.pack
         chosen = Choice((36, 60, 164, 28), "", names, lambda: self.pack.key if self.pack else "", self._choose_pack)
         received = bool(self.pack and self.pack.received)
         chosen.hint = f"{have.index.title}{', received' * received}, in the folder {self.path.name}" if have else ""
@@ -155,8 +152,7 @@ class PackScreen(ThumbnailScreen):
         view = Button((486, 60, 60, 28), "Play" if received else "Preview", self._view, size=10)
         view.hint = "Its episodes" if received else f"{PREVIEW}: what whoever pastes the link sees; nothing is kept"
         view.enabled = bool(self.pack and self.pack.episodes)
-        show = partial(ProblemsScreen, self.app, self.problems)
-        problems = Button((552, 60, 66, 28), "Problems", lambda: self.app.push(show()), size=10)
+        problems = Button((552, 60, 66, 28), "Problems", self._show_problems, size=10)
         make = Button((624, 60, 132, 28), *(("Stop", end) if self.packer.busy else ("Make ready", ready)), hint=hint)
         link = Button((662, 525, 94, 24), "Copy the link", self._copy_link, size=10)
         link.hint = "Whoever opens it, or pastes it in Levels > Packs, gets the pack"
@@ -534,15 +530,14 @@ class PackScreen(ThumbnailScreen):
             self._ask_about(packer.open_problems)
         self.redraw = self.status.update() or now != before or self.redraw
 
+    def _show_problems(self) -> None:
+        self.app.push(ProblemsScreen(self.app, self.problems))
+
     def _ask_about(self, ready: ReadyPack) -> None:
         self.packer.open_problems = None
-
-        def show() -> None:
-            self._read(ready.pack.files.path)
-            self.app.push(ProblemsScreen(self.app, self.problems))
-
+        self._read(ready.pack.files.path)
         rows: list[Row] = [
-            ("Show them", show, "Make ready asks again"),
+            ("Show them", self._show_problems, "Make ready asks again"),
             ("Zip and link all the same", lambda: self.packer.publish(ready), ""),
             CANCEL,
         ]

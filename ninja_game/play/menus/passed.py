@@ -16,7 +16,7 @@ from ninja_game.play.level.play import STAMP_TICKS
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal
-from ninja_game.player.player_data import EPISODE_BEST, OF_A_LEVEL, PlayerData
+from ninja_game.player.player_data import EPISODE_BEST, OF_A_LEVEL
 from ninja_game.player.playthrough import EpisodeRun
 from ninja_game.player.progress import Mark, worst_medal
 from ninja_game.player.records import EpisodeBest
@@ -51,7 +51,7 @@ class EpisodePassed(ThumbnailScreen):
 
     def __init__(self, app: App, run: EpisodeRun, play: Callable[[EpisodeRun], object]) -> None:
         super().__init__(app)
-        self.run = run
+        self.run, self.player = run, run.data
         self._play = play
         self.title = f"Episode {run.episode.code} passed"
         self.particles = Particles()
@@ -92,10 +92,6 @@ class EpisodePassed(ThumbnailScreen):
     @property
     def next_episode(self) -> Episode | None:
         return self.player.catalogue.following(self.run.episode)
-
-    @property
-    def player(self) -> PlayerData:
-        return self.run.data
 
     def build(self) -> Sequence[Widget]:
         self._best = self.player.records.episode_best(self.run.episode.key)
