@@ -98,12 +98,11 @@ class Rack(ListView):
         gold = pars is not None and pars.gold is not None
         theme.text(surface, shown_text(level.title), x, y + 67, size=9.5, width=w - 12 * gold)
         colour = palette.good if pars else palette.bad if state in ("changed", NOT_FOUND) else palette.faint
-        theme.text(surface, state, x, y + 82, size=8.5, colour=colour, width=w)
+        theme.text(surface, state, x, y + 82, size=8.5, colour=colour, width=w - 40 if pars else w)
         if gold:
             draw_all_gold(surface, theme, x + w - 5, y + 73, 8)
         if pars:
-            room = w - theme.width(state, 8.5) - 4
-            theme.text(surface, pars.grade, x + w, y + 82, size=8.5, align="right", width=room)
+            theme.text(surface, pars.grade, x + w, y + 82, size=8.5, align="right", width=40)
         if self.status.checked and level.named.file in self.status.checked.places:
             canvas.circle(surface, palette.panel, (right - 9, y + 9), 8)
             theme.text(surface, "!", right - 9, y + 3, size=11, bold=True, colour=palette.bad, align="centre")

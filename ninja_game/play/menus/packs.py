@@ -149,7 +149,7 @@ class PackScreen(ThumbnailScreen):
         paste = Button((338, 60, 68, 28), "Paste link", self._paste, size=10)
         paste.hint = "Ctrl+V: the pack whose link is in the clipboard becomes one of yours"
         about = Button((412, 60, 68, 28), "About it...", self._about, size=10, hint="Play, name, copy or delete it")
-        view = Button((486, 60, 60, 28), "Play" if received else "Preview", self._view, size=10)
+        view = self.view = Button((486, 60, 60, 28), "Play" if received else "Preview", self._view, size=10)
         view.hint = "Its episodes" if received else f"{PREVIEW}: what whoever pastes the link sees; nothing is kept"
         view.enabled = bool(self.pack and self.pack.episodes)
         problems = Button((552, 60, 66, 28), "Problems", self._show_problems, size=10)
@@ -253,9 +253,11 @@ class PackScreen(ThumbnailScreen):
                 self._show(there)
                 raise NinjaGameError(f"{shown_text(there.name)} is among your packs already")
             self._read(packs.copy_pack(pack, self.folder, pack.name, received=True))
-            self.app.notify(f"{shown_text(pack.name)} is among your packs now")
+            self.app.notify(f"{shown_text(pack.name)} is among your packs now: Enter plays it")
 
         self.do(take, "Paste link")
+        if self.pack and self.pack.received:
+            self.focus_on(self.view)
 
     def handle(self, event: InputEvent) -> None:
         if event.raw.type == pygame.KEYDOWN and chord(event.raw) == "ctrl+v":
@@ -312,9 +314,14 @@ class PackScreen(ThumbnailScreen):
         elif cell.level:
             self._level_menu(cell)
         elif cell.episode is None:
-            self.ask("New episode: name", "New episode", partial(packs.new_episode, self.path, column=self._column()))
+            self.ask("New episode: name", self._next_name, partial(packs.new_episode, self.path, column=self._column()))
         else:
             self._episode_menu(cell.episode)
+
+    @property
+    def _next_name(self) -> str:
+        """What a new episode is called until it has a name of its own."""
+        return f"Episode {sum(cell.head for cell in self.shelves.cells)}"
 
     def _column(self) -> int:
         numbers = [cell.episode.number for cell in self.shelves.cells if cell.episode]
@@ -372,7 +379,7 @@ class PackScreen(ThumbnailScreen):
             ("Rename...", lambda: self.ask(f"Rename {episode.name}", episode.name, rename), ""),
             ("Move...", lambda: self._hold(Cell(episode, head=True)), ""),
             ("Name of the column...", lambda: self.ask("Name of the column", columns[column], name_column), ""),
-            ("Begin a column...", lambda: self.ask("Column: first episode", "New episode", begin), "Beside the others"),
+            ("Begin a column...", lambda: self.ask("Column: first episode", self._next_name, begin), "Beside these"),
             ("Remove the episode", lambda: self._set_aside(remove, title), "Its levels stay, beside the others"),
             CANCEL,
         ]
@@ -444,7 +451,7 @@ class PackScreen(ThumbnailScreen):
         if (target / INDEX).is_file():
             number = goal.episode.number if goal and goal.episode else None
             if goal and number is None:
-                number = packs.new_episode(target, "New episode", self._column())
+                number = packs.new_episode(target, self._next_name, self._column())
             row = [each.level for each in self.shelves.cells if goal and each.episode is goal.episode and each.level]
             row = [each for each in row if each is not level]
             behind = row[row.index(goal.level) + after :] if goal and goal.level else []
@@ -537,7 +544,7 @@ class PackScreen(ThumbnailScreen):
         self.packer.open_problems = None
         self._read(ready.pack.files.path)
         rows: list[Row] = [
-            ("Show them", self._show_problems, "Make ready asks again"),
+            ("Show the problems", self._show_problems, "Make ready asks again"),
             ("Zip and link all the same", lambda: self.packer.publish(ready), ""),
             CANCEL,
         ]

@@ -108,6 +108,7 @@ def test_levels_and_episodes_are_dragged(driver: MenuDriver, path: Path) -> None
     assert [cell.level.title for cell in screen.tray.cells if cell.level] == ["First Steps"]
     driver.carry(screen.tray.row_area(0), shelves.row_area(13))
     assert layout(path)[2] == ["00-0"], "a row below the others is a new episode"
+    assert [each.name for each in Pack(path).index.episodes][2] == "Episode 3"
     driver.carry(shelves.row_area(12), shelves.row_area(0))
     assert layout(path) == {0: ["00-0"], 1: ["00-2", "00-3", "00-4"], 2: ["01-0", "00-1", "01-1", "01-2"]}
     driver.carry(shelves.row_area(1), (300, 530, 2, 2))
@@ -278,7 +279,7 @@ def test_a_pack_is_made_ready_in_the_background(
     driver.wait(lambda: driver.top() is not screen, "it asks what to do about open problems")
     assert driver.shown(MenuScreen).title == "Laundry: 1 open problem"
     assert screen.packer.saved is None
-    driver.choose("Show them")
+    driver.choose("Show the problems")
     driver.shown(ProblemsScreen)
     driver.press("escape")
     assert driver.top() is screen, "it asks once"
@@ -727,7 +728,7 @@ def test_a_pack_that_was_received_is_changed_only_if_that_is_meant(driver: MenuD
     def drag() -> None:
         driver.carry(screen.shelves.row_area(2), half(screen, 8))
 
-    driver.choose("Play")
+    driver.press("return")
     assert driver.shown(EpisodeGrid).player is driver.player
     driver.press("escape")
     drag()
