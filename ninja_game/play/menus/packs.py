@@ -150,7 +150,9 @@ class PackScreen(ThumbnailScreen):
         paste.hint = "Ctrl+V: the pack whose link is in the clipboard becomes one of yours"
         about = Button((412, 60, 68, 28), "About it...", self._about, size=10, hint="Play, name, copy or delete it")
         view = self.view = Button((486, 60, 60, 28), "Play" if received else "Preview", self._view, size=10)
-        view.hint = "Its episodes" if received else f"{PREVIEW}: what whoever pastes the link sees; nothing is kept"
+        view.hint = f"{PREVIEW}: what whoever pastes the link sees; nothing is kept"
+        if received and have:
+            view.hint = shown_text(f"{have.index.title}. {have.index.comment}", 200)
         view.enabled = bool(self.pack and self.pack.episodes)
         problems = Button((552, 60, 66, 28), "Problems", self._show_problems, size=10)
         make = Button((624, 60, 132, 28), *(("Stop", end) if self.packer.busy else ("Make ready", ready)), hint=hint)
