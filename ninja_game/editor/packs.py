@@ -6,8 +6,9 @@ what order, is written into the index.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from contextvars import ContextVar
 from dataclasses import dataclass, replace
 from itertools import count
 from pathlib import Path
@@ -19,14 +20,14 @@ from ninja_game.editor.certify import COMPILING
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import SUFFIX, ascii_text, draft_of, open_source, save
 from ninja_game.errors import LinkError, NinjaGameError, PackError
-from ninja_game.files.reading import SUFFIXES, read_bytes, read_utf8
+from ninja_game.files.reading import read_bytes, read_utf8
 from ninja_game.files.shown_text import counted, file_stem, name_problem, shown_text
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import free_path, how_to_install
 from ninja_game.formats.links import whole_certificate
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, MOST_EPISODES, parse_index
-from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, MOST_BYTES, MOST_FILES, PARS, Pack, certificate_name
+from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, MOST_FILES, PARS, RECEIVED, Pack, certificate_name
 from ninja_game.formats.pack.pars import write_pars
 from ninja_game.levels.episodes import episode_set
 from ninja_game.levels.findings import Finding, PackFinding
@@ -37,6 +38,91 @@ if TYPE_CHECKING:
     from tomlkit import TOMLDocument
 
 Values = Mapping[str, str | int | Sequence[str]]
+
+
+# --- undo ---
+
+
+class Step(NamedTuple):
+    """``texts``: by folder and name of each file that was changed, before and after; None where there was none.
+
+    ``moved``: folders, from and to.
+    """
+
+    what: str
+    texts: dict[tuple[Path, str], tuple[bytes | None, bytes | None]]
+    moved: list[tuple[Path, Path]]
+
+
+_step: ContextVar[Step | None] = ContextVar("step", default=None)
+"""The step that is being done in this thread: each change below is noted there."""
+
+
+class Steps(list[Step]):
+    """The last dozen steps, in memory."""
+
+    def do(self, what: str, action: Callable[[], object]) -> None:
+        """Change packs by the functions here. Raises what ``action`` raises; what it has done by then is a step."""
+        step = Step(what, {}, [])
+        token = _step.set(step)
+        try:
+            action()
+        finally:
+            _step.reset(token)
+            if step.moved or any(old != new for old, new in step.texts.values()):
+                self[:] = [*self, step][-12:]
+
+    def undo(self) -> str:
+        """Take the newest step back; what it was. Nothing is done where its files were changed since.
+
+        Raises NinjaGameError then, OSError: what the disk refuses can be tried again.
+        """
+        if not self:
+            raise NinjaGameError("there is nothing to undo")
+        what, texts, moved = self[-1]
+        changed = [name for (folder, name), known in texts.items() if _text(folder / name) not in known]
+        changed += [old_place.name for old_place, _ in moved if old_place.exists()]
+        if changed:
+            self.pop()
+            raise NinjaGameError(f"{what}: not undone, as {changed[0]} was changed since")
+        for old_place, place_now in moved:
+            place_now.rename(old_place)
+        for (folder, name), (old, _) in texts.items():
+            _put(folder, name, old)
+        made = [folder for (folder, name), (old, _) in texts.items() if name == INDEX and old is None]
+        for empty in [each for folder in made for each in (folder / CERTIFICATES, folder)]:
+            with suppress(OSError):
+                empty.rmdir()
+        self.pop()
+        return what
+
+
+def _text(path: Path) -> bytes | None:
+    """None where there is no file. Raises FileError, OSError for one that cannot be read."""
+    return read_bytes(path) if path.exists() else None
+
+
+@contextmanager
+def _noted(folder: Path, name: str) -> Iterator[None]:
+    """Note what becomes of a file meanwhile."""
+    step = _step.get()
+    before = _text(folder / name) if step else None
+    yield
+    if step:
+        first, _ = step.texts.get((folder, name), (before, None))
+        step.texts[folder, name] = first, _text(folder / name)
+
+
+def _put(folder: Path, name: str, text: bytes | str | None) -> None:
+    """Write a file, or remove it where ``text`` is None."""
+    with _noted(folder, name):
+        if text is None:
+            Tree(folder).remove(name)
+        else:
+            Tree(folder).write(name, text)
+
+
+# --- the index ---
 
 
 def _change_index(path: Path, change: Callable[[TOMLDocument], object]) -> None:
@@ -56,7 +142,7 @@ def _change_index(path: Path, change: Callable[[TOMLDocument], object]) -> None:
 def _write_index(path: Path, document: TOMLDocument) -> None:
     text = document.as_string()
     parse_index(text, file=str(path / INDEX))
-    Tree(path).write(INDEX, text)
+    _put(path, INDEX, text)
 
 
 def _add(document: TOMLDocument, key: str, values: Values) -> None:
@@ -85,8 +171,8 @@ def new_pack(folder: Path, name: str, author: str) -> Path:
     return path
 
 
-def copy_pack(pack: Pack, folder: Path, name: str) -> Path:
-    """A copy of a pack, from wherever, by another name; its folder, in ``folder``."""
+def copy_pack(pack: Pack, folder: Path, name: str, *, received: bool = False) -> Path:
+    """A copy of a pack, from wherever, by another name; its folder, in ``folder``. ``received``: it stays another's."""
     names = pack.files.own_names
     if len(names) > MOST_FILES:
         raise PackError("a pack of too many files", found=f"{len(names):,}", expected=f"at most {MOST_FILES:,}")
@@ -96,9 +182,16 @@ def copy_pack(pack: Pack, folder: Path, name: str) -> Path:
     path = free_path(folder, file_stem(name, "pack"), "")
     for file in names:
         text, level = pack.files.text(file), pack.levels.get(level_of(pack, file))
-        Tree(path).write(file, whole_certificate(text, level) if level else text)
+        _put(path, file, whole_certificate(text, level) if level else text)
     describe(path, {"name": name})
+    if received:
+        _put(path, RECEIVED, "")
     return path
+
+
+def make_own(path: Path) -> None:
+    """Take a pack that came by a link for one's own from now on."""
+    _put(path, RECEIVED, None)
 
 
 def describe(path: Path, values: Mapping[str, str | Sequence[str]]) -> None:
@@ -127,7 +220,10 @@ def take_back(path: Path, file: str, code: str) -> None:
 def bin_pack(path: Path, folder: Path) -> Path:
     """Move a pack's folder into another folder, under a name that is free there; where it is then."""
     folder.mkdir(parents=True, exist_ok=True)
-    return path.rename(free_path(folder, path.name, ""))
+    there = path.rename(free_path(folder, path.name, ""))
+    if step := _step.get():
+        step.moved.append((path, there))
+    return there
 
 
 def same_pack(pack: Pack, other: Pack) -> bool:
@@ -213,42 +309,43 @@ def place(path: Path, file: str, number: int | None, before: str = "") -> None:
 
 
 def new_level(path: Path, name: str, author: str) -> str:
-    return _write(path, Draft(Level(), name, author))
+    return _write_level(path, Draft(Level(), name, author))
 
 
-def _write(path: Path, draft: Draft) -> str:
+def _write_level(path: Path, draft: Draft) -> str:
     file = free_path(path, file_stem(draft.name, "level"), SUFFIX).name
-    Tree(path).write(file, ascii_text(draft))
+    _put(path, file, ascii_text(draft))
     return file
 
 
 def rename_level(file: Path, name: str) -> None:
     """Give the level of a readable file another name; the file keeps its own."""
     source = open_source(file)
-    save(source, replace(source.draft, name=name), file)
+    with _noted(file.parent, file.name):
+        save(source, replace(source.draft, name=name), file)
 
 
 def duplicate(path: Path, level: NamedLevel) -> str:
     """A copy of a level in the folder, by a name that no level there has; its file's name."""
     names = {each.name for each in Pack(path).levels.values()}
     copies = (f"{level.name} copy{f' {number}' if number > 1 else ''}" for number in count(1))
-    return _write(path, replace(draft_of(level), name=next(name for name in copies if name not in names)))
+    return _write_level(path, replace(draft_of(level), name=next(name for name in copies if name not in names)))
 
 
 def transfer(level: NamedLevel, path: Path, *, keep: bool) -> str:
     """Take a level and its certificates into another folder; its file's name there. ``keep``: they stay here too."""
     old = Path(level.file)
     if not (level.ascii and old.is_file()):
-        return _write(path, draft_of(level))
+        return _write_level(path, draft_of(level))
     new = free_path(path, old.stem, old.suffix).name
     moved = {old.name: new} | {certificate_name(old.name, kind): certificate_name(new, kind) for kind in KINDS}
     there = [name for name in moved if (old.parent / name).is_file()]
     if not keep and (old.parent / INDEX).is_file():
         place(old.parent, old.name, None)
     for name in there:
-        Tree(path).write(moved[name], read_bytes(old.parent / name))
+        _put(path, moved[name], read_bytes(old.parent / name))
     for name in [] if keep else there:
-        Tree(old.parent).remove(name)
+        _put(old.parent, name, None)
     return new
 
 
@@ -374,69 +471,3 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstac
                 obstacles[named.level, kind] = obstacle(named.level, each.gold, each.progress)
         done += 1
         say(f"Looking for runs: {done} of {total} done", done / len(files))
-
-
-# --- undo ---
-
-
-class Step(NamedTuple):
-    """``texts``: of each file that was changed, before and after; None where there was none. ``moved``: from, to."""
-
-    what: str
-    texts: Mapping[Path, tuple[bytes | None, bytes | None]] = {}
-    moved: tuple[Path, Path] | None = None
-
-
-class Steps(list[Step]):
-    """The last dozen steps, in memory; files over 4 MiB are not among them."""
-
-    def do(self, what: str, action: Callable[[], object], folders: Iterable[Path]) -> None:
-        """Do something to the texts in folders. Raises what ``action`` raises; what it has done by then is a step."""
-        before = _texts(folders)
-        try:
-            action()
-        finally:
-            after = _texts(folders)
-            unknown = {path for texts in (before, after) for path, text in texts.items() if text is None}
-            pairs = {path: (before.get(path), after.get(path)) for path in before | after if path not in unknown}
-            if texts := {path: (old, new) for path, (old, new) in pairs.items() if old != new}:
-                self[:] = [*self, Step(what, texts)][-12:]
-
-    def undo(self) -> str:
-        """Take the newest step back; what it was. Nothing is done where its files were changed since.
-
-        Raises NinjaGameError then, OSError.
-        """
-        if not self:
-            raise NinjaGameError("there is nothing to undo")
-        what, texts, moved = self.pop()
-        changed = [path.name for path, (_, new) in texts.items() if _text(path) != new]
-        changed += [moved[0].name] if moved and moved[0].exists() else []
-        if changed:
-            raise NinjaGameError(f"{what}: not undone, as {changed[0]} was changed since")
-        if moved:
-            moved[1].rename(moved[0])
-        for path, (old, _) in texts.items():
-            if old is None:
-                Tree(path.parent).remove(path.name)
-            else:
-                Tree(path.parent).write(path.name, old)
-        made = [path.parent for path, (old, _) in texts.items() if path.name == INDEX and old is None]
-        for folder in [each for path in made for each in (path / CERTIFICATES, path)]:
-            with suppress(OSError):
-                folder.rmdir()  # if it is empty
-        return what
-
-
-def _texts(folders: Iterable[Path]) -> dict[Path, bytes | None]:
-    """The texts in folders; None: too large, or not readable now, which is no reason to remove it."""
-    suffixes = (*SUFFIXES, ".toml")
-    paths = {path for folder in folders for path in folder.rglob("*") if path.suffix.lower() in suffixes}
-    return {path: _text(path) for path in paths}
-
-
-def _text(path: Path) -> bytes | None:
-    try:
-        return read_bytes(path, MOST_BYTES)
-    except (NinjaGameError, OSError):
-        return None

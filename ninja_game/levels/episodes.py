@@ -10,7 +10,7 @@ from typing import NamedTuple
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE
-from ninja_game.formats.pack.pack import Pack, PackFiles
+from ninja_game.formats.pack.pack import RECEIVED, Pack, PackFiles
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.replay.text import episode_key
 
@@ -119,6 +119,11 @@ class EpisodeSet(NamedTuple):
     def changeable(self) -> bool:
         """Whether it is a folder of the player's own."""
         return bool(self.key and self.path and self.path.is_dir())
+
+    @property
+    def received(self) -> bool:
+        """Whether it came by a link and is somebody else's."""
+        return bool(self.files and RECEIVED in self.files.names)
 
     @property
     def levels(self) -> list[Entry]:

@@ -59,6 +59,14 @@ class PlayerData:
     def store(self) -> Store:
         return Store(self.folder / RECORDS)
 
+    def newcomer(self) -> PlayerData:
+        """The same levels, for somebody without a name who has played nothing; what is played so is forgotten."""
+        other = PlayerData(self.folder)
+        other.catalogue, other.settings = self.catalogue, self.settings.changed(name="")
+        other.store = Store(None)
+        other.store.problem = "this is a preview"
+        return other
+
     @property
     def messages(self) -> list[str]:
         return self._messages + (self.store.messages if "store" in self.__dict__ else [])

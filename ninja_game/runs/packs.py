@@ -230,7 +230,8 @@ def _about_order(pack: Pack) -> Iterator[PackFinding]:
         for one, other in pairwise(levels):
             hard, easy = pars.get(one.file), pars.get(other.file)
             if hard and easy and hard.grade not in ("", "easy", "medium") and easy.grade == "easy":
-                yield in_pack("hard-before-easy", one.file, grade=hard.grade, other=PurePath(other.file).name)
+                values = {"grade": hard.grade, "other": PurePath(other.file).name, "easier": easy.grade}
+                yield in_pack("hard-before-easy", one.file, **values)
     first, *later = [pars.get(level.file) for levels in pack.episodes.values() for level in levels] or [None]
     known = [each.difficulty for each in later if each and each.difficulty is not None]
     if first and first.grade not in ("", "easy") and len(known) > 1 and (first.difficulty or 0.0) > max(known):

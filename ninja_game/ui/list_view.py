@@ -145,9 +145,8 @@ class ListView(Widget):
         for index in range(start, min(self.count, start + self.visible_lines * self.columns)):
             self.draw_row(surface, theme, index, self.row_area(index), focused and index == self.index)
         if not self.count and self.empty:
-            theme.text(
-                surface, self.empty, x + w / 2, y + h / 2 - 6, size=11, colour=theme.palette.faint, align="centre"
-            )
+            place, faint = (x + 6, y + h / 2 - 6, w - 12, h / 2), theme.palette.faint
+            theme.paragraph(surface, [self.empty], place, 11, 15, colour=faint, align="centre")
         if self.lines > self.visible_lines:
             length = max(20.0, h * self.visible_lines / self.lines)
             top = y + (h - length) * self.first / (self.lines - self.visible_lines)

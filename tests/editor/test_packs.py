@@ -108,14 +108,14 @@ def test_a_pack_is_made_described_and_copied(pack: Path, tmp_path: Path) -> None
 def test_a_dozen_steps_are_taken_back_and_folders_stay(pack: Path, tmp_path: Path) -> None:
     steps, folder = packs.Steps(), tmp_path / "levels"
     folder.mkdir()
-    steps.do("Copy", lambda: packs.copy_pack(Pack(pack), folder, "copy"), [folder])
+    steps.do("Copy", lambda: packs.copy_pack(Pack(pack), folder, "copy"))
     assert (folder / "copy" / RUN).is_file()
     assert steps.undo() == "Copy"
     assert list(folder.iterdir()) == [], "no empty folder is left, but the one of all"
-    steps.do("Nothing", lambda: None, [pack])
+    steps.do("Nothing", lambda: packs.describe(pack, {"name": Pack(pack).name}))
     assert not steps
     for number in range(14):
-        steps.do(str(number), lambda text=str(number): packs.describe(pack, {"version": text}), [pack])  # type: ignore[misc]
+        steps.do(str(number), lambda text=str(number): packs.describe(pack, {"version": text}))  # type: ignore[misc]
     assert [steps.undo() for _ in range(12)] == [str(number) for number in range(13, 1, -1)]
     assert Pack(pack).index.version == "1"
     with pytest.raises(NinjaGameError, match="nothing to undo"):
@@ -257,9 +257,37 @@ def test_the_command_makes_a_pack_ready(pack: Path, tmp_path: Path) -> None:
     assert f"wrote {tmp_path / 'pack.zip'}\n#pack=" in result.output
 
 
-def test_undo_removes_nothing_that_could_not_be_read_before(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(packs, "MOST_BYTES", 4)
-    file, steps = tmp_path / "a.txt", packs.Steps()
-    file.write_bytes(b"too large")
-    steps.do("Cut", lambda: file.write_bytes(b"ok"), [tmp_path])
-    assert not steps
+def test_undo_leaves_alone_what_others_did_meanwhile(pack: Path) -> None:
+    steps, found, before = packs.Steps(), pack / RUN, (pack / "pack.toml").read_text("utf-8")
+
+    def action() -> None:
+        packs.place(pack, FIRST, None)
+        found.write_text("found meanwhile", "utf-8")
+
+    steps.do("Take out", action)
+    assert steps.undo() == "Take out"
+    assert (pack / "pack.toml").read_text("utf-8") == before
+    assert found.read_text("utf-8") == "found meanwhile"
+
+
+def test_a_step_that_the_disk_refuses_to_undo_can_be_undone_later(
+    pack: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    steps, other = packs.Steps(), packs.new_pack(tmp_path, "Other", "me")
+    files = sorted((pack / "certificates").iterdir())
+    steps.do("Move", lambda: packs.transfer(Pack(pack).levels[FIRST], other, keep=False))
+    put, full = packs._put, [True]
+
+    def on_a_full_disk(folder: Path, name: str, text: bytes | str | None) -> None:
+        if name == RUN and folder == pack and full:
+            raise OSError(28, "No space left on device")
+        put(folder, name, text)
+
+    monkeypatch.setattr(packs, "_put", on_a_full_disk)
+    with pytest.raises(OSError, match="No space"):
+        steps.undo()
+    full.clear()
+    assert steps.undo() == "Move"
+    assert sorted((pack / "certificates").iterdir()) == files
+    assert FIRST in Pack(pack).levels
+    assert not Pack(other).levels

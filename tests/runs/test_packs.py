@@ -102,7 +102,7 @@ def test_findings_are_accepted_with_a_reason(pack: Path) -> None:
 
 def test_the_order_of_levels_is_looked_at(pack: Path) -> None:
     change(pack / "pars.toml", "difficulty = 0.39", "difficulty = 5.00")
-    before = "00-0-first-steps.txt: hard, and not as easy as 00-1-mind-the-gap.txt, which comes right after it"
+    before = "00-0-first-steps.txt: hard, harder than 00-1-mind-the-gap.txt (easy), but comes right before it"
     assert findings(pack) == [before, "00-0-first-steps.txt: hard: the first level is the hardest of the pack"]
     for code in ("hard-before-easy", "hardest-first"):
         accept(pack, f"{FIRST}.txt", code, "a wall to begin with")

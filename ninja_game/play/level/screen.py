@@ -24,7 +24,7 @@ from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.attempt import Attempt
-from ninja_game.player.player_data import keep_replay
+from ninja_game.player.player_data import PlayerData, keep_replay
 from ninja_game.player.playthrough import EpisodeRun, LevelContext, LevelRun, Navigation
 from ninja_game.player.progress import opens_author
 from ninja_game.sim.inputs import JUMP_HELD
@@ -146,12 +146,12 @@ class LevelScreen(Screen):
 
     def _skip_the_last(self, run: EpisodeRun) -> None:
         """An episode whose last level is left out leads to the next episode."""
-        following = self.app.player.catalogue.following(run.episode)
+        following = run.data.catalogue.following(run.episode)
         if following is None:
             self._leave_to(Navigation.BACK)
             self.app.notify("That was the last episode")
             return
-        afresh = EpisodeRun(self.app.player, following, practice_mode=run.practice_mode)
+        afresh = EpisodeRun(run.data, following, practice_mode=run.practice_mode)
         self.app.replace(LevelScreen(self.app, afresh))
         self.app.notify(f"Skipped. Now episode {following.code}: {following.name}")
 
@@ -319,9 +319,11 @@ class LevelScreen(Screen):
         return None if changed is None else changed + written
 
 
-def play_level(app: App, entry: Entry, *, practice: bool = False, following: Sequence[Entry] = ()) -> str:
+def play_level(
+    app: App, entry: Entry, *, practice: bool = False, following: Sequence[Entry] = (), player: PlayerData | None = None
+) -> str:
     """Play a level by itself, then those that follow it in a list; why that is impossible, or ''."""
-    run = LevelRun(app.player, entry, practice_mode=practice or app.settings.practice, following=following)
+    run = LevelRun(player or app.player, entry, practice_mode=practice or app.settings.practice, following=following)
     try:
         app.push(LevelScreen(app, run))
     except LevelError as error:

@@ -16,9 +16,10 @@ from ninja_game.play.level.screen import LevelScreen, play_level
 from ninja_game.play.menus.menu_screen import CANCEL, Menu, Row
 from ninja_game.play.menus.problems import of_files, problems_button
 from ninja_game.play.menus.settings import PRACTICE_HINT
-from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, tries_text
+from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text
+from ninja_game.player.player_data import PlayerData
 from ninja_game.player.playthrough import EpisodeRun, unfinished_run
-from ninja_game.player.progress import CHEATED, LOCKED, WITH_HELP, Mark, has_all_gold, next_par, tally, worst_medal
+from ninja_game.player.progress import CHEATED, LOCKED, WITH_HELP, Mark, has_all_gold, tally, worst_medal
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import BAR, ListView
 from ninja_game.ui.medals import MEDALS, draw_all_gold, draw_medal
@@ -109,18 +110,31 @@ def draw_look(surface: pygame.Surface, theme: Theme, look: str, area: Area) -> N
         canvas.circle(surface, palette.faint, (cx, cy - 2), 4, 1.5)
 
 
+PREVIEW = "Preview as player"
+_PREVIEWED = "What whoever pastes the link sees before the first try.", "Play it: nothing of that is kept."
+_OPENS = (
+    "Finish an episode and the one below it opens: 1.2 comes after 1.1.",
+    "Each column has a theme of its own. The left one is easiest.",
+)
+
 SIDE = 392
 ROW = 84
 SMALL_PICTURE = 96
 
 
 class EpisodeGrid(ThumbnailScreen):
-    """Choose an episode to play, or one of its levels for a time trial. ``pack``: the key of the pack to begin with."""
+    """Choose an episode to play, or one of its levels for a time trial. ``pack``: the key of the pack to begin with.
+
+    ``newcomer``: a player to whom that pack is shown, to preview it; None for the one who plays.
+    """
 
     title = "Episodes"
 
-    def __init__(self, app: App, pack: str = "") -> None:
+    def __init__(self, app: App, pack: str = "", newcomer: PlayerData | None = None) -> None:
         super().__init__(app)
+        self.previews = newcomer is not None
+        if newcomer:
+            self.title, self.player = PREVIEW, newcomer
         self.packs: list[EpisodeSet] = []
         self.pack = self.player.catalogue.ours
         self.marks: dict[str, Mark] = {}
@@ -136,7 +150,7 @@ class EpisodeGrid(ThumbnailScreen):
     def _look_for_packs(self, key: str) -> None:
         catalogue = self.player.catalogue
         catalogue.problems.clear()
-        self.packs = [pack for pack in catalogue.packs() if pack.episodes]
+        self.packs = [pack for pack in catalogue.packs() if pack.episodes and not (self.previews and pack.key != key)]
         self.problems = of_files(catalogue.shown_problems)
         self.pack = next((pack for pack in self.packs if pack.key == key), catalogue.ours)
 
@@ -189,7 +203,7 @@ class EpisodeGrid(ThumbnailScreen):
         )  # fmt: skip
         problems = problems_button(self.app, (LEFT, 546, WIDE, 18), lambda: self.problems)
         if len(self.packs) < 2:
-            return [self.grid, self.play, self.practice, self.rows, *problems]
+            return [self.grid, self.play, *[self.practice] * (not self.previews), self.rows, *problems]
         names = [("This game's levels" if not pack.key else pack.name, pack.key) for pack in self.packs]
         choice = Choice(
             (LEFT, 62, WIDE, 26), "", names, lambda: self.pack.key, self._set_pack,
@@ -231,15 +245,14 @@ class EpisodeGrid(ThumbnailScreen):
     def _trial(self, index: int) -> None:
         if self.episode is not None:
             entry, *following = self.episode.levels[index:]
-            if problem := play_level(self.app, entry, following=following):
+            if problem := play_level(self.app, entry, following=following, player=self.player):
                 self.app.notify(problem)
 
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)
         theme, palette = self.app.theme, self.app.theme.palette
         if len(self.packs) < 2:
-            opens = "Finish an episode and the one below it opens: 1.2 comes after 1.1."
-            for line, text in enumerate((opens, "Each column has a theme of its own. The left one is easiest.")):
+            for line, text in enumerate(_PREVIEWED if self.previews else _OPENS):
                 theme.text(surface, text, LEFT, 64 + 14 * line, size=10, colour=palette.faint, width=WIDE)
         self.grid.draw_names(surface, theme, self.pack.columns)
         for place, (look, text) in enumerate(LOOKS):
@@ -327,7 +340,6 @@ class EpisodeGrid(ThumbnailScreen):
         played = self.player.statistics.played(entry.digest)
         colour = theme.palette.good if mark else theme.palette.faint
         theme.text(surface, self.player.reached(entry, mark), left, y + 32, size=11, colour=colour, width=room)
-        following = next_par(entry.pars, mark) if entry.pars and mark else ""
-        theme.text(surface, following, left, y + 48, size=10, width=room)
+        draw_pars(surface, theme, entry.pars, mark and mark.fastest, left, y + 45, MEDALS[1:])
         if played.attempts:
-            theme.text(surface, tries_text(played), left, y + 63, size=10, colour=theme.palette.faint)
+            theme.text(surface, tries_text(played), left, y + 65, size=10, colour=theme.palette.faint)

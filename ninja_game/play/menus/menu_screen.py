@@ -45,6 +45,7 @@ class MenuScreen(Screen):
 
     def __init__(self, app: App) -> None:
         super().__init__(app)
+        self.player: PlayerData = app.player
         self.widgets: list[Widget] = []
         self.focus: Widget | None = None
         self._direction: HeldKey[str] = HeldKey()
@@ -54,10 +55,6 @@ class MenuScreen(Screen):
     @property
     def mood(self) -> Mood:
         return CALM
-
-    @property
-    def player(self) -> PlayerData:
-        return self.app.player
 
     def build(self) -> Sequence[Widget]:
         """The widgets; the first that can have it gets the focus."""

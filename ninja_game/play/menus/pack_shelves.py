@@ -82,23 +82,30 @@ class Rack(ListView):
             self._draw_head(surface, theme, cell, inner)
         elif cell.level:
             theme.row(surface, inner, chosen=chosen and focused, focused=focused)
-            self.thumbnails.draw(surface, cell.level, x + 6, y + 6, WIDE - 12)
-            theme.text(surface, shown_text(cell.level.title), x + 6, y + 73, size=9.5, width=w - 12)
-            self._draw_state(surface, theme, cell.level, x + 6, y + 88, w - 12)
+            self._draw_level(surface, theme, cell.level, x + 6, y + 6, w - 12)
         if chosen and focused:
             theme.canvas.frame_rect(surface, theme.palette.accent, *inner, 2.5, 4)
         elif not (cell.head or cell.level):
             theme.canvas.frame_rect(surface, theme.palette.panel_edge, *inner, 1, 4)
+            if self.cells[index - 1].head:
+                place, faint = (x + 8, y + h / 2 - 12, w - 16, 40), theme.palette.faint
+                theme.paragraph(surface, ["Drag a level here"], place, 9, 12, colour=faint, align="centre")
 
-    def _draw_state(self, surface: pygame.Surface, theme: Theme, level: Entry, x: float, y: float, w: float) -> None:
-        palette, state = theme.palette, self.status.state(level)
-        done = level.pars and state not in NOT_CERTIFIED
-        colour = palette.good if done else palette.bad if state in ("changed", NOT_FOUND) else palette.faint
-        theme.text(surface, state, x, y, size=8.5, colour=colour, width=w - 14)
-        if done and level.pars and level.pars.gold is not None:
-            draw_all_gold(surface, theme, x + w - 5, y + 5, 8)
+    def _draw_level(self, surface: pygame.Surface, theme: Theme, level: Entry, x: float, y: float, w: float) -> None:
+        canvas, palette, state, right = theme.canvas, theme.palette, self.status.state(level), x + WIDE - 12
+        self.thumbnails.draw(surface, level, x, y, WIDE - 12)
+        pars = level.pars if state not in NOT_CERTIFIED else None
+        gold = pars is not None and pars.gold is not None
+        theme.text(surface, shown_text(level.title), x, y + 67, size=9.5, width=w - 12 * gold)
+        colour = palette.good if pars else palette.bad if state in ("changed", NOT_FOUND) else palette.faint
+        theme.text(surface, state, x, y + 82, size=8.5, colour=colour, width=w - 40 if pars else w)
+        if gold:
+            draw_all_gold(surface, theme, x + w - 5, y + 73, 8)
+        if pars:
+            theme.text(surface, pars.grade, x + w, y + 82, size=8.5, align="right", width=40)
         if self.status.checked and level.named.file in self.status.checked.places:
-            theme.text(surface, "!", x + w - 16, y - 1, size=11, bold=True, colour=palette.bad, align="centre")
+            canvas.circle(surface, palette.panel, (right - 9, y + 9), 8)
+            theme.text(surface, "!", right - 9, y + 3, size=11, bold=True, colour=palette.bad, align="centre")
 
     def _draw_head(self, surface: pygame.Surface, theme: Theme, cell: Cell, area: Area) -> None:
         x, y, w, h = area

@@ -6,7 +6,7 @@ from pathlib import Path
 from time import monotonic
 from typing import NamedTuple
 
-from ninja_game.editor.packs import MADE_READY, Obstacles, ReadyPack, make_ready, obstacle_of, problems_of
+from ninja_game.editor.packs import MADE_READY, Obstacles, ReadyPack, Steps, make_ready, obstacle_of, problems_of
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import short_path
@@ -36,7 +36,8 @@ class Packer(Aside):
     """``path``: the pack that is, or was, made ready; ``text``: how that stands or ended.
 
     ``share``: of its step, None where nobody knows. ``saved``: the zip that came of it. ``desk``: the screen at which a
-    link is waited for.
+    link is waited for. ``steps``: what was done at the desk.
+    ``open_problems``: a pack that is ready but for problems, about which the desk asks.
     """
 
     def __init__(self, app: App) -> None:
@@ -46,17 +47,19 @@ class Packer(Aside):
         self._seconds = SECONDS
         self.desk: Screen | None = None
         self.obstacles: Obstacles = {}
+        self.steps = Steps()
         self.busy = self._stopped = False
         self.text, self._made = "", ""
         self.share: float | None = None
         self._zipped = b""
         self._seen: Pack | None = None
+        self.open_problems: ReadyPack | None = None
         self._step: tuple[str, float | None, float] = "", None, 0.0
         self._job: NewestJob[Path, ReadyPack] = NewestJob(self._make_ready)
 
     def start(self, path: Path, seconds: float = SECONDS) -> None:
         self.path, self.busy, self._stopped = path, True, False
-        self.saved, self._seconds = None, seconds
+        self.saved, self.open_problems, self._seconds = None, None, seconds
         self._say("Beginning", 0.0)
         self._job.ask(path)
 
@@ -87,11 +90,16 @@ class Packer(Aside):
         self.share = share
         if self._job.idle:
             self.busy, self.text = False, self._job.problem
-            if self._job.result and not self.text:
-                self.text = self._made = self._share(self._job.result)
+            ready = None if self.text else self._job.result
+            if ready and ready.findings:
+                self.open_problems = ready
+                self.text = f"Neither zip nor link yet: {counted(len(ready.findings), 'open problem')}"
+                self.app.notify(f"{shown_text(ready.pack.name)}: {self.text}" * (self.app.top is not self.desk))
+            elif ready:
+                self.publish(ready)
 
-    def _share(self, ready: ReadyPack) -> str:
-        """Write the zip, and put the link into the clipboard of who waits for it; all that is to be said."""
+    def publish(self, ready: ReadyPack) -> None:
+        """Write the zip, put the link into the clipboard of who waits for it, and say so."""
         app, name, waited_for = self.app, ready.pack.name, self.app.top is self.desk
         self.saved = app.write_export(name, ".zip", lambda path: write_atomically(path, ready.zipped))
         self._zipped, self._seen = ready.zipped, None
@@ -102,7 +110,7 @@ class Packer(Aside):
         app.notify("; ".join(said) if waited_for else f"{shown_text(name)} is ready to share", here=waited_for)
         if codes := dict.fromkeys(each.code.replace("-", " ") for each in ready.findings):
             said[0] += f", with {counted(len(ready.findings), 'open problem')} ({', '.join(codes)})"
-        return "; ".join([*said, *ready.notes])
+        self.text = self._made = "; ".join([*said, *ready.notes])
 
     def follow(self, pack: Pack | None) -> None:
         """Say of the zip what is true of it. ``pack``: as its files are now, None where it is gone."""

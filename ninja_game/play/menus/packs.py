@@ -11,13 +11,13 @@ from pathlib import Path
 import pygame
 
 from ninja_game.editor import packs
-from ninja_game.editor.packs import missing_run, obstacle_of
+from ninja_game.editor.packs import ReadyPack, missing_run, obstacle_of
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import short_path
 from ninja_game.formats.links import link_kind
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, Accepted, EpisodeIndex
-from ninja_game.formats.pack.pack import INDEX, Pack
+from ninja_game.formats.pack.pack import INDEX, RECEIVED, Pack
 from ninja_game.generator.daily import FOLDER as DAILY
 from ninja_game.levels.episodes import GAME, Entry, EpisodeSet
 from ninja_game.levels.findings import Finding, PackFinding
@@ -25,7 +25,7 @@ from ninja_game.levels.warnings import level_findings
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link, pasted_text
 from ninja_game.play.level.screen import play_level
-from ninja_game.play.menus.episodes import EpisodeGrid
+from ninja_game.play.menus.episodes import PREVIEW, EpisodeGrid
 from ninja_game.play.menus.menu_screen import CANCEL, FormPanel, Menu, Question, Row, ask_text
 from ninja_game.play.menus.pack_shelves import HIGH, WIDE, Cell, Rack
 from ninja_game.play.menus.packer import PackStatus, packer_of
@@ -75,7 +75,6 @@ class PackScreen(ThumbnailScreen):
         self.beside = "none"
         self.held: Cell | None = None
         self.pointer: tuple[float, float] | None = None
-        self.steps = packs.Steps()
         self.packer = packer_of(app)
         self.packer.desk = self
         self.status = PackStatus(self.packer, self.player.catalogue)
@@ -121,6 +120,8 @@ class PackScreen(ThumbnailScreen):
             entries = self.player.catalogue.own()
         elif self.beside != "none":
             entries = [entry for each in self.sets if each.key == self.beside for entry in each.levels]
+        goals = {"none": "take it out of its episode", "yours": "put it into your folder"}
+        self.tray.empty = f"Drag a level here to {goals.get(self.beside, 'put it into this pack')}"
         self.shelves.show(cells)
         self.tray.show([Cell(None, entry) for entry in entries])
         self.redraw = True
@@ -130,30 +131,43 @@ class PackScreen(ThumbnailScreen):
         super().enter()
 
     def build(self) -> Sequence[Widget]:
-        names, have = [(each.name, each.key) for each in self.mine], self.pack and self.pack.pack
-        chosen = Choice((36, 60, 174, 28), "", names, lambda: self.pack.key if self.pack else "", self._choose_pack)
-        chosen.hint = f"{have.index.title}, in the folder {self.path.name}" if have else ""
+        names = [(each.pack.index.title if each.pack and each.received else each.name, each.key) for each in self.mine]
+        have = self.pack and self.pack.pack
+        chosen = Choice((36, 60, 164, 28), "", names, lambda: self.pack.key if self.pack else "", self._choose_pack)
+        received = bool(self.pack and self.pack.received)
+        chosen.hint = f"{have.index.title}{', received' * received}, in the folder {self.path.name}" if have else ""
         tray = [("In no episode", "none"), ("Your folder", "yours")]
         tray += [(each.name if each.key else "The game's own", each.key) for each in self.sets if each is not self.pack]
         beside = Choice((622, 96, 134, 26), "", tray, lambda: self.beside, self._choose_tray)
         self.shelves.hint = self.tray.hint = "Drag a level or an episode; Enter or a second click: what can be done"
         ready, end = partial(self.packer.start, self.path), self.packer.end
         hint = "Certify all, measure par times, look for problems; zip and link. Only what changed is done again"
-        undo = Button((216, 60, 50, 28), "Undo", lambda: self.do(self._undo), size=10)
-        undo.enabled, undo.hint = bool(self.steps), f"Ctrl+Z: {self.steps[-1].what}" if self.steps else ""
-        new = Button((272, 60, 82, 28), "New pack...", self._new_pack, size=10)
-        paste = Button((360, 60, 76, 28), "Paste link", self._paste, size=10)
+        undo = Button((206, 60, 44, 28), "Undo", lambda: self.do(self._undo), size=10)
+        steps = self.packer.steps
+        undo.enabled, undo.hint = bool(steps), f"Ctrl+Z: {steps[-1].what}" if steps else ""
+        new = Button((256, 60, 76, 28), "New pack...", self._new_pack, size=10)
+        paste = Button((338, 60, 68, 28), "Paste link", self._paste, size=10)
         paste.hint = "Ctrl+V: the pack whose link is in the clipboard becomes one of yours"
-        about = Button((442, 60, 78, 28), "About it...", self._about, size=10, hint="Play, name, copy or delete it")
-        show = partial(ProblemsScreen, self.app, self.problems)
-        problems = Button((526, 60, 78, 28), "Problems", lambda: self.app.push(show()), size=10)
-        make = Button((610, 60, 146, 28), *(("Stop", end) if self.packer.busy else ("Make ready", ready)), hint=hint)
+        about = Button((412, 60, 68, 28), "About it...", self._about, size=10, hint="Play, name, copy or delete it")
+        view = self.view = Button((486, 60, 60, 28), "Play" if received else "Preview", self._view, size=10)
+        view.hint = f"{PREVIEW}: what whoever pastes the link sees; nothing is kept"
+        if received and have:
+            view.hint = shown_text(f"{have.index.title}. {have.index.comment}", 200)
+        view.enabled = bool(self.pack and self.pack.episodes)
+        problems = Button((552, 60, 66, 28), "Problems", self._show_problems, size=10)
+        make = Button((624, 60, 132, 28), *(("Stop", end) if self.packer.busy else ("Make ready", ready)), hint=hint)
         link = Button((662, 525, 94, 24), "Copy the link", self._copy_link, size=10)
         link.hint = "Whoever opens it, or pastes it in Levels > Packs, gets the pack"
         folder = Button((562, 525, 94, 24), "Open the folder", self._open_folder, size=10, hint="Where the zip is")
         share = [] if self.packer.busy else [*[folder] * bool(self._saved), link]
-        first = [self.shelves, chosen, undo, new, paste, about, problems, make, beside, self.tray]
-        return [*first, *share] if have else [new, paste, *[undo] * bool(self.steps)]
+        first = [self.shelves, chosen, undo, new, paste, about, view, problems, make, beside, self.tray]
+        return [*first, *share] if have else [new, paste, *[undo] * bool(steps)]
+
+    def _view(self) -> None:
+        """Show the episodes of the pack; those of one's own as nobody has played them yet."""
+        if self.pack:
+            newcomer = None if self.pack.received else self.player.newcomer()
+            self.app.push(EpisodeGrid(self.app, self.pack.key, newcomer))
 
     @property
     def _saved(self) -> Path | None:
@@ -180,7 +194,7 @@ class PackScreen(ThumbnailScreen):
         """Change something on the disk, and show all as it is then. ``what``: how undo calls it; "" is no step."""
         try:
             if what:
-                self.steps.do(what, action, {self.folder, *(each.path for each in self.mine if each.path)})
+                self.packer.steps.do(what, action)
             else:
                 action()
         except (NinjaGameError, OSError) as error:
@@ -188,20 +202,48 @@ class PackScreen(ThumbnailScreen):
         self._read()
         self.app.top.enter()
 
+    def change(self, action: Callable[[], object], what: str) -> None:
+        """Change the pack on the shelves; of one that was received it is asked whether a copy is to be changed."""
+        if not (self.pack and self.pack.pack and self.pack.received):
+            self.do(action, what)
+            return
+        pack = self.pack.pack
+
+        def own() -> None:
+            packs.make_own(pack.files.path)
+            action()
+
+        rows: list[Row] = [
+            ("Copy it, to change that", partial(self._copy, pack), "What was received stays as it is"),
+            ("Change it all the same", lambda: self.do(own, what), "It is yours from now on"),
+            CANCEL,
+        ]
+        self.app.push(Menu(self.app, f"Received: {shown_text(pack.index.title)}", rows))
+
+    def _copy(self, pack: Pack) -> None:
+        def copy() -> None:
+            self._read(packs.copy_pack(pack, self.folder, f"{pack.name} copy"))
+            self.app.notify("This copy is yours to change")
+
+        self.do(copy, "Copy")
+
     def _undo(self) -> None:
-        self.app.notify(f"Undone: {self.steps.undo()}")
+        self.app.notify(f"Undone: {self.packer.steps.undo()}")
 
     def ask(self, title: str, text: str, action: Callable[[str], object]) -> None:
         what = shown_text(title.partition(":")[0])
-        ask_text(self.app, title, "", text, "OK", lambda typed: self.do(lambda: action(typed), what), 60)
+        ask_text(self.app, title, "", text, "OK", lambda typed: self.change(lambda: action(typed), what), 60)
 
     def _new_pack(self) -> None:
-        def make(name: str) -> None:
-            path = packs.new_pack(self.folder, name, self.player.settings.name)
+        def make(name: str, author: str = self.player.settings.name) -> None:
+            self.app.know_author("", author)
+            path = packs.new_pack(self.folder, name, author)
             self.beside = "yours" if self.player.catalogue.own() else "none"
             self._read(path)
 
-        self.ask("New pack: its name", "My pack", make)
+        fields = [("Name", "My pack", 60), ("Author", "", 40)][: 1 if self.player.settings.name else 2]
+        step = "New pack"
+        self.app.push(FormPanel(self.app, step, fields, "OK", lambda texts: self.do(lambda: make(*texts), step)))
 
     def _paste(self) -> None:
         def take() -> None:
@@ -212,10 +254,12 @@ class PackScreen(ThumbnailScreen):
             if there := next((each for each in self.mine if each.pack and packs.same_pack(pack, each.pack)), None):
                 self._show(there)
                 raise NinjaGameError(f"{shown_text(there.name)} is among your packs already")
-            self._read(packs.copy_pack(pack, self.folder, pack.name))
-            self.app.notify(f"{shown_text(pack.name)} is among your packs now: Episodes plays it")
+            self._read(packs.copy_pack(pack, self.folder, pack.name, received=True))
+            self.app.notify(f"{shown_text(pack.name)} is among your packs now: Enter plays it")
 
         self.do(take, "Paste link")
+        if self.pack and self.pack.received:
+            self.focus_on(self.view)
 
     def handle(self, event: InputEvent) -> None:
         if event.raw.type == pygame.KEYDOWN and chord(event.raw) == "ctrl+v":
@@ -233,7 +277,7 @@ class PackScreen(ThumbnailScreen):
 
         def describe(texts: list[str]) -> None:
             self.app.know_author(index.author, texts[1])
-            self.do(lambda: packs.describe(self.path, dict(zip(keys, texts, strict=True))), "About the pack")
+            self.change(lambda: packs.describe(self.path, dict(zip(keys, texts, strict=True))), "About the pack")
 
         form = FormPanel(self.app, "About the pack", fields, "OK", describe)
         self.app.push(form)
@@ -242,14 +286,13 @@ class PackScreen(ThumbnailScreen):
     def _about(self) -> None:
         copied = Pack(self.path)
         index, empty = copied.index, not copied.episodes
-        copy = partial(packs.copy_pack, copied, self.folder)
         busy = self.packer.busy and self.packer.path == self.path
         gone = "It is being made ready" if busy else "It goes to the folder deleted, and Undo brings it back"
         grid = partial(EpisodeGrid, self.app, self.pack.key if self.pack else "")
         rows: list[Row] = [
             ("Play it", None if empty else lambda: self.app.push(grid()), "No episode has levels" * empty),
             ("Name, author, version...", self._form, ""),
-            ("Copy of the pack...", lambda: self.ask("Copy: its name", f"{index.name} copy", copy), ""),
+            ("Copy of the pack", lambda: self._copy(copied), ""),
             ("Delete the pack...", None if busy else self._delete, gone),
             CANCEL,
         ]
@@ -260,12 +303,12 @@ class PackScreen(ThumbnailScreen):
 
         def delete() -> None:
             there = packs.bin_pack(path, self.player.folder / DELETED)
-            self.steps.append(packs.Step(f"Delete {shown_text(name)}", moved=(path, there)))
             self.app.notify(f"{shown_text(name)} is in the folder {there.relative_to(self.player.folder)} now")
 
         title = f"Delete {shown_text(name)} with its {counted(len(Pack(path).files.levels), 'level')}?"
         hint = f"All goes to the folder {DELETED}; Undo brings it back"
-        self.app.push(Question(self.app, title, "Delete it", lambda: self.do(delete), hint))
+        step = partial(self.do, delete, f"Delete {shown_text(name)}")
+        self.app.push(Question(self.app, title, "Delete it", step, hint))
 
     def _choose(self, cell: Cell) -> None:
         if self.held:
@@ -273,9 +316,14 @@ class PackScreen(ThumbnailScreen):
         elif cell.level:
             self._level_menu(cell)
         elif cell.episode is None:
-            self.ask("New episode: name", "New episode", partial(packs.new_episode, self.path, column=self._column()))
+            self.ask("New episode: name", self._next_name, partial(packs.new_episode, self.path, column=self._column()))
         else:
             self._episode_menu(cell.episode)
+
+    @property
+    def _next_name(self) -> str:
+        """What a new episode is called until it has a name of its own."""
+        return f"Episode {sum(cell.head for cell in self.shelves.cells)}"
 
     def _column(self) -> int:
         numbers = [cell.episode.number for cell in self.shelves.cells if cell.episode]
@@ -288,6 +336,7 @@ class PackScreen(ThumbnailScreen):
         file = Path(level.named.file)
         rename, take_out = partial(packs.rename_level, file), partial(packs.place, self.path, file.name, None)
 
+        edit = partial(self._edit, level, None)
         run, title = self.player.catalogue.author_run(level), shown_text(level.title)
 
         def copy() -> None:
@@ -298,14 +347,14 @@ class PackScreen(ThumbnailScreen):
                 self.app.notify(why)
 
         rows: list[Row] = [
-            ("Edit", lambda: self._edit(level, None), ""),
+            ("Edit", partial(self.change, edit, "Edit") if file.parent == self.path else edit, ""),
             ("Play", play, ""),
             ("Watch the run", partial(watch, self.app, [run]) if run else None, "" if run else "None is known yet"),
             ("Move...", lambda: self._hold(cell), ""),
         ]
         if file.parent == self.path:
             rows += [("Rename...", lambda: self.ask(f"Rename {level.named.name}", level.named.name, rename), "")]
-            rows += [("Copy", lambda: self.do(copy, f"Copy {title}"), "Another level like it")]
+            rows += [("Copy", lambda: self.change(copy, f"Copy {title}"), "Another level like it")]
             rows += [("Take out", lambda: self._set_aside(take_out, title), "Into no episode")] * bool(episode)
         self.app.push(Menu(self.app, level.title, [*rows, CANCEL]))
 
@@ -332,7 +381,7 @@ class PackScreen(ThumbnailScreen):
             ("Rename...", lambda: self.ask(f"Rename {episode.name}", episode.name, rename), ""),
             ("Move...", lambda: self._hold(Cell(episode, head=True)), ""),
             ("Name of the column...", lambda: self.ask("Name of the column", columns[column], name_column), ""),
-            ("Begin a column...", lambda: self.ask("Column: first episode", "New episode", begin), "Beside the others"),
+            ("Begin a column...", lambda: self.ask("Column: first episode", self._next_name, begin), "Beside these"),
             ("Remove the episode", lambda: self._set_aside(remove, title), "Its levels stay, beside the others"),
             CANCEL,
         ]
@@ -341,7 +390,7 @@ class PackScreen(ThumbnailScreen):
     def _set_aside(self, action: Callable[[], object], what: str) -> None:
         """Take levels out of their episode, and show where they are then."""
         self.beside = "none"
-        self.do(action, f"Take out {shown_text(what)}")
+        self.change(action, f"Take out {shown_text(what)}")
 
     # --- moving ---
 
@@ -366,10 +415,11 @@ class PackScreen(ThumbnailScreen):
     def _drop(self, goal: Cell | None, *, after: bool = False) -> None:
         held, self.held, self.pointer = self.held, None, None
         if held and held.level and not (goal and goal.level is held.level):
-            self.do(partial(self._put_level, held.level, goal, after=after), f"Move {shown_text(held.level.title)}")
+            do = self.do if goal is None and self.beside != "none" else self.change
+            do(partial(self._put_level, held.level, goal, after=after), f"Move {shown_text(held.level.title)}")
         elif held and held.episode and goal and goal.episode:
             numbers = held.episode.number, goal.episode.number
-            self.do(partial(packs.move_episode, self.path, *numbers), f"Move episode {numbers[0] + 1}")
+            self.change(partial(packs.move_episode, self.path, *numbers), f"Move episode {numbers[0] + 1}")
 
     def _is_after(self, index: int) -> bool:
         """Whether the mouse is over the right half of a cell: what it has lands behind what is there."""
@@ -394,13 +444,16 @@ class PackScreen(ThumbnailScreen):
             target = next((each.path for each in self.sets if each.key == self.beside and each.path), self.folder)
         if target != self.folder and target not in [each.path for each in self.mine]:
             raise NinjaGameError("that pack cannot be changed: it is the game's own, or a zip")
+        if target != self.path and (target / RECEIVED).exists():
+            raise NinjaGameError("that pack was received, and stays as it is")
         name = file.name
         if file.parent != target:
-            name = packs.transfer(level.named, target, keep=level.source == GAME or self.folder not in file.parents)
+            others = level.source == GAME or self.folder not in file.parents or (file.parent / RECEIVED).exists()
+            name = packs.transfer(level.named, target, keep=others)
         if (target / INDEX).is_file():
             number = goal.episode.number if goal and goal.episode else None
             if goal and number is None:
-                number = packs.new_episode(target, "New episode", self._column())
+                number = packs.new_episode(target, self._next_name, self._column())
             row = [each.level for each in self.shelves.cells if goal and each.episode is goal.episode and each.level]
             row = [each for each in row if each is not level]
             behind = row[row.index(goal.level) + after :] if goal and goal.level else []
@@ -447,9 +500,10 @@ class PackScreen(ThumbnailScreen):
         if finding.code == "no-author":
             go = partial(self._form, 1)
         elif entry:
-            go, text = partial(self._edit_at, entry, why, finding.text), f"{entry.title}: {finding.text}"
+            edit, text = partial(self._edit_at, entry, why, finding.text), f"{entry.title}: {finding.text}"
+            go = partial(self.change, edit, "Edit")
             for other, named in pack.levels.items():
-                text = text.replace(f"as {other}", f"as {named.name}")
+                text = text.replace(f"as {other}", f"as {named.name}").replace(f"than {other}", f"than {named.name}")
 
         def accept(why: str) -> None:
             packs.accept(self.path, file, finding.code, why)
@@ -469,8 +523,8 @@ class PackScreen(ThumbnailScreen):
         entry, code = self._entry(accepted.file), accepted.code.replace("-", " ")
         take_back = partial(packs.take_back, self.path, accepted.file, accepted.code)
         text = f"{entry.title if entry else accepted.file}: {code}. Accepted: {accepted.reason}"
-        go = partial(self._edit, entry, None) if entry else None
-        return Problem(text, "", go, lambda: self.do(take_back, "Take it back"), accepted=True)
+        go = partial(self.change, partial(self._edit, entry, None), "Edit") if entry else None
+        return Problem(text, "", go, lambda: self.change(take_back, "Take it back"), accepted=True)
 
     def update(self, real_ms: int) -> None:
         super().update(real_ms)
@@ -481,7 +535,23 @@ class PackScreen(ThumbnailScreen):
         elif now != before:
             # A notice may be about a certificate that a search of the editor has found.
             self._read(news=now[3] in ("", before[3]))
+        if packer.open_problems and self.app.top is self:
+            self._ask_about(packer.open_problems)
         self.redraw = self.status.update() or now != before or self.redraw
+
+    def _show_problems(self) -> None:
+        self.app.push(ProblemsScreen(self.app, self.problems))
+
+    def _ask_about(self, ready: ReadyPack) -> None:
+        self.packer.open_problems = None
+        self._read(ready.pack.files.path)
+        rows: list[Row] = [
+            ("Show the problems", self._show_problems, "Make ready asks again"),
+            ("Zip and link all the same", lambda: self.packer.publish(ready), ""),
+            CANCEL,
+        ]
+        title = f"{shown_text(ready.pack.name)}: {counted(len(ready.findings), 'open problem')}"
+        self.app.push(Menu(self.app, title, rows))
 
     def leave(self) -> None:
         super().leave()

@@ -51,7 +51,7 @@ class EpisodePassed(ThumbnailScreen):
 
     def __init__(self, app: App, run: EpisodeRun, play: Callable[[EpisodeRun], object]) -> None:
         super().__init__(app)
-        self.run = run
+        self.run, self.player = run, run.data
         self._play = play
         self.title = f"Episode {run.episode.code} passed"
         self.particles = Particles()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from time import perf_counter
 
 import pygame
@@ -96,11 +97,14 @@ def tries_text(played: Played) -> str:
     return f"{counted(played.attempts, 'try', 'tries')}, {counted(played.deaths, 'death', 'deaths')}"
 
 
-def draw_pars(surface: pygame.Surface, theme: Theme, pars: Pars | None, tick: int | None, x: float, y: float) -> None:
-    """All pars in a row, those reached in a tick filled."""
+def draw_pars(
+    surface: pygame.Surface, theme: Theme, pars: Pars | None, tick: int | None, x: float, y: float,
+    medals: Sequence[str] = MEDALS,
+) -> None:  # fmt: skip
+    """Pars in a row, those reached in a tick filled."""
     if pars is None:
         return
-    for medal in MEDALS:
+    for medal in medals:
         par = pars.par(medal) if medal in MARGINS else None
         reached = tick is not None and (par is None or tick <= par)
         draw_medal(surface, theme, medal, x + 8, y + 8, 16, reached=reached)

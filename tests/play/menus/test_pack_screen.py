@@ -20,6 +20,7 @@ from ninja_game.editor.files import ascii_text
 from ninja_game.editor.packs import Obstacles, ReadyPack, Say
 from ninja_game.files.user_folder import short_path
 from ninja_game.formats.links import write_link
+from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import Replay
 from ninja_game.levels.findings import found, in_pack
@@ -31,6 +32,7 @@ from ninja_game.play.menus.menu_screen import BACK, FormPanel, MenuScreen
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.problems import ProblemsScreen
 from ninja_game.play.replay.screen import ReplayScreen
+from ninja_game.player.player_data import save_work
 from ninja_game.runs.packs import lint
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.task import Task
@@ -106,6 +108,7 @@ def test_levels_and_episodes_are_dragged(driver: MenuDriver, path: Path) -> None
     assert [cell.level.title for cell in screen.tray.cells if cell.level] == ["First Steps"]
     driver.carry(screen.tray.row_area(0), shelves.row_area(13))
     assert layout(path)[2] == ["00-0"], "a row below the others is a new episode"
+    assert [each.name for each in Pack(path).index.episodes][2] == "Episode 3"
     driver.carry(shelves.row_area(12), shelves.row_area(0))
     assert layout(path) == {0: ["00-0"], 1: ["00-2", "00-3", "00-4"], 2: ["01-0", "00-1", "01-1", "01-2"]}
     driver.carry(shelves.row_area(1), (300, 530, 2, 2))
@@ -219,9 +222,8 @@ def test_everything_about_a_pack_is_named_again(driver: MenuDriver, path: Path) 
     assert (pack.index.version, pack.index.episodes[0].name) == ("2", "Falls")
     assert pack.levels["00-0-first-steps.txt"].name == "Early steps"
     driver.choose("About it...")
-    driver.choose("Copy of the pack...")
-    typed(driver, "Laundry")
-    assert [each.name for each in screen.mine] == ["Laundry (laundry)", "Laundry (laundry-2)"]
+    driver.choose("Copy of the pack")
+    assert [each.name for each in screen.mine] == ["Laundry", "Laundry copy"]
 
 
 def test_a_problem_leads_to_its_place_and_is_accepted_with_a_reason(driver: MenuDriver, path: Path) -> None:
@@ -274,9 +276,19 @@ def test_a_pack_is_made_ready_in_the_background(
     driver.wait(lambda: "Making the solver ready" in drawn(driver.app))
     assert "fill accent 36,546" not in drawn(driver.app), "no bar where nobody knows how long it takes"
     go_on.set()
-    driver.wait(lambda: "the link is in the clipboard" in driver.app.notice, "the pack is ready")
+    driver.wait(lambda: driver.top() is not screen, "it asks what to do about open problems")
+    assert driver.shown(MenuScreen).title == "Laundry: 1 open problem"
+    assert screen.packer.saved is None
+    driver.choose("Show the problems")
+    driver.shown(ProblemsScreen)
+    driver.press("escape")
+    assert driver.top() is screen, "it asks once"
+    driver.choose("Make ready")
+    driver.wait(lambda: driver.top() is not screen)
+    driver.choose("Zip and link all the same")
+    assert "the link is in the clipboard" in driver.app.notice
     zipped = driver.player.folder / "exports" / "laundry-1.zip"
-    assert begun == [path]
+    assert begun == [path, path]
     assert ZipFile(zipped).namelist()[0] == "laundry/pack.toml"
     saved, rest = f"Saved: {short_path(zipped)}", "the link is in the clipboard"
     assert driver.app.notice == f"{saved}; {rest}"
@@ -411,7 +423,7 @@ def test_a_remark_about_the_order_names_levels_and_can_be_accepted(driver: MenuD
     screen = opened(driver)
     remarks = [problem for problem in screen.problems() if problem.accept]
     assert [problem.text for problem in remarks] == [
-        "First Steps: hard, and not as easy as Mind the Gap, which comes right after it",
+        "First Steps: hard, harder than Mind the Gap (easy), but comes right before it",
         "First Steps: hard: the first level is the hardest of the pack",
     ]
 
@@ -567,6 +579,9 @@ def test_what_is_done_at_the_desk_is_undone_step_by_step(driver: MenuDriver, pat
     driver.choose("New pack...")
     typed(driver, "Other")
     done()
+    driver.press("escape")
+    driver.choose("Packs")
+    screen = driver.shown(PackScreen)
     screen._read(path)
     driver.choose("About it...")
     driver.choose("Delete the pack...")
@@ -672,6 +687,103 @@ def test_a_pack_is_played_from_the_desk(driver: MenuDriver, path: Path) -> None:
     screen._read(path.parent / "empty")
     driver.choose("About it...")
     assert not driver.button("Play it").enabled
+
+
+def test_a_pack_is_previewed_as_somebody_who_has_played_nothing(driver: MenuDriver, path: Path) -> None:
+    driver.app.change_settings(name="the ninja-game developers")
+    packs.describe(path, {"comment": "Dry by noon"})
+    for name, level in Pack(path).levels.items():
+        if name.startswith("00"):
+            driver.player.marks.passed(level_digest(level.level), 1, 0)
+    screen = opened(driver)
+    driver.choose("Preview")
+    grid = driver.shown(EpisodeGrid)
+    text = drawn(driver.app)
+    assert "Laundry by the ninja-game developers. Dry by noon" in text
+    assert "text 'Preview as player'" in text
+    assert "0 of 8 levels passed" in text
+    assert "text '9.200 s'" not in text, "nothing is unlocked, nor raced"
+    assert "Not passed yet" in text
+    assert grid._look_of(1) == "locked"
+    driver.choose("Play")
+    run = driver.shown(LevelScreen).context
+    assert run.data is grid.player is not driver.player
+    assert save_work(run.data, lambda: ["Best: saved"]) == ["Best", "Not saved yet: this is a preview"]
+    driver.app.pop()
+    driver.press("escape")
+    assert driver.top() is screen
+
+
+def test_a_pack_that_was_received_is_changed_only_if_that_is_meant(driver: MenuDriver, path: Path) -> None:
+    link = Pack(path).files.link()
+    shutil.rmtree(path)
+    screen = opened(driver)
+    with patch("pygame.scrap.get_text", lambda: link):
+        driver.choose("Paste link")
+    text = drawn(driver.app)
+    assert "Laundry by the ninja-game developers" in text
+    received = screen.path
+    before = folder_texts(received)
+
+    def drag() -> None:
+        driver.carry(screen.shelves.row_area(2), half(screen, 8))
+
+    driver.press("return")
+    assert driver.shown(EpisodeGrid).player is driver.player
+    driver.press("escape")
+    drag()
+    assert driver.shown(MenuScreen).title == "Received: Laundry by the ninja-game developers"
+    driver.choose("Cancel")
+    assert folder_texts(received) == before
+    screen._choose_tray("yours")
+    driver.carry(screen.shelves.row_area(1), screen.tray.area)
+    assert folder_texts(received) == before, "taken from it, a level is copied"
+    assert (screen.folder / "00-0-first-steps.txt").is_file()
+    drag()
+    driver.choose("Copy it, to change that")
+    assert (screen.pack and screen.pack.name, folder_texts(received)) == ("Laundry copy", before)
+    drag()
+    assert layout(screen.path)[1] == ["01-0", "00-1", "01-1", "01-2"], "the copy asks nothing"
+    screen._read(received)
+    drag()
+    driver.choose("Change it all the same")
+    assert layout(received)[1] == ["01-0", "00-1", "01-1", "01-2"]
+    assert not (received / "received").exists()
+    driver.choose("Undo")
+    assert folder_texts(received) == before
+
+
+def test_an_empty_place_says_what_it_is_for(driver: MenuDriver, path: Path) -> None:
+    packs.new_episode(path, "Empty", 0)
+    screen = opened(driver)
+    seen = drawn(driver.app)
+    assert seen.count("text 'Drag a level' at") + seen.count("text 'Drag a level here' at") >= 2
+    assert "of its episode" in screen.tray.empty
+    screen._choose_tray("yours")
+    assert "into your folder" in screen.tray.empty
+
+
+def test_a_card_says_how_hard_its_level_is(driver: MenuDriver, path: Path) -> None:
+    table = path / "pars.toml"
+    table.write_text(table.read_text("utf-8").replace("difficulty = 0.39", "difficulty = 9.00"), "utf-8")
+    opened(driver)
+    seen = drawn(driver.app)
+    assert [seen.count(f"text '{grade}' at") for grade in ("very hard", "medium", "easy")] == [1, 1, 6]
+
+
+def test_a_new_pack_asks_for_its_author_once(driver: MenuDriver) -> None:
+    screen = opened(driver)
+    driver.choose("New pack...")
+    driver.shown(FormPanel).texts[1] = "ida"
+    typed(driver, "Walls")
+    assert screen.pack
+    assert screen.pack.pack
+    assert screen.pack.pack.index.title == "Walls by ida"
+    assert driver.player.settings.name == "ida"
+    driver.choose("New pack...")
+    assert len(driver.shown(FormPanel).texts) == 1
+    typed(driver, "Roofs")
+    assert Pack(screen.folder / "roofs").index.author == "ida"
 
 
 def test_each_of_two_problems_of_a_kind_leads_to_its_own_place(driver: MenuDriver, path: Path) -> None:
