@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import gc
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
 from difflib import get_close_matches
+from functools import partial
 from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -153,13 +154,23 @@ class _Board(click.Command):
     "--confirm", metavar="RUN", multiple=True,
     help="The runs of this file in FOLDER are no copies, although they are nearly somebody else's. Needs --json.",
 )  # fmt: skip
+@click.option(
+    "--reject", metavar="RUN", multiple=True,
+    help="The runs of this file in FOLDER do not count. Needs --json and --reason.",
+)  # fmt: skip
+@click.option(
+    "--ladder", metavar="RUN LADDER", multiple=True, type=(str, click.Choice(["played", "assisted"])),
+    help="Rank the runs of this file in FOLDER as played or as assisted, whatever they say. Needs --json.",
+)  # fmt: skip
+@click.option("--reason", metavar="TEXT", default="", help="Why, for --reject and --ladder: it stands on the pages.")
 @rules_option
 @click.option("--again", is_flag=True, help="Simulate every run, and write every page, also those known from before.")
 @jobs_option
 @address_option
 def board(
     folder: Path, levels: Path | None, site: Path | None, data: Path | None, check: Path | None, confirm: Sequence[str],
-    rules: Path | None, again: bool, jobs: int | None, address: str,
+    reject: Sequence[str], ladder: Sequence[tuple[str, str]], reason: str, rules: Path | None, again: bool,
+    jobs: int | None, address: str,
 ) -> int:  # fmt: skip
     """Rank the runs of a folder, all simulated again: tables, pages, checks.
 
@@ -175,24 +186,29 @@ def board(
       ninja-game board replays/ --site public/ --json board.json
       ninja-game board replays/ --check board.json
       ninja-game board replays/ --json board.json --confirm ann/00-0.txt
+      ninja-game board replays/ --json board.json --reject bob/00-0.txt --reason "spliced"
+      ninja-game board replays/ --json board.json --ladder bob/00-1.txt assisted
       ninja-game board replays/ --levels my-pack/ --site public/
       ninja-game board ask replays/ rank 00-0
     """
     from ninja_game.files.writing import check_output, write_atomically
     from ninja_game.web.board.pages import BoardPages, check_ledger, check_site
-    from ninja_game.web.board.report import board_text, changes, gone, plain, summary
+    from ninja_game.web.board.report import LONGEST_REASON, board_text, changes, gone, moderate, plain, summary
     from ninja_game.web.pages.frame import GAME
     from ninja_game.web.pages.gallery import published_levels
 
-    if confirm and not data:
-        raise click.UsageError("--confirm: name the ledger, which notes it, with --json")
+    if (confirm or reject or ladder) and not data:
+        raise click.UsageError("--confirm, --reject, --ladder: name the ledger, which notes it, with --json")
+    if bool(reject) > bool(reason.strip()) or len(reason) > LONGEST_REASON:
+        raise click.UsageError(f"--reject: say why with --reason, in at most {LONGEST_REASON} characters")
     if site:
         check_site(site, folder)
     if data:
         check_output(data, keep=[folder])
         check_ledger(data, folder)
     shown = published_levels(levels or data_folder("levels"))
-    ranking, before = _ranking(folder, shown, rules, check or data, jobs=jobs, again=again, confirm=confirm)
+    decide = partial(moderate, confirm=confirm, reject=reject, ladder=ladder, reason=reason.strip())
+    ranking, before = _ranking(folder, shown, rules, check or data, jobs=jobs, again=again, decide=decide)
     judged = ranking.judged
     if site:
         BoardPages(site, ranking, memo=memo_of("pages", site, folder, again=again), address=address).write()
@@ -216,12 +232,12 @@ def board(
 
 def _ranking(
     folder: Path, shown: PublishedLevels, rules: Path | None, ledger: Path | None, *,
-    jobs: int | None, again: bool = False, confirm: Sequence[str] = (),
+    jobs: int | None, again: bool = False, decide: Callable[[Ledger, datetime], None] | None = None,
 ) -> tuple[Ranking, Ledger]:  # fmt: skip
-    """The ranking of a folder's runs by the board's rules, and the ledger before, in which files are confirmed."""
+    """The ranking of a folder's runs by the board's rules, and the ledger before, with what is decided now."""
     from ninja_game.web.board.judge import judge
     from ninja_game.web.board.ranking import Ranking
-    from ninja_game.web.board.report import dates_of, plain, read_board
+    from ninja_game.web.board.report import dates_of, read_board
     from ninja_game.web.board.rules import USUAL, read_categories
     from ninja_game.web.board.runs import NO_LEDGER
 
@@ -229,13 +245,8 @@ def _ranking(
     gc.set_threshold(20_000)
     now = datetime.now(UTC)
     before = read_board(ledger, now) if ledger and ledger.exists() else NO_LEDGER
-    near = [row for row in before.runs.values() if row.get("near") and not row.get("confirmed")]
-    for name in confirm:
-        if not (rows := [row for row in near if row["file"] == name]):
-            files = ", ".join(plain(row["file"]) for row in near[:10]) or "none"
-            raise ArgumentError(f"--confirm {name!a}: no run of the ledger that waits; those that do: {files}")
-        for row in rows:
-            row["confirmed"] = True
+    if decide:
+        decide(before, now)
     categories = read_categories(rules) if rules else USUAL
     memo = memo_of("runs", folder, folder, again=again)
     dates = dates_of(before, now) if ledger else None

@@ -370,7 +370,7 @@ def test_a_faster_near_copy_is_told_and_confirmed_by_a_command(runs: Path, level
     assert "<td>better.txt</td>" in waiting
     words = "board", str(runs), "--levels", str(levels), "--json", str(data), "--confirm", "nobody.txt"
     told = CliRunner().invoke(cli, words)
-    assert (told.exit_code, "that waits; those that do: better.txt" in told.stderr) == (2, True)
+    assert (told.exit_code, "that waits; there are: better.txt" in told.stderr) == (2, True)
     assert check(runs, levels, "--confirm", "better.txt")[0] == 2
     assert check(runs, levels, *command, "--confirm", "better.txt")[0] == 0
     assert check(runs, levels, *command)[0] == 0

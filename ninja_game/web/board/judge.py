@@ -29,7 +29,20 @@ from ninja_game.ui.input.bindings import MOVES
 from ninja_game.web.board.collect import RunFolder, Sent, SentFile
 from ninja_game.web.board.copies import without_copies
 from ninja_game.web.board.players import Players, folded
-from ninja_game.web.board.runs import KINDS, NO_LEDGER, OWN, Dates, Judged, Ledger, Rejected, Run, ValidatedRuns
+from ninja_game.web.board.runs import (
+    ASSISTED,
+    KINDS,
+    NO_LEDGER,
+    OWN,
+    REJECTED,
+    Dates,
+    Judged,
+    Ledger,
+    Rejected,
+    Rows,
+    Run,
+    ValidatedRuns,
+)
 from ninja_game.web.pages.gallery import PublishedLevels, shared_text
 from ninja_game.web.pages.memo import Memo, digest_of, program
 
@@ -78,13 +91,13 @@ def judge(
         owner = owners.get(way := (run.level, run.way))
         if owner and (*way, owner["added"]) not in known and folded(owner["player"]) == folded(run.player):
             runs[number] = replace(run, added=owner["added"], again=True)
-    credited = _of_players(sorted(runs, key=lambda run: run.order), players)
+    credited, moderated = _moderated(_of_players(sorted(runs, key=lambda run: run.order), players), ledger.decisions)
     counted, copies = without_copies(credited, memo, owners)
     counted = [_with_row(run, owners.get((run.level, run.way), {})) for run in counted]
     named = [
         each if each.kind == "unreadable" else replace(each, player=players.meet(each.player)[0]) for each in rejected
     ]
-    others = sorted([*named, *copies], key=lambda each: (each.file, each.record))
+    others = sorted([*named, *moderated, *copies], key=lambda each: (each.file, each.record))
     refused, again = (tuple(each for each in others if (each.kind == OWN) is own) for own in (False, True))
     return ValidatedRuns(tuple(counted), refused, again, players.alike, _episodes(credited, counted, shown))
 
@@ -193,6 +206,24 @@ def _run(file: JudgedFile, row: Judged, entry: Entry, folder: RunFolder, added: 
     return Run(
         **vars(row), file=file.name, player=row.author, entry=entry, added=added, digest=file.digest, folder=folder
     )
+
+
+def _moderated(runs: list[Run], decisions: Rows) -> tuple[list[Run], list[Rejected]]:
+    """The runs, on the ladders that the keeper has moved them to, and those that the keeper has rejected."""
+    kept, rejected = list[Run](), list[Rejected]()
+    for run in runs:
+        row = decisions.get((run.level, run.way))
+        if row is None or folded(row["player"]) != folded(run.player):
+            kept.append(run)
+            continue
+        said = f"by the keeper on {row['added'][:10]}" + f": {row['reason']}" * bool(row["reason"])
+        if row["what"] == REJECTED:
+            why = f"rejected {said}"
+            rejected.append(Rejected(*run.key, "moderated", why, run.player, run.entry.title, run.way, run.added))
+        else:
+            remark = "; ".join(filter(None, (run.remark, f"moved to {row['what']} {said}")))
+            kept.append(replace(run, assisted=row["what"] == ASSISTED, remark=remark))
+    return kept, rejected
 
 
 def _with_row(run: Run, row: Mapping[str, Any]) -> Run:

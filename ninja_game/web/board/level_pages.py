@@ -138,7 +138,8 @@ class LevelPages:
         keys = f"{counted(run.presses, 'press', 'presses')}, {counted(run.jumps, 'jump')}"
         gold, made = f"{run.gold} of {run.entry.all_gold}", run.made or "unknown"
         facts = [("Time", f"{seconds_text(run.tick)} s"), *ranks, ("Score", seconds_text(run.score)), ("Gold", gold),
-                 ("Medal", run.medal), ("Keys", keys), ("Made", made), ("Date", run.day)]  # fmt: skip
+                 ("Medal", run.medal), ("Keys", keys), ("Made", made), ("Date", run.day),
+                 ("Remark", run.remark)]  # fmt: skip
 
         def content() -> str:
             drawn = paths(f"{UP}{BOARD}/{picture_name(run.level)}", [(self.name(run.player), run.path)])

@@ -25,7 +25,10 @@ PLAYED = "played"
 ASSISTED = "assisted"
 """The two ladders; a run of which nobody says how it was made is on the first one."""
 
+REJECTED = "rejected"  # what a keeper decides of a run, else the ladder that it is moved to
+
 KINDS = {
+    "moderated": ("by the keeper", "Rejected by the keeper"),
     "practice": ("of practice", "Practice runs"),
     "copy": ("copied", "Copies of runs"),
     "refused": ("refused", "Runs that do not count"),
@@ -64,12 +67,14 @@ class Judged:
 class Ledger(NamedTuple):
     """What a board knew before: ``runs`` and what was ``rejected`` by file and record.
 
-    ``withdrawn``: by level and way the runs that counted once, and are not there now or do not count.
+    ``withdrawn``: by level and way the runs that counted once, and are not there now or do not count; ``decisions``:
+    what the keeper of the board says of a run, and why.
     """
 
     runs: Rows
     rejected: Rows
     withdrawn: Rows
+    decisions: Rows
 
     @property
     def owners(self) -> Rows:
@@ -77,7 +82,7 @@ class Ledger(NamedTuple):
         return self.withdrawn | {(row["level"], row["way"]): row for row in self.runs.values()}
 
 
-NO_LEDGER = Ledger({}, {}, {})
+NO_LEDGER = Ledger({}, {}, {}, {})
 
 
 @dataclass(frozen=True, kw_only=True)
