@@ -163,14 +163,18 @@ class _Board(click.Command):
     help="Rank the runs of this file in FOLDER as played or as assisted, whatever they say. Needs --json.",
 )  # fmt: skip
 @click.option("--reason", metavar="TEXT", default="", help="Why, for --reject and --ladder: it stands on the pages.")
+@click.option(
+    "--dates", metavar="FILE.csv", type=OLD_FILE,
+    help="Rows FILE,DATE: since when runs are known, as of an older board. Needs --json, which keeps them.",
+)  # fmt: skip
 @rules_option
 @click.option("--again", is_flag=True, help="Simulate every run, and write every page, also those known from before.")
 @jobs_option
 @address_option
 def board(
     folder: Path, levels: Path | None, site: Path | None, data: Path | None, check: Path | None, confirm: Sequence[str],
-    reject: Sequence[str], ladder: Sequence[tuple[str, str]], reason: str, rules: Path | None, again: bool,
-    jobs: int | None, address: str,
+    reject: Sequence[str], ladder: Sequence[tuple[str, str]], reason: str, dates: Path | None, rules: Path | None,
+    again: bool, jobs: int | None, address: str,
 ) -> int:  # fmt: skip
     """Rank the runs of a folder, all simulated again: tables, pages, checks.
 
@@ -197,8 +201,8 @@ def board(
     from ninja_game.web.pages.frame import GAME
     from ninja_game.web.pages.gallery import published_levels
 
-    if (confirm or reject or ladder) and not data:
-        raise click.UsageError("--confirm, --reject, --ladder: name the ledger, which notes it, with --json")
+    if (confirm or reject or ladder or dates) and not data:
+        raise click.UsageError("--confirm, --reject, --ladder, --dates: name the ledger, which notes it, with --json")
     if bool(reject) > bool(reason.strip()) or len(reason) > LONGEST_REASON:
         raise click.UsageError(f"--reject: say why with --reason, in at most {LONGEST_REASON} characters")
     if site:
@@ -208,7 +212,7 @@ def board(
         check_ledger(data, folder)
     shown = published_levels(levels or data_folder("levels"))
     decide = partial(moderate, confirm=confirm, reject=reject, ladder=ladder, reason=reason.strip())
-    ranking, before = _ranking(folder, shown, rules, check or data, jobs=jobs, again=again, decide=decide)
+    ranking, before = _ranking(folder, shown, rules, check or data, jobs=jobs, again=again, decide=decide, dates=dates)
     judged = ranking.judged
     if site:
         BoardPages(site, ranking, memo=memo_of("pages", site, folder, again=again), address=address).write()
@@ -233,11 +237,12 @@ def board(
 def _ranking(
     folder: Path, shown: PublishedLevels, rules: Path | None, ledger: Path | None, *,
     jobs: int | None, again: bool = False, decide: Callable[[Ledger, datetime], None] | None = None,
+    dates: Path | None = None,
 ) -> tuple[Ranking, Ledger]:  # fmt: skip
     """The ranking of a folder's runs by the board's rules, and the ledger before, with what is decided now."""
     from ninja_game.web.board.judge import judge
     from ninja_game.web.board.ranking import Ranking
-    from ninja_game.web.board.report import dates_of, read_board
+    from ninja_game.web.board.report import dates_of, read_board, read_dates
     from ninja_game.web.board.rules import USUAL, read_categories
     from ninja_game.web.board.runs import NO_LEDGER
 
@@ -249,8 +254,12 @@ def _ranking(
         decide(before, now)
     categories = read_categories(rules) if rules else USUAL
     memo = memo_of("runs", folder, folder, again=again)
-    dates = dates_of(before, now) if ledger else None
-    judged = judge(folder, shown, dates=dates, jobs=jobs, memo=memo, ledger=before)
+    given = read_dates(dates, now) if dates else {}
+    known = dates_of(before, now, given) if ledger else None
+    judged = judge(folder, shown, dates=known, jobs=jobs, memo=memo, ledger=before)
+    here = {run.file for run in judged.runs} | {each.file for each in judged.rejected + judged.again}
+    if unknown := given.keys() - here:
+        raise FileError("a file that is not among the runs", str(dates), found=shown_text(min(unknown)))
     memo.save()
     return Ranking(judged, shown, categories), before
 

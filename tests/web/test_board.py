@@ -104,7 +104,7 @@ def test_a_record_says_by_how_much_it_is_better(runs: Path, levels: Path, tmp_pa
         "Fastest: 0.700 s, first", "Highest score: 91.300 points, first",
     ]  # fmt: skip
     assert newest.count("<tr>") == 3, "a new record fills one row"
-    assert re.findall("20.. UTC|<td>([0-9-]+ [0-9:]+ UTC)", newest) == ["1970-01-03 00:00 UTC", "1970-01-02 00:00 UTC"]
+    assert re.findall("<td>([0-9-]{10})<", newest) == ["1970-01-03", "1970-01-02"]
 
 
 def test_who_has_only_assisted_runs_is_among_the_players_too(runs: Path, levels: Path, tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""What the keeper of a board decides: runs that do not count, and runs on the other ladder."""
+"""What the keeper of a board decides: runs that do not count, and runs on the other ladder; and the dates of runs."""
 
 from __future__ import annotations
 
@@ -108,3 +108,60 @@ def test_a_decision_of_another_kind_is_a_wrong_row(ledger: Path, runs: Path, lev
     text = ledger.read_text("utf-8")
     ledger.write_text(text.replace('"what": "assisted"', '"what": "banned"'), "utf-8")
     assert "row 1 of 'decisions': 'what' is no decision" in told(runs, levels, "--json", str(ledger))
+
+
+def test_dates_of_an_older_board_are_kept(runs: Path, levels: Path, tmp_path: Path) -> None:
+    """Runs come into the ledger with real dates: the record's history is of these, and the first owns the run."""
+    data, dates, site = tmp_path / "board.json", tmp_path / "dates.csv", tmp_path / "site"
+    put(runs, "a/new.txt", replay(author="Ann"))
+    put(runs, "b.txt", slow_walk(author="Bea"))
+    put(runs, "cid.txt", replay(author="Cid"))
+    board(runs, levels, "--json", str(data))
+    dates.write_text("a/new.txt,2021-05-06\nb.txt,2020-03-04T10:00:00Z\ncid.txt, 2022-01-01\n", "utf-8")
+    words = "--json", str(data), "--site", str(site)
+    assert "copy: cid.txt: a copy of the run by Ann" in board(runs, levels, *words, "--dates", str(dates))
+    for _ in range(2):
+        page = level_page(site)
+        progression = page.partition('id="records"')[2].partition("</table>")[0]
+        assert "0.700 2020-03-04" in progression
+        assert [each in progression for each in ("<td>2021-05-06</td>", "<td>2020-03-04 10:00 UTC</td>")] == [
+            True,
+            True,
+        ]
+        board(runs, levels, *words)
+    dates.write_text("cid.txt,2019-01-01\n", "utf-8")
+    assert "copy: a/new.txt: a copy of the run by Cid" in board(runs, levels, *words, "--dates", str(dates))
+
+
+@pytest.mark.parametrize(
+    "text, error",
+    [
+        ("ann.txt", "row 1: no date of a file"),
+        ("ann.txt,soon", "row 1: no date of a file"),
+        ("ann.txt,2999-01-01", "row 1: no date of a file"),
+        ("ann.txt,2020-01-01,x", "row 1: no date of a file"),
+        ("ann.txt,2020-01-01\nann.txt,2020-01-02", "row 2: no date of a file"),
+        ("dee.txt,2020-01-01", "a file that is not among the runs; found dee.txt"),
+        ("\0", "row 1: no date of a file"),
+    ],
+)
+def test_a_row_of_dates_that_is_wrong_is_named(
+    text: str, error: str, ledger: Path, runs: Path, levels: Path, tmp_path: Path
+) -> None:
+    before = ledger.read_bytes()
+    (tmp_path / "dates.csv").write_text(text, "utf-8")
+    assert error in " ".join(told(runs, levels, "--json", str(ledger), "--dates", str(tmp_path / "dates.csv")).split())
+    assert ledger.read_bytes() == before
+
+
+def test_a_batch_is_one_entry_of_the_feed(
+    runs: Path, levels: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    put(runs, "a.txt", slow_walk(author="Ann"))
+    put(runs, "b.txt", replay(author="Bot", made=Made(edits=7)))
+    for most, entries in ((2, 2), (1, 1)):
+        monkeypatch.setattr("ninja_game.web.board.pages.MOST_OF_A_MOMENT", most)
+        board(runs, levels, "--json", str(tmp_path / "board.json"), "--site", str(tmp_path / "site"))
+        feed = (tmp_path / "site" / "board" / "feed.xml").read_text("utf-8")
+        assert feed.count("<entry>") == entries
+    assert "<title>2 runs with records came in together</title>" in feed

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 from functools import partial
-from itertools import groupby, product
+from itertools import groupby, islice, product
 from pathlib import Path
 from statistics import mean, median
 from typing import Any
@@ -92,10 +92,10 @@ class BoardPages(LevelPages):
 
     def _first(self) -> str:
         rows: list[tuple[Content, ...]] = []
-        for _, group in groupby(self.ranking.records, key=lambda each: each.run.added):
+        for records in self._moments():
             if len(rows) >= NEWEST:
                 break
-            rows += self._of_a_moment([*group])
+            rows += self._of_a_moment(records)
         heads = ("Level", "Watch", "Player", "Record", "Date")
         feed = tag("p", tag("a", "Feed of new records (Atom)", href=FEED))
         shown = table("Newest first", heads, rows[:NEWEST]), tag("p", ONE_MOMENT), feed
@@ -110,6 +110,11 @@ class BoardPages(LevelPages):
         contents = *leaders, self._contested(), self._week(), newest
         return page("Board", lead, said, *contents, links=self.links)
 
+    def _moments(self) -> Iterator[list[Record]]:
+        """The records of each moment, the newest first."""
+        for _, group in groupby(self.ranking.records, key=lambda each: each.run.added):
+            yield [*group]
+
     def _of_a_moment(self, records: Sequence[Record]) -> list[tuple[Content, ...]]:
         """A row for each of the records that came in at one moment; one for all where they are many."""
         moment = records[0].run.moment
@@ -123,8 +128,7 @@ class BoardPages(LevelPages):
             ]  # fmt: skip
         levels, players = ({getattr(each.run, name) for each in records} for name in ("level", "player"))
         where = tag("a", counted(len(levels), "level"), href="levels.html")
-        said = f"{len(records)} runs with records came in together"
-        return [(where, "", counted(len(players), "player"), said, moment)]
+        return [(where, "", counted(len(players), "player"), _together(records), moment)]
 
     def _achieved(self, record: Record) -> Iterator[str]:
         """The categories of a record, its results in them, and by how much it is better."""
@@ -175,17 +179,27 @@ class BoardPages(LevelPages):
 
     def _feed(self) -> str:
         """New records as Atom (RFC 4287); dates are those of the ledger."""
-        dated, name = [each for each in self.ranking.records[:NEWEST] if each.run.added], self.ranking.shown.name
+        news, name = list(islice(self._news(), NEWEST)), self.ranking.shown.name
         feed = ET.Element("feed", xmlns="http://www.w3.org/2005/Atom")
-        _about(feed, f"New records: {name}", name, dated[0].run.added if dated else "")
+        _about(feed, f"New records: {name}", name, news[0][2] if news else "")
         ET.SubElement(feed, "link", rel="self", href=FEED)
-        for record in dated:
-            run, entry = record.run, ET.SubElement(feed, "entry")
-            title = f"{self.name(run.player)}, {run.entry.title}, {'; '.join(self._achieved(record))}"
-            _about(entry, title, self.stems[run.key], run.added)
-            ET.SubElement(ET.SubElement(entry, "author"), "name").text = self.name(run.player)
-            ET.SubElement(entry, "link", href=page_name(run.level))
+        for title, known_by, date, author, leads_to in news:
+            _about(entry := ET.SubElement(feed, "entry"), title, known_by, date)
+            ET.SubElement(ET.SubElement(entry, "author"), "name").text = author
+            ET.SubElement(entry, "link", href=leads_to)
         return '<?xml version="1.0" encoding="utf-8"?>\n' + ET.tostring(feed, "unicode") + "\n"
+
+    def _news(self) -> Iterator[tuple[str, str, str, str, str]]:
+        """Entries of the feed: title, what it is known by, date, author, page."""
+        for records in self._moments():
+            date = records[0].run.added
+            if date and len(records) > MOST_OF_A_MOMENT:
+                yield _together(records), date, date, self.ranking.shown.name, "index.html"
+            elif date:
+                for record in records:
+                    run, name = record.run, self.name(record.run.player)
+                    title = f"{name}, {run.entry.title}, {'; '.join(self._achieved(record))}"
+                    yield title, self.stems[run.key], date, name, page_name(run.level)
 
     # --- players ---
 
@@ -340,6 +354,10 @@ class BoardPages(LevelPages):
         """A link to the page of a run that others have copied."""
         said = f"The run in {key[0]}" if key else ""
         return tag("a", "Look", href=f"../{REPLAYS}/{self.stems[key]}.html", aria_label=said) if key else ""
+
+
+def _together(records: Sequence[Record]) -> str:
+    return f"{len(records)} runs with records came in together"
 
 
 def _text(run: Run) -> str:

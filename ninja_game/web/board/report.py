@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from datetime import UTC, datetime, timedelta
 from functools import lru_cache
 from pathlib import Path
@@ -161,11 +161,31 @@ def _rows_of(name: str, rows: Sequence[dict[str, Any]], option: str, which: str)
     raise ArgumentError(f"{option} {name!a}: no run of the ledger {which}; there are: {files}")
 
 
-def dates_of(before: Ledger, now: datetime) -> Dates:
-    """The dates of a ledger. A run that it does not have, or not with this path, is added now."""
+def read_dates(path: Path, now: datetime) -> dict[str, str]:
+    """Dates by file, from rows FILE,DATE. Raises FormatError that names the row, FileError, OSError."""
+    found: dict[str, str] = {}
+    for number, row in enumerate(read_utf8(path).splitlines(), 1):
+        file, _, day = map(str.strip, row.rpartition(","))
+        date = f"{day}T00:00:00Z" if len(day) == len("2026-01-31") else day
+        if file in found or not _is_date(date, now):
+            expected = "FILE,DATE, once for a file, with a date in the past as 2026-01-31 or 2026-01-31T12:00:00Z"
+            raise FormatError(f"row {number}: no date of a file", str(path), found=plain(row), expected=expected)
+        found[file] = date
+    return found
+
+
+def dates_of(before: Ledger, now: datetime, given: Mapping[str, str]) -> Dates:
+    """The dates of a ledger. A run that it does not have, or not with this path, is added now.
+
+    ``given``: dates by file that take the place of the ledger's.
+    """
+    for row in before.runs.values():
+        row["added"] = given.get(row["file"], row["added"])
     rows, today = before.rejected | before.runs, now.strftime(DATE)
 
     def date(key: Key, way: str) -> str:
+        if key[0] in given:
+            return given[key[0]]
         row = rows.get(key)
         return str(row["added"]) if row and row["way"] == way else today
 

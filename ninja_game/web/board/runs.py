@@ -121,8 +121,8 @@ class Run(Judged):
 
     @property
     def moment(self) -> str:
-        """The date of ``added`` with the time of day."""
-        return self.added and f"{self.added[:16].replace('T', ' ')} UTC"
+        """The date of ``added`` with the time of day, where that is known."""
+        return self.day if self.added.endswith("T00:00:00Z") else f"{self.added[:16].replace('T', ' ')} UTC"
 
     @property
     def ladder(self) -> str:
