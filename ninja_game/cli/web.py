@@ -30,8 +30,9 @@ if TYPE_CHECKING:
     from ninja_game.web.board.ranking import Ranked, Ranking
     from ninja_game.web.board.rules import Category
     from ninja_game.web.board.runs import Ledger
-    from ninja_game.web.pages.gallery import PublishedLevels
     from ninja_game.web.pages.memo import Memo
+
+LAST_LEVELS = "/levels"  # what is remembered under it: no path of a run begins so
 
 rules_option = click.option(
     "--rules",
@@ -197,22 +198,19 @@ def board(
     """
     from ninja_game.files.writing import check_output, write_atomically
     from ninja_game.web.board.pages import BoardPages, check_ledger, check_site
-    from ninja_game.web.board.report import LONGEST_REASON, board_text, changes, gone, moderate, plain, summary
+    from ninja_game.web.board.report import board_text, changes, gone, moderate, plain, summary
     from ninja_game.web.pages.frame import GAME
-    from ninja_game.web.pages.gallery import published_levels
 
     if (confirm or reject or ladder or dates) and not data:
         raise click.UsageError("--confirm, --reject, --ladder, --dates: name the ledger, which notes it, with --json")
-    if bool(reject) > bool(reason.strip()) or len(reason) > LONGEST_REASON:
-        raise click.UsageError(f"--reject: say why with --reason, in at most {LONGEST_REASON} characters")
     if site:
         check_site(site, folder)
     if data:
         check_output(data, keep=[folder])
         check_ledger(data, folder)
-    shown = published_levels(levels or data_folder("levels"))
-    decide = partial(moderate, confirm=confirm, reject=reject, ladder=ladder, reason=reason.strip())
-    ranking, before = _ranking(folder, shown, rules, check or data, jobs=jobs, again=again, decide=decide, dates=dates)
+    decisions = [*((name, "rejected") for name in reject), *ladder]
+    decide = partial(moderate, confirm=confirm, decisions=decisions, reason=reason.strip())
+    ranking, before = _ranking(folder, levels, rules, check or data, jobs=jobs, again=again, decide=decide, dates=dates)
     judged = ranking.judged
     if site:
         BoardPages(site, ranking, memo=memo_of("pages", site, folder, again=again), address=address).write()
@@ -235,25 +233,34 @@ def board(
 
 
 def _ranking(
-    folder: Path, shown: PublishedLevels, rules: Path | None, ledger: Path | None, *,
+    folder: Path, levels: Path | None, rules: Path | None, ledger: Path | None, *,
     jobs: int | None, again: bool = False, decide: Callable[[Ledger, datetime], None] | None = None,
     dates: Path | None = None,
 ) -> tuple[Ranking, Ledger]:  # fmt: skip
-    """The ranking of a folder's runs by the board's rules, and the ledger before, with what is decided now."""
+    """The ranking of a folder's runs by the board's rules, and the ledger before, with what is decided now.
+
+    ``levels``: those that count; where nothing is decided, without them those of the last board of the folder.
+    """
     from ninja_game.web.board.judge import judge
     from ninja_game.web.board.ranking import Ranking
     from ninja_game.web.board.report import dates_of, read_board, read_dates
     from ninja_game.web.board.rules import USUAL, read_categories
     from ninja_game.web.board.runs import NO_LEDGER
+    from ninja_game.web.pages.gallery import published_levels
 
     # Of many runs, all of which stay, a third of the time went into looking for garbage.
     gc.set_threshold(20_000)
     now = datetime.now(UTC)
     before = read_board(ledger, now) if ledger and ledger.exists() else NO_LEDGER
-    if decide:
-        decide(before, now)
     categories = read_categories(rules) if rules else USUAL
     memo = memo_of("runs", folder, folder, again=again)
+    last = memo.recall(LAST_LEVELS)
+    if decide:
+        decide(before, now)
+        memo.note(LAST_LEVELS, str(levels.resolve()) if levels and levels.exists() else "")
+    elif not levels and isinstance(last, str) and last and Path(last).exists():
+        levels = Path(last)
+    shown = published_levels(levels or data_folder("levels"))
     given = read_dates(dates, now) if dates else {}
     known = dates_of(before, now, given) if ledger else None
     judged = judge(folder, shown, dates=known, jobs=jobs, memo=memo, ledger=before)
@@ -311,13 +318,11 @@ def ask(
       ninja-game board ask replays/ film 00-0 Ann Bob -o both.gif
     """
     from ninja_game.web.board.runs import ASSISTED, PLAYED
-    from ninja_game.web.pages.gallery import published_levels
 
     if what in ("trace", "film") and not output:
         raise click.UsageError(f"{what}: name the file with -o")
-    shown = published_levels(levels or data_folder("levels"))
-    entry = _level(level, list(shown.entries.values()))
-    ranking, _ = _ranking(folder, shown, rules, ledger, jobs=jobs)
+    ranking, _ = _ranking(folder, levels, rules, ledger, jobs=jobs)
+    entry = _level(level, list(ranking.shown.entries.values()))
     chosen = _category(ranking, category)
     tables = ranking.tables.get(entry.digest, {})
     table, other = (tables.get((each, chosen), []) for each in sorted((PLAYED, ASSISTED), reverse=not assisted))
@@ -397,8 +402,8 @@ def _level(text: str, entries: Sequence[Entry]) -> Entry:
     if found:
         raise ArgumentError(f"{text!a} is several levels: {named}")
     titles = {each.title.casefold(): each.title for each in entries}
-    near = [f"do you mean {shown_text(titles[each])}?" for each in get_close_matches(words, titles, 1)]
-    hint = near[0] if near else f"it has {len(entries)}: {named}{', ...' * (len(entries) > 5)}"
+    near = ", ".join(shown_text(titles[each]) for each in get_close_matches(words, titles, 5, 0.5))
+    hint = f"do you mean {near}?" if near else f"it has {len(entries)}: {named}{', ...' * (len(entries) > 5)}"
     raise ArgumentError(f"{text!a} is no level of the board; {hint}")
 
 
@@ -415,9 +420,9 @@ def _of_player(table: Sequence[Ranked], player: str) -> Ranked:
     for each in table:
         if folded(player) in (folded(each.run.player), folded(f"{each.run.player}, {each.run.ladder}")):
             return each
-    raise ArgumentError(
-        f"{player!a} has no run there; players: {', '.join(each.run.player for each in table[:10]) or 'none'}"
-    )
+    there = dict.fromkeys(shown_text(each.run.player) for each in table)
+    near = get_close_matches(player, there, 5) or [*there][:10]
+    raise ArgumentError(f"{player!a} has no run there; players: {', '.join(near) or 'none'}")
 
 
 def _row(ranked: Ranked, category: Category) -> dict[str, Any]:

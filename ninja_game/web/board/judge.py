@@ -29,20 +29,7 @@ from ninja_game.ui.input.bindings import MOVES
 from ninja_game.web.board.collect import RunFolder, Sent, SentFile
 from ninja_game.web.board.copies import without_copies
 from ninja_game.web.board.players import Players, folded
-from ninja_game.web.board.runs import (
-    ASSISTED,
-    KINDS,
-    NO_LEDGER,
-    OWN,
-    REJECTED,
-    Dates,
-    Judged,
-    Ledger,
-    Rejected,
-    Rows,
-    Run,
-    ValidatedRuns,
-)
+from ninja_game.web.board.runs import KINDS, NO_LEDGER, OWN, Dates, Judged, Ledger, Rejected, Run, ValidatedRuns
 from ninja_game.web.pages.gallery import PublishedLevels, shared_text
 from ninja_game.web.pages.memo import Memo, digest_of, program
 
@@ -91,7 +78,12 @@ def judge(
         owner = owners.get(way := (run.level, run.way))
         if owner and (*way, owner["added"]) not in known and folded(owner["player"]) == folded(run.player):
             runs[number] = replace(run, added=owner["added"], again=True)
-    credited, moderated = _moderated(_of_players(sorted(runs, key=lambda run: run.order), players), ledger.decisions)
+    credited, moderated = list[Run](), list[Rejected]()
+    for run in _of_players(sorted(runs, key=lambda run: run.order), players):
+        decision = ledger.decisions.get((run.level, run.way), {"player": ""})
+        decided = run.decided(decision) if folded(decision["player"]) == folded(run.player) else run
+        credited += [decided] if isinstance(decided, Run) else []
+        moderated += [] if isinstance(decided, Run) else [decided]
     counted, copies = without_copies(credited, memo, owners)
     counted = [_with_row(run, owners.get((run.level, run.way), {})) for run in counted]
     named = [
@@ -208,24 +200,6 @@ def _run(file: JudgedFile, row: Judged, entry: Entry, folder: RunFolder, added: 
     )
 
 
-def _moderated(runs: list[Run], decisions: Rows) -> tuple[list[Run], list[Rejected]]:
-    """The runs, on the ladders that the keeper has moved them to, and those that the keeper has rejected."""
-    kept, rejected = list[Run](), list[Rejected]()
-    for run in runs:
-        row = decisions.get((run.level, run.way))
-        if row is None or folded(row["player"]) != folded(run.player):
-            kept.append(run)
-            continue
-        said = f"by the keeper on {row['added'][:10]}" + f": {row['reason']}" * bool(row["reason"])
-        if row["what"] == REJECTED:
-            why = f"rejected {said}"
-            rejected.append(Rejected(*run.key, "moderated", why, run.player, run.entry.title, run.way, run.added))
-        else:
-            remark = "; ".join(filter(None, (run.remark, f"moved to {row['what']} {said}")))
-            kept.append(replace(run, assisted=row["what"] == ASSISTED, remark=remark))
-    return kept, rejected
-
-
 def _with_row(run: Run, row: Mapping[str, Any]) -> Run:
     """A run with what only its row of the ledger tells: it is confirmed, or near to one that may be gone."""
     if row.get("confirmed") is True:
@@ -275,10 +249,12 @@ def _worded(problem: RunProblem, result: Verdict, sent: Sent) -> str:
         odd = (keys != ours for keys, ours in zip(inputs, with_press_bits(inputs), strict=True))
         tick = next(compress(count(), odd))
         down = ", ".join(name for name, key in MOVES if inputs[tick] & key) or "no key"
-        pressed = "pressed again while it is held" if inputs[tick] & JUMP_HELD else "pressed and not held"
-        what = pressed if inputs[tick] & JUMP_PRESSED else "held and was not pressed"
-        how = "press it in the first tick in which it is held, and in no other"
-        return f"tick {tick}, {down} down: jump is {what}; {how}"
+        pressed = (
+            "is pressed anew though it is down already" if inputs[tick] & JUMP_HELD else "is pressed without going down"
+        )
+        what = pressed if inputs[tick] & JUMP_PRESSED else "is down and was never pressed"
+        how = "a key is pressed in the tick in which it goes down, and in no other"
+        return f"no keyboard can do that: in tick {tick} ({down} down) the jump key {what}; {how}"
     if problem.code == "other-level" and sent.replay and sent.replay.level_name:
         name, digest = sent.replay.level_name, result.level_digest[:16]
         return f"{name!r} is not one of the levels that count; its level_digest begins with {digest}"

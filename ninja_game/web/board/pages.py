@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
-from functools import partial
 from itertools import groupby, islice, product
 from pathlib import Path
 from statistics import mean, median
@@ -18,13 +17,13 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.sim.rules import LIFETIME
-from ninja_game.web.board.level_pages import FIRST, HOW_TO_CONFIRM, NEAR, LevelPages, level_link, player_page
+from ninja_game.web.board.level_pages import EPISODES, FIRST, HOW_TO_CONFIRM, NEAR, LevelPages, level_link, player_page
 from ninja_game.web.board.ranking import Ranked, Record, Standing
 from ninja_game.web.board.report import summary
 from ninja_game.web.board.rules import HIGHEST
 from ninja_game.web.board.runs import KINDS, PLAYED, Key, Run
-from ninja_game.web.pages.frame import REPLAYS, Content, page, section, table, tag
-from ninja_game.web.pages.gallery import BOARD, UP, medal_mark, page_name, shared_text
+from ninja_game.web.pages.frame import REPLAYS, Content, joined, on_this_page, page, section, table, tag
+from ninja_game.web.pages.gallery import BOARD, UP, medal_mark, page_name
 
 # Rows on the first page.
 NEWEST = 30
@@ -32,9 +31,11 @@ LEADING = 20
 CONTESTED = 10
 MOST_OF_A_MOMENT = 5  # records that come in at one moment and have a row each
 
+Piece = tuple[str, str, Content]  # of a page: anchor, title, content
+
 FEED = "feed.xml"
 ONE_MOMENT = "Where several runs that came in together beat a level's record, the best of them is the record."
-BY_LEVELS = "By levels led, then by levels passed"
+BY_LEVELS = "By levels led in all categories together, then by levels passed"
 
 
 def check_site(out: Path, folder: Path) -> None:
@@ -72,15 +73,13 @@ class BoardPages(LevelPages):
     """
 
     def write(self) -> None:
-        for run in self.ranking.judged.runs:
-            self.pages.make(f"{self.stems[run.key]}.txt", self.stems[run.key], partial(_text, run), replay=True)
-            self.run_page(run)
-        self._players()
         for entry in self.entries.values():
             self.level(entry)
+        self._players()
         self._levels()
         self._rejected()
-        self.pages.write("episodes.html", page("Episodes", *self._episodes(), links=self.links))
+        if episodes := self._episodes():
+            self.pages.write(EPISODES[0], page(EPISODES[1], tag("p", EPISODE_NUMBERS), *episodes, links=self.links))
         self.pages.write("index.html", self._first())
         self.pages.write(FEED, self._feed())
         # Last of all: where the disk is full, the pages of an earlier time are all there.
@@ -99,16 +98,21 @@ class BoardPages(LevelPages):
         heads = ("Level", "Watch", "Player", "Record", "Date")
         feed = tag("p", tag("a", "Feed of new records (Atom)", href=FEED))
         shown = table("Newest first", heads, rows[:NEWEST]), tag("p", ONE_MOMENT), feed
-        newest = section("Newest records", *shown) if rows else None
+        newest = [("newest", "Newest records", joined(*shown))] if rows else []
         leaders = [
-            section(self._players_of(ladder), table(BY_LEVELS, self._heads(), map(self._standing, standings[:LEADING])))
+            (
+                ladder,
+                self._players_of(ladder),
+                table(BY_LEVELS, self._heads(), map(self._standing, standings[:LEADING])),
+            )
             for ladder, standings in self.ranking.standings.items()
             if standings
         ]
         lead = tag("p", f"{self.ranking.shown.name}: {summary(self.ranking.judged)}.", class_="lead")
         said = tag("p", "Every run was simulated again: times, gold and scores are the result of its inputs.")
-        contents = *leaders, self._contested(), self._week(), newest
-        return page("Board", lead, said, *contents, links=self.links)
+        parts = [*leaders, *self._contested(), *self._week(), *newest]
+        contents = [section(title, content, anchor=anchor) for anchor, title, content in parts]
+        return page("Board", lead, said, on_this_page([each[:2] for each in parts]), *contents, links=self.links)
 
     def _moments(self) -> Iterator[list[Record]]:
         """The records of each moment, the newest first."""
@@ -137,14 +141,14 @@ class BoardPages(LevelPages):
             gain = "first" if amount is None else f"better by {category.difference(amount)}"
             yield f"{self.part_name((record.run.ladder, category))}: {result}, {gain}"
 
-    def _week(self) -> Content:
+    def _week(self) -> list[Piece]:
         if not (found := self.ranking.level_of_the_week):
-            return None
+            return []
         digest, players, runs = found
         sent = f": {counted(runs, 'run')} by {counted(players, 'player')} in the seven days up to the newest run."
-        return section("Level of the week", tag("p", level_link(self.entries[digest]), sent))
+        return [("week", "Level of the week", tag("p", level_link(self.entries[digest]), sent))]
 
-    def _contested(self) -> Content:
+    def _contested(self) -> list[Piece]:
         rows: list[list[Content]] = []
         for digest in self.ranking.contested[:CONTESTED]:
             if ranked := self._placed(digest, PLAYED):
@@ -159,8 +163,8 @@ class BoardPages(LevelPages):
                     row[at] = ""  # it tells nothing
         heads = ["Level", "Records", "Players", *self._best_heads()]
         heads[5:5] = ["Second behind", "Fifth behind"]
-        caption = f"By how often a record was beaten{self._of_both()}"
-        return section("Most contested levels", table(caption, heads, rows)) if rows else None
+        caption = f"By how often a record was beaten; records are those in {self.main.name}{self._of_both()}"
+        return [("contested", "Most contested levels", table(caption, heads, rows))] if rows else []
 
     def _of_both(self) -> str:
         """What a caption says where there are two ladders."""
@@ -204,7 +208,7 @@ class BoardPages(LevelPages):
     # --- players ---
 
     def _heads(self) -> list[str]:
-        names = [each.name for each in self.ranking.categories]
+        names = [f"First, {each.name}" for each in self.ranking.categories]
         return ["Player", "Levels", "Runs", *names, *map(str.capitalize, MEDALS)]
 
     def _players_of(self, ladder: str) -> str:
@@ -223,7 +227,7 @@ class BoardPages(LevelPages):
             title, rows = self._players_of(ladder), [*map(self._standing, standings)]
             self.list(pages[ladder], title, BY_LEVELS, self._heads(), rows, *(tag("p", other) for other in others))
             for each in standings:
-                sums[each.player].append(tag("p", _sums(ladder, each)))
+                sums[each.player].append(tag("p", _sums(ladder, self.main.name, each)))
         runs: dict[str, list[Run]] = defaultdict(list)
         for run in self.ranking.judged.runs:
             runs[run.player].append(run)
@@ -258,8 +262,9 @@ class BoardPages(LevelPages):
         def cells(row: Sequence[Any]) -> tuple[Content, ...]:
             run = known[row[0]]
             gold = f"{run.gold} of {run.entry.all_gold}"
-            result = seconds_text(run.tick), medal_mark(run.medal), seconds_text(run.score), gold
-            leads = run.made or "unknown", *self.leads(run, UP), run.day
+            time = self.file(run, UP, seconds_text(run.tick))
+            result = time, self.watch([run], UP), medal_mark(run.medal), seconds_text(run.score), gold
+            leads = run.made or "unknown", run.day, self.file(run, UP)
             places = tag("div", *(tag("div", each) for each in row[3]), class_="text") if row[3] else ""
             return (row[1], level_link(run.entry, UP), *result, places, *leads)
 
@@ -267,15 +272,17 @@ class BoardPages(LevelPages):
             [self.stems[run.key], run.entry.episode, run.medal, self._places(run), run.day]
             for run in sorted(runs, key=lambda run: (order[run.level], run.added, run.key))
         ]
-        heads = ("No.", "Level", "Time", "Medal", "Score", "Gold", "Places", "Made", "Watch", "Share", "Date")
+        heads = ("No.", "Level", "Time", "Watch", "Medal", "Score", "Gold", "Places", "Made", "Date", "File")
         self.list(player_page(player), player, "All runs", heads, rows, *lead, cells=cells)
 
     def _places(self, run: Run) -> list[str]:
         """Its place in each category, and how far behind it is."""
-        placed = [(part[1], rows[number]) for part, rows, number in self.ranking.places.get(run.key, ())]
+        placed = self.ranking.places.get(run.key, ())
         return [
-            f"{category.name}: {row.place}" + f", {category.difference(row.behind)} behind" * (row.place > 1)
-            for category, row in placed if row.place
+            f"{self.part_name(part)}: " + ", ".join(
+                filter(None, (str(rows[number].place), self.late(part[1], rows[number], rows[0], " behind")))
+            )
+            for part, rows, number in placed if rows[number].place
         ]  # fmt: skip
 
     # --- levels, episodes, and what does not count ---
@@ -286,7 +293,9 @@ class BoardPages(LevelPages):
             for digest, entry in self.entries.items()
         ]
         heads = ("No.", "Level", "Runs", "Players", *self._best_heads())
-        self.list("levels", "Levels", f"In playing order{self._of_both()}", heads, rows)
+        self.list(
+            "levels", "Levels", f"In playing order; who is first, in {self.main.name}{self._of_both()}", heads, rows
+        )
 
     def _placed(self, digest: str, ladder: str) -> list[Ranked]:
         """The runs with a place in the first category of a ladder."""
@@ -324,7 +333,7 @@ class BoardPages(LevelPages):
             nobody = tag("p", "No player yet.")
             listed = tag("ul", *levels, class_="facts")
             found.append(section(f"Episode {number:02d}: {episode.name}", listed, *tables or [nobody]))
-        return [tag("p", EPISODE_NUMBERS), *found] if found else [tag("p", "These levels have no episodes.")]
+        return found
 
     def _rejected(self) -> None:
         rejected, order = self.ranking.judged.rejected, list(KINDS)
@@ -337,8 +346,8 @@ class BoardPages(LevelPages):
         ]  # fmt: skip
         lead = f"None of them is ranked; {said}." if said else "Every file of the folder is a run that counts."
         near = [
-            (level_link(run.entry), self.player_link(run.player), seconds_text(run.tick), run.gold,
-             *self.leads(run, ""), run.file + f", record {run.record}" * (run.record > 0), run.near, run.day)
+            (level_link(run.entry), self.player_link(run.player), self.file(run, "", seconds_text(run.tick)), run.gold,
+             self.watch([run], ""), run.file + f", record {run.record}" * (run.record > 0), run.near, run.day)
             for run in self.ranking.judged.runs if run.near
         ]  # fmt: skip
         waiting = tag("a", f"Waiting for confirmation: {counted(len(near), 'run')}", href="waiting.html")
@@ -346,7 +355,7 @@ class BoardPages(LevelPages):
         heads = ("What", "File", "Player", "Level", "Why", "The first run", "Date")
         self.list("rejected", "Rejected", "What does not count", heads, rows, *leads)
         if near:
-            names = ("Level", "Player", "Time", "Gold", "Watch", "Share", "File", "Nearly", "Date")
+            names = ("Level", "Player", "Time", "Gold", "Watch", "File", "Nearly", "Date")
             about, caption = (tag("p", NEAR), tag("p", HOW_TO_CONFIRM)), "Runs that are nearly somebody else's"
             self.list("waiting", "Waiting for confirmation", caption, names, near, *about)
 
@@ -360,18 +369,14 @@ def _together(records: Sequence[Record]) -> str:
     return f"{len(records)} runs with records came in together"
 
 
-def _text(run: Run) -> str:
-    return shared_text(run.replay, run.entry.named.level)
-
-
-def _sums(ladder: str, each: Standing) -> str:
-    """What a player has reached in a ladder, in a sentence."""
+def _sums(ladder: str, category: str, each: Standing) -> str:
+    """What a player has reached in a ladder, ranks in a category, in a sentence."""
     said = f"{ladder.capitalize()}: {counted(each.runs, 'run')} on {counted(each.levels, 'level')}"
     if not each.ranks:
         return f"{said}."
     ranks = f"total of ranks {sum(each.ranks)}, {mean(each.ranks):.2f} on average"
     close = f"in the median {100 * median(each.behind):.1f}% slower than the fastest"
-    return f"{said}; first on {each.ranks.count(1)}; {ranks}; {close}."
+    return f"{said}; in {category} first on {each.ranks.count(1)}; {ranks}; {close}."
 
 
 def _about(element: ET.Element, title: str, name: str, date: str) -> None:

@@ -16,7 +16,7 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.web.board.ranking import Ranking
 from ninja_game.web.board.runs import (
-    ASSISTED,
+    DECISIONS,
     KINDS,
     NO_LEDGER,
     OWN,
@@ -111,8 +111,8 @@ def _rows(path: Path, part: str, rows: list[dict[str, Any]], now: datetime) -> R
         if row["added"] and not _is_date(row["added"], now):
             expected = "a date in the past as in 2026-01-31T12:00:00Z"
             raise FormatError(f"{place}: not a date", str(path), found=repr(row["added"][:40]), expected=expected)
-        if row.get("what", REJECTED) not in (REJECTED, PLAYED, ASSISTED):
-            expected = f"{REJECTED!r}, {PLAYED!r} or {ASSISTED!r}"
+        if row.get("what", REJECTED) not in DECISIONS:
+            expected = ", ".join(DECISIONS)
             raise FormatError(f"{place}: 'what' is no decision", str(path), found=plain(row["what"]), expected=expected)
         key = row[first], row[second]
         if key in found:
@@ -132,33 +132,32 @@ def _is_date(text: str, now: datetime) -> bool:
 
 
 def moderate(
-    ledger: Ledger, now: datetime, *, confirm: Sequence[str] = (), reject: Sequence[str] = (),
-    ladder: Sequence[tuple[str, str]] = (), reason: str = "",
-) -> None:  # fmt: skip
-    """Write into a ledger what its keeper decides of the runs of files. Raises ArgumentError where it has none.
+    ledger: Ledger, now: datetime, confirm: Sequence[str], decisions: Sequence[tuple[str, str]], reason: str
+) -> None:
+    """Write into a ledger what its keeper decides of the runs of files.
 
-    ``confirm``: files with near copies that are none; ``ladder``: files, and where their runs are ranked.
+    ``confirm``: files with near copies that are none; ``decisions``: files, and which of DECISIONS. Raises
+    ArgumentError for a file without such runs, and for a reason that is too long, or missing where a run is rejected.
     """
+    if len(reason) > LONGEST_REASON or (not reason and any(what == REJECTED for _, what in decisions)):
+        raise ArgumentError(f"--reject: say why with --reason, in at most {LONGEST_REASON} characters")
     near = [row for row in ledger.runs.values() if row.get("near") and not row.get("confirmed")]
     for name in confirm:
         for row in _rows_of(name, near, "--confirm", "that waits"):
             row["confirmed"] = True
-    here = [*ledger.runs.values(), *ledger.decisions.values()]
-    for name, what in [*((name, REJECTED) for name in reject), *ladder]:
-        option = "--reject" if what == REJECTED else "--ladder"
-        for row in _rows_of(name, here, option, "in that file"):
-            of = {key: row[key] for key in ("level", "way", "file", "player")}
-            ledger.decisions[row["level"], row["way"]] = of | {
-                "what": what, "reason": reason, "added": now.strftime(DATE)
-            }  # fmt: skip
+    for name, what in decisions:
+        for row in _rows_of(name, [*ledger.runs.values(), *ledger.decisions.values()], what, "in that file"):
+            decided = {"what": what, "reason": reason, "added": now.strftime(DATE)}
+            of = {key: row[key] for key in _FIELDS["decisions"] if key not in decided}
+            ledger.decisions[row["level"], row["way"]] = of | decided
 
 
-def _rows_of(name: str, rows: Sequence[dict[str, Any]], option: str, which: str) -> list[dict[str, Any]]:
+def _rows_of(name: str, rows: Sequence[dict[str, Any]], what: str, which: str) -> list[dict[str, Any]]:
     """The rows of a file. Raises ArgumentError, with those that there are, for none."""
     if found := [row for row in rows if row["file"] == name]:
         return found
     files = ", ".join(dict.fromkeys(plain(row["file"]) for row in rows[:10])) or "none"
-    raise ArgumentError(f"{option} {name!a}: no run of the ledger {which}; there are: {files}")
+    raise ArgumentError(f"{what} {name!a}: no run of the ledger {which}; there are: {files}")
 
 
 def read_dates(path: Path, now: datetime) -> dict[str, str]:

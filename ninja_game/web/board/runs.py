@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -25,7 +25,9 @@ PLAYED = "played"
 ASSISTED = "assisted"
 """The two ladders; a run of which nobody says how it was made is on the first one."""
 
-REJECTED = "rejected"  # what a keeper decides of a run, else the ladder that it is moved to
+REJECTED = "rejected"
+DECISIONS = (REJECTED, PLAYED, ASSISTED)
+"""What the keeper of a board decides of a run: it does not count, or the ladder that it is moved to."""
 
 KINDS = {
     "moderated": ("by the keeper", "Rejected by the keeper"),
@@ -146,6 +148,15 @@ class Run(Judged):
         if self.key not in drawn:
             drawn[self.key] = path_data(run_level(self.entry.named.level, self.inputs).positions)
         return drawn[self.key]
+
+    def decided(self, row: Mapping[str, Any]) -> Run | Rejected:
+        """What the keeper makes of it by a row of the ledger's decisions."""
+        said = f"by the keeper on {row['added'][:10]}" + f": {row['reason']}" * bool(row["reason"])
+        if row["what"] == REJECTED:
+            way = self.entry.title, self.way, self.added
+            return Rejected(*self.key, "moderated", f"rejected {said}", self.player, *way)
+        remark = "; ".join(filter(None, (self.remark, f"moved to {row['what']} {said}")))
+        return replace(self, assisted=row["what"] == ASSISTED, remark=remark)
 
     @property
     def replay(self) -> Replay:
