@@ -402,7 +402,7 @@ def _level(text: str, entries: Sequence[Entry]) -> Entry:
     if found:
         raise ArgumentError(f"{text!a} is several levels: {named}")
     titles = {each.title.casefold(): each.title for each in entries}
-    near = ", ".join(shown_text(titles[each]) for each in get_close_matches(words, titles, 5, 0.5))
+    near = ", ".join(shown_text(titles[each]) for each in get_close_matches(words, titles, 5))
     hint = f"do you mean {near}?" if near else f"it has {len(entries)}: {named}{', ...' * (len(entries) > 5)}"
     raise ArgumentError(f"{text!a} is no level of the board; {hint}")
 

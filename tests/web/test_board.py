@@ -145,6 +145,7 @@ def test_a_batch_is_one_row_of_the_first_page(
         newest = index.partition("<h2>Newest records")[2].partition("</tbody>")[0]
         assert (newest.count("<tr>") - 1, "2 runs with records came in together" in newest) == (rows, told)
     assert index.index("<h2>Players, played") < index.index("<h2>Most") < index.index("<h2>Newest")
+    assert "UTC" not in index, "nobody knows a date"
     for text in ('<a href="levels.html">1 level</a>', "<td>2 players</td>"):
         assert text in newest
 
@@ -192,7 +193,7 @@ def test_what_decides_between_runs_with_one_number_is_said(runs: Path, levels: P
     level = (tmp_path / "site" / "board" / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
     assert re.findall("<td>(same[^<]*|equal[^<]*)<", level) == ["same value, slower", "equal, later in"]
     (folder,) = {run.folder for run in ranking.judged.runs}
-    assert folder.drawn == {}, "no path is kept when its pages are written"
+    assert folder.drawn == folder.known == {}, "nothing of a run is kept when its pages are written"
 
 
 def test_splits_lead_to_numbers_in_the_picture(runs: Path, levels: Path, tmp_path: Path) -> None:

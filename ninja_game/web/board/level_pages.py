@@ -231,7 +231,7 @@ class LevelPages:
         for run in runs:
             self.pages.make(f"{self.stems[run.key]}.txt", self.stems[run.key], partial(_text, run), replay=True)
             self.run_page(run, beside)
-            run.folder.drawn.pop(run.key, None)  # the paths of all levels would take much memory
+            run.folder.forget(run.key)
         if runs:
             heads, back = ("Player", "Time", "Score", *RUN_HEADS), tag("a", "The level", href=UP + page_name(digest))
             name, caption = f"levels/{digest[:16]}-runs", "All runs, the fastest first"

@@ -239,7 +239,8 @@ class BoardPages(LevelPages):
             link = tag("p", tag("a", said, href=f"{UP}{name}-records.html")) if records else None
             self._runs_of(player, own, [*sums[player], link])
             if records:
-                self.list(f"{name}-records", player, "Records held, then those lost", heads, records)
+                back = tag("p", tag("a", "All runs of the player", href=f"{UP}{name}.html"))
+                self.list(f"{name}-records", player, "Records held, then those lost", heads, records, back)
 
     def _records(self) -> tuple[dict[str, list[tuple[Content, ...]]], dict[str, list[tuple[Content, ...]]]]:
         """By player the rows of the records that are held, and of those that were lost."""
@@ -247,10 +248,11 @@ class BoardPages(LevelPages):
         lost: dict[str, list[tuple[Content, ...]]] = defaultdict(list)
         for (level, part), runs in self.ranking.history.items():
             last = {run.player: number for number, run in enumerate(runs)}
+            results = [self.file(run, UP, self.value(part[1], run)) for run in runs]
             for player, number in last.items():
                 best, by = runs[number], runs[number + 1] if number + 1 < len(runs) else None
-                about = level_link(self.entries[level], UP), self.part_name(part), self.value(part[1], best), best.day
-                loss = (self.player_link(by.player, UP), self.value(part[1], by), by.day) if by else ("", "", "")
+                about = level_link(self.entries[level], UP), self.part_name(part), results[number], best.day
+                loss = (self.player_link(by.player, UP), results[number + 1], by.day) if by else ("", "", "")
                 (lost if by else held)[player].append((*about, *loss))
         return held, lost
 

@@ -124,7 +124,8 @@ class Run(Judged):
     @property
     def moment(self) -> str:
         """The date of ``added`` with the time of day, where that is known."""
-        return self.day if self.added.endswith("T00:00:00Z") else f"{self.added[:16].replace('T', ' ')} UTC"
+        time = self.added[11:16]
+        return self.day if time in ("", "00:00") else f"{self.day} {time} UTC"
 
     @property
     def ladder(self) -> str:
