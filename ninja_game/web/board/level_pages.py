@@ -160,7 +160,7 @@ class LevelPages:
                 continue  # else one new run would change the pages of many
             if row.place:
                 late = self.late(part[1], row, first, " behind")
-                ranks.append((self.part_name(part), ", ".join(filter(None, (f"place {row.place}", late)))))
+                ranks.append((self.part_name(part), f"place {row.place}" + f", {late}" * bool(late)))
             if number and not links:
                 links.append(self.watch([run, first.run], "", f"Watch with {self.name(first.run.player)}"))
         links.append(tag("a", "All runs of the player", href=f"{UP}{BOARD}/{player_page(run.player)}.html"))

@@ -279,13 +279,12 @@ class BoardPages(LevelPages):
 
     def _places(self, run: Run) -> list[str]:
         """Its place in each category, and how far behind it is."""
-        placed = self.ranking.places.get(run.key, ())
-        return [
-            f"{self.part_name(part)}: " + ", ".join(
-                filter(None, (str(rows[number].place), self.late(part[1], rows[number], rows[0], " behind")))
-            )
-            for part, rows, number in placed if rows[number].place
-        ]  # fmt: skip
+        found = []
+        for part, rows, number in self.ranking.places.get(run.key, ()):
+            if place := rows[number].place:
+                late = self.late(part[1], rows[number], rows[0], " behind")
+                found.append(f"{self.part_name(part)}: {place}" + f", {late}" * bool(late))
+        return found
 
     # --- levels, episodes, and what does not count ---
 
