@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import gc
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
 from difflib import get_close_matches
+from functools import partial
 from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -29,8 +30,9 @@ if TYPE_CHECKING:
     from ninja_game.web.board.ranking import Ranked, Ranking
     from ninja_game.web.board.rules import Category
     from ninja_game.web.board.runs import Ledger
-    from ninja_game.web.pages.gallery import PublishedLevels
     from ninja_game.web.pages.memo import Memo
+
+LAST_LEVELS = "/levels"  # what is remembered under it: no path of a run begins so
 
 rules_option = click.option(
     "--rules",
@@ -153,13 +155,27 @@ class _Board(click.Command):
     "--confirm", metavar="RUN", multiple=True,
     help="The runs of this file in FOLDER are no copies, although they are nearly somebody else's. Needs --json.",
 )  # fmt: skip
+@click.option(
+    "--reject", metavar="RUN", multiple=True,
+    help="The runs of this file in FOLDER do not count. Needs --json and --reason.",
+)  # fmt: skip
+@click.option(
+    "--ladder", metavar="RUN LADDER", multiple=True, type=(str, click.Choice(["played", "assisted"])),
+    help="Rank the runs of this file in FOLDER as played or as assisted, whatever they say. Needs --json.",
+)  # fmt: skip
+@click.option("--reason", metavar="TEXT", default="", help="Why, for --reject and --ladder: it stands on the pages.")
+@click.option(
+    "--dates", metavar="FILE.csv", type=OLD_FILE,
+    help="Rows FILE,DATE: since when runs are known, as of an older board. Needs --json, which keeps them.",
+)  # fmt: skip
 @rules_option
 @click.option("--again", is_flag=True, help="Simulate every run, and write every page, also those known from before.")
 @jobs_option
 @address_option
 def board(
     folder: Path, levels: Path | None, site: Path | None, data: Path | None, check: Path | None, confirm: Sequence[str],
-    rules: Path | None, again: bool, jobs: int | None, address: str,
+    reject: Sequence[str], ladder: Sequence[tuple[str, str]], reason: str, dates: Path | None, rules: Path | None,
+    again: bool, jobs: int | None, address: str,
 ) -> int:  # fmt: skip
     """Rank the runs of a folder, all simulated again: tables, pages, checks.
 
@@ -175,24 +191,26 @@ def board(
       ninja-game board replays/ --site public/ --json board.json
       ninja-game board replays/ --check board.json
       ninja-game board replays/ --json board.json --confirm ann/00-0.txt
+      ninja-game board replays/ --json board.json --reject bob/00-0.txt --reason "spliced"
+      ninja-game board replays/ --json board.json --ladder bob/00-1.txt assisted
       ninja-game board replays/ --levels my-pack/ --site public/
       ninja-game board ask replays/ rank 00-0
     """
     from ninja_game.files.writing import check_output, write_atomically
     from ninja_game.web.board.pages import BoardPages, check_ledger, check_site
-    from ninja_game.web.board.report import board_text, changes, gone, plain, summary
+    from ninja_game.web.board.report import board_text, changes, gone, moderate, plain, summary
     from ninja_game.web.pages.frame import GAME
-    from ninja_game.web.pages.gallery import published_levels
 
-    if confirm and not data:
-        raise click.UsageError("--confirm: name the ledger, which notes it, with --json")
+    if (confirm or reject or ladder or dates) and not data:
+        raise click.UsageError("--confirm, --reject, --ladder, --dates: name the ledger, which notes it, with --json")
     if site:
         check_site(site, folder)
     if data:
         check_output(data, keep=[folder])
         check_ledger(data, folder)
-    shown = published_levels(levels or data_folder("levels"))
-    ranking, before = _ranking(folder, shown, rules, check or data, jobs=jobs, again=again, confirm=confirm)
+    decisions = [*((name, "rejected") for name in reject), *ladder]
+    decide = partial(moderate, confirm=confirm, decisions=decisions, reason=reason.strip())
+    ranking, before = _ranking(folder, levels, rules, check or data, jobs=jobs, again=again, decide=decide, dates=dates)
     judged = ranking.judged
     if site:
         BoardPages(site, ranking, memo=memo_of("pages", site, folder, again=again), address=address).write()
@@ -215,31 +233,40 @@ def board(
 
 
 def _ranking(
-    folder: Path, shown: PublishedLevels, rules: Path | None, ledger: Path | None, *,
-    jobs: int | None, again: bool = False, confirm: Sequence[str] = (),
+    folder: Path, levels: Path | None, rules: Path | None, ledger: Path | None, *,
+    jobs: int | None, again: bool = False, decide: Callable[[Ledger, datetime], None] | None = None,
+    dates: Path | None = None,
 ) -> tuple[Ranking, Ledger]:  # fmt: skip
-    """The ranking of a folder's runs by the board's rules, and the ledger before, in which files are confirmed."""
+    """The ranking of a folder's runs by the board's rules, and the ledger before, with what is decided now.
+
+    ``levels``: those that count; where nothing is decided, without them those of the last board of the folder.
+    """
     from ninja_game.web.board.judge import judge
     from ninja_game.web.board.ranking import Ranking
-    from ninja_game.web.board.report import dates_of, plain, read_board
+    from ninja_game.web.board.report import dates_of, read_board, read_dates
     from ninja_game.web.board.rules import USUAL, read_categories
     from ninja_game.web.board.runs import NO_LEDGER
+    from ninja_game.web.pages.gallery import published_levels
 
     # Of many runs, all of which stay, a third of the time went into looking for garbage.
     gc.set_threshold(20_000)
     now = datetime.now(UTC)
     before = read_board(ledger, now) if ledger and ledger.exists() else NO_LEDGER
-    near = [row for row in before.runs.values() if row.get("near") and not row.get("confirmed")]
-    for name in confirm:
-        if not (rows := [row for row in near if row["file"] == name]):
-            files = ", ".join(plain(row["file"]) for row in near[:10]) or "none"
-            raise ArgumentError(f"--confirm {name!a}: no run of the ledger that waits; those that do: {files}")
-        for row in rows:
-            row["confirmed"] = True
     categories = read_categories(rules) if rules else USUAL
     memo = memo_of("runs", folder, folder, again=again)
-    dates = dates_of(before, now) if ledger else None
-    judged = judge(folder, shown, dates=dates, jobs=jobs, memo=memo, ledger=before)
+    last = memo.recall(LAST_LEVELS)
+    if decide:
+        decide(before, now)
+        memo.note(LAST_LEVELS, str(levels.resolve()) if levels and levels.exists() else "")
+    elif not levels and isinstance(last, str) and last and Path(last).exists():
+        levels = Path(last)
+    shown = published_levels(levels or data_folder("levels"))
+    given = read_dates(dates, now) if dates else {}
+    known = dates_of(before, now, given) if ledger else None
+    judged = judge(folder, shown, dates=known, jobs=jobs, memo=memo, ledger=before)
+    here = {run.file for run in judged.runs} | {each.file for each in judged.rejected + judged.again}
+    if unknown := given.keys() - here:
+        raise FileError("a file that is not among the runs", str(dates), found=shown_text(min(unknown)))
     memo.save()
     return Ranking(judged, shown, categories), before
 
@@ -291,13 +318,11 @@ def ask(
       ninja-game board ask replays/ film 00-0 Ann Bob -o both.gif
     """
     from ninja_game.web.board.runs import ASSISTED, PLAYED
-    from ninja_game.web.pages.gallery import published_levels
 
     if what in ("trace", "film") and not output:
         raise click.UsageError(f"{what}: name the file with -o")
-    shown = published_levels(levels or data_folder("levels"))
-    entry = _level(level, list(shown.entries.values()))
-    ranking, _ = _ranking(folder, shown, rules, ledger, jobs=jobs)
+    ranking, _ = _ranking(folder, levels, rules, ledger, jobs=jobs)
+    entry = _level(level, list(ranking.shown.entries.values()))
     chosen = _category(ranking, category)
     tables = ranking.tables.get(entry.digest, {})
     table, other = (tables.get((each, chosen), []) for each in sorted((PLAYED, ASSISTED), reverse=not assisted))
@@ -377,8 +402,8 @@ def _level(text: str, entries: Sequence[Entry]) -> Entry:
     if found:
         raise ArgumentError(f"{text!a} is several levels: {named}")
     titles = {each.title.casefold(): each.title for each in entries}
-    near = [f"do you mean {shown_text(titles[each])}?" for each in get_close_matches(words, titles, 1)]
-    hint = near[0] if near else f"it has {len(entries)}: {named}{', ...' * (len(entries) > 5)}"
+    near = ", ".join(shown_text(titles[each]) for each in get_close_matches(words, titles, 5))
+    hint = f"do you mean {near}?" if near else f"it has {len(entries)}: {named}{', ...' * (len(entries) > 5)}"
     raise ArgumentError(f"{text!a} is no level of the board; {hint}")
 
 
@@ -395,9 +420,9 @@ def _of_player(table: Sequence[Ranked], player: str) -> Ranked:
     for each in table:
         if folded(player) in (folded(each.run.player), folded(f"{each.run.player}, {each.run.ladder}")):
             return each
-    raise ArgumentError(
-        f"{player!a} has no run there; players: {', '.join(each.run.player for each in table[:10]) or 'none'}"
-    )
+    there = dict.fromkeys(shown_text(each.run.player) for each in table)
+    near = get_close_matches(player, there, 5) or [*there][:10]
+    raise ArgumentError(f"{player!a} has no run there; players: {', '.join(near) or 'none'}")
 
 
 def _row(ranked: Ranked, category: Category) -> dict[str, Any]:

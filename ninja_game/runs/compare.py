@@ -57,8 +57,12 @@ class Split(NamedTuple):
         ('door 3, time 2', 'exit')
         """
         again = f", time {self.number + 1}" if self.number else ""
-        name = _NAMES.get(self.event, self.event)
-        return name if self.object_id is None else f"{name} {self.object_id}{again}"
+        return self.kind if self.object_id is None else f"{self.kind} {self.object_id}{again}"
+
+    @property
+    def kind(self) -> str:
+        """What is reached there, without which one."""
+        return _NAMES.get(self.event, self.event)
 
 
 @dataclass(frozen=True)

@@ -142,3 +142,20 @@ def test_the_first_path_is_on_top() -> None:
 def test_what_there_is_not_is_named(words: list[str], told: str, folder: Path, levels: Path) -> None:
     code, text = ask(folder, levels, *words)
     assert (code, told in text) == (2, True), text
+
+
+def test_a_board_remembers_its_levels(folder: Path, levels: Path) -> None:
+    """Without --levels, ask is about those of the last board on the folder."""
+    words = ["board", "ask", str(folder), "rank", "Walk"]
+    assert "is no level of the board" in CliRunner().invoke(cli, words).stderr
+    for pack, told in ((["--levels", str(levels)], "1. Ann: 0.575"), ([], "is no level of the board")):
+        assert CliRunner().invoke(cli, ["board", str(folder), *pack, "--jobs", "1"]).exit_code == 0
+        for _ in range(2):
+            assert told in CliRunner().invoke(cli, words).output
+
+
+def test_who_has_no_run_is_told_near_names_once(folder: Path, levels: Path) -> None:
+    put(folder, "tool.txt", replay(bytes(3) + WALKING + b"\2", author="Ann", made=Made(edits=3)))
+    assert ask(folder, levels, "best", "Walk", "Anne")[1].endswith("'Anne' has no run there; players: Ann\n")
+    code, text = ask(folder, levels, "best", "Walk", "Zoe")
+    assert (code, text.count("Ann"), text.count("Bea")) == (2, 1, 1)

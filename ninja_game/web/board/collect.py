@@ -83,6 +83,11 @@ class RunFolder:
         self.drawn: dict[tuple[str, int], str] = {}
         """Paths over the level of runs that were compared just now, as ``path_data``."""
 
+    def forget(self, key: tuple[str, int]) -> None:
+        """Keep no inputs and no path of a run whose pages are written: those of all would take much memory."""
+        self.known.pop(key, None)
+        self.drawn.pop(key, None)
+
     def files(self) -> Iterator[tuple[str, str]]:
         """The paths of all files in the folder, and why one is left out; no link is followed."""
         above = len(self.folder.parts)

@@ -78,13 +78,18 @@ def judge(
         owner = owners.get(way := (run.level, run.way))
         if owner and (*way, owner["added"]) not in known and folded(owner["player"]) == folded(run.player):
             runs[number] = replace(run, added=owner["added"], again=True)
-    credited = _of_players(sorted(runs, key=lambda run: run.order), players)
+    credited, moderated = list[Run](), list[Rejected]()
+    for run in _of_players(sorted(runs, key=lambda run: run.order), players):
+        decision = ledger.decisions.get((run.level, run.way), {"player": ""})
+        decided = run.decided(decision) if folded(decision["player"]) == folded(run.player) else run
+        credited += [decided] if isinstance(decided, Run) else []
+        moderated += [] if isinstance(decided, Run) else [decided]
     counted, copies = without_copies(credited, memo, owners)
     counted = [_with_row(run, owners.get((run.level, run.way), {})) for run in counted]
     named = [
         each if each.kind == "unreadable" else replace(each, player=players.meet(each.player)[0]) for each in rejected
     ]
-    others = sorted([*named, *copies], key=lambda each: (each.file, each.record))
+    others = sorted([*named, *moderated, *copies], key=lambda each: (each.file, each.record))
     refused, again = (tuple(each for each in others if (each.kind == OWN) is own) for own in (False, True))
     return ValidatedRuns(tuple(counted), refused, again, players.alike, _episodes(credited, counted, shown))
 
@@ -244,10 +249,12 @@ def _worded(problem: RunProblem, result: Verdict, sent: Sent) -> str:
         odd = (keys != ours for keys, ours in zip(inputs, with_press_bits(inputs), strict=True))
         tick = next(compress(count(), odd))
         down = ", ".join(name for name, key in MOVES if inputs[tick] & key) or "no key"
-        pressed = "pressed again while it is held" if inputs[tick] & JUMP_HELD else "pressed and not held"
-        what = pressed if inputs[tick] & JUMP_PRESSED else "held and was not pressed"
-        how = "press it in the first tick in which it is held, and in no other"
-        return f"tick {tick}, {down} down: jump is {what}; {how}"
+        pressed = (
+            "is pressed anew though it is down already" if inputs[tick] & JUMP_HELD else "is pressed without going down"
+        )
+        what = pressed if inputs[tick] & JUMP_PRESSED else "is down and was never pressed"
+        how = "a key is pressed in the tick in which it goes down, and in no other"
+        return f"no keyboard can do that: in tick {tick} ({down} down) the jump key {what}; {how}"
     if problem.code == "other-level" and sent.replay and sent.replay.level_name:
         name, digest = sent.replay.level_name, result.level_digest[:16]
         return f"{name!r} is not one of the levels that count; its level_digest begins with {digest}"

@@ -6,6 +6,7 @@ from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from datetime import datetime
+from functools import partial
 from hashlib import sha256
 from itertools import pairwise
 from operator import itemgetter
@@ -22,9 +23,21 @@ from ninja_game.levels.episodes import Entry
 from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, SplitRow, run_splits, split_table, sum_of_best
 from ninja_game.ui.theme import RUN_COLOURS
 from ninja_game.web.board.ranking import Part, Ranked, Ranking
-from ninja_game.web.board.rules import FASTEST, Category
+from ninja_game.web.board.rules import FASTEST, HIGHEST, Category
 from ninja_game.web.board.runs import PLAYED, Run
-from ninja_game.web.pages.frame import GAME, REPLAYS, Content, Markup, Pages, joined, page, section, table, tag
+from ninja_game.web.pages.frame import (
+    GAME,
+    REPLAYS,
+    Content,
+    Markup,
+    Pages,
+    joined,
+    on_this_page,
+    page,
+    section,
+    table,
+    tag,
+)
 from ninja_game.web.pages.gallery import (
     BOARD,
     PICTURE_HEIGHT,
@@ -37,6 +50,7 @@ from ninja_game.web.pages.gallery import (
     picture,
     picture_name,
     run_page,
+    shared_text,
     watch_address,
 )
 from ninja_game.web.pages.memo import Memo, digest_of
@@ -45,9 +59,10 @@ PER_PAGE = 100  # rows of a table that goes on on another page: a page has at mo
 
 LONGEST_NAME = 40  # characters of a name in a table
 
-RUN_HEADS = ("Gold", "Made", "Date", "Medal", "Watch", "Share", "Remark")
+RUN_HEADS = ("Watch", "Gold", "Made", "Date", "Medal", "File", "Remark")
+EPISODES = "episodes.html", "Episodes"
 LINKS = [
-    ("index.html", "Board"), ("players.html", "Players"), ("levels.html", "Levels"), ("episodes.html", "Episodes"),
+    ("index.html", "Board"), ("players.html", "Players"), ("levels.html", "Levels"), EPISODES,
     ("rejected.html", "Rejected"),
 ]  # fmt: skip
 
@@ -64,6 +79,9 @@ HOW_TO_CONFIRM = "The keeper confirms one with: ninja-game board FOLDER --json b
 WIDTH = 480
 HEIGHT = 150
 MARGIN = 14
+
+PLACE = "place-"  # the anchor of a numbered place in a picture
+MARK_APART = 14  # px from one number to the next, at least
 
 
 class LevelPages:
@@ -84,7 +102,8 @@ class LevelPages:
         self.game = f"../{game}"
         self.site = address and f"{address}{BOARD}/"
         assisted = [("assisted.html", "Assisted")] if len(ranking.ladders) > 1 else []
-        self.links = [(self.game, "Play"), *LINKS[:2], *assisted, *LINKS[2:]]
+        others = [each for each in LINKS[2:] if each != EPISODES or ranking.shown.levels.episodes]
+        self.links = [(self.game, "Play"), *LINKS[:2], *assisted, *others]
         self.deeper = [(UP + address, name) for address, name in self.links]
         self.around = digest_of([self.links, self.site])
         self.stems = {run.key: _stem(run) for run in ranking.judged.runs}
@@ -116,29 +135,42 @@ class LevelPages:
         address = watch_address(up + self.game, *(self.stems[run.key] for run in runs))
         return tag("a", text, href=address, aria_label=f"{text}: {runs[0].player} on {runs[0].entry.title}")
 
-    def leads(self, run: Run, up: str) -> tuple[Markup, Markup]:
-        """Links that watch a run and that lead to its page."""
-        address, said = f"{up}../{REPLAYS}/{self.stems[run.key]}.html", f"Share: {run.player} on {run.entry.title}"
-        return self.watch([run], up), tag("a", "Share", href=address, aria_label=said)
+    def file(self, run: Run, up: str, text: str = "") -> Markup:
+        """A link to the page of a run that says ``text``, such as its time; without one to its replay."""
+        address, said = f"{up}../{REPLAYS}/{self.stems[run.key]}", f"{run.player} on {run.entry.title}"
+        if text:
+            return tag("a", text, href=f"{address}.html", aria_label=f"{text}: {said}")
+        return tag("a", "File", href=f"{address}.txt", download=True, aria_label=f"File: {said}")
 
-    def run_page(self, run: Run) -> None:
+    def late(self, category: Category, row: Ranked, first: Ranked, word: str = "") -> str:
+        """By how much a run is behind the first, or what decides between the two. ``word``: behind a number."""
+        if not row.place or row is first:
+            return ""
+        if row.values == first.values:
+            return "equal" + ", later in" * (row.run.added > first.run.added)
+        return category.difference(row.behind) + word if row.behind else category.decided(row.values, first.values)
+
+    def run_page(self, run: Run, beside: Sequence[Run]) -> None:
+        """``beside``: the runs of the level that stand side by side."""
         stem, title = self.stems[run.key], f"{self.name(run.player)} on {run.entry.title}"
         ranks, links = list[tuple[str, str]](), list[Markup]()
         for part, rows, number in self.ranking.places.get(run.key, ()):
-            row, first = rows[number], rows[0].run
+            row, first = rows[number], rows[0]
             if number >= FIRST:
                 continue  # else one new run would change the pages of many
             if row.place:
-                late = f", {part[1].difference(row.behind)} behind" * (row.place > 1)
-                ranks.append((self.part_name(part), f"place {row.place}{late}"))
+                late = self.late(part[1], row, first, " behind")
+                ranks.append((self.part_name(part), f"place {row.place}" + f", {late}" * bool(late)))
             if number and not links:
-                links.append(self.watch([run, first], "", f"Watch with {self.name(first.player)}"))
-        if run in (beside := self.ranking.side_by_side(run.level, TOGETHER)[1]) and len(beside) > 1:
+                links.append(self.watch([run, first.run], "", f"Watch with {self.name(first.run.player)}"))
+        links.append(tag("a", "All runs of the player", href=f"{UP}{BOARD}/{player_page(run.player)}.html"))
+        if run in beside and len(beside) > 1:
             links.append(tag("a", "Splits", href=f"{UP}{BOARD}/{page_name(run.level)}#{SPLITS}"))
         keys = f"{counted(run.presses, 'press', 'presses')}, {counted(run.jumps, 'jump')}"
         gold, made = f"{run.gold} of {run.entry.all_gold}", run.made or "unknown"
-        facts = [("Time", f"{seconds_text(run.tick)} s"), *ranks, ("Score", seconds_text(run.score)), ("Gold", gold),
-                 ("Medal", run.medal), ("Keys", keys), ("Made", made), ("Date", run.day)]  # fmt: skip
+        facts = [("Time", FASTEST.measured(run.tick)), *ranks, ("Score", HIGHEST.measured(-run.score)), ("Gold", gold),
+                 ("Medal", run.medal), ("Keys", keys), ("Made", made), ("Date", run.day),
+                 ("Remark", run.remark)]  # fmt: skip
 
         def content() -> str:
             drawn = paths(f"{UP}{BOARD}/{picture_name(run.level)}", [(self.name(run.player), run.path)])
@@ -157,10 +189,17 @@ class LevelPages:
 
     def run(self, run: Run, *results: Content, timed: bool = True) -> tuple[Content, ...]:
         """Cells of a run, for heads that end in RUN_HEADS. ``timed``: with its medal, which is of the time."""
-        gold = f"{run.gold} of {run.entry.all_gold}"
-        about = gold, run.made or "unknown", run.day, medal_mark(run.medal if timed else "")
+        gold, linked = f"{run.gold} of {run.entry.all_gold}", self.file(run, UP, str(results[0]))
+        about = gold, run.made or "unknown", run.day, medal_mark(run.medal if timed else ""), self.file(run, UP)
         others = f" with {shown_text(run.co_authors, LONGEST_NAME)}" if run.co_authors else None
-        return (joined(self.player_link(run.player, UP), others), *results, *about, *self.leads(run, UP), run.remark)
+        return (
+            joined(self.player_link(run.player, UP), others),
+            linked,
+            *results[1:],
+            self.watch([run], UP),
+            *about,
+            run.remark,
+        )
 
     def value(self, category: Category, run: Run) -> str:
         """The number that a run is ranked by, as text; "" where it is not of the category."""
@@ -170,7 +209,7 @@ class LevelPages:
     # --- levels ---
 
     def level(self, entry: Entry) -> None:
-        """A level's page, and the list of all its runs."""
+        """A level's page, the list of all its runs, and their pages and files."""
         digest, named, runs = entry.digest, entry.named, self.ranking.by_level.get(entry.digest, [])
         rows: list[list[Any]] = [[self.stems[run.key], run.added, run.remark, run.near, run.tick] for run in runs]
         rules = [[each.name, each.rank, each.when] for each in self.ranking.categories]
@@ -188,6 +227,11 @@ class LevelPages:
             run = known[row[0]]
             return self.run(run, seconds_text(run.tick), seconds_text(run.score))
 
+        beside = self.ranking.side_by_side(digest, TOGETHER)[1] if runs else []
+        for run in runs:
+            self.pages.make(f"{self.stems[run.key]}.txt", self.stems[run.key], partial(_text, run), replay=True)
+            self.run_page(run, beside)
+            run.folder.forget(run.key)
         if runs:
             heads, back = ("Player", "Time", "Score", *RUN_HEADS), tag("a", "The level", href=UP + page_name(digest))
             name, caption = f"levels/{digest[:16]}-runs", "All runs, the fastest first"
@@ -201,8 +245,7 @@ class LevelPages:
         said = f"All runs: {len(self.ranking.by_level[entry.digest])}"
         link = tag("p", tag("a", said, href=f"{entry.digest[:16]}-runs.html"))
         drawn, beside = self._side_by_side(*self.ranking.side_by_side(entry.digest, TOGETHER))
-        part = next(iter(tables))
-        fell = [each for each in tables if len(self.ranking.history[entry.digest, each]) > (each != part)]
+        fell = [each for each in tables if len(self.ranking.history[entry.digest, each]) > 1]
         first, *others = [self._progression(entry, each, RECORDS * (not at)) for at, each in enumerate(fell)] or [None]
         folded = tag("details", tag("summary", "How the other records went"), *others) if others else None
         same: dict[str, dict[Part, list[Ranked]]] = defaultdict(dict)
@@ -223,10 +266,8 @@ class LevelPages:
                 leader = f": {self.name(best.run.player)}, {each[1].text(best.values[0])}" if best.place == 1 else ""
                 leads.append((anchor, self.part_name(each) + leader))
         leads += [(each, each.capitalize()) for each, content in ((RECORDS, first), (SPLITS, beside)) if content]
-        links = [tag("li", tag("a", text, href=f"#{anchor}")) for anchor, text in leads]
-        contents = tag("nav", tag("ul", *links), class_="contents", aria_label="On this page")
         note = tag("p", NEAR, tag("a", "What waits", href=f"{UP}waiting.html")) if near else None
-        return contents, drawn, joined(*shown, note, link, first, folded, beside)
+        return on_this_page(leads), drawn, joined(*shown, note, link, first, folded, beside)
 
     def _table(self, parts: Mapping[Part, Sequence[Ranked]], above: set[str], anchor: str) -> Markup:
         """A table of categories with the same runs in order. ``above``: remarks of tables above."""
@@ -236,7 +277,7 @@ class LevelPages:
             place, run = same[0].place, same[0].run
             shown = replace(run, remark="as above") if run.remark in above else run
             results = [category.text(each.values[0]) for category, each in zip(categories, same, strict=True)]
-            late = categories[0].difference(same[0].behind) if place > 1 else ""
+            late = self.late(categories[0], same[0], next(iter(parts.values()))[0])
             rows.append((place or "", *self.run(shown, *results, late, timed=timed)))
             above |= {run.remark} - {""}
         names = [category.name if len(parts) > 1 else category.unit for category in categories]
@@ -253,15 +294,12 @@ class LevelPages:
             (run.moment, self.player_link(run.player, UP), category.text(number), gain, self.watch([run], UP))
             for run, number, gain in zip(runs, numbers, better, strict=True)
         ]
-        chart = None
-        if len(runs) > 1:
-            moments = [datetime.fromisoformat(run.added).timestamp() if run.added else 0.0 for run in runs]
-            if moments[0] == moments[-1]:
-                moments = [*map(float, range(len(runs)))]
-            start, end = (f"{category.text(numbers[at])} {runs[at].day}" for at in (0, -1))
-            said = f"The record {moved} from {start} to {end} in {counted(len(runs) - 1, 'step')}"
-            heights = [-number if category.rising else number for number in numbers]
-            chart = steps(list(zip(moments, heights, strict=True)), start, end, said)
+        # Records of one moment are one record.
+        moments = [datetime.fromisoformat(run.added).timestamp() if run.added else 0.0 for run in runs]
+        start, end = (f"{category.text(numbers[at])} {runs[at].day}" for at in (0, -1))
+        said = f"The record {moved} from {start} to {end} in {counted(len(runs) - 1, 'step')}"
+        heights = [-number if category.rising else number for number in numbers]
+        chart = steps(list(zip(moments, heights, strict=True)), start, end, said)
         heads = ("Date", "Player", category.unit, "Better by", "Watch")
         title = f"How the record {moved}: {self.part_name(part)}"
         return section(title, chart, table("Newest first", heads, rows[: -FIRST - 1 : -1]), anchor=anchor or None)
@@ -272,19 +310,21 @@ class LevelPages:
         if len(runs) == 1:
             return paths(UP + picture_name(runs[0].level), [(names[0], runs[0].path)]), None
         found = [run_splits(Recording(run.entry.named.level, run.replay), memory="auto") for run in runs]
-        known = [
-            run.folder.drawn.get(run.key) or path_data(each.positions) for run, each in zip(runs, found, strict=True)
-        ]
-        drawn = paths(UP + picture_name(runs[0].level), list(zip(names, known, strict=True)))
+        rows, known = _split_rows(found), [path_data(each.positions) for each in found]
+        places = [(row.split.x, row.split.y) for row in rows]
+        drawn = paths(UP + picture_name(runs[0].level), list(zip(names, known, strict=True)), places)
         together = tag("p", self.watch(runs, UP, f"Watch the first {len(runs)} together"))
         pairs = [
             (tag("div", swatch(number), " ", names[number], class_="text"), *(self._pair(run, other) for other in runs))
             for number, run in enumerate(runs)
         ]
         races = table("Seconds by which the left one is later; a link watches both", ("Run", *names), pairs)
-        rows = _split_rows(found)
-        lines = [(row.split.name, *_cells(row)) for row in rows]
-        splits = table("Seconds; later than the first: +", ("Split", names[0], "Fastest segment", *names[1:]), lines)
+        lines = [
+            (tag("a", number, href=f"#{PLACE}{number}"), row.split.kind, *_cells(row))
+            for number, row in enumerate(rows, 1)
+        ]
+        said = "Seconds; later than the first: +; numbers are those in the picture"
+        splits = table(said, ("No.", "Split", names[0], "Fastest segment", *names[1:]), lines)
         best = tag("p", f"Sum of the fastest segments, each from the row above: {seconds_text(sum_of_best(rows))} s.")
         drawn = joined(drawn, tag("p", f"The first {len(runs)} runs: {category.name}"), together)
         return drawn, joined(section("Any two of the first", races), section("Splits", splits, best, anchor=SPLITS))
@@ -324,6 +364,10 @@ def signed(ticks: int) -> str:
     return ("-" if ticks < 0 else "+") + seconds_text(abs(ticks))
 
 
+def _text(run: Run) -> str:
+    return shared_text(run.replay, run.entry.named.level)
+
+
 def _stem(run: Run) -> str:
     """The stem of the file in ``replays`` with a run: of all that the file holds."""
     author = run.entry.named.author
@@ -353,8 +397,23 @@ def _share(values: NDArray[np.float64]) -> NDArray[np.float64]:
     return share
 
 
-def paths(picture: str, runs: Sequence[tuple[str, str]]) -> Markup:
-    """Runs, each by name with its ``path_data``, over the picture of their level; the first on top."""
+def _marks(places: Sequence[tuple[float, float]]) -> Iterator[Markup]:
+    """Numbers at places; one that would cover an earlier one shows only while a link leads to it."""
+    shown: list[tuple[float, float]] = []
+    for number, (x, y) in enumerate(places, 1):
+        free = all(abs(x - left) > MARK_APART or abs(y - top) > MARK_APART for left, top in shown)
+        shown += [(x, y)] * free
+        at = f"{x:.0f}", f"{y:.0f}"
+        text = tag("text", number, x=at[0], y=f"{y + 5:.0f}", text_anchor="middle")
+        ring = tag("circle", cx=at[0], cy=at[1], r="14")
+        yield tag("g", ring, text, id=f"{PLACE}{number}", class_="mark" if free else "mark covered")
+
+
+def paths(picture: str, runs: Sequence[tuple[str, str]], places: Sequence[tuple[float, float]] = ()) -> Markup:
+    """Runs, each by name with its ``path_data``, over the picture of their level; the first on top.
+
+    ``places``: px, of what is numbered from 1.
+    """
     image = tag("image", href=picture, width=PICTURE_WIDTH, height=PICTURE_HEIGHT)
     lines = [
         tag("path", tag("title", name), d=way, class_="way", stroke=_colour(number))
@@ -363,7 +422,9 @@ def paths(picture: str, runs: Sequence[tuple[str, str]]) -> Markup:
     said = f"The level with the paths of {', '.join(name for name, _ in runs)}"
     box = f"0 0 {PICTURE_WIDTH} {PICTURE_HEIGHT}"
     names = [tag("li", swatch(number), joined(" ", name)) for number, (name, _) in enumerate(runs)]
-    drawn = tag("svg", image, *reversed(lines), viewBox=box, class_="paths", role="img", aria_label=said)
+    drawn = tag(
+        "svg", image, *reversed(lines), *_marks(places), viewBox=box, class_="paths", role="img", aria_label=said
+    )
     return joined(drawn, tag("ul", *names, class_="facts"))
 
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
-from functools import partial
-from itertools import groupby, product
+from itertools import groupby, islice, product
 from pathlib import Path
 from statistics import mean, median
 from typing import Any
@@ -18,13 +17,13 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.sim.rules import LIFETIME
-from ninja_game.web.board.level_pages import FIRST, HOW_TO_CONFIRM, NEAR, LevelPages, level_link, player_page
+from ninja_game.web.board.level_pages import EPISODES, FIRST, HOW_TO_CONFIRM, NEAR, LevelPages, level_link, player_page
 from ninja_game.web.board.ranking import Ranked, Record, Standing
 from ninja_game.web.board.report import summary
 from ninja_game.web.board.rules import HIGHEST
 from ninja_game.web.board.runs import KINDS, PLAYED, Key, Run
-from ninja_game.web.pages.frame import REPLAYS, Content, page, section, table, tag
-from ninja_game.web.pages.gallery import BOARD, UP, medal_mark, page_name, shared_text
+from ninja_game.web.pages.frame import REPLAYS, Content, joined, on_this_page, page, section, table, tag
+from ninja_game.web.pages.gallery import BOARD, UP, medal_mark, page_name
 
 # Rows on the first page.
 NEWEST = 30
@@ -32,9 +31,11 @@ LEADING = 20
 CONTESTED = 10
 MOST_OF_A_MOMENT = 5  # records that come in at one moment and have a row each
 
+Piece = tuple[str, str, Content]  # of a page: anchor, title, content
+
 FEED = "feed.xml"
 ONE_MOMENT = "Where several runs that came in together beat a level's record, the best of them is the record."
-BY_LEVELS = "By levels led, then by levels passed"
+BY_LEVELS = "By levels led in all categories together, then by levels passed"
 
 
 def check_site(out: Path, folder: Path) -> None:
@@ -72,15 +73,13 @@ class BoardPages(LevelPages):
     """
 
     def write(self) -> None:
-        for run in self.ranking.judged.runs:
-            self.pages.make(f"{self.stems[run.key]}.txt", self.stems[run.key], partial(_text, run), replay=True)
-            self.run_page(run)
-        self._players()
         for entry in self.entries.values():
             self.level(entry)
+        self._players()
         self._levels()
         self._rejected()
-        self.pages.write("episodes.html", page("Episodes", *self._episodes(), links=self.links))
+        if episodes := self._episodes():
+            self.pages.write(EPISODES[0], page(EPISODES[1], tag("p", EPISODE_NUMBERS), *episodes, links=self.links))
         self.pages.write("index.html", self._first())
         self.pages.write(FEED, self._feed())
         # Last of all: where the disk is full, the pages of an earlier time are all there.
@@ -92,23 +91,33 @@ class BoardPages(LevelPages):
 
     def _first(self) -> str:
         rows: list[tuple[Content, ...]] = []
-        for _, group in groupby(self.ranking.records, key=lambda each: each.run.added):
+        for records in self._moments():
             if len(rows) >= NEWEST:
                 break
-            rows += self._of_a_moment([*group])
+            rows += self._of_a_moment(records)
         heads = ("Level", "Watch", "Player", "Record", "Date")
         feed = tag("p", tag("a", "Feed of new records (Atom)", href=FEED))
         shown = table("Newest first", heads, rows[:NEWEST]), tag("p", ONE_MOMENT), feed
-        newest = section("Newest records", *shown) if rows else None
+        newest = [("newest", "Newest records", joined(*shown))] if rows else []
         leaders = [
-            section(self._players_of(ladder), table(BY_LEVELS, self._heads(), map(self._standing, standings[:LEADING])))
+            (
+                ladder,
+                self._players_of(ladder),
+                table(BY_LEVELS, self._heads(), map(self._standing, standings[:LEADING])),
+            )
             for ladder, standings in self.ranking.standings.items()
             if standings
         ]
         lead = tag("p", f"{self.ranking.shown.name}: {summary(self.ranking.judged)}.", class_="lead")
         said = tag("p", "Every run was simulated again: times, gold and scores are the result of its inputs.")
-        contents = *leaders, self._contested(), self._week(), newest
-        return page("Board", lead, said, *contents, links=self.links)
+        parts = [*leaders, *self._contested(), *self._week(), *newest]
+        contents = [section(title, content, anchor=anchor) for anchor, title, content in parts]
+        return page("Board", lead, said, on_this_page([each[:2] for each in parts]), *contents, links=self.links)
+
+    def _moments(self) -> Iterator[list[Record]]:
+        """The records of each moment, the newest first."""
+        for _, group in groupby(self.ranking.records, key=lambda each: each.run.added):
+            yield [*group]
 
     def _of_a_moment(self, records: Sequence[Record]) -> list[tuple[Content, ...]]:
         """A row for each of the records that came in at one moment; one for all where they are many."""
@@ -123,8 +132,7 @@ class BoardPages(LevelPages):
             ]  # fmt: skip
         levels, players = ({getattr(each.run, name) for each in records} for name in ("level", "player"))
         where = tag("a", counted(len(levels), "level"), href="levels.html")
-        said = f"{len(records)} runs with records came in together"
-        return [(where, "", counted(len(players), "player"), said, moment)]
+        return [(where, "", counted(len(players), "player"), _together(records), moment)]
 
     def _achieved(self, record: Record) -> Iterator[str]:
         """The categories of a record, its results in them, and by how much it is better."""
@@ -133,14 +141,14 @@ class BoardPages(LevelPages):
             gain = "first" if amount is None else f"better by {category.difference(amount)}"
             yield f"{self.part_name((record.run.ladder, category))}: {result}, {gain}"
 
-    def _week(self) -> Content:
+    def _week(self) -> list[Piece]:
         if not (found := self.ranking.level_of_the_week):
-            return None
+            return []
         digest, players, runs = found
         sent = f": {counted(runs, 'run')} by {counted(players, 'player')} in the seven days up to the newest run."
-        return section("Level of the week", tag("p", level_link(self.entries[digest]), sent))
+        return [("week", "Level of the week", tag("p", level_link(self.entries[digest]), sent))]
 
-    def _contested(self) -> Content:
+    def _contested(self) -> list[Piece]:
         rows: list[list[Content]] = []
         for digest in self.ranking.contested[:CONTESTED]:
             if ranked := self._placed(digest, PLAYED):
@@ -155,8 +163,8 @@ class BoardPages(LevelPages):
                     row[at] = ""  # it tells nothing
         heads = ["Level", "Records", "Players", *self._best_heads()]
         heads[5:5] = ["Second behind", "Fifth behind"]
-        caption = f"By how often a record was beaten{self._of_both()}"
-        return section("Most contested levels", table(caption, heads, rows)) if rows else None
+        caption = f"By how often a record was beaten; records are those in {self.main.name}{self._of_both()}"
+        return [("contested", "Most contested levels", table(caption, heads, rows))] if rows else []
 
     def _of_both(self) -> str:
         """What a caption says where there are two ladders."""
@@ -175,22 +183,32 @@ class BoardPages(LevelPages):
 
     def _feed(self) -> str:
         """New records as Atom (RFC 4287); dates are those of the ledger."""
-        dated, name = [each for each in self.ranking.records[:NEWEST] if each.run.added], self.ranking.shown.name
+        news, name = list(islice(self._news(), NEWEST)), self.ranking.shown.name
         feed = ET.Element("feed", xmlns="http://www.w3.org/2005/Atom")
-        _about(feed, f"New records: {name}", name, dated[0].run.added if dated else "")
+        _about(feed, f"New records: {name}", name, news[0][2] if news else "")
         ET.SubElement(feed, "link", rel="self", href=FEED)
-        for record in dated:
-            run, entry = record.run, ET.SubElement(feed, "entry")
-            title = f"{self.name(run.player)}, {run.entry.title}, {'; '.join(self._achieved(record))}"
-            _about(entry, title, self.stems[run.key], run.added)
-            ET.SubElement(ET.SubElement(entry, "author"), "name").text = self.name(run.player)
-            ET.SubElement(entry, "link", href=page_name(run.level))
+        for title, known_by, date, author, leads_to in news:
+            _about(entry := ET.SubElement(feed, "entry"), title, known_by, date)
+            ET.SubElement(ET.SubElement(entry, "author"), "name").text = author
+            ET.SubElement(entry, "link", href=leads_to)
         return '<?xml version="1.0" encoding="utf-8"?>\n' + ET.tostring(feed, "unicode") + "\n"
+
+    def _news(self) -> Iterator[tuple[str, str, str, str, str]]:
+        """Entries of the feed: title, what it is known by, date, author, page."""
+        for records in self._moments():
+            date = records[0].run.added
+            if date and len(records) > MOST_OF_A_MOMENT:
+                yield _together(records), date, date, self.ranking.shown.name, "index.html"
+            elif date:
+                for record in records:
+                    run, name = record.run, self.name(record.run.player)
+                    title = f"{name}, {run.entry.title}, {'; '.join(self._achieved(record))}"
+                    yield title, self.stems[run.key], date, name, page_name(run.level)
 
     # --- players ---
 
     def _heads(self) -> list[str]:
-        names = [each.name for each in self.ranking.categories]
+        names = [f"First, {each.name}" for each in self.ranking.categories]
         return ["Player", "Levels", "Runs", *names, *map(str.capitalize, MEDALS)]
 
     def _players_of(self, ladder: str) -> str:
@@ -209,7 +227,7 @@ class BoardPages(LevelPages):
             title, rows = self._players_of(ladder), [*map(self._standing, standings)]
             self.list(pages[ladder], title, BY_LEVELS, self._heads(), rows, *(tag("p", other) for other in others))
             for each in standings:
-                sums[each.player].append(tag("p", _sums(ladder, each)))
+                sums[each.player].append(tag("p", _sums(ladder, self.main.name, each)))
         runs: dict[str, list[Run]] = defaultdict(list)
         for run in self.ranking.judged.runs:
             runs[run.player].append(run)
@@ -221,7 +239,8 @@ class BoardPages(LevelPages):
             link = tag("p", tag("a", said, href=f"{UP}{name}-records.html")) if records else None
             self._runs_of(player, own, [*sums[player], link])
             if records:
-                self.list(f"{name}-records", player, "Records held, then those lost", heads, records)
+                back = tag("p", tag("a", "All runs of the player", href=f"{UP}{name}.html"))
+                self.list(f"{name}-records", player, "Records held, then those lost", heads, records, back)
 
     def _records(self) -> tuple[dict[str, list[tuple[Content, ...]]], dict[str, list[tuple[Content, ...]]]]:
         """By player the rows of the records that are held, and of those that were lost."""
@@ -229,10 +248,11 @@ class BoardPages(LevelPages):
         lost: dict[str, list[tuple[Content, ...]]] = defaultdict(list)
         for (level, part), runs in self.ranking.history.items():
             last = {run.player: number for number, run in enumerate(runs)}
+            results = [self.file(run, UP, self.value(part[1], run)) for run in runs]
             for player, number in last.items():
                 best, by = runs[number], runs[number + 1] if number + 1 < len(runs) else None
-                about = level_link(self.entries[level], UP), self.part_name(part), self.value(part[1], best), best.day
-                loss = (self.player_link(by.player, UP), self.value(part[1], by), by.day) if by else ("", "", "")
+                about = level_link(self.entries[level], UP), self.part_name(part), results[number], best.day
+                loss = (self.player_link(by.player, UP), results[number + 1], by.day) if by else ("", "", "")
                 (lost if by else held)[player].append((*about, *loss))
         return held, lost
 
@@ -244,8 +264,9 @@ class BoardPages(LevelPages):
         def cells(row: Sequence[Any]) -> tuple[Content, ...]:
             run = known[row[0]]
             gold = f"{run.gold} of {run.entry.all_gold}"
-            result = seconds_text(run.tick), medal_mark(run.medal), seconds_text(run.score), gold
-            leads = run.made or "unknown", *self.leads(run, UP), run.day
+            time = self.file(run, UP, seconds_text(run.tick))
+            result = time, self.watch([run], UP), medal_mark(run.medal), seconds_text(run.score), gold
+            leads = run.made or "unknown", run.day, self.file(run, UP)
             places = tag("div", *(tag("div", each) for each in row[3]), class_="text") if row[3] else ""
             return (row[1], level_link(run.entry, UP), *result, places, *leads)
 
@@ -253,16 +274,17 @@ class BoardPages(LevelPages):
             [self.stems[run.key], run.entry.episode, run.medal, self._places(run), run.day]
             for run in sorted(runs, key=lambda run: (order[run.level], run.added, run.key))
         ]
-        heads = ("No.", "Level", "Time", "Medal", "Score", "Gold", "Places", "Made", "Watch", "Share", "Date")
+        heads = ("No.", "Level", "Time", "Watch", "Medal", "Score", "Gold", "Places", "Made", "Date", "File")
         self.list(player_page(player), player, "All runs", heads, rows, *lead, cells=cells)
 
     def _places(self, run: Run) -> list[str]:
         """Its place in each category, and how far behind it is."""
-        placed = [(part[1], rows[number]) for part, rows, number in self.ranking.places.get(run.key, ())]
-        return [
-            f"{category.name}: {row.place}" + f", {category.difference(row.behind)} behind" * (row.place > 1)
-            for category, row in placed if row.place
-        ]  # fmt: skip
+        found = []
+        for part, rows, number in self.ranking.places.get(run.key, ()):
+            if place := rows[number].place:
+                late = self.late(part[1], rows[number], rows[0], " behind")
+                found.append(f"{self.part_name(part)}: {place}" + f", {late}" * bool(late))
+        return found
 
     # --- levels, episodes, and what does not count ---
 
@@ -272,7 +294,9 @@ class BoardPages(LevelPages):
             for digest, entry in self.entries.items()
         ]
         heads = ("No.", "Level", "Runs", "Players", *self._best_heads())
-        self.list("levels", "Levels", f"In playing order{self._of_both()}", heads, rows)
+        self.list(
+            "levels", "Levels", f"In playing order; who is first, in {self.main.name}{self._of_both()}", heads, rows
+        )
 
     def _placed(self, digest: str, ladder: str) -> list[Ranked]:
         """The runs with a place in the first category of a ladder."""
@@ -310,7 +334,7 @@ class BoardPages(LevelPages):
             nobody = tag("p", "No player yet.")
             listed = tag("ul", *levels, class_="facts")
             found.append(section(f"Episode {number:02d}: {episode.name}", listed, *tables or [nobody]))
-        return [tag("p", EPISODE_NUMBERS), *found] if found else [tag("p", "These levels have no episodes.")]
+        return found
 
     def _rejected(self) -> None:
         rejected, order = self.ranking.judged.rejected, list(KINDS)
@@ -323,8 +347,8 @@ class BoardPages(LevelPages):
         ]  # fmt: skip
         lead = f"None of them is ranked; {said}." if said else "Every file of the folder is a run that counts."
         near = [
-            (level_link(run.entry), self.player_link(run.player), seconds_text(run.tick), run.gold,
-             *self.leads(run, ""), run.file + f", record {run.record}" * (run.record > 0), run.near, run.day)
+            (level_link(run.entry), self.player_link(run.player), self.file(run, "", seconds_text(run.tick)), run.gold,
+             self.watch([run], ""), run.file + f", record {run.record}" * (run.record > 0), run.near, run.day)
             for run in self.ranking.judged.runs if run.near
         ]  # fmt: skip
         waiting = tag("a", f"Waiting for confirmation: {counted(len(near), 'run')}", href="waiting.html")
@@ -332,7 +356,7 @@ class BoardPages(LevelPages):
         heads = ("What", "File", "Player", "Level", "Why", "The first run", "Date")
         self.list("rejected", "Rejected", "What does not count", heads, rows, *leads)
         if near:
-            names = ("Level", "Player", "Time", "Gold", "Watch", "Share", "File", "Nearly", "Date")
+            names = ("Level", "Player", "Time", "Gold", "Watch", "File", "Nearly", "Date")
             about, caption = (tag("p", NEAR), tag("p", HOW_TO_CONFIRM)), "Runs that are nearly somebody else's"
             self.list("waiting", "Waiting for confirmation", caption, names, near, *about)
 
@@ -342,18 +366,18 @@ class BoardPages(LevelPages):
         return tag("a", "Look", href=f"../{REPLAYS}/{self.stems[key]}.html", aria_label=said) if key else ""
 
 
-def _text(run: Run) -> str:
-    return shared_text(run.replay, run.entry.named.level)
+def _together(records: Sequence[Record]) -> str:
+    return f"{len(records)} runs with records came in together"
 
 
-def _sums(ladder: str, each: Standing) -> str:
-    """What a player has reached in a ladder, in a sentence."""
+def _sums(ladder: str, category: str, each: Standing) -> str:
+    """What a player has reached in a ladder, ranks in a category, in a sentence."""
     said = f"{ladder.capitalize()}: {counted(each.runs, 'run')} on {counted(each.levels, 'level')}"
     if not each.ranks:
         return f"{said}."
     ranks = f"total of ranks {sum(each.ranks)}, {mean(each.ranks):.2f} on average"
     close = f"in the median {100 * median(each.behind):.1f}% slower than the fastest"
-    return f"{said}; first on {each.ranks.count(1)}; {ranks}; {close}."
+    return f"{said}; in {category} first on {each.ranks.count(1)}; {ranks}; {close}."
 
 
 def _about(element: ET.Element, title: str, name: str, date: str) -> None:

@@ -240,7 +240,8 @@ class Ranking:
     def level_of_the_week(self) -> tuple[str, int, int] | None:
         """The level that most players sent runs of in the seven days up to the newest run; of equal ones most runs.
 
-        With how many players and runs. None without two dates: it depends on the ledger alone, never on a clock.
+        With how many players, at least two, and runs. None without two dates: it depends on the ledger alone, never on
+        a clock.
         """
         dated = [(datetime.fromisoformat(run.added), run) for run in self.judged.runs if run.added]
         week: dict[str, list[Run]] = defaultdict(list)
@@ -248,5 +249,6 @@ class Ranking:
             if date > dated[-1][0] - WEEK:
                 week[run.level].append(run)
         counts = {level: (len({run.player for run in runs}), len(runs)) for level, runs in week.items()}
-        best = max((level for level in self.shown.entries if level in counts), key=counts.__getitem__, default=None)
+        several = [level for level in self.shown.entries if counts.get(level, (0, 0))[0] > 1]
+        best = max(several, key=counts.__getitem__, default=None)
         return (best, *counts[best]) if best and dated[0][0] < dated[-1][0] else None

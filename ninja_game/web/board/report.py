@@ -4,21 +4,35 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from datetime import UTC, datetime, timedelta
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from ninja_game.errors import FormatError
+from ninja_game.errors import ArgumentError, FormatError
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.web.board.ranking import Ranking
-from ninja_game.web.board.runs import KINDS, NO_LEDGER, OWN, PLAYED, Dates, Key, Ledger, Rows, Run, ValidatedRuns
+from ninja_game.web.board.runs import (
+    DECISIONS,
+    KINDS,
+    NO_LEDGER,
+    OWN,
+    PLAYED,
+    REJECTED,
+    Dates,
+    Key,
+    Ledger,
+    Rows,
+    Run,
+    ValidatedRuns,
+)
 
 VERSION = 2
 DATE = "%Y-%m-%dT%H:%M:%SZ"
+LONGEST_REASON = 300  # characters
 
 _FIELDS: dict[str, dict[str, type]] = {
     "runs": {
@@ -27,6 +41,7 @@ _FIELDS: dict[str, dict[str, type]] = {
     },
     "rejected": {"file": str, "record": int, "kind": str, "why": str, "way": str, "added": str},
     "withdrawn": {"level": str, "way": str, "player": str, "added": str},
+    "decisions": {"level": str, "way": str, "file": str, "player": str, "what": str, "reason": str, "added": str},
 }  # fmt: skip
 
 _KEPT = {"near": str, "confirmed": bool}  # what a row may have, and keeps after the run is withdrawn
@@ -62,6 +77,7 @@ def board_text(judged: ValidatedRuns, before: Ledger = NO_LEDGER) -> str:
     here = {(run.level, run.way) for run in judged.runs}
     gone = sorted((way, row) for way, row in before.owners.items() if way not in here)
     data["withdrawn"] = [{key: row[key] for key in (*_FIELDS["withdrawn"], *_KEPT) if key in row} for _, row in gone]
+    data["decisions"] = [row for _, row in sorted(before.decisions.items())]
     parts = (f'"{key}": [\n' + ",\n".join("  " + json.dumps(row) for row in data[key]) + "\n]" for key in _FIELDS)
     return f'{{"version": {VERSION}, {", ".join(parts)}}}\n'
 
@@ -74,7 +90,8 @@ def read_board(path: Path, now: datetime) -> Ledger:
             found = f"version {str(data['version'])[:20]}"
             hint = "to start again, remove it: all runs get one date then, and go by the names of their files"
             raise FormatError("a board of another version", str(path), found=found, expected=str(VERSION), hint=hint)
-        data.setdefault("withdrawn", [])  # which ledgers did not have at first
+        for part in ("withdrawn", "decisions"):  # which ledgers did not have at first
+            data.setdefault(part, [])
         return Ledger(*(_rows(path, key, data[key], now) for key in _FIELDS))
     except (ValueError, TypeError, KeyError, RecursionError):
         raise FormatError("not a board", str(path), expected="a file that `ninja-game board --json` wrote") from None
@@ -94,6 +111,9 @@ def _rows(path: Path, part: str, rows: list[dict[str, Any]], now: datetime) -> R
         if row["added"] and not _is_date(row["added"], now):
             expected = "a date in the past as in 2026-01-31T12:00:00Z"
             raise FormatError(f"{place}: not a date", str(path), found=repr(row["added"][:40]), expected=expected)
+        if row.get("what", REJECTED) not in DECISIONS:
+            expected = ", ".join(DECISIONS)
+            raise FormatError(f"{place}: 'what' is no decision", str(path), found=plain(row["what"]), expected=expected)
         key = row[first], row[second]
         if key in found:
             raise FormatError(f"{place}: given twice", str(path), found=plain(key[0]))
@@ -111,11 +131,60 @@ def _is_date(text: str, now: datetime) -> bool:
     return date.strftime(DATE) == text and date < now + timedelta(days=1)
 
 
-def dates_of(before: Ledger, now: datetime) -> Dates:
-    """The dates of a ledger. A run that it does not have, or not with this path, is added now."""
+def moderate(
+    ledger: Ledger, now: datetime, confirm: Sequence[str], decisions: Sequence[tuple[str, str]], reason: str
+) -> None:
+    """Write into a ledger what its keeper decides of the runs of files.
+
+    ``confirm``: files with near copies that are none; ``decisions``: files, and which of DECISIONS. Raises
+    ArgumentError for a file without such runs, and for a reason that is too long, or missing where a run is rejected.
+    """
+    if len(reason) > LONGEST_REASON or (not reason and any(what == REJECTED for _, what in decisions)):
+        raise ArgumentError(f"--reject: say why with --reason, in at most {LONGEST_REASON} characters")
+    near = [row for row in ledger.runs.values() if row.get("near") and not row.get("confirmed")]
+    for name in confirm:
+        for row in _rows_of(name, near, "--confirm", "that waits"):
+            row["confirmed"] = True
+    for name, what in decisions:
+        for row in _rows_of(name, [*ledger.runs.values(), *ledger.decisions.values()], what, "in that file"):
+            decided = {"what": what, "reason": reason, "added": now.strftime(DATE)}
+            of = {key: row[key] for key in _FIELDS["decisions"] if key not in decided}
+            ledger.decisions[row["level"], row["way"]] = of | decided
+
+
+def _rows_of(name: str, rows: Sequence[dict[str, Any]], what: str, which: str) -> list[dict[str, Any]]:
+    """The rows of a file. Raises ArgumentError, with those that there are, for none."""
+    if found := [row for row in rows if row["file"] == name]:
+        return found
+    files = ", ".join(dict.fromkeys(plain(row["file"]) for row in rows[:10])) or "none"
+    raise ArgumentError(f"{what} {name!a}: no run of the ledger {which}; there are: {files}")
+
+
+def read_dates(path: Path, now: datetime) -> dict[str, str]:
+    """Dates by file, from rows FILE,DATE. Raises FormatError that names the row, FileError, OSError."""
+    found: dict[str, str] = {}
+    for number, row in enumerate(read_utf8(path).splitlines(), 1):
+        file, _, day = map(str.strip, row.rpartition(","))
+        date = f"{day}T00:00:00Z" if len(day) == len("2026-01-31") else day
+        if file in found or not _is_date(date, now):
+            expected = "FILE,DATE, once for a file, with a date in the past as 2026-01-31 or 2026-01-31T12:00:00Z"
+            raise FormatError(f"row {number}: no date of a file", str(path), found=plain(row), expected=expected)
+        found[file] = date
+    return found
+
+
+def dates_of(before: Ledger, now: datetime, given: Mapping[str, str]) -> Dates:
+    """The dates of a ledger. A run that it does not have, or not with this path, is added now.
+
+    ``given``: dates by file that take the place of the ledger's.
+    """
+    for row in before.runs.values():
+        row["added"] = given.get(row["file"], row["added"])
     rows, today = before.rejected | before.runs, now.strftime(DATE)
 
     def date(key: Key, way: str) -> str:
+        if key[0] in given:
+            return given[key[0]]
         row = rows.get(key)
         return str(row["added"]) if row and row["way"] == way else today
 
@@ -124,7 +193,7 @@ def dates_of(before: Ledger, now: datetime) -> Dates:
 
 def changes(ranking: Ranking, before: Ledger) -> Iterator[tuple[bool, str]]:
     """What is different from the board before: whether it may be, and a line about it."""
-    runs, rejected, _ = before
+    runs, rejected, *_ = before
     now = {run.key: _run_data(run) for run in ranking.judged.runs}
     for run in sorted(ranking.judged.runs, key=lambda run: run.key):
         if run.key not in runs:

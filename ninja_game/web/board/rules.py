@@ -30,6 +30,11 @@ MOST_RANKS = 4  # formulas that rank a category
 LONGEST_NAME = 40
 
 _KEYS: Mapping[str, type] = {"name": str, "rank": list, "when": str, "episodes": bool}
+_WORSE = {
+    "ticks": "slower", "gold": "more gold", "-gold": "less gold", "-score": "lower score", "jumps": "more jumps",
+    "presses": "more presses",
+}  # fmt: skip
+"""What is worse about a run by a formula."""
 _ARGUMENTS = dict.fromkeys(NAMES, 0)
 
 
@@ -89,6 +94,15 @@ class Category:
         counts = {"Time": "s", "Score": "points"}.get(self.unit, self._shown if self._shown in NAMES else "")
         said = f"{self.text(value)} {counts}".rstrip()
         return {"1 presses": "1 press", "1 jumps": "1 jump"}.get(said, said)
+
+    def decided(self, values: Sequence[float], best: Sequence[float]) -> str:
+        """What decides against a run whose first number is the best one's.
+
+        >>> FASTEST.decided((40, -3), (40, -5)), Category("A", ("gold", "presses + jumps")).decided((0, 3), (0, 2))
+        ('same time, less gold', 'same value, by presses + jumps')
+        """
+        rank = next(rank.strip() for rank, ours, theirs in zip(self.rank, values, best, strict=True) if ours != theirs)
+        return f"same {self.unit.lower()}, {_WORSE.get(rank, f'by {rank}')}"
 
     def difference(self, amount: float) -> str:
         """By how much a first number is better, as people read it."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -25,7 +25,12 @@ PLAYED = "played"
 ASSISTED = "assisted"
 """The two ladders; a run of which nobody says how it was made is on the first one."""
 
+REJECTED = "rejected"
+DECISIONS = (REJECTED, PLAYED, ASSISTED)
+"""What the keeper of a board decides of a run: it does not count, or the ladder that it is moved to."""
+
 KINDS = {
+    "moderated": ("by the keeper", "Rejected by the keeper"),
     "practice": ("of practice", "Practice runs"),
     "copy": ("copied", "Copies of runs"),
     "refused": ("refused", "Runs that do not count"),
@@ -64,12 +69,14 @@ class Judged:
 class Ledger(NamedTuple):
     """What a board knew before: ``runs`` and what was ``rejected`` by file and record.
 
-    ``withdrawn``: by level and way the runs that counted once, and are not there now or do not count.
+    ``withdrawn``: by level and way the runs that counted once, and are not there now or do not count; ``decisions``:
+    what the keeper of the board says of a run, and why.
     """
 
     runs: Rows
     rejected: Rows
     withdrawn: Rows
+    decisions: Rows
 
     @property
     def owners(self) -> Rows:
@@ -77,7 +84,7 @@ class Ledger(NamedTuple):
         return self.withdrawn | {(row["level"], row["way"]): row for row in self.runs.values()}
 
 
-NO_LEDGER = Ledger({}, {}, {})
+NO_LEDGER = Ledger({}, {}, {}, {})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -116,8 +123,9 @@ class Run(Judged):
 
     @property
     def moment(self) -> str:
-        """The date of ``added`` with the time of day."""
-        return self.added and f"{self.added[:16].replace('T', ' ')} UTC"
+        """The date of ``added`` with the time of day, where that is known."""
+        time = self.added[11:16]
+        return self.day if time in ("", "00:00") else f"{self.day} {time} UTC"
 
     @property
     def ladder(self) -> str:
@@ -141,6 +149,15 @@ class Run(Judged):
         if self.key not in drawn:
             drawn[self.key] = path_data(run_level(self.entry.named.level, self.inputs).positions)
         return drawn[self.key]
+
+    def decided(self, row: Mapping[str, Any]) -> Run | Rejected:
+        """What the keeper makes of it by a row of the ledger's decisions."""
+        said = f"by the keeper on {row['added'][:10]}" + f": {row['reason']}" * bool(row["reason"])
+        if row["what"] == REJECTED:
+            way = self.entry.title, self.way, self.added
+            return Rejected(*self.key, "moderated", f"rejected {said}", self.player, *way)
+        remark = "; ".join(filter(None, (self.remark, f"moved to {row['what']} {said}")))
+        return replace(self, assisted=row["what"] == ASSISTED, remark=remark)
 
     @property
     def replay(self) -> Replay:

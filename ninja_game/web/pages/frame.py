@@ -286,3 +286,9 @@ def _wrapping(cell: Content, longest: int = _LONGEST_LINE) -> Content:
 
 def section(title: str, *contents: Content, anchor: str | None = None) -> Markup:
     return tag("section", tag("h2", title), joined(*contents), id=anchor)
+
+
+def on_this_page(leads: Iterable[tuple[str, str]]) -> Markup:
+    """Links to parts of a page, by their anchors."""
+    links = [tag("li", tag("a", text, href=f"#{anchor}")) for anchor, text in leads]
+    return tag("nav", tag("ul", *links), class_="contents", aria_label="On this page")

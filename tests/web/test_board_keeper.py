@@ -1,0 +1,167 @@
+"""What the keeper of a board decides: runs that do not count, and runs on the other ladder; and the dates of runs."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from ninja_game.cli.main import cli
+from ninja_game.formats.replay.made import Made
+from tests.support.board import DIGEST, HOSTILE, board, put, slow_walk, taken_in_earlier
+from tests.support.forgeries import replay
+
+
+def told(runs: Path, levels: Path, *words: str) -> str:
+    """The error of a command on the board that goes wrong."""
+    result = CliRunner().invoke(cli, ["board", str(runs), "--levels", str(levels), "--jobs", "1", *words])
+    assert (result.exit_code, "Traceback" in result.output) == (2, False), result.output
+    return result.stderr
+
+
+@pytest.fixture
+def ledger(runs: Path, levels: Path, tmp_path: Path) -> Path:
+    """The ledger of a board of two played runs, the first one by Ann, and an assisted one."""
+    put(runs, "ann.txt", replay(author="Ann"))
+    put(runs, "bea.txt", slow_walk(author="Bea"))
+    put(runs, "tool.txt", replay(bytes(3) + bytes([2] * 30), author="Tool", made=Made(edits=3)))
+    taken_in_earlier(runs, levels, data := tmp_path / "board.json")
+    return data
+
+
+def level_page(site: Path) -> str:
+    return (site / "board" / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
+
+
+def test_a_run_is_rejected_with_its_reason_until_the_line_is_deleted(
+    ledger: Path, runs: Path, levels: Path, tmp_path: Path
+) -> None:
+    site, reason = tmp_path / "site", f"spliced {HOSTILE}"
+    words = "--json", str(ledger), "--site", str(site)
+    output = board(runs, levels, *words, "--reject", "ann.txt", "--reason", reason)
+    assert "moderated: ann.txt: rejected by the keeper on 20" in output
+    assert "rejected: 1 by the keeper" in output
+    page = (site / "board" / "rejected.html").read_text("utf-8")
+    assert "<td>Rejected by the keeper</td>" in page
+    assert ": spliced &lt;script&gt;" in page
+    assert "<script>document" not in page
+    assert ">Ann<" not in level_page(site)
+    assert board(runs, levels, "--check", str(ledger)).startswith("nothing has changed")
+    put(runs, "eve.txt", replay(author="Eve"))
+    assert "copy: eve.txt: a copy of an earlier run by Ann" in board(runs, levels, "--json", str(ledger))
+    put(runs, "ann.txt", (runs / "ann.txt").read_text("utf-8")).rename(runs / "again.txt")
+    assert "moderated: again.txt: rejected by the keeper on 20" in board(runs, levels, "--json", str(ledger))
+    (runs / "again.txt").rename(runs / "ann.txt")
+    board(runs, levels, "--json", str(ledger))
+    data = json.loads(ledger.read_text("utf-8"))
+    assert [row["file"] for row in data.pop("decisions")] == ["ann.txt"]
+    ledger.write_text(json.dumps(data), "utf-8")
+    board(runs, levels, *words)
+    assert ">Ann<" in level_page(site)
+    (row,) = (each for each in json.loads(ledger.read_text("utf-8"))["runs"] if each["file"] == "ann.txt")
+    assert row["added"] == "2026-01-31T12:00:00Z"
+
+
+def test_a_run_is_moved_to_the_other_ladder(ledger: Path, runs: Path, levels: Path, tmp_path: Path) -> None:
+    site = tmp_path / "site"
+    words = "--json", str(ledger), "--site", str(site)
+    board(runs, levels, *words, "--ladder", "ann.txt", "assisted", "--reason", "frame by frame")
+    played, assisted = (
+        level_page(site).partition(f"<h2>Fastest, {ladder}; Highest score, {ladder}</h2>")[2].partition("</section>")[0]
+        for ladder in ("played", "assisted")
+    )
+    assert (">Ann<" in played, ">Ann<" in assisted, ">Bea<" in played) == (False, True, True)
+    remark = "moved to assisted by the keeper on 20"
+    assert remark in assisted
+    pages = [each.read_text("utf-8") for each in (site / "replays").glob("*.html")]
+    assert [": frame by frame<" in each for each in pages if remark in each] == [True]
+    board(runs, levels, *words, "--ladder", "ann.txt", "played")
+    assert ">Ann<" in level_page(site).partition("<h2>Fastest, played")[2].partition("</section>")[0]
+    assert len(json.loads(ledger.read_text("utf-8"))["decisions"]) == 1
+
+
+@pytest.mark.parametrize(
+    "words, error",
+    [
+        (["--reject", "ann.txt"], "--reject: say why with --reason"),
+        (["--reject", "ann.txt", "--reason", " "], "--reject: say why with --reason"),
+        (["--reject", "ann.txt", "--reason", "x" * 301], "at most 300 characters"),
+        (["--reject", "dee.txt", "--reason", "x"], "no run of the ledger in that file; there are: ann.txt, bea.txt"),
+        (["--ladder", "dee.txt", "assisted"], "no run of the ledger in that file; there are: ann.txt, bea.txt"),
+        (["--ladder", "ann.txt", "other"], "'other' is not one of"),
+    ],
+)
+def test_a_decision_that_cannot_be_written_is_named(
+    words: list[str], error: str, ledger: Path, runs: Path, levels: Path
+) -> None:
+    before = ledger.read_bytes()
+    assert error in " ".join(told(runs, levels, "--json", str(ledger), *words).split())
+    assert ledger.read_bytes() == before
+    if error.startswith("no run"):
+        assert "name the ledger" in told(runs, levels, *words)
+
+
+def test_a_decision_of_another_kind_is_a_wrong_row(ledger: Path, runs: Path, levels: Path) -> None:
+    board(runs, levels, "--json", str(ledger), "--ladder", "ann.txt", "assisted")
+    text = ledger.read_text("utf-8")
+    ledger.write_text(text.replace('"what": "assisted"', '"what": "banned"'), "utf-8")
+    assert "row 1 of 'decisions': 'what' is no decision" in told(runs, levels, "--json", str(ledger))
+
+
+def test_dates_of_an_older_board_are_kept(runs: Path, levels: Path, tmp_path: Path) -> None:
+    """Runs come into the ledger with real dates: the record's history is of these, and the first owns the run."""
+    data, dates, site = tmp_path / "board.json", tmp_path / "dates.csv", tmp_path / "site"
+    put(runs, "a/new.txt", replay(author="Ann"))
+    put(runs, "b.txt", slow_walk(author="Bea"))
+    put(runs, "cid.txt", replay(author="Cid"))
+    board(runs, levels, "--json", str(data))
+    dates.write_text("a/new.txt,2021-05-06\nb.txt,2020-03-04T10:00:00Z\ncid.txt, 2022-01-01\n", "utf-8")
+    words = "--json", str(data), "--site", str(site)
+    assert "copy: cid.txt: a copy of the run by Ann" in board(runs, levels, *words, "--dates", str(dates))
+    for _ in range(2):
+        page = level_page(site)
+        progression = page.partition('id="records"')[2].partition("</table>")[0]
+        assert "0.700 2020-03-04" in progression
+        assert [each in progression for each in ("<td>2021-05-06</td>", "<td>2020-03-04 10:00 UTC</td>")] == [
+            True,
+            True,
+        ]
+        board(runs, levels, *words)
+    dates.write_text("cid.txt,2019-01-01\n", "utf-8")
+    assert "copy: a/new.txt: a copy of the run by Cid" in board(runs, levels, *words, "--dates", str(dates))
+
+
+@pytest.mark.parametrize(
+    "text, error",
+    [
+        ("ann.txt", "row 1: no date of a file"),
+        ("ann.txt,soon", "row 1: no date of a file"),
+        ("ann.txt,2999-01-01", "row 1: no date of a file"),
+        ("ann.txt,2020-01-01,x", "row 1: no date of a file"),
+        ("ann.txt,2020-01-01\nann.txt,2020-01-02", "row 2: no date of a file"),
+        ("dee.txt,2020-01-01", "a file that is not among the runs; found dee.txt"),
+        ("\0", "row 1: no date of a file"),
+    ],
+)
+def test_a_row_of_dates_that_is_wrong_is_named(
+    text: str, error: str, ledger: Path, runs: Path, levels: Path, tmp_path: Path
+) -> None:
+    before = ledger.read_bytes()
+    (tmp_path / "dates.csv").write_text(text, "utf-8")
+    assert error in " ".join(told(runs, levels, "--json", str(ledger), "--dates", str(tmp_path / "dates.csv")).split())
+    assert ledger.read_bytes() == before
+
+
+def test_a_batch_is_one_entry_of_the_feed(
+    runs: Path, levels: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    put(runs, "a.txt", slow_walk(author="Ann"))
+    put(runs, "b.txt", replay(author="Bot", made=Made(edits=7)))
+    for most, entries in ((2, 2), (1, 1)):
+        monkeypatch.setattr("ninja_game.web.board.pages.MOST_OF_A_MOMENT", most)
+        board(runs, levels, "--json", str(tmp_path / "board.json"), "--site", str(tmp_path / "site"))
+        feed = (tmp_path / "site" / "board" / "feed.xml").read_text("utf-8")
+        assert feed.count("<entry>") == entries
+    assert "<title>2 runs with records came in together</title>" in feed
