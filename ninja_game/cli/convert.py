@@ -172,10 +172,7 @@ def _file_names(found: Sequence[NamedLevel | Recording], suffix: str) -> Iterato
 @click.command()
 @click.argument("inputs", metavar="FILE", type=options.OLD_FILE)
 @click.option(
-    "-o",
-    "--output",
-    type=options.NEW_FILE,
-    help="The replay. [default: FILE's name and .replay.txt, in the current folder]",
+    "-o", "--output", type=options.NEW_FILE, help="The replay. [default: FILE's name and .replay.txt, in this folder]"
 )
 @click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")
 @options.play_on_option

@@ -32,10 +32,7 @@ LARGE = 5_000_000  # bytes of a GIF
 @click.option("--speed", type=click.FloatRange(0.05, 16), default=1.0, show_default=True, help="1 is the game's speed.")
 @click.option("--from", "first", type=click.IntRange(min=0), default=0, help="First picture: after this many ticks.")
 @click.option(
-    "--to",
-    "last",
-    type=click.IntRange(min=0),
-    help="Last picture. [default: a second after the end; at most 20,000 pictures]",
+    "--to", "last", type=click.IntRange(min=0), help="Last picture. [default: a second after the end; 20,000 at most]"
 )
 @click.option(
     "--ghost", "ghosts", multiple=True, metavar="FILE", type=InputPath(dir_okay=False),

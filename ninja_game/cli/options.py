@@ -9,14 +9,16 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from difflib import get_close_matches
+from functools import reduce
 from pathlib import Path
 from threading import Event, Thread
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import click
 from click.shell_completion import CompletionItem
 
 from ninja_game.budget import RUN_BUDGET
+from ninja_game.cli.terminal import complain
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import own_levels
 from ninja_game.files.writing import check_output
@@ -26,10 +28,12 @@ if TYPE_CHECKING:
     from ninja_game.formats.named_level import NamedLevel
     from ninja_game.formats.recording import Recording
     from ninja_game.formats.replay.text import Replay
+    from ninja_game.runs.recording_reader import Unreadable
     from ninja_game.search.solve import Progress, Task
     from ninja_game.sim.level import Level
 
 T = TypeVar("T")
+F = TypeVar("F", bound=Callable[..., Any])
 N = TypeVar("N", "NamedLevel", "Recording")
 
 # When progress is shown.
@@ -88,9 +92,8 @@ memory_option = click.option(
 jobs_option = click.option("--jobs", type=JOBS, help="How many workers run recordings. [default: one per core]")
 
 level_option = click.option(
-    "--level", "level_path", metavar="FILE", type=LevelPath(dir_okay=False),
-    help="The level of recordings that do not hold theirs.",
-)  # fmt: skip
+    "--level", "level_path", metavar="FILE", type=LevelPath(dir_okay=False), help="Level of recordings without one."
+)
 
 play_on_option = click.option(
     "--level", "level_path", metavar="FILE", type=LevelPath(dir_okay=False),
@@ -125,16 +128,21 @@ class Pixels(click.ParamType):  # type: ignore[type-arg, unused-ignore]
         return int(width), int(height)
 
 
-def window_options(command: Callable[..., T]) -> Callable[..., T]:
-    """The options of commands that open a window: its size in px, how many pictures, where the last one goes."""
-    png = click.Path(dir_okay=False)
-    for option in (
-        click.option("--screenshot", type=png, callback=_png_name, help="Write the last picture to this PNG file."),
-        click.option("--frames", type=click.IntRange(1, 10**9), help="Exit after this many pictures."),
-        click.option("--size", type=Pixels(), help="Size of the window in px, e.g. 1584x1200."),
-    ):
-        command = option(command)
-    return command
+def together(*options: Callable[[F], F]) -> Callable[[F], F]:
+    """Several options as one, in this order."""
+    return lambda command: reduce(lambda decorated, option: option(decorated), reversed(options), command)
+
+
+window_options = together(
+    click.option("--size", type=Pixels(), help="Size of the window in px, e.g. 1584x1200."),
+    click.option("--frames", type=click.IntRange(1, 10**9), help="Exit after this many pictures."),
+    click.option(
+        "--screenshot",
+        type=click.Path(dir_okay=False),
+        callback=_png_name,
+        help="Write the last picture to this PNG file.",
+    ),
+)
 
 
 def choose_level(path: Path, record: int | None) -> NamedLevel:
@@ -158,6 +166,25 @@ def choose(found: Sequence[N], what: str, path: Path, record: int | None) -> N:
 def level_given(path: Path | None) -> Level | None:
     """The level that ``level_option`` names."""
     return choose_level(path, None).level if path else None
+
+
+class Readable(Generic[T]):
+    """Items as they pass, without what cannot be read, which is reported on stderr; how many of each there were."""
+
+    def __init__(self, items: Iterable[T | Unreadable]) -> None:
+        self._items = items
+        self.count = self.unreadable = 0
+
+    def __iter__(self) -> Iterator[T]:
+        from ninja_game.runs.recording_reader import Unreadable
+
+        for item in self._items:
+            if isinstance(item, Unreadable):
+                self.unreadable += 1
+                complain(item.message)
+            else:
+                self.count += 1
+                yield item
 
 
 def with_progress(items: Iterable[T], label: str) -> Iterator[T]:
@@ -200,9 +227,6 @@ def heartbeat(text: Callable[[], str]) -> Iterator[None]:
         teller.join()
 
 
-F = TypeVar("F", bound=Callable[..., Any])
-
-
 class GoldCount(click.ParamType):  # type: ignore[type-arg, unused-ignore]
     """``all`` (-1) or a number of pieces."""
 
@@ -228,11 +252,6 @@ class Seconds(click.FloatRange):
         return seconds
 
 
-gold_option = click.option(
-    "--gold", type=GoldCount(), default=0, show_default=True, help="Collect this much gold on the way."
-)
-
-
 def seconds_option(default: float) -> Callable[[F], F]:
     return click.option(
         "--seconds", type=Seconds(min=0.1), default=default, show_default=True, help="Stop after this time."
@@ -244,16 +263,20 @@ work_option = click.option(
     help="Stop after about N simulated ticks per job instead: with one job, always the same result.",
 )  # fmt: skip
 smooth_option = click.option(
-    "--smooth",
-    type=click.IntRange(0, 10**6),
-    metavar="N",
-    help="In the end make the run look played: few key changes, at most N ticks longer.",
+    "--smooth", type=click.IntRange(0, 10**6), metavar="N", help="Fewer key changes, for at most N ticks more."
 )
 seed_option = click.option(
-    "--seed", type=SEED, default=1, show_default=True,
-    help="With one job, the same seed does the same work in the same order.",
-)  # fmt: skip
+    "--seed", type=SEED, default=1, show_default=True, help="With one job, the same seed does the same work."
+)
 search_jobs_option = click.option("--jobs", type=JOBS, help="Threads. [default: one per core]")
+shortening_options = together(
+    click.option("--gold", type=GoldCount(), default=0, show_default=True, help="Collect this much gold on the way."),
+    seconds_option(60.0),
+    work_option,
+    seed_option,
+    search_jobs_option,
+    smooth_option,
+)
 body_option = click.option(
     "--body", type=click.Choice(["circle", "box"]), default="circle", show_default=True, help="The ninja's body."
 )

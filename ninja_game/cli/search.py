@@ -54,12 +54,7 @@ class SearchLog:
 @click.command()
 @click.argument("level", type=options.LevelPath(dir_okay=False))
 @click.option("--record", type=click.IntRange(min=0), help="Which of a file's levels, counted from 0.")
-@options.gold_option
-@options.seconds_option(60.0)
-@options.work_option
-@options.seed_option
-@options.search_jobs_option
-@options.smooth_option
+@options.shortening_options
 @options.body_option
 @click.option(
     "-o", "--output", metavar="REPLAY", type=options.NEW_FILE,
@@ -102,12 +97,7 @@ def solve(
 @click.argument("replay", type=options.OLD_FILE)
 @click.option("--record", type=click.IntRange(min=0), help="Which of a file's recordings, counted from 0.")
 @options.level_option
-@options.gold_option
-@options.seconds_option(60.0)
-@options.work_option
-@options.seed_option
-@options.search_jobs_option
-@options.smooth_option
+@options.shortening_options
 @click.option(
     "--resume",
     metavar="LOG",
@@ -205,20 +195,15 @@ def improve(
     help="local: small changes; beam: promising states; exhaustive: all keys; auto: local and beam in turn.",
 )  # fmt: skip
 @click.option(
-    "--every", type=click.IntRange(min=1), default=1, show_default=True,
-    help="For exhaustive: ticks that each choice of keys lasts.",
-)  # fmt: skip
+    "--every", type=click.IntRange(min=1), default=1, show_default=True, help="For exhaustive: ticks that keys last."
+)
 @options.seconds_option(60.0)
 @options.seed_option
 @options.search_jobs_option
 @click.option("--record", type=click.IntRange(min=0), help="Which of a file's recordings, counted from 0.")
 @options.level_option
 @click.option(
-    "-o",
-    "--output",
-    metavar="REPLAY",
-    type=options.NEW_FILE,
-    help="Where to keep the best run so far. [default: nowhere]",
+    "-o", "--output", metavar="REPLAY", type=options.NEW_FILE, help="Where to keep the best run. [default: nowhere]"
 )
 def search(
     replay: Path, first: int, last: int, goal: str, maximise: str, minimise: str, rest: bool,

@@ -106,10 +106,7 @@ def edit(level: Path | None, record: int, **window: Any) -> int:
 @click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")
 @options.play_on_option
 @click.option(
-    "--against",
-    multiple=True,
-    type=options.OLD_FILE,
-    help="Compare with the runs of the same level in this file; may be given several times.",
+    "--against", multiple=True, type=options.OLD_FILE, help="Compare with this file's runs; may be given several times."
 )
 @click.option("--tick", type=click.IntRange(0, 10**6), default=0, help="Put the cursor on this tick.")
 @options.window_options
@@ -161,10 +158,7 @@ FIGURES = (
 @click.argument("figure", metavar="[FIGURE]", required=False, type=click.Choice(FIGURES))
 @options.window_options
 @click.option(
-    "-o",
-    "--output",
-    type=options.NEW_FILE,
-    help="Open no window: write the figure to this .png file, or its demonstration to this .gif file.",
+    "-o", "--output", type=options.NEW_FILE, help="Open no window: write a .png of it, or a .gif of its demonstration."
 )
 def lab(figure: str | None, output: Path | None, **window: Any) -> int:
     """Drag, paint and watch: figures about how the world works.
