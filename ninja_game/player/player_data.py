@@ -13,21 +13,10 @@ from ninja_game.formats.pack.pack import certificate_name
 from ninja_game.formats.replay.text import Replay
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import GAME, YOURS, Entry, Episode
+from ninja_game.player import progress
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Catalogue
-from ninja_game.player.progress import (
-    HELPED,
-    LOCKED,
-    UNLOCKED,
-    WITH_HELP,
-    Mark,
-    Marks,
-    Progress,
-    complete_columns,
-    has_all_gold,
-    medal_of,
-    reached,
-)
+from ninja_game.player.progress import LOCKED, UNLOCKED, WITH_HELP, Mark, Marks, Progress, has_all_gold, medal_of
 from ninja_game.player.records import Records, Statistics
 from ninja_game.player.settings import Settings, read_settings, write_changes
 from ninja_game.player.store import Store, Work
@@ -114,7 +103,7 @@ class PlayerData:
     def reached(self, entry: Entry, mark: Mark | None) -> str:
         """A sentence: what the player has reached in a level, whose mark this is; the same on every screen."""
         if mark is None and self.marks.is_passed(entry.digest):
-            return HELPED
+            return progress.HELPED
         episode = None if mark else self.catalogue.episode_of(entry)
         if (
             episode
@@ -124,7 +113,8 @@ class PlayerData:
             return "Skipped, not passed yet"
         mine = entry.source == YOURS or (entry.source != GAME and entry.named.author == self.settings.name != "")
         run = self._certificate(entry) if mine and mark is None else None
-        return reached(entry, mark) or (f"Certified: {seconds_text(run.end_tick)} s" if run else "Not passed yet")
+        certified = f"Certified: {seconds_text(run.end_tick)} s" if run else ""
+        return progress.reached(entry, mark) or certified or "Not passed yet"
 
     def _certificate(self, entry: Entry) -> Replay | None:
         """A level's certificate to the exit, read again when its file has changed: lists ask in each picture."""
@@ -148,7 +138,7 @@ class PlayerData:
 
     @property
     def columns_complete(self) -> int:
-        return complete_columns(self.progress, self.catalogue.episodes.keys())
+        return progress.complete_columns(self.progress, self.catalogue.episodes.keys())
 
     @property
     def columns_present(self) -> int:

@@ -2,16 +2,12 @@
 // and programs of the text, which a reader can change and run.
 // All figures of a page share one Python, which knows nothing of a player: no lock, no records.
 
+import { element } from "./trouble.js";
+
 const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 const KEEP_AFTER_MS = 3000; // then what the next visit needs is put aside
 const live = [];
 let engine = null;
-
-const element = (name, about, ...inside) => {
-  const made = Object.assign(document.createElement(name), about);
-  made.append(...inside);
-  return made;
-};
 
 async function start() {
   const [{ keepForLater, onProgress, startPython }, { createHost }] = await Promise.all([import("./loading.js"), import("./host.js")]);

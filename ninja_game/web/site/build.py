@@ -19,15 +19,7 @@ from ninja_game.files.user_folder import PACKAGE, data_folder
 from ninja_game.web.pages.documents import Documents
 from ninja_game.web.pages.frame import GAME, MARK as PAGES_MARK, REPLAYS
 from ninja_game.web.pages.gallery import page_name, picture_name, published_levels
-from ninja_game.web.site.game_archive import (
-    compiled,
-    game_archive,
-    game_files,
-    library_files,
-    library_of,
-    licence_of,
-    pyodide_files,
-)
+from ninja_game.web.site import game_archive as archive
 
 MARK = "ninja-game-site.json"
 """The file that tells a folder of ours, with the names of what was written into it."""
@@ -61,12 +53,14 @@ def build_site(out: Path, pyodide: Path | None, cache: Path, address: str = "") 
     Raises FileError for a folder with other things in it, NinjaGameError where Pyodide cannot be had; OSError.
     """
     before = _own_files(out)
-    python = pyodide_files(pyodide, cache)
+    python = archive.pyodide_files(pyodide, cache)
     about = json.loads(python["pyodide-lock.json"])["info"]
-    library, game = compiled(library_files(python["python_stdlib.zip"]), dict(game_files()), python)
-    python["python_stdlib.zip"] = library_of(library)
+    library, game = archive.compiled(
+        archive.library_files(python["python_stdlib.zip"]), dict(archive.game_files()), python
+    )
+    python["python_stdlib.zip"] = archive.library_zip(library)
     app = {f"pyodide/{name}": content for name, content in python.items() if not name.endswith(".json")}
-    app |= {"game.tar.gz": game_archive(game)} | _page()
+    app |= {"game.tar.gz": archive.game_tar(game)} | _page()
     files = _stamped(app, _icons(), about, Documents(address).build(), address) | _licences() | _music()
     site = Tree(out)
     for name, content in files.items():
@@ -116,7 +110,7 @@ def _icons() -> dict[str, bytes]:
 
 def _licences() -> dict[str, bytes]:
     own = {path.name: path.read_bytes() for path in (PACKAGE / "web" / "licences").glob("*.txt")}
-    packages = {f"{name}.txt": licence_of(name).encode() for name in ("ninja-game", "tomlkit")}
+    packages = {f"{name}.txt": archive.licence_of(name).encode() for name in ("ninja-game", "tomlkit")}
     return {f"licences/{name}": content for name, content in (own | packages).items()}
 
 

@@ -130,7 +130,7 @@ def library_files(library: bytes) -> dict[str, bytes]:
     return files
 
 
-def library_of(files: Mapping[str, bytes]) -> bytes:
+def library_zip(files: Mapping[str, bytes]) -> bytes:
     """A library of these files; the same bytes for the same files."""
     out = io.BytesIO()
     with ZipFile(out, "w") as packed:
@@ -150,7 +150,7 @@ LEFT_OUT = {
 """What of the package and its data a page has no use for: how the names of such files begin."""
 
 
-def game_archive(files: Mapping[str, bytes]) -> bytes:
+def game_tar(files: Mapping[str, bytes]) -> bytes:
     """A compressed tar of files; the same bytes for the same files."""
     packed = io.BytesIO()
     with tarfile.open(fileobj=packed, mode="w", format=tarfile.USTAR_FORMAT) as archive:
