@@ -89,7 +89,7 @@ def check(
       ninja-game check my-levels/ --gold both --replays my-levels/certificates --seconds 60
     """
     from ninja_game.cli.commands import BAD_INPUT, FAILED
-    from ninja_game.cli.terminal import complain
+    from ninja_game.cli.terminal import print_error
     from ninja_game.formats.load import load_levels
     from ninja_game.search.certify import Wanted, certify_all
 
@@ -104,7 +104,7 @@ def check(
             if isinstance(found, NinjaGameError):
                 broken += 1
                 placed = replace(found, file=level.file, line=level.line) if isinstance(found, LevelError) else found
-                complain(str(placed))
+                print_error(str(placed))
                 continue
             for goal, certified in found.items():
                 without[goal] += [] if certified.run else [shown_text(Path(level.file).stem)]

@@ -9,8 +9,8 @@ from typing import Any
 import click
 
 from ninja_game.budget import DATASET_MIB
-from ninja_game.cli.options import NEW_FILE, OLD_PATH, level_given, level_option, memory_option, with_progress
-from ninja_game.cli.terminal import complain
+from ninja_game.cli.options import NEW_FILE, OLD_PATH, level_option, load_level_option, memory_option, with_progress
+from ninja_game.cli.terminal import print_error
 from ninja_game.sim.rules import LIFETIME
 
 
@@ -76,7 +76,7 @@ def demonstrations(
         check_output(output, keep=files)
     else:
         require_minari()
-    level = level_given(level_path)
+    level = load_level_option(level_path)
     recordings = [recording for file in files for recording in load_replays(file, level=level)]
     observation = parts[0] if len(parts) == 1 else list(parts)
     limit = max([LIFETIME, *(len(recording.inputs) for recording in recordings)])
@@ -87,7 +87,7 @@ def demonstrations(
             made.append(demonstration(recording, memory=memory, most_bytes=left_bytes, **settings))
             left_bytes -= bytes_of(made[-1].observations)
         except UnplayableRecordingError as error:
-            complain(f"left out: {error}")
+            print_error(f"left out: {error}")
     if not made:
         raise ArgumentError("none of these recordings can be a demonstration")
     if output is not None:

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import click
 
-from ninja_game.cli.options import InputPath, Pixels, choose, heartbeat, level_given, level_option
-from ninja_game.cli.terminal import draw_unseen
+from ninja_game.cli.options import InputPath, Pixels, choose, heartbeat, level_option, load_level_option
+from ninja_game.cli.terminal import use_dummy_video
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
@@ -69,7 +69,7 @@ def film(
     """
     from ninja_game.formats.load import load_replays
 
-    level = level_given(level_path)
+    level = load_level_option(level_path)
     found = load_replays(replay, level=level)
     parts = found if found[0].episode and record is None else [choose(found, "recordings", replay, record)]
     path = output or free_path(Path(), "replay" if is_link(replay) else replay.name.partition(".")[0], ".gif")
@@ -86,7 +86,7 @@ def film(
         raise click.UsageError(f"--beside: {most} runs; at most {MOST_BESIDE}")
     if any(len(runs) != most for runs in beside_of):
         raise click.UsageError("--beside: as many runs for each level of the episode; another whole episode has them")
-    draw_unseen()
+    use_dummy_video()
     from ninja_game.play.replay.film import Film, length_of, section_of, write_film
 
     alone = len(parts) == 1
@@ -108,10 +108,10 @@ def film(
             write_film(films, path, report)
     except OSError as error:
         raise NinjaGameError(f"{path}: the film cannot be written: {error.strerror}") from None
-    click.echo(f"{shown_text(str(path))}: {length_of(films)} ticks{large(path)}")
+    click.echo(f"{shown_text(str(path))}: {length_of(films)} ticks{size_note(path)}")
 
 
-def large(path: Path) -> str:
+def size_note(path: Path) -> str:
     """What is said of a GIF that is large."""
     size = path.stat().st_size
     return f", {size / 1e6:.0f} MB; as .mp4 it would be smaller" if path.suffix == ".gif" and size > LARGE else ""

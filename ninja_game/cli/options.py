@@ -18,7 +18,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from ninja_game.budget import RUN_BUDGET
-from ninja_game.cli.terminal import complain
+from ninja_game.cli.terminal import print_error
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import own_levels
 from ninja_game.files.writing import check_output
@@ -163,7 +163,7 @@ def choose(found: Sequence[N], what: str, path: Path, record: int | None) -> N:
     return found[0]
 
 
-def level_given(path: Path | None) -> Level | None:
+def load_level_option(path: Path | None) -> Level | None:
     """The level that ``level_option`` names."""
     return choose_level(path, None).level if path else None
 
@@ -181,7 +181,7 @@ class Readable(Generic[T]):
         for item in self._items:
             if isinstance(item, Unreadable):
                 self.unreadable += 1
-                complain(item.message)
+                print_error(item.message)
             else:
                 self.count += 1
                 yield item
@@ -200,13 +200,13 @@ def heartbeat(text: Callable[[], str]) -> Iterator[None]:
     """Report progress on stderr meanwhile: the present state in a terminal, in a file a line now and then."""
     over, start = Event(), time.monotonic()
 
-    def tell_file() -> None:
+    def report_to_file() -> None:
         pause = LONG
         while not over.wait(pause):
             click.echo(f"ninja-game: {time.monotonic() - start:,.0f} s: {text()}", err=True)
             pause = EVERY
 
-    def tell_terminal() -> None:
+    def report_to_terminal() -> None:
         if over.wait(PATIENCE):
             return
         from rich.console import Console
@@ -218,13 +218,13 @@ def heartbeat(text: Callable[[], str]) -> Iterator[None]:
             while not over.wait(1 / REFRESHES):
                 live.update(Text(f"{time.monotonic() - start:4.0f} s  {text()}"), refresh=True)
 
-    teller = Thread(target=tell_terminal if sys.stderr.isatty() else tell_file, daemon=True)
-    teller.start()
+    reporter = Thread(target=report_to_terminal if sys.stderr.isatty() else report_to_file, daemon=True)
+    reporter.start()
     try:
         yield
     finally:
         over.set()
-        teller.join()
+        reporter.join()
 
 
 class GoldCount(click.ParamType):  # type: ignore[type-arg, unused-ignore]
@@ -334,7 +334,7 @@ def time_text(end_tick: int) -> str:
     return f"{end_tick} ticks ({seconds_text(end_tick)} s)"
 
 
-def plainer_run(task: Task, run: Replay, price: int | None) -> Replay:
+def simplified_run(task: Task, run: Replay, price: int | None) -> Replay:
     """The run without keys that do nothing, verified.
 
     ``price``: also with fewer key changes, at most so many ticks longer and with no less gold.

@@ -26,9 +26,9 @@ if TYPE_CHECKING:
 
 
 class SearchLog:
-    """The log of a long search: what it found after how many seconds, a line each, over all commands that went on.
+    """The log of a long search: what it found after how many seconds, a line each, over all its commands.
 
-    ``begun``: how many there were; ``spent``: seconds of them. Raises FileError for a file that is something else.
+    ``starts``: how many there were; ``seconds_spent``: in all of them. Raises FileError for another file.
     """
 
     HEAD = "# seconds spent, and what improve found"
@@ -41,14 +41,14 @@ class SearchLog:
         found = [re.match(r" *(\d{1,9}) s  ", line) for line in lines]
         if head != self.HEAD or None in found:
             raise FileError("not the log of a search", str(path), hint="name another file")
-        self._path, self._began = path, time.monotonic()
-        self.begun = sum(line.endswith("begins") for line in lines)
-        self.spent = max((int(match[1]) for match in found if match), default=0)
+        self._path, self._start = path, time.monotonic()
+        self.starts = sum(line.endswith("begins") for line in lines)
+        self.seconds_spent = max((int(match[1]) for match in found if match), default=0)
         self.note("begins")
 
     def note(self, what: str) -> None:
         with self._path.open("a", encoding="utf-8") as out:
-            out.write(f"{self.spent + time.monotonic() - self._began:8.0f} s  {what}\n")
+            out.write(f"{self.seconds_spent + time.monotonic() - self._start:8.0f} s  {what}\n")
 
 
 @click.command()
@@ -87,7 +87,7 @@ def solve(
     if run is None:
         click.echo(options.not_found_text(task, report.last))
         return FAILED
-    run = options.plainer_run(task, run, smooth)
+    run = options.simplified_run(task, run, smooth)
     save(run)
     click.echo(f"{shown_text(str(output))}: {options.time_text(run.end_tick)}, {run.gold} gold")
     return 0
@@ -140,7 +140,7 @@ def improve(
     earlier = load_replays(output) if resume and output.exists() else []
     protect_inputs(on=True)  # what was read of the output may be replaced
     recording = options.choose(
-        load_replays(replay, level=options.level_given(level_path)), "recordings", replay, record
+        load_replays(replay, level=options.load_level_option(level_path)), "recordings", replay, record
     )
     threads = jobs or cores()
     task = Task(recording.level, body=recording.body, first=recording.inputs, jobs=threads, **task_options)
@@ -149,8 +149,8 @@ def improve(
     log = SearchLog(resume, [replay, output]) if resume else None
     if log and earlier:
         others = tuple(each.inputs for each in earlier if each.level == task.level)
-        left = max(0.1, task.seconds - log.spent)
-        task = replace(task, others=others, seconds=left, seed=task.seed + log.begun)
+        left = max(0.1, task.seconds - log.seconds_spent)
+        task = replace(task, others=others, seconds=left, seed=task.seed + log.starts)
     played = run_level(task.level, task.first, body=task.body)
     if played.outcome != "exit":
         known = next(iter(task.others), None)
@@ -174,7 +174,7 @@ def improve(
     assert run is not None  # noqa: S101 - the first run is one
     if log:
         log.note("ended")
-    run = options.plainer_run(task, run, smooth)
+    run = options.simplified_run(task, run, smooth)
     save(run)
     gain = before[0] - run.end_tick
     change = f"{abs(gain)} ticks {'shorter' if gain > 0 else 'longer'}" if gain else "no shorter run was found"
@@ -238,7 +238,7 @@ def search(
     if every > 1 and method != "exhaustive":
         raise click.UsageError("--every is for --method exhaustive")
     recording = options.choose(
-        load_replays(replay, level=options.level_given(level_path)), "recordings", replay, record
+        load_replays(replay, level=options.load_level_option(level_path)), "recordings", replay, record
     )
     save = options.saver_of_better(output, recording, "search") if output else None
     task = SpanTask(

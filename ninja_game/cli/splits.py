@@ -13,7 +13,7 @@ import click
 
 from ninja_game.cli import options
 from ninja_game.cli.commands import BAD_INPUT
-from ninja_game.cli.terminal import data_output, draw_unseen
+from ninja_game.cli.terminal import data_output, use_dummy_video
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import REPLAY_SUFFIX
 from ninja_game.formats.run_time import seconds_text
@@ -73,7 +73,10 @@ def splits(
     from ninja_game.runs.compare import SPLIT_EVENTS, run_splits
     from ninja_game.runs.recording_reader import recordings_in
 
-    level, events = options.level_given(level_path), [name for name in SPLIT_EVENTS if gold or name != "gold-taken"]
+    level, events = (
+        options.load_level_option(level_path),
+        [name for name in SPLIT_EVENTS if gold or name != "gold-taken"],
+    )
     read = options.Readable(recordings_in(files, level))
     found = list(read)
     best = list(options.Readable(recordings_in([against], level)))[:1] if against else []
@@ -196,7 +199,7 @@ def _write_csv(tables: Sequence[Table]) -> None:
 
 def draw(picture: Path, level: Level, paths: Sequence[tuple[str, Any]], keep: Sequence[Path]) -> None:
     """Write the picture of runs of one level. Raises ArgumentError where it would replace one of ``keep``, OSError."""
-    draw_unseen()
+    use_dummy_video()
     from ninja_game.files.writing import write_atomically
     from ninja_game.play.replay.paths import paths_picture
     from ninja_game.play.window import png_of
@@ -237,7 +240,7 @@ def compare(
     from ninja_game.formats.load import load_replays
     from ninja_game.runs.compare import compare_runs
 
-    level = options.level_given(level_path)
+    level = options.load_level_option(level_path)
     ours = options.choose(load_replays(first, level=level), "recordings", first, record)
     theirs = options.choose(load_replays(second, level=level), "recordings", second, against_record)
     with options.heartbeat(lambda: "running both"):

@@ -57,12 +57,12 @@ def guard_terminal() -> None:
             setattr(sys, name, Terminal(stream, ours))
 
 
-def draw_unseen() -> None:
+def use_dummy_video() -> None:
     """Let what is drawn from now on need no display, unless the user has chosen one."""
     os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 
 
-def complain(message: str) -> None:
+def print_error(message: str) -> None:
     """Write what is wrong on stderr, each line with the program's name."""
     for line in message.split("\n"):
         say(f"ninja-game: {shown_text(line, _LONGEST_MESSAGE)}")

@@ -12,7 +12,7 @@ import click
 
 from ninja_game.cli.commands import BAD_INPUT, FAILED
 from ninja_game.cli.options import NEW_FILE, InputPath, budget_option, jobs_option, with_progress
-from ninja_game.cli.terminal import complain
+from ninja_game.cli.terminal import print_error
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.sim.rules import LIFETIME
@@ -95,7 +95,7 @@ def verify(
         for result in with_progress(results, "run"):
             totals.add(result)
             if isinstance(result, Unreadable):
-                complain(result.message)
+                print_error(result.message)
             elif as_json:
                 click.echo(json.dumps(result.as_json()))
             elif not (quiet and result.good):

@@ -130,7 +130,7 @@ def tas(
     """
     from ninja_game.tas.files import open_run, runs_of_level
 
-    opened = open_run(file, record=record, level=options.level_given(level_path))
+    opened = open_run(file, record=record, level=options.load_level_option(level_path))
     others = [run for path in against for run in runs_of_level(path, opened.recording)]
     from ninja_game.play.main import run_app
     from ninja_game.tas_editor.opening import OpeningScreen, open_tas_editor

@@ -31,7 +31,7 @@ class PlayerData:
     def __init__(self, folder: Path | None = None) -> None:
         self.folder = user_folder() if folder is None else folder
         self._messages: list[str] = []
-        self._given: set[str] = set()
+        self._reported: set[str] = set()
         self._progress: dict[str, Progress] = {}
         self._certified: dict[str, tuple[object, Replay | None]] = {}
         try:
@@ -57,8 +57,8 @@ class PlayerData:
 
     def new_messages(self) -> str:
         """The messages that this method has not given yet, as one text."""
-        new = [message for message in self.messages if message not in self._given]
-        self._given.update(new)
+        new = [message for message in self.messages if message not in self._reported]
+        self._reported.update(new)
         return " ".join(new)
 
     def open_records(self) -> None:

@@ -203,7 +203,7 @@ def read_settings(path: Path) -> tuple[Settings, list[str]]:
     return _settings_of(data)
 
 
-def glance(path: Path) -> Settings:
+def read_usable_settings(path: Path) -> Settings:
     """The settings in a file as far as they can be used, for what cannot wait: no message, no file moved."""
     try:
         with _long_numbers():

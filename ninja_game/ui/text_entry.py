@@ -256,7 +256,7 @@ class EditedText:
     def select_word(self, place: int) -> None:
         """Select the word, or what stands between two words, around a place."""
         place = min(place, len(self.text) - 1)
-        kind = [_kind(each) for each in self.text]
+        kind = [_character_class(each) for each in self.text]
         first = last = max(0, place)
         while first > 0 and kind[first - 1] == kind[place]:
             first -= 1
@@ -297,5 +297,5 @@ class EditedText:
         return place
 
 
-def _kind(char: str) -> int:
+def _character_class(char: str) -> int:
     return 0 if char.isspace() else 1 if char.isalnum() else 2

@@ -158,7 +158,7 @@ class LevelView:
     def _follow_options(self) -> None:
         options = self.context.settings
         self.effects.gore = not options.reduced_gore
-        self.particles.thin = (0.35 if options.reduced_motion else 1.0) * options.particles / 100
+        self.particles.share_shown = (0.35 if options.reduced_motion else 1.0) * options.particles / 100
         self.ninja_animation.squashes = not options.reduced_motion
 
     def _follow_blasts(self, world: World) -> None:

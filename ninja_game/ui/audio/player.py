@@ -20,7 +20,7 @@ from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import Ninja, World
 from ninja_game.sim.rules import WORLD_WIDTH
 from ninja_game.sim.states import RUNNING
-from ninja_game.ui.audio.music import CALM, LAYERS, Music, heard_in_music, music_levels
+from ninja_game.ui.audio.music import CALM, LAYERS, Music, affects_music, music_levels
 from ninja_game.ui.audio.table import CORPSE, GOLD, LOOPS, STEPS, Names, by_hardness, event_sound, has_loop, loop_levels
 
 RATE = 44_100  # samples a second, those of our files
@@ -88,7 +88,7 @@ class AudioPlayer(AudioOutput):
         if world is not self._world:
             self._world = world
             self._machines = [o for o in world.objects[1:] if has_loop(o)]
-            self._hunters = [o for o in world.objects[1:] if heard_in_music(o)]
+            self._hunters = [o for o in world.objects[1:] if affects_music(o)]
         heard = set()
         for event in world.events[: world.event_count]:
             names, level = event_sound(event, world.ninja)

@@ -35,12 +35,12 @@ class Particle:
 
 
 class Particles:
-    """The particles of a view. ``thin``: 0…1, share of them that are shown (reduced motion)."""
+    """The particles of a view. ``share_shown``: 0…1, share of them that are shown (reduced motion)."""
 
     def __init__(self) -> None:
         self.front: deque[Particle] = deque(maxlen=MOST)
         self.rear: deque[Particle] = deque(maxlen=MOST)
-        self.thin = 1.0
+        self.share_shown = 1.0
         self._count = 0.0
 
     def clear(self) -> None:
@@ -48,8 +48,8 @@ class Particles:
         self.rear.clear()
 
     def add(self, particle: Particle, *, rear: bool = False) -> None:
-        """Show one more; of many only the share ``thin``."""
-        self._count += self.thin
+        """Show one more; of many only the share ``share_shown``."""
+        self._count += self.share_shown
         if self._count >= 1.0:
             self._count -= 1.0
             (self.rear if rear else self.front).append(particle)

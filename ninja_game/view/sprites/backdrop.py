@@ -104,7 +104,7 @@ class Backdrop:
         if light is None or not is_near(light.x, light.y):
             self._lights.pop(slot, None)
         else:
-            picture = light_picture(light.look, self.canvas.scale, self._book.palette)
+            picture = light_picture(light.style, self.canvas.scale, self._book.palette)
             px, py = self.canvas.point(light.x, light.y)
             reach = picture.width // 2
             corner = px - self._corner[0] - reach, py - self._corner[1] - reach

@@ -60,7 +60,7 @@ class ObjectAnimation:
         self.now = {slot: drawn_place(world.objects[slot]) for slot in self.moving_slots}
         self.before = dict(self.now)
         self.eyes = {
-            slot: _gaze(world, world.objects[slot])
+            slot: _eye_angle(world, world.objects[slot])
             for slot in self.moving_slots
             if world.objects[slot].kind == kinds.DRONE
         }
@@ -76,7 +76,7 @@ class ObjectAnimation:
             o = world.objects[slot]
             self.now[slot] = drawn_place(o)
             if o.kind == kinds.DRONE:
-                turn = (_gaze(world, o) - self.eyes[slot] + pi) % (2 * pi) - pi
+                turn = (_eye_angle(world, o) - self.eyes[slot] + pi) % (2 * pi) - pi
                 self.eyes[slot] += _EYE_TURN * turn
             elif o.kind == kinds.LAUNCHER:
                 self._follow_rocket(slot, o)
@@ -129,7 +129,7 @@ class ObjectAnimation:
         return max(0, min(8, int(self.age(slot, fraction) * 3 / frames * 8)))
 
 
-def _gaze(world: World, o: Object) -> float:
+def _eye_angle(world: World, o: Object) -> float:
     """Where a drone looks, radians clockwise from the right: at its aim, or where it goes."""
     if o.routine != DRONE_MOVE:
         return atan2(world.ninja.y - o.y, world.ninja.x - o.x)

@@ -176,15 +176,15 @@ def page(
     ``picture``: that of what shows the page where somebody names it, whole where the site's own is known; ``about``:
     what is said of it there.
     """
-    said = shown_text(about, LONGEST) or DESCRIPTION
-    shown = {"og:title": shown_text(title), "og:description": said, "og:type": "website", "og:image": picture}
+    description = shown_text(about, LONGEST) or DESCRIPTION
+    shown = {"og:title": shown_text(title), "og:description": description, "og:type": "website", "og:image": picture}
     head = tag(
         "head",
         tag("meta", charset="utf-8"),
         tag("meta", http_equiv="Content-Security-Policy", content=POLICY_OF_FIGURES if figures else POLICY),
         tag("meta", name="viewport", content="width=device-width, initial-scale=1"),
         tag("meta", name="referrer", content="no-referrer"),
-        tag("meta", name="description", content=said),
+        tag("meta", name="description", content=description),
         *(tag("meta", property=name, content=content) for name, content in shown.items() if content),
         tag("meta", name="twitter:card", content="summary_large_image") if picture else None,
         tag("title", f"{title} - ninja-game"),

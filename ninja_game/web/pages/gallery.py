@@ -166,9 +166,9 @@ def level_page(
         section("Certificates", table("Runs that prove the level", ("Run", "Time", "Watch"), runs)) if runs else None,
         more,
     ]
-    said = ". ".join(f"{name}: {text}" for name, text in about)
+    summary = ". ".join(f"{name}: {text}" for name, text in about)
     picture = (site or UP) + picture_name(entry.digest)
-    return frame.page(entry.title, *contents, up=UP, links=links, picture=picture, about=named.comment or said)
+    return frame.page(entry.title, *contents, up=UP, links=links, picture=picture, about=named.comment or summary)
 
 
 def run_page(

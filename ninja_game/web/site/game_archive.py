@@ -84,13 +84,13 @@ def _checked(folder: Path) -> dict[str, bytes]:
         try:
             files[name] = read_bytes(folder / name)
         except OSError as error:
-            raise NinjaGameError(f"{folder / name}: {error.strerror}; {_how(folder)}") from None
+            raise NinjaGameError(f"{folder / name}: {error.strerror}; {_hint(folder)}") from None
         if digest_of(files[name]) != digest:
-            raise NinjaGameError(f"{folder / name}: not the file of Pyodide {VERSION}; {_how(folder)}")
+            raise NinjaGameError(f"{folder / name}: not the file of Pyodide {VERSION}; {_hint(folder)}")
     return files
 
 
-def _how(folder: Path | None = None) -> str:
+def _hint(folder: Path | None = None) -> str:
     package = f"the npm package pyodide@{VERSION}"
     return f"expected the unpacked files of {package}" if folder else f"unpack {package} and give --pyodide FOLDER"
 
@@ -99,17 +99,17 @@ def _fetch(kept: Path) -> None:
     """Get the package by npm and unpack what is needed of it. Raises NinjaGameError."""
     npm = shutil.which("npm")
     if npm is None:
-        raise NinjaGameError(f"npm, which gets Pyodide, is not installed; install Node.js, or {_how()}")
+        raise NinjaGameError(f"npm, which gets Pyodide, is not installed; install Node.js, or {_hint()}")
     with tempfile.TemporaryDirectory() as scratch:
         words = [npm, "pack", f"pyodide@{VERSION}", "--silent", "--pack-destination", scratch]
         try:
             done = subprocess.run(words, cwd=scratch, capture_output=True, text=True, check=False, timeout=_NPM_WAIT)  # noqa: S603 - our own words
         except (OSError, subprocess.TimeoutExpired) as error:
-            raise NinjaGameError(f"npm could not get Pyodide ({error}); {_how()}") from None
+            raise NinjaGameError(f"npm could not get Pyodide ({error}); {_hint()}") from None
         packages = list(Path(scratch).glob("*.tgz"))
         if done.returncode or len(packages) != 1:
             last = (done.stderr.strip().splitlines() or ["no word of it"])[-1]
-            raise NinjaGameError(f"npm could not get Pyodide ({last}); {_how()}")
+            raise NinjaGameError(f"npm could not get Pyodide ({last}); {_hint()}")
         kept.mkdir(parents=True, exist_ok=True)
         with tarfile.open(packages[0]) as package:
             for name in DIGESTS:
@@ -217,8 +217,8 @@ def compiled(library: Files, game: Files, pyodide: Mapping[str, bytes]) -> tuple
         try:
             subprocess.run(words, capture_output=True, text=True, check=True, timeout=_WAIT)  # noqa: S603 - our own words
         except (OSError, subprocess.SubprocessError) as error:
-            said = str(getattr(error, "stderr", "") or error).strip().splitlines()[-1:]
-            raise NinjaGameError(f"node could not compile the game for the page: {''.join(said)}") from None
+            last_line = str(getattr(error, "stderr", "") or error).strip().splitlines()[-1:]
+            raise NinjaGameError(f"node could not compile the game for the page: {''.join(last_line)}") from None
         return _replaced(library, place / "work" / "library"), _replaced(game, place / "work" / "game")
 
 
