@@ -70,14 +70,13 @@ class LevelPath(InputPath):
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         from ninja_game.formats.links import is_link
 
-        if is_link(value):
-            return super().convert(value, param, ctx)
-        own = own_levels()
-        there = Path(value).exists() or "\0" in str(value)
-        if not there and str(value) not in own and not Path(value).suffix:
-            near = get_close_matches(str(value), own, 3, 0.5) or list(own)[:3]
-            self.fail(f"{value!r} does not exist; the game's own levels: {', '.join(near)}, ...", param, ctx)
-        return super().convert(value if there else own.get(str(value), value), param, ctx)
+        if not (is_link(value) or "\0" in str(value) or Path(value).exists()):
+            own, name = own_levels(), str(value)
+            if name not in own and not Path(name).suffix:
+                near = get_close_matches(name, own, 3, 0.5) or list(own)[:3]
+                self.fail(f"{value!r} does not exist; the game's own levels: {', '.join(near)}, ...", param, ctx)
+            value = own.get(name, value)
+        return super().convert(value, param, ctx)
 
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
         names = [CompletionItem(name) for name in own_levels() if name.startswith(incomplete)]

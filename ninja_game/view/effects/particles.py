@@ -126,10 +126,6 @@ def _burst(p: Particle, target: DrawTarget, t: float) -> None:
     target.sprite(burst_star(min(7, int(8 * t))).faded(max(1, 8 - int(8 * t))), p.x, p.y)
 
 
-def _streak_of_gold(p: Particle, target: DrawTarget, t: float) -> None:
-    target.sprite(gold_streak(min(8, int(9 * t))).faded(8 - int(4 * t)), p.x, p.y)
-
-
 def _muzzle(p: Particle, target: DrawTarget, t: float) -> None:
     target.sprite(muzzle(min(7, int(8 * t))).turned(_turn(p)), p.x, p.y)
 
@@ -174,7 +170,7 @@ PAINTERS: dict[str, Callable[[Particle, DrawTarget, float], None]] = {
     "zap": _zap,
     "fireball": _fireball,
     "burst": _burst,
-    "gold": _streak_of_gold,
+    "gold": lambda p, target, t: target.sprite(gold_streak(min(8, int(9 * t))).faded(8 - int(4 * t)), p.x, p.y),
     "muzzle": _muzzle,
     "charge": _charge,
     "halo": _halo,

@@ -136,25 +136,17 @@ class NinjaAnimation:
 
 
 def draw_ninja(
-    target: DrawTarget, animation: NinjaAnimation, at: Point, fraction: float, colour: pygame.Color, alpha: float = 1.0
-) -> None:
-    """The living ninja about a point."""
+    target: DrawTarget, animation: NinjaAnimation, at: Point, fraction: float, colour: pygame.Color,
+    alpha: float = 1.0, *, ghost: bool = False,
+) -> None:  # fmt: skip
+    """The living ninja about a point; one can look through a ``ghost``, which has no headband."""
     if not is_near(*at):
         return
     px, py = target.canvas.exact(*at)
-    offset = px - round(px), py - round(py)
+    offset = (0.0, 0.0) if ghost else (px - round(px), py - round(py))
     sprite = ninja_sprite(
         target.canvas.scale, target.palette, animation.pose(fraction), animation.facing, animation.velocity,
-        colour=colour, offset=offset, alpha=alpha,
-    )  # fmt: skip
-    target.picture(sprite, *at)
-
-
-def draw_ghost(target: DrawTarget, animation: NinjaAnimation, at: Point, fraction: float, colour: pygame.Color) -> None:
-    """A figure that one can look through."""
-    sprite = ninja_sprite(
-        target.canvas.scale, target.palette, animation.pose(fraction), animation.facing, animation.velocity,
-        colour=colour, alpha=0.45, banded=False,
+        colour=colour, offset=offset, alpha=0.45 if ghost else alpha, banded=not ghost,
     )  # fmt: skip
     target.picture(sprite, *at)
 

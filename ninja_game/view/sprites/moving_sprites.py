@@ -203,10 +203,6 @@ def draw_pulses(target: DrawTarget, world: World, animation: ObjectAnimation, fr
             target.disc(colour, o.x, o.y, PULSE_FROM + PULSE_REACH * share, 1.6)
 
 
-def _block(target: DrawTarget, m: MovingObject) -> None:
-    target.sprite(bounce_block(m.o.updating), m.x, m.y)
-
-
 def _thwump(target: DrawTarget, m: MovingObject) -> None:
     o = m.o
     mood = 0 if o.routine == states.THWUMP_REST else 1 if o.sign > 0 else 2
@@ -276,7 +272,7 @@ def _beam(target: DrawTarget, m: MovingObject) -> None:
 
 
 PAINTERS: dict[int, Callable[[DrawTarget, MovingObject], None]] = {
-    kinds.BOUNCE_BLOCK: _block,
+    kinds.BOUNCE_BLOCK: lambda target, m: target.sprite(bounce_block(m.o.updating), m.x, m.y),
     kinds.THWUMP: _thwump,
     kinds.FLOOR_GUARD: _guard,
     kinds.TURRET: _crosshair,

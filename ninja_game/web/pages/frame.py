@@ -9,8 +9,6 @@ from itertools import compress, repeat
 from pathlib import Path
 from typing import TypeAlias
 
-import pygame
-
 from ninja_game.errors import FileError
 from ninja_game.files.reading import stamp_of
 from ninja_game.files.shown_text import shown_text
@@ -240,27 +238,9 @@ def _root(palette: Palette) -> str:
     inks["faint"] = mixed(palette.text, palette.faint, _FAINT)
     inks["link"] = mixed(palette.accent, palette.text, 0.25)
     inks["frame"] = mixed(palette.tile, palette.outline, _FRAME)
-    inks["on-accent"] = max(
-        (palette.background, palette.text, palette.on_tile), key=lambda ink: contrast(ink, palette.accent)
-    )
+    candidates = palette.background, palette.text, palette.on_tile
+    inks["on-accent"] = max(candidates, key=lambda ink: abs(sum(ink[:3]) - sum(palette.accent[:3])))
     return f":root {{ {' '.join(f'--{role}: #{ink.r:02x}{ink.g:02x}{ink.b:02x};' for role, ink in inks.items())} }}"
-
-
-def contrast(ink: pygame.Color, ground: pygame.Color) -> float:
-    """The contrast of two colours, 1 to 21 (WCAG 2.2, contrast ratio).
-
-    >>> round(contrast(pygame.Color("white"), pygame.Color("black")))
-    21
-    """
-    high, low = sorted((_luminance(ink), _luminance(ground)), reverse=True)
-    return (high + 0.05) / (low + 0.05)
-
-
-def _luminance(colour: pygame.Color) -> float:
-    """Relative luminance, 0 to 1 (WCAG 2.2)."""
-    parts = [part / 255 for part in (colour.r, colour.g, colour.b)]
-    red, green, blue = (part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts)
-    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
 
 
 def definitions(pairs: Iterable[tuple[str, Content]]) -> Markup:

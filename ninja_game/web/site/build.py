@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
@@ -128,7 +127,8 @@ def _stamped(
     Above it icons, the manifest, and what knows the version. ``about``: Pyodide's.
     """
     above = icons | {"manifest.webmanifest": json.dumps(_manifest(), indent=1).encode()}
-    known = _digest({**app, **above}.items())
+    parts = sorted((app | above).items())
+    known = archive.digest_of(b"".join(f"{name} {len(content)}\n".encode() + content for name, content in parts))[:16]
     folder = f"app-{known}"
     build = {"version": __version__, "id": known, "pyodide": about, "sizes": {name: len(app[name]) for name in LARGE}}
     templates = {name: app.pop(name) for name in TEMPLATES} | documents
@@ -151,13 +151,6 @@ def _stamped(
     for key, text in stamps.items():
         templates |= {name: content.replace(key.encode(), text.encode()) for name, content in templates.items()}
     return files | templates
-
-
-def _digest(files: Iterable[tuple[str, bytes]]) -> str:
-    whole = hashlib.sha256()
-    for name, content in sorted(files):
-        whole.update(f"{name} {len(content)}\n".encode() + content)
-    return whole.hexdigest()[:16]
 
 
 def _manifest() -> dict[str, object]:

@@ -14,9 +14,10 @@ import tarfile
 import tempfile
 from collections.abc import Iterator, Mapping
 from importlib.metadata import distribution
-from importlib.util import find_spec
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
+
+import tomlkit
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.reading import read_bytes
@@ -174,15 +175,9 @@ def game_files() -> Iterator[tuple[str, bytes]]:
             name = path.relative_to(root).as_posix()
             if path.is_file() and path.suffix != ".md" and not name.startswith(LEFT_OUT[folder]):
                 yield f"ninja_game/data/{folder}/{name}", path.read_bytes()
-    for path in _package("tomlkit").rglob("*.py"):
-        yield f"tomlkit/{path.relative_to(_package('tomlkit')).as_posix()}", path.read_bytes()
-
-
-def _package(name: str) -> Path:
-    spec = find_spec(name)
-    assert spec is not None  # noqa: S101 - one of our requirements
-    assert spec.origin is not None  # noqa: S101 - likewise
-    return Path(spec.origin).parent
+    root = Path(tomlkit.__file__).parent
+    for path in root.rglob("*.py"):
+        yield f"tomlkit/{path.relative_to(root).as_posix()}", path.read_bytes()
 
 
 def licence_of(name: str) -> str:
