@@ -74,7 +74,7 @@ UPDATES = (("update-mime-database", "mime"), ("update-desktop-database", "applic
 
 
 @click.command()
-@click.option("--remove", is_flag=True, help="Take it out again.")
+@click.option("--remove", is_flag=True, help="Remove it again.")
 def desktop(remove: bool) -> None:
     """Put the game into your menu of programs, with its icon and types of files.
 

@@ -93,9 +93,9 @@ class Commands(click.Group):
 
 
 def _stopped(error: BaseException | None) -> int:
-    """Say that a signal has stopped the command, and its exit code; 0 where none has come.
+    """Report that a signal stopped the command; its exit code, 0 without a signal.
 
-    Python makes another error of one that comes while it makes a class, and others lose it.
+    Python wraps one that arrives while a class is made in another error, and some libraries swallow it.
     """
     while error and not isinstance(error, (click.Abort, KeyboardInterrupt, Terminated)):
         error = error.__cause__ or error.__context__

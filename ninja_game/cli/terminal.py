@@ -1,4 +1,4 @@
-"""What is written to a terminal: no text steers it, whoever prints it and whatever it comes from."""
+"""Output to a terminal: control characters in it are escaped, wherever they come from."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def data_output() -> TextIO:
 
 
 def guard_terminal() -> None:
-    """Let standard output and errors be written so where they are a terminal; files and pipes get every byte."""
+    """Wrap stdout and stderr in ``Terminal`` where they are one; files and pipes get every byte."""
     for name, ours in _OURS.items():
         stream = getattr(sys, name)
         # Names of levels may hold what the terminal's encoding has not.
@@ -58,7 +58,7 @@ def guard_terminal() -> None:
 
 
 def use_dummy_video() -> None:
-    """Let what is drawn from now on need no display, unless the user has chosen one."""
+    """Draw without a display from now on, unless the user has chosen a video driver."""
     os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 
 

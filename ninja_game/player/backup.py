@@ -1,8 +1,8 @@
 """All data of a player as one file, and back: a zip that the game in a window and the one in a page exchange.
 
-Taking one in merges it: a best is replaced only by a better one, progress only moves forward, of two counts the larger
-stays, and no file of the player's is overwritten. So it may be taken in twice. It may be anybody's: all of it is looked
-at first, and taken in whole or not at all.
+Importing merges: a best is replaced only by a better one, progress only moves forward, of two counts the larger stays,
+and no file of the player's is overwritten. So a backup may be imported twice. It is untrusted: all of it is checked
+first, and imported whole or not at all.
 """
 
 from __future__ import annotations

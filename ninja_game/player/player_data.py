@@ -16,7 +16,7 @@ from ninja_game.levels.episodes import GAME, YOURS, Entry, Episode
 from ninja_game.player import progress
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Catalogue
-from ninja_game.player.progress import LOCKED, UNLOCKED, WITH_HELP, Mark, Marks, Progress, has_all_gold, medal_of
+from ninja_game.player.progress import LOCKED, UNLOCKED, WITH_HELP, Mark, Marks, Place, Progress, has_all_gold, medal_of
 from ninja_game.player.records import Records, Statistics
 from ninja_game.player.settings import Settings, read_settings, write_changes
 from ninja_game.player.store import Store, Work
@@ -79,8 +79,12 @@ class PlayerData:
             self._progress[pack] = Progress(self.store, pack)
         return self._progress[pack]
 
+    def beaten_in(self, episode: Episode) -> Place:
+        """The farthest place that the player has reached by right in an episode's column."""
+        return self.progress_in(episode.pack).columns[episode.column].beaten
+
     def episode_state(self, episode: Episode) -> str:
-        """Whether an episode is unlocked, "cheated" or locked; the first of a column never is."""
+        """Whether an episode is unlocked, "cheated" or locked; the first of a column is always unlocked."""
         state = self.progress_in(episode.pack).state(episode.number)
         return state if self.catalogue.preceding(episode) else UNLOCKED
 
@@ -96,7 +100,7 @@ class PlayerData:
             return ""
         if self.episode_state(before) == LOCKED:
             return f"Finish episode {before.code} first"
-        number, level = self.progress_in(before.pack).columns[before.column].beaten
+        number, level = self.beaten_in(before)
         left = len(before.levels) - level * (number == before.number)
         return f"Finish {left} more level{'s' * (left != 1)} of episode {before.code} first"
 
@@ -105,11 +109,7 @@ class PlayerData:
         if mark is None and self.marks.is_passed(entry.digest):
             return progress.HELPED
         episode = None if mark else self.catalogue.episode_of(entry)
-        if (
-            episode
-            and entry.position
-            and self.progress_in(episode.pack).columns[episode.column].beaten > entry.position
-        ):
+        if episode and entry.position and self.beaten_in(episode) > entry.position:
             return "Skipped, not passed yet"
         mine = entry.source == YOURS or (entry.source != GAME and entry.named.author == self.settings.name != "")
         run = self._certificate(entry) if mine and mark is None else None

@@ -235,7 +235,7 @@ class LevelRun(LevelContext):
         data, episode = self.data, self.data.catalogue.episode_of(entry)
         if episode is None or entry.position is None or data.episode_state(episode) != UNLOCKED:
             return
-        if data.progress_in(episode.pack).columns[episode.column].beaten != entry.position:
+        if data.beaten_in(episode) != entry.position:
             return
         position = entry.position[1]
         while True:
@@ -293,7 +293,7 @@ class EpisodeRun(LevelContext):
 
     def skip_to_furthest(self) -> None:
         """Go to where a run that skipped levels had come, if that is in this episode."""
-        beaten = self.data.progress_in(self.episode.pack).columns[self.episode.column].beaten
+        beaten = self.data.beaten_in(self.episode)
         if beaten[0] == self.episode.number and 0 < beaten[1] < len(self.episode.levels) and not self.practice_mode:
             self.whole, self.position = False, beaten[1]
             self.entry = self.episode.levels[self.position]

@@ -193,7 +193,7 @@ class Marks:
         return (self.of(level) or self.of(level, WITH_HELP)) is not None
 
     def passed(self, level: str, tick: int, gold: int, body: str = "circle") -> Mark:
-        """Take note of a passed run: what is better in it stays. Raises sqlite3.Error."""
+        """Record a passed run: the earlier tick and the larger gold stay. Raises sqlite3.Error."""
         with self.store.change() as db:
             before = self.of(level, body) or Mark(tick, gold)
             mark = Mark(min(tick, before.fastest), max(gold, before.most_gold))

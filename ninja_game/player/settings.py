@@ -124,9 +124,8 @@ class Settings:
     particles: int = _number(100, "look", 0, 100, "share of the particles that are shown, percent", 5)
     show_ghost: bool = _flag(True, "look", "a run to race against plays along")
     ghost: str = _text(
-        "best", "look", "|".join(GHOSTS), "'best', 'next', 'silver', 'gold' or 'author'",
-        "your best run, or a medal's pace",
-    )  # fmt: skip
+        "best", "look", "|".join(GHOSTS), "'best', 'next', 'silver', 'gold' or 'author'", "your best, or a medal's pace"
+    )
     show_keys: bool = _flag(False, "look", "the keys that are held, while one plays")
     show_frame_time: bool = _flag(False, "look", "ms that a picture takes")
     frame_limit: int = _number(0, "look", 0, 1000, "pictures a second; 0: as the display")

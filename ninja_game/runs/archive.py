@@ -77,7 +77,7 @@ def verify_all(
 ) -> Iterator[Result]:
     """A verdict on every recording in files and folders, then in ``chunks``, in order.
 
-    What cannot be read is said and stops nothing.
+    What cannot be read is reported and stops nothing.
 
     ``jobs``: how many run at a time, by default as many as there are cores. ``processes``: on processes instead of
     threads; by default where the interpreter's lock would be in the way, on the plain memory. ``cluster``: address of a

@@ -108,7 +108,7 @@ def verify_chunk(
     counting: Container[str] | None = None,
     budget: int = RUN_BUDGET,
 ) -> list[Result]:
-    """A verdict on every recording of a chunk, in order; what cannot be read is said and stops nothing.
+    """A verdict on every recording of a chunk, in order; what cannot be read is reported and stops nothing.
 
     ``level``: what recordings that do not hold theirs are played on; the rest as for ``verify_recording``.
     Raises NinjaGameError where nothing can be judged.

@@ -281,7 +281,7 @@ class EditedText:
             self.text, self.cursor, self.anchor = self._past.pop()
 
     def erase(self, direction: int, *, word: bool = False) -> None:
-        """Take out what is selected; else the character, or the word, at the right (1) or left (-1)."""
+        """Delete what is selected; else the character, or the word, at the right (1) or left (-1)."""
         if self.cursor == self.anchor:
             self.step(direction, word=word, select=True)
         self.put("")

@@ -226,11 +226,7 @@ def _read_palettes() -> dict[str, Palette]:
     columns = zip(table["palette"], table["danger-by-shape"], sceneries, *(table[role] for role in ROLES), strict=True)
     return {
         name: Palette(
-            name,
-            danger == "yes",
-            **dict(zip(ROLES, map(pygame.Color, colours), strict=True)),
-            scenery=scenery,
-            mood=None,
+            name, danger == "yes", **dict(zip(ROLES, map(pygame.Color, colours), strict=True)), scenery=scenery
         )
         for name, danger, scenery, *colours in columns
     }

@@ -260,7 +260,7 @@ class LevelView:
         return None if whole else changed
 
     def _shift(self, *, shaken: bool) -> None:
-        """Have all that is drawn on the stage lie beside its place, if the picture is shaken."""
+        """Shift all that is drawn on the stage while the picture shakes."""
         turn, reach = 2.4 * self.effects.now, self._shake * self.canvas.scale * shaken
         dx, dy = round(reach * cos(turn)), round(reach * sin(turn))
         self._origin = self.canvas.stage.move(dx, dy).topleft

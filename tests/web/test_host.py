@@ -261,7 +261,7 @@ CHANNEL = SOUND.play()
 LOOP = pygame.mixer.Channel(0)
 LOOP.play(SOUND, loops=-1, fade_ms=10)
 LOOP.set_volume(0.5)
-assert CHANNEL.number == 2 and CHANNEL.get_busy() and LOOP.get_busy() and LOOP.get_sound() is SOUND
+assert CHANNEL.number == 2 and CHANNEL.get_busy() and LOOP.get_busy() and LOOP.sound is SOUND
 """,
     )
     busy = "() => python.runPython('[CHANNEL.get_busy(), LOOP.get_busy()]').toJs()"

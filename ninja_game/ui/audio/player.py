@@ -1,4 +1,4 @@
-"""Sound: hears the events of each tick and what goes on, and plays it. A machine without sound is not an error.
+"""Plays the sounds of each tick's events and of what lasts. A machine without sound is not an error.
 
 Some sounds depend on the ones before: variants do not repeat, gold climbs, steps have the pace of a run.
 """
@@ -237,7 +237,7 @@ class GoldPitches:
 
 
 class Footsteps:
-    """Tells when a foot is put down. The first step of a run comes after half a stride."""
+    """Decides when a foot touches the floor. The first step of a run comes after half a stride."""
 
     def __init__(self) -> None:
         self._way = STRIDE / 2

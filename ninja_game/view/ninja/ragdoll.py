@@ -172,7 +172,7 @@ class Ragdoll:
             for _, _, nx, ny in tile_pushes(level, world, p):
                 self._bounce(p, nx, ny)
                 touched = True
-            for nx, ny, kick in thing_pushes(world, p):
+            for nx, ny, kick in object_pushes(world, p):
                 self._bounce(p, nx, ny)
                 p.ox -= nx * kick
                 p.oy -= ny * kick
@@ -210,7 +210,7 @@ class Ragdoll:
         return sx + dx / length * 3.4, sy + dy / length * 3.4
 
 
-def thing_pushes(world: World, box: Box) -> Iterator[tuple[float, float, float]]:
+def object_pushes(world: World, box: Box) -> Iterator[tuple[float, float, float]]:
     """Normals of the objects that a box touches, and how hard (px/tick) they kick it; it is pushed out as they come."""
     for slot in range(1, world.id_count + 1):
         o = world.objects[slot]

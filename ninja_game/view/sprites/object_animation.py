@@ -94,7 +94,7 @@ class ObjectAnimation:
         self.ninja_now = world.ninja.x, world.ninja.y
 
     def close(self, slot: int) -> None:
-        """Let an exit that is open be seen to close."""
+        """Animate the closing of an open exit."""
         self.closing, self.since[slot] = slot, self.tick
         self.changed.add(slot)
 

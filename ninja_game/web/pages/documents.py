@@ -2,8 +2,8 @@
 
 Markdown stays what it is elsewhere too. A picture ``lab-NAME.png`` becomes the figure of that name, alive at a touch;
 a paragraph of links to functions that begins with "Code:" shows their sources; one that begins with **Answer.** opens
-at a click; Python marked "try" can be changed and run. What a link leads to and is not here (a wheel holds fewer
-documents than a checkout) becomes plain text.
+at a click; Python marked "try" can be changed and run. Links to files that are missing (a wheel holds fewer documents
+than a checkout) become plain text.
 """
 
 from __future__ import annotations

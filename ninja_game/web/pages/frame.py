@@ -192,8 +192,7 @@ def page(
         tag("script", src=figures, type="module") if figures else None,
     )
     entries = [
-        tag("li", tag("a", name, href=address, aria_current="page" if address == current else None))
-        for address, name in links
+        tag("li", tag("a", name, href=href, aria_current="page" if href == current else None)) for href, name in links
     ]
     body = tag(
         "body",

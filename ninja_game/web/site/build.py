@@ -35,10 +35,10 @@ TEMPLATES = (GAME, "sw.js")
 
 FOLDER = "app-folder"  # what templates and documents call the folder of the version
 
-_BESIDE_PAGES = ("style.css", "search.js", "icon.png")
+_OF_PAGES = ("style.css", "search.js", "icon.png")
 PAGES = (
     "index.html",
-    *(f"{folder}/{name}" for folder in ("docs", "gallery") for name in _BESIDE_PAGES),
+    *(f"{folder}/{name}" for folder in ("docs", "gallery") for name in _OF_PAGES),
     "gallery/index.html",
 )
 """What is kept for visits without a network beside the game, *Learn* and the gallery; others as they are visited."""

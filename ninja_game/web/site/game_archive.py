@@ -141,13 +141,10 @@ def library_zip(files: Mapping[str, bytes]) -> bytes:
 
 
 LEFT_OUT = {
-    "package": (
-        "batch/", "cli/", "learn/", "search/", "tas/", "tas_editor/",
-        "web/board/", "web/page/", "web/pages/", "web/site/",
-    ),
+    "package": ("batch/", "cli/", "learn/", "search/", "tas", "web/board/", "web/page", "web/site/"),
     "levels": (),
     "assets": ("bench.", "generated.tsv.xz", "sounds/music/"),
-}  # fmt: skip
+}
 """What of the package and its data a page has no use for: how the names of such files begin."""
 
 

@@ -81,8 +81,5 @@ class Channel:
     def get_busy(self) -> bool:
         return self.sound is not None and (self.endless or bool(LINK.page.sounds.busy(self.number)))
 
-    def get_sound(self) -> Sound | None:
-        return self.sound
-
     def set_volume(self, left: float, right: float | None = None) -> None:
         LINK.page.sounds.volume(self.number, left, left if right is None else right)
