@@ -135,8 +135,7 @@ def _quoted(word: str) -> str:
     return f'"{word}"'.replace("\\", "\\\\").replace("%", "%%")
 
 
-MOST_PROCESSES = 2
-"""Each compiles the rules again for what it makes of them; more would only wait for each other."""
+MOST_PROCESSES = 2  # each compiles the rules again for what it makes of them; more would only wait for each other
 
 EVERY = 0.5  # seconds between two looks whether another process is done
 

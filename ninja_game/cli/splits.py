@@ -104,8 +104,7 @@ def splits(
     return BAD_INPUT if read.unreadable else 0
 
 
-Table = tuple["list[RunSplits]", "list[SplitRow]"]
-"""The runs of a level, the best first, and the rows of their splits."""
+Table = tuple["list[RunSplits]", "list[SplitRow]"]  # the runs of a level, the best first, and the rows of their splits
 
 
 def table_of(group: Sequence[RunSplits], given: Sequence[RunSplits]) -> Table:

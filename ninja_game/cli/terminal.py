@@ -23,8 +23,7 @@ _OURS = {
 
 _DATA = re.compile(r"(\n|\t)")
 
-_LONGEST_MESSAGE = 2000
-"""Characters of a line about what is wrong."""
+_LONGEST_MESSAGE = 2000  # characters of a line about what is wrong
 
 
 class Terminal(io.TextIOWrapper):

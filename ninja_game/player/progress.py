@@ -17,8 +17,7 @@ COLUMNS = 10
 COLOURS = 9  # colours of the ninja beyond the first one; each complete column unlocks one (presentation.md §3)
 
 OVERCLOCK_COLUMNS = 6
-FASTEST_TICK_GAIN = 10
-"""ms that overclock can take off a tick's 25."""
+FASTEST_TICK_GAIN = 10  # ms that overclock can take off a tick's 25
 
 _ANNOUNCED = "columns announced"
 
@@ -160,11 +159,9 @@ def _advanced(present: Place, episode: int, goal: Place) -> Place:
 
 
 NO_MEDAL = "with help: no medal"
-HELPED = f"Passed {NO_MEDAL}"
-"""What a run that is assisted, and a pass by it, are called on every screen."""
+HELPED = f"Passed {NO_MEDAL}"  # what a run that is assisted, and a pass by it, are called on every screen
 
-WITH_HELP = "with help"
-"""In the place of the body in marks of such passes: they open what follows, and are no records."""
+WITH_HELP = "with help"  # in the place of the body in marks of such passes: they open what follows, and are no records
 
 
 class Mark(NamedTuple):

@@ -25,8 +25,7 @@ VERSION = 1
 BINDING_TABLES = {"keys": "keys", "pad": "pad-buttons"}
 
 COMMENT = "Settings of ninja-game. What is missing or wrong here has its default; comments stay."
-MAX_BYTES = 2**16
-"""More than this is not a file of settings; a number of so many digits is read within 0.1 s."""
+MAX_BYTES = 2**16  # more than this is not a file of settings; a number of so many digits is read within 0.1 s
 
 LOCK_SECONDS = 1.0
 
@@ -179,9 +178,6 @@ RULES: dict[str, SettingRule] = {each.name: each.metadata["rule"] for each in fi
 """By setting. Bindings are tables of their own: ``[keys]`` and ``[pad-buttons]``."""
 
 
-# --- reading ---
-
-
 def read_settings(path: Path) -> tuple[Settings, list[str]]:
     """The settings in a file, and messages about what in it could not be used.
 
@@ -260,9 +256,6 @@ def _shown(value: object) -> str:
 
 def key_of(name: str) -> str:
     return name.replace("_", "-")
-
-
-# --- writing ---
 
 
 def write_changes(before: Settings, after: Settings, path: Path) -> None:

@@ -42,8 +42,6 @@ class Store:
         self._pending: list[Work] = []
         self.connection = self._first_connection()
 
-    # --- opening ---
-
     def _first_connection(self) -> sqlite3.Connection:
         if self.path is None:
             return open_database(":memory:")
@@ -91,8 +89,6 @@ class Store:
         self.connection, self.problem = connection, ""
         self.epoch += 1
 
-    # --- reading ---
-
     def rows(self, query: str, values: Sequence[object], kinds: Sequence[type]) -> list[tuple[Any, ...]]:
         """The rows that a query finds, if their values are of these ``kinds``; damaged rows are left out and reported.
 
@@ -114,8 +110,6 @@ class Store:
         """Note a message for the player, once."""
         if message not in self.messages:
             self.messages.append(message)
-
-    # --- writing ---
 
     @contextmanager
     def change(self) -> Iterator[sqlite3.Connection]:

@@ -16,8 +16,7 @@ from ninja_game.ui.widgets import PAD, TEXT, Widget
 MAX_ENTRY = 40  # how many characters can be typed unless a field says otherwise
 _NO_TEXT = {"tab", "escape", "return", "kp_enter", "up", "down", "pageup", "pagedown", "insert"}
 _FUNCTION_KEY = re.compile("f[0-9]+")
-TEXT_LINE = TEXT + 4.0
-"""Height of a line where there are several, px."""
+TEXT_LINE = TEXT + 4.0  # height of a line where there are several, px
 DOUBLE_MS = 400  # a second click within so many ms selects a word, a third one everything
 
 

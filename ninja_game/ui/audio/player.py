@@ -27,8 +27,7 @@ RATE = 44_100  # samples a second, those of our files
 BUFFER = 512  # samples in the mixer's: 12 ms of delay
 CHANNELS = 32
 LOUDEST = 99
-PAN = 0.35
-"""How much softer the far side gets for a sound at the stage's edge."""
+PAN = 0.35  # how much softer the far side gets for a sound at the stage's edge
 
 CORPSE_PAUSE = 0.06  # seconds between two thuds of a corpse
 

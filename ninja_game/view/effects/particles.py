@@ -146,8 +146,7 @@ def _confetti(p: Particle, target: DrawTarget, t: float) -> None:
     target.line(colour, x - half * cos(turn), y - half, x + half * cos(turn), y + half, 2.6 * (1 - t * t * t))
 
 
-CONFETTI = "gold", "band", "exit", "gold_light", "electric", "bright"
-"""The colours of the papers, roles of the palette."""
+CONFETTI = "gold", "band", "exit", "gold_light", "electric", "bright"  # the colours of the papers, roles of the palette
 
 
 def _charge(p: Particle, target: DrawTarget, t: float) -> None:

@@ -18,8 +18,7 @@ from ninja_game.view.ninja.figure import Pose
 
 GRAVITY = 0.15
 _LOSS_NORMAL, _LOSS_TANGENT = 1.4, 0.15
-_FASTEST = 22.0
-"""px/tick: faster limbs would pass through walls."""
+_FASTEST = 22.0  # px/tick: faster limbs would pass through walls
 
 PELVIS, SHOULDER, NEAR_HAND, FAR_HAND, NEAR_FOOT, FAR_FOOT = range(6)
 _HALVES = (2.5, 2.5, 2.0, 2.0, 3.0, 3.0)
@@ -92,8 +91,6 @@ class Ragdoll:
         self.sticks = list(STICKS)
         self.dismembered = False
 
-    # --- the moment of death ---
-
     def shove(self, cause: int, impulse: Point, hit_y: float, centre_y: float, *, whole: bool = False) -> None:
         """The blow: everything is thrown, most of all the end that was hit. Falls have none.
 
@@ -130,8 +127,6 @@ class Ragdoll:
             self.particles.append(loose)
             sticks.append(stick._replace(first=len(self.particles) - 1, share=0.5))
         self.sticks = sticks
-
-    # --- every tick ---
 
     def step(self, level: TileMap, world: World) -> None:
         """One tick: move, pull together, push out of what is solid."""
@@ -194,8 +189,6 @@ class Ragdoll:
         vx, vy = nx * new_into - ny * new_along, ny * new_into + nx * new_along
         p.ox, p.oy = p.x - vx, p.y - vy
         p.sx, p.sy = p.x, p.y
-
-    # --- drawing ---
 
     def joint(self, k: int, fraction: float) -> Point:
         """Where a particle is, between its last two places."""

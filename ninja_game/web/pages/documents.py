@@ -118,8 +118,6 @@ class Documents:
             title, *contents, up=f"{up}docs/", links=links, current=up + name, figures=script, picture=picture
         ).encode()
 
-    # --- documents ---
-
     def _document(self, name: str) -> None:
         title, tokens = self.markdown[name]
         page_name = page_of(name)
@@ -159,8 +157,6 @@ class Documents:
             entry = tag("li", link, tag("p", start, class_="faint"), data_place=len(self.searched))
             # All words, past what ``tag`` lets through of a text.
             self.searched.append(Markup(entry.replace("<li", f'<li data-words="{escape(words.casefold())}"', 1)))
-
-    # --- what leads elsewhere ---
 
     def _rewrite_links(self, name: str, tokens: list[Token]) -> bool:
         """Turn links, pictures and paragraphs into what they are in the site; whether a figure is among them."""
@@ -239,8 +235,6 @@ class Documents:
         if name not in self.files:
             self.files[name] = png_of(figure_picture(figure, scale=2.0, palette=palette))
         return name
-
-    # --- sources ---
 
     def _source(self, name: str) -> None:
         path = (PACKAGE.parent if name.startswith(PACKAGE.name) else data_folder("docs").parent) / name

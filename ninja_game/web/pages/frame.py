@@ -89,16 +89,14 @@ NAVIGATION = (
 STYLE = "style.css"
 SCRIPT = "search.js"
 ICON = "icon.png"
-REPLAYS = "replays"
-"""The folder of a site with the replays that pages lead to."""
+REPLAYS = "replays"  # the folder of a site with the replays that pages lead to
 MARK = ".ninja-game-pages"  # a file in a folder of pages, which says that they may be replaced
 
 _INK_ROLES = (
     "background", "tile", "text", "on_tile", "panel", "panel_edge", "accent", "good", "bad", "gold", "gold_light",
     "ninja", "switch",
 )  # fmt: skip
-_FAINT = 0.35
-"""How far small text goes from the palette's ink to its faint one: enough contrast for small letters."""
+_FAINT = 0.35  # how far small text goes from the palette's ink to its faint one: enough contrast for small letters
 _FRAME = 0.4  # how much darker than a tile the frame round a page is: letters stand on it
 _ICON_SIZE = 64
 _LONGEST_HEADING = 30

@@ -25,7 +25,7 @@ def _window_size() -> tuple[int, int]:
 
 def _set_mode(size: Any = None, flags: int = 0) -> Surface:
     for old in _SCREENS:
-        old.forget()
+        old._number = 0  # it is no longer what the player sees
     _SCREENS[:] = [Surface.__new__(Surface)]
     _SCREENS[0].show(_window_size())
     return _SCREENS[0]
