@@ -46,14 +46,13 @@ class GoldGoals(options.GoldCount):
 @click.command()
 @click.argument("levels", metavar="LEVEL...", nargs=-1, required=True, type=LevelPath())
 @click.option(
-    "--gold", "goals", type=GoldGoals(), default="0", show_default=True,
-    help="Gold to collect on the way. both: two runs a level, one to the exit and one with all gold.",
-)  # fmt: skip
+    "--gold", "goals", type=GoldGoals(), default="0", show_default=True, help="Gold to collect. both: two runs a level."
+)
 @options.seconds_option(10.0)
 @options.work_option
 @options.seed_option
 @click.option("--first", "first_only", is_flag=True, help="Stop each search at the first run that it finds.")
-@click.option("--jobs", type=options.JOBS, help="Levels at the same time. [default: one per core]")
+@click.option("--jobs", type=options.JOBS, default=cores, show_default="one per core", help="Levels at the same time.")
 @options.body_option
 @click.option(
     "--replays", metavar="FOLDER", type=NEW_FOLDER, help="Keep runs in this folder; those still right are not searched."
@@ -65,7 +64,7 @@ def check(
     goals: dict[str, int],
     replays: Path | None,
     as_json: bool,
-    jobs: int | None,
+    jobs: int,
     improve: bool,
     **task_options: Any,
 ) -> int:
@@ -99,7 +98,7 @@ def check(
     broken = 0
     without: dict[str, list[str]] = {goal: [] for goal in goals}
     with options.progress_line() as report:
-        results = certify_all(chosen, kept, wanted, jobs=jobs or cores(), report=report.of_level)
+        results = certify_all(chosen, kept, wanted, jobs=jobs, report=report.of_level)
         for level, files, found in zip(chosen, kept, results, strict=True):
             if isinstance(found, NinjaGameError):
                 broken += 1

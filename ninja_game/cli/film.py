@@ -43,9 +43,7 @@ LARGE = 5_000_000  # bytes of a GIF
     help="Show the runs of this file, three at most, in pictures of their own beside the first.",
 )  # fmt: skip
 @click.option("--keys", is_flag=True, help="Show the keys that are down.")
-@click.option(
-    "--splits", is_flag=True, help="Show time and last splits, and how many ticks later (+) others are there."
-)
+@click.option("--splits", is_flag=True, help="Show time and last splits, and how far others are behind (+).")
 @click.option("--gold", is_flag=True, help="With --splits: a split for each piece of gold, too.")
 @level_option
 def film(

@@ -55,7 +55,7 @@ def info(
     console = Console(highlight=False, emoji=False, width=None if sys.stdout.isatty() else PIPE_WIDTH)
     given = load_level_option(level_path)
     runs = [run for run in recordings_in(files, given) if not isinstance(run, Unreadable)]
-    levels = [level for file in files for level in load_levels(file)] if given is None else list(map(_level_of, runs))
+    levels = list(map(_level_of, runs)) if given else [level for file in files for level in load_levels(file)]
     if record is not None:
         levels = [level for level in levels if level.record == record]
         if not levels:

@@ -23,6 +23,7 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import own_levels
 from ninja_game.files.writing import check_output
 from ninja_game.formats.run_time import seconds_text
+from ninja_game.runtime import cores
 
 if TYPE_CHECKING:
     from ninja_game.formats.named_level import NamedLevel
@@ -95,15 +96,13 @@ level_option = click.option(
 )
 
 play_on_option = click.option(
-    "--level", "level_path", metavar="FILE", type=LevelPath(dir_okay=False),
-    help="Play the inputs on this level, also where they were recorded on another one.",
-)  # fmt: skip
+    "--level", "level_path", metavar="FILE", type=LevelPath(dir_okay=False), help="Play the inputs on this level."
+)
 
 
 budget_option = click.option(
-    "--budget", type=click.IntRange(1), default=RUN_BUDGET, show_default=True,
-    help="Most work of one run: ticks times objects. A run that is not over by then is refused.",
-)  # fmt: skip
+    "--budget", type=click.IntRange(1), default=RUN_BUDGET, show_default=True, help="Most ticks times objects of a run."
+)
 
 
 def _png_name(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
@@ -267,7 +266,7 @@ smooth_option = click.option(
 seed_option = click.option(
     "--seed", type=SEED, default=1, show_default=True, help="With one job, the same seed does the same work."
 )
-search_jobs_option = click.option("--jobs", type=JOBS, help="Threads. [default: one per core]")
+search_jobs_option = click.option("--jobs", type=JOBS, default=cores, show_default="one per core", help="Threads.")
 shortening_options = together(
     click.option("--gold", type=GoldCount(), default=0, show_default=True, help="Collect this much gold on the way."),
     seconds_option(60.0),

@@ -18,7 +18,6 @@ from ninja_game.files.reading import protect_inputs, read_utf8
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import REPLAY_SUFFIX, free_path
 from ninja_game.files.writing import check_output, write_atomically
-from ninja_game.runtime import cores
 
 if TYPE_CHECKING:
     from ninja_game.formats.replay.text import Replay
@@ -60,9 +59,7 @@ class SearchLog:
     "-o", "--output", metavar="REPLAY", type=options.NEW_FILE,
     help="Where to keep the best run so far. [default: LEVEL's name and .replay.txt, in the current folder]",
 )  # fmt: skip
-def solve(
-    level: Path, record: int | None, output: Path | None, jobs: int | None, smooth: int | None, **task_options: Any
-) -> int:
+def solve(level: Path, record: int | None, output: Path | None, smooth: int | None, **task_options: Any) -> int:
     """Find a run to the exit, then shorten it.
 
     The best run so far is always in REPLAY, so that the search can be stopped at any time (Ctrl-C). Every run is played
@@ -79,7 +76,7 @@ def solve(
 
     chosen = options.choose_level(level, record)
     output = output or free_path(Path(), level.stem, REPLAY_SUFFIX)
-    task = Task(chosen.level, jobs=jobs or cores(), **task_options)
+    task = Task(chosen.level, **task_options)
     options.check_gold(task)
     save = options.saver(output, chosen)
     with options.progress_line() as report:
@@ -99,10 +96,7 @@ def solve(
 @options.level_option
 @options.shortening_options
 @click.option(
-    "--resume",
-    metavar="LOG",
-    type=options.NEW_FILE,
-    help="Log better runs in this file; where it is there, go on from the best one, for what is left of the time.",
+    "--resume", metavar="LOG", type=options.NEW_FILE, help="Log better runs here; go on from those that it has."
 )
 @click.option(
     "-o", "--output", metavar="REPLAY", required=True, type=options.NEW_FILE, help="Where to keep the best run so far."
@@ -112,7 +106,6 @@ def improve(
     record: int | None,
     level_path: Path | None,
     output: Path,
-    jobs: int | None,
     smooth: int | None,
     resume: Path | None,
     **task_options: Any,
@@ -142,8 +135,7 @@ def improve(
     recording = options.choose(
         load_replays(replay, level=options.load_level_option(level_path)), "recordings", replay, record
     )
-    threads = jobs or cores()
-    task = Task(recording.level, body=recording.body, first=recording.inputs, jobs=threads, **task_options)
+    task = Task(recording.level, body=recording.body, first=recording.inputs, **task_options)
     options.check_gold(task)
     save = options.saver_of_better(output, recording, "improve")
     log = SearchLog(resume, [replay, output]) if resume else None
@@ -155,7 +147,7 @@ def improve(
     if played.outcome != "exit":
         known = next(iter(task.others), None)
         first = known or to_exit(
-            task.level, task.first[: played.ticks], task.seconds / 2, body=task.body, seed=task.seed, threads=threads
+            task.level, task.first[: played.ticks], task.seconds / 2, body=task.body, seed=task.seed, threads=task.jobs
         )
         if first is None:
             click.echo(f"{played.outcome} after {played.ticks} ticks, and no way to the exit found from there")
@@ -207,7 +199,7 @@ def improve(
 )
 def search(
     replay: Path, first: int, last: int, goal: str, maximise: str, minimise: str, rest: bool,
-    method: str, every: int, seconds: float, seed: int, jobs: int | None, record: int | None, level_path: Path | None,
+    method: str, every: int, seconds: float, seed: int, jobs: int, record: int | None, level_path: Path | None,
     output: Path | None,
 ) -> int:  # fmt: skip
     """Find other keys for a span of a run.
@@ -262,9 +254,7 @@ def search(
             shown.say(f"{standing}  {ticks / 1e6:.1f}M ticks")
             return spent < seconds
 
-        found = search_span(
-            task, report, method=method, every=every, seed=seed, threads=jobs or cores(), missed=misses.append
-        )
+        found = search_span(task, report, method=method, every=every, seed=seed, threads=jobs, missed=misses.append)
     found = tuple(without_junk(task, each) for each in found)
     if save and found:
         save(record_replay(task.level, found[0].inputs, body=task.body))

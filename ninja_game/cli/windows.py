@@ -15,13 +15,8 @@ if TYPE_CHECKING:
 
 @click.command()
 @click.argument("level", required=False, type=options.LevelPath())
-@click.option(
-    "--record", type=click.IntRange(0, 10**6), default=0, help="Begin with this level of the file, counted from 0."
-)
-@click.option(
-    "--body", type=click.Choice(["circle", "box"]), default="circle", show_default=True,
-    help="The ninja's body: the circle of the classic rules, or a box of the same size.",
-)  # fmt: skip
+@click.option("--record", type=click.IntRange(0, 10**6), default=0, help="The first level of the file, from 0.")
+@options.body_option
 @click.option("--practice", is_flag=True, help="No time limit, nothing counts.")
 @click.option("--replay", type=options.InputPath(dir_okay=False), help="Watch the recordings of this file or link.")
 @options.level_option
