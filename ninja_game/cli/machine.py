@@ -196,9 +196,7 @@ def compile_everything(processes: int, *, quiet: bool) -> None:
         click.echo(f"All is compiled, in {time.monotonic() - began:.0f} s: {code_folder()}")
 
 
-WORK = (
-    "runs and traces", "verdicts", "many worlds", "the solver", "searches in spans of runs", "what agents observe",
-)  # fmt: skip
+WORK = ("runs and traces", "verdicts", "many worlds", "the solver", "searches in spans of runs", "what agents observe")
 """What ``compile_for`` does, in this order."""
 
 
